@@ -1,0 +1,22 @@
+# One library a room: its links are the arrows of the house, and nothing else may link.
+
+function(hurcules_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  if(HURCULES_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# hurcules_room(NAME [LINKS room or target ...]): every source in cpp/hurcules/NAME
+function(hurcules_room name)
+  cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/hurcules/${name}/*.cpp")
+  add_library(hurcules_${name} STATIC ${sources})
+  add_library(hurcules::${name} ALIAS hurcules_${name})
+  target_include_directories(hurcules_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
+  # same bits everywhere: no fused or reordered arithmetic
+  target_compile_options(hurcules_${name} PRIVATE -ffp-contract=off)
+  hurcules_warnings(hurcules_${name})
+  target_link_libraries(hurcules_${name} PUBLIC ${ROOM_LINKS})
+endfunction()

@@ -1,0 +1,37 @@
+// A snapshot as one flat list of numbers: what must be kept so that a run continues bit for bit.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+
+namespace hurcules {
+
+// Each object with a memory between ticks has save(StateWriter&) and restore(StateReader&), in the same order.
+class StateWriter {
+ public:
+  explicit StateWriter(std::vector<double>& out) : out_(out) {}
+  void put(double value) { out_.push_back(value); }
+  void put(const ConstVectorRef& values);
+  // the bits of a 64-bit word (a random generator), in two exact halves
+  void put_bits(unsigned long long word);
+
+ private:
+  std::vector<double>& out_;
+};
+
+class StateReader {
+ public:
+  explicit StateReader(const std::vector<double>& in) : in_(in) {}
+  // throws Error when the snapshot is too short for what is asked
+  [[nodiscard]] double get();
+  void get(VectorRef values);
+  [[nodiscard]] unsigned long long get_bits();
+  [[nodiscard]] bool at_end() const { return next_ == in_.size(); }
+
+ private:
+  const std::vector<double>& in_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace hurcules

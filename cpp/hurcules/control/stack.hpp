@@ -1,0 +1,39 @@
+// Tasks by priority, written as the thesis writes it:  Stack stack = joint < hpos < hpitch < pel < gaze;
+//
+// `a < b`: a comes before b. `a + b`: on one level. The stack points at the tasks; whoever made them keeps them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+struct StackLevel {
+  StackLevel(Task& task);  // implicit on purpose: a task alone is a level
+  StackLevel(std::string name, std::vector<Task*> tasks, double rho = kDefaultRho);
+
+  static constexpr double kDefaultRho = 0.1;  // [T §4.3]
+
+  std::string name;
+  std::vector<Task*> tasks;
+  double rho = kDefaultRho;
+};
+
+class Stack {
+ public:
+  Stack() = default;
+  explicit Stack(std::vector<StackLevel> levels);
+  [[nodiscard]] const std::vector<StackLevel>& levels() const { return levels_; }
+  [[nodiscard]] std::string text() const;  // "joint < hpos < hpitch"
+
+ private:
+  std::vector<StackLevel> levels_;
+};
+
+[[nodiscard]] StackLevel operator+(const StackLevel& a, const StackLevel& b);
+[[nodiscard]] Stack operator<(const StackLevel& first, const StackLevel& second);
+[[nodiscard]] Stack operator<(const Stack& stack, const StackLevel& next);
+
+}  // namespace hurcules

@@ -1,0 +1,109 @@
+// Any MJCF robot as the controller sees it: coordinates, frames, Jacobians.
+//
+// The controller moves n coordinates. A coordinate drives one joint or several together (both knees of Hurcules are
+// one); the MJCF names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
+// joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
+// A Robot has its own mjData: asking it never disturbs a simulation.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+
+struct mjModel_;
+struct mjData_;
+
+namespace hurcules {
+
+using ModelPtr = std::shared_ptr<const mjModel_>;
+
+// Reads an MJCF or MJB file. Throws Error with MuJoCo's text when it cannot be read or compiled.
+[[nodiscard]] ModelPtr load_model(const std::string& path);
+// the same from MJCF text; `folder` is where its files are looked for
+[[nodiscard]] ModelPtr load_model_text(const std::string& mjcf, const std::string& folder = "");
+// a model that somebody else owns and keeps alive
+[[nodiscard]] ModelPtr borrow_model(const mjModel_* model);
+
+// One joint of a coordinate: joint position = factor * coordinate.
+struct DrivenJoint {
+  int joint = 0;       // mjModel joint id
+  int qpos = 0;        // address in qpos
+  int dof = 0;         // address in qvel
+  int actuator = -1;   // actuator id, -1 for none
+  double factor = 1.0;
+};
+
+struct Coordinate {
+  std::string name;
+  std::vector<DrivenJoint> joints;  // at least one; the first is the one whose position is read
+  double lower = 0.0;               // [rad] or [m], -inf when unlimited
+  double upper = 0.0;               // [rad] or [m]
+  double max_velocity = 0.0;        // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
+  double max_effort = 0.0;          // [N m] or [N], sum over its actuators, else inf
+};
+
+// A site, body, camera or geom of the model, by number (mjtObj type and id).
+struct Frame {
+  int type = 0;
+  int id = 0;
+};
+
+class Robot {
+ public:
+  explicit Robot(ModelPtr model);
+  ~Robot();
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+
+  [[nodiscard]] const ModelPtr& model() const { return model_; }
+  [[nodiscard]] Index size() const { return static_cast<Index>(coordinates_.size()); }  // n
+  [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+  [[nodiscard]] std::vector<std::string> coordinate_names() const;
+  // index of a coordinate; throws Error with the names that exist
+  [[nodiscard]] Index coordinate(const std::string& name) const;
+  // looks among sites, then bodies, cameras, geoms; throws Error with the names that exist
+  [[nodiscard]] Frame frame(const std::string& name) const;
+
+  // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it is.
+  // Each updates every pose and Jacobian.
+  void set_qpos(const ConstVectorRef& qpos);
+  void set_configuration(const ConstVectorRef& q);
+  // [rad/s], (n); used by the drift terms only
+  void set_velocity(const ConstVectorRef& velocity);
+  // the keyframe of this name, or the model's initial posture for ""
+  void set_keyframe(const std::string& name);
+  [[nodiscard]] const Vector& configuration() const { return q_; }  // (n)
+  [[nodiscard]] const Vector& velocity() const { return v_; }       // (n)
+  [[nodiscard]] const Vector& qpos() const { return qpos_; }        // (nq)
+  // coordinates (n) out of a whole qpos (nq)
+  void coordinates_of(const ConstVectorRef& qpos, VectorRef q) const;
+
+  [[nodiscard]] Vector3 position(Frame frame) const;     // p_WF [m]
+  [[nodiscard]] Matrix3 orientation(Frame frame) const;  // R_WF
+  // velocity of the frame's origin and angular velocity in W, by the coordinates alone: (3, n) each
+  void position_jacobian(Frame frame, MatrixRef J) const;
+  void rotation_jacobian(Frame frame, MatrixRef J) const;
+  // Jdot v of both, (3): what the frame accelerates with when the coordinates do not
+  [[nodiscard]] Vector3 position_drift(Frame frame) const;
+  [[nodiscard]] Vector3 rotation_drift(Frame frame) const;
+  // centre of mass of the tree that holds the coordinates: [m] in W, and (3, n)
+  [[nodiscard]] Vector3 com() const;
+  void com_jacobian(MatrixRef J) const;
+  // joint-space inertia of the coordinates, base held: (n, n)
+  void mass_matrix(MatrixRef M) const;
+
+ private:
+  void update();
+  // (3, nv) of the model -> (3, n) of the coordinates
+  void reduce(const Matrix& full, MatrixRef J) const;
+
+  ModelPtr model_;
+  std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
+  std::vector<Coordinate> coordinates_;
+  Vector q_, v_, qpos_;
+  mutable Matrix full_, other_;  // scratch for Jacobians, (3, nv)
+};
+
+}  // namespace hurcules

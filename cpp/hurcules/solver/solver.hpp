@@ -1,0 +1,79 @@
+// The regularised hierarchical quadratic program: what a solve takes and what it returns.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hurcules/base/state.hpp"
+#include "hurcules/base/types.hpp"
+#include "hurcules/solver/hierarchy.hpp"
+
+namespace hurcules {
+
+enum class SolverStatus {
+  Solved,           // every level optimal, to the tolerances of NOTATION.md
+  ReducedAccuracy,  // solved, with a tolerance that had to be raised to end
+  IterationLimit,   // max_changes met: x is feasible for all levels above, final_levels says which are optimal
+  InvalidInput,     // NaN, lower > upper or a wrong shape: x is zero, nothing was solved
+};
+[[nodiscard]] std::string to_string(SolverStatus status);
+
+enum class Side { Lower = -1, Upper = 1 };
+
+// A row that holds x back at the end of a solve.
+struct ActiveRow {
+  int level = 0;    // level that the row belongs to
+  int row = 0;      // its row there
+  Side side = Side::Upper;
+  int held_by = 0;  // level that pushes against it
+  double multiplier = 0.0;  // >= 0, of that level's problem
+};
+
+struct SolverOptions {
+  std::string method = "lexicographic";  // solver.md §4
+  int max_changes = 10000;               // working-set changes a solve, after which it ends with IterationLimit
+};
+
+struct Solution {
+  Vector x;                              // (n)
+  SolverStatus status = SolverStatus::Solved;
+  std::vector<Vector> violations;        // a level (m): A x - clip(A x, lower, upper)
+  std::vector<ActiveRow> working_set;    // by level that pushes
+  int factorizations = 0;                // at least one a non-empty level
+  int changes = 0;                       // working-set changes
+  int final_levels = 0;                  // levels known to be optimal
+  double optimality = 0.0;               // worst relative residual of the optimality conditions of all levels
+};
+
+// Keeps its working sets between solves: the next solve starts warm where the pattern of levels is the same.
+// A solve allocates nothing once a problem of its size was solved or reserved; it never throws and always ends.
+class Solver {
+ public:
+  explicit Solver(Index unknowns, SolverOptions options = {});
+  ~Solver();
+  Solver(Solver&&) noexcept;
+  Solver& operator=(Solver&&) noexcept;
+
+  // sizes the memory for problems of this shape
+  void reserve(const Hierarchy& hierarchy);
+  // the reference stays valid until the next solve
+  const Solution& solve(const Hierarchy& hierarchy);
+  [[nodiscard]] const Solution& solution() const;
+  [[nodiscard]] Index unknowns() const;
+  [[nodiscard]] const SolverOptions& options() const;
+  // multipliers[k][j] (m_j) of the rows of level j in the optimality of level k, j <= k  [T 3.4.116]
+  [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const;
+  // forgets the working sets: the next solve is cold
+  void reset();
+
+  // the working sets, so that a restored run gives the same bits
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace hurcules
