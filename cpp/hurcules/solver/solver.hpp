@@ -15,6 +15,7 @@ enum class SolverStatus {
   Solved,           // every level optimal, to the tolerances of NOTATION.md
   ReducedAccuracy,  // solved, with a tolerance that had to be raised to end
   IterationLimit,   // max_changes met: x is feasible for all levels above, final_levels says which are optimal
+  LostPrecision,    // numbers beyond double arithmetic: x is that of the levels above final_levels
   InvalidInput,     // NaN, lower > upper or a wrong shape: x is zero, nothing was solved
 };
 [[nodiscard]] std::string to_string(SolverStatus status);
@@ -27,7 +28,7 @@ struct ActiveRow {
   int row = 0;      // its row there
   Side side = Side::Upper;
   int held_by = 0;  // level that pushes against it
-  double multiplier = 0.0;  // >= 0, of that level's problem
+  double multiplier = 0.0;  // >= 0, of that level's problem; 0: holds only the smallest step
 };
 
 struct SolverOptions {

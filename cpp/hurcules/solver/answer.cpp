@@ -1,0 +1,109 @@
+// What a solve leaves behind: proof, violations, working sets, multipliers, snapshot.
+#include <algorithm>
+#include <cmath>
+
+#include "hurcules/solver/kernels.hpp"
+#include "hurcules/solver/workspace.hpp"
+
+namespace hurcules {
+
+const Solution& Solver::Workspace::refuse() {
+  solution_.status = SolverStatus::InvalidInput;
+  solution_.x.setZero();
+  solution_.working_set.clear();
+  for (Vector& violation : solution_.violations) violation.setZero();
+  kept_.clear();
+  return solution_;
+}
+
+void Solver::Workspace::finish_level(double rho, int k) {
+  LevelRecord& record = records_[k];
+  record.rho = rho;
+  record.x = x_;
+  record.first_held = begin_held_;
+  record.held = begin_norm_ - begin_held_;
+  record.first_norm = begin_norm_;
+  record.norm = static_cast<int>(held_.size()) - begin_norm_;
+  const double residual = optimality_.residual(rows_, chain_, k, x_above_, record, held_);
+  solution_.optimality = std::max(solution_.optimality, residual);
+}
+
+void Solver::Workspace::keep_working_sets() {
+  kept_.clear();
+  for (int k = 0; k < solution_.final_levels; ++k) {
+    const LevelRecord& record = records_[k];
+    for (int h = record.first_held; h < record.first_held + record.held; ++h) {
+      kept_.push_back({k, held_[h].row, held_[h].side});
+    }
+  }
+}
+
+void Solver::Workspace::fill_solution() {
+  solution_.x = x_;
+  for (int i = 0; i < rows_.size(); ++i) {
+    solution_.violations[rows_[i].level][rows_[i].row] = rows_.violation(i, rows_.dot(i, x_));
+  }
+  solution_.working_set.clear();
+  for (int k = 0; k < solution_.final_levels; ++k) {
+    const LevelRecord& record = records_[k];
+    std::fill(settled_.begin(), settled_.end(), 0);
+    for (int h = record.first_held; h < record.first_norm + record.norm; ++h) {
+      const HeldRow& held = held_[h];
+      if (settled_[held.row]) continue;
+      settled_[held.row] = 1;
+      const Row& row = rows_[held.row];
+      const double multiplier = h < record.first_norm ? held.multiplier : 0.0;
+      solution_.working_set.push_back({row.level, row.row, held.side, k, multiplier});
+    }
+  }
+}
+
+std::vector<std::vector<Vector>> Solver::Workspace::multipliers() const {
+  std::vector<std::vector<Vector>> result(solution_.final_levels);
+  for (int k = 0; k < solution_.final_levels; ++k) {
+    const LevelRecord& record = records_[k];
+    for (int j = 0; j <= k; ++j) result[k].push_back(Vector::Zero(rows_.begin(j + 1) - rows_.begin(j)));
+    for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
+      result[k][k][rows_[i].row] = rows_.violation(i, rows_.dot(i, record.x));
+    }
+    for (int h = record.first_held; h < record.first_held + record.held; ++h) {
+      const Row& row = rows_[held_[h].row];
+      if (row.level < k) {
+        result[k][row.level][row.row] = static_cast<double>(held_[h].side) * held_[h].multiplier;
+      }
+    }
+    // equality rows above take what the gradient has along their directions: L' mu = -Q g
+    const Index rank = chain_.rank_before(k);
+    Vector mu(rank);
+    for (Index j = rank - 1; j >= 0; --j) {
+      double sum = -kernels::dot(unknowns_, chain_.direction(j), record.gradient.data());
+      for (Index l = j + 1; l < rank; ++l) sum -= chain_.coordinates(chain_.pivot_row(l))[j] * mu[l];
+      mu[j] = sum / chain_.coordinates(chain_.pivot_row(j))[j];
+      const Row& row = rows_[chain_.pivot_row(j)];
+      result[k][row.level][row.row] = mu[j];
+    }
+  }
+  return result;
+}
+
+void Solver::Workspace::save(StateWriter& writer) const {
+  rows_.save_pattern(writer);
+  writer.put(static_cast<double>(kept_.size()));
+  for (const KeptRow& kept : kept_) {
+    writer.put(kept.held_by);
+    writer.put(kept.row);
+    writer.put(static_cast<double>(kept.side));
+  }
+}
+
+void Solver::Workspace::restore(StateReader& reader) {
+  rows_.restore_pattern(reader);
+  kept_.resize(static_cast<std::size_t>(reader.get()));
+  for (KeptRow& kept : kept_) {
+    kept.held_by = static_cast<int>(reader.get());
+    kept.row = static_cast<int>(reader.get());
+    kept.side = reader.get() < 0.0 ? Side::Lower : Side::Upper;
+  }
+}
+
+}  // namespace hurcules

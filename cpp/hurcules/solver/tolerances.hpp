@@ -1,0 +1,26 @@
+// Every threshold of the solver, in one place. Each was varied alone over orders of magnitude without a wrong
+// answer (solver-algorithm §4); all are relative to the scale that stands beside them.
+#pragma once
+
+namespace hurcules::tolerance {
+
+// an equality row depends on the rows before it: what is left of it, relative to |a|
+inline constexpr double kRank = 1e-10;
+// an inequality row has no part in the free directions of a level, relative to |a|
+inline constexpr double kLost = 1e-10;
+// a limit is broken, relative to max(1, |x|) |a| ...
+inline constexpr double kBroken = 1e-12;
+// ... plus the rounding of the target, relative to max |z0|
+inline constexpr double kBrokenTarget = 1e-14;
+// a multiplier is negative, relative to the largest
+inline constexpr double kNegative = 1e-11;
+// a row depends on the working set: what is left of it, relative to its norm in z
+inline constexpr double kDependent = 1e-10;
+// an active row misses its limit and is worth a correction, relative to max(1, |x|)
+inline constexpr double kMiss = 2e-14;
+// the first regularisation of a level with rho = 0, relative to max |a|
+inline constexpr double kProximal = 1e-4;
+// a residual that is rounding and moves nothing, relative to |a| |x| + |b|
+inline constexpr double kZeroResidual = 1e-15;
+
+}  // namespace hurcules::tolerance

@@ -1,0 +1,72 @@
+// The solver's loop over the levels, and all memory that it needs.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/solver/chain.hpp"
+#include "hurcules/solver/level_problem.hpp"
+#include "hurcules/solver/optimality.hpp"
+#include "hurcules/solver/row_table.hpp"
+#include "hurcules/solver/solver.hpp"
+
+namespace hurcules {
+
+struct Solver::Workspace {
+ public:
+  Workspace(Index unknowns, SolverOptions options);
+  void reserve(const Hierarchy& hierarchy);
+  const Solution& solve(const Hierarchy& hierarchy);
+  [[nodiscard]] const Solution& solution() const { return solution_; }
+  [[nodiscard]] Index unknowns() const { return unknowns_; }
+  [[nodiscard]] const SolverOptions& options() const { return options_; }
+  [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const;
+  void reset();
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  // a row of the last solve's working set of level held_by
+  struct KeptRow {
+    int held_by, row;
+    Side side;
+  };
+
+  [[nodiscard]] bool fits(const Hierarchy& hierarchy) const;
+  // solves level k from x_above_ into x_; false when the solve has to end here
+  bool solve_level(const Level& level, int k);
+  bool solve_first_bounds(int k);  // simple bounds with nothing above: every coordinate by itself
+  bool solve_regularized(double rho, int k);
+  bool solve_unregularized(int k);  // rho = 0: proximal steps, then the smallest step
+  bool proximal_steps(double epsilon, int k);
+  bool smallest_step();
+  // the rows that level k held in the last solve, as candidates of this one
+  void collect_kept(int k);
+  // from previous_ when there is one, else from the centre: to the optimal working set
+  bool find_working_set();
+  // slots -> held rows, multipliers times scale
+  void keep_held(double scale);
+
+  void finish_level(double rho, int k);
+  void keep_working_sets();
+  void fill_solution();
+  const Solution& refuse();
+
+  Index unknowns_;
+  SolverOptions options_;
+  Solution solution_;
+  RowTable rows_;
+  Chain chain_;
+  LevelProblem problem_;
+  Optimality optimality_;
+  Vector x_, x_above_, centre_;
+  std::vector<LevelRecord> records_;
+  std::vector<HeldRow> held_;
+  std::vector<KeptRow> kept_;         // of the last solve
+  std::vector<ActiveSlot> previous_;  // a working set to start from
+  std::vector<char> settled_;         // (rows)
+  int begin_held_ = 0, begin_norm_ = 0;
+  Index reserved_rows_ = 0;
+  std::size_t reserved_levels_ = 0;
+};
+
+}  // namespace hurcules

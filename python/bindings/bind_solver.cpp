@@ -1,0 +1,148 @@
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/solver/solver.hpp"
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+void bind_solver(py::module_& module);
+
+using namespace hurcules;
+
+namespace {
+
+constexpr const char* kLevelDoc = R"(A level of bounded rows: lower <= A x <= upper.
+
+Args:
+  A: (m, n) float64.
+  lower, upper: (m,) float64. +-inf or a magnitude >= 1e20 means no side; lower == upper is an equality.
+  rho: regularisation coefficient >= 0 (thesis: 0.1). A level of limits wants 0.
+
+Raises:
+  Error: wrong shapes, NaN, lower > upper, rho < 0.
+)";
+constexpr const char* kBoundsDoc = R"(Simple bounds lower <= x <= upper as a level of its own, never regularised.
+
+Args:
+  lower, upper: (n,) float64. +-inf or a magnitude >= 1e20 means no side.
+)";
+constexpr const char* kSolverDoc = R"(Solves hierarchies over n unknowns; keeps its working sets between solves.
+
+Args:
+  n: number of unknowns.
+  options: SolverOptions.
+)";
+constexpr const char* kSolveDoc = R"(Solves the levels in decreasing priority. Releases the interpreter lock.
+
+Args:
+  levels: sequence of Level (and Bounds).
+
+Returns:
+  Solution. A hard problem is no error: look at status and optimality.
+
+Raises:
+  Error: shapes that do not fit n unknowns or each other.
+)";
+constexpr const char* kMultipliersDoc = R"(multipliers[k][j] (m_j): multipliers of level j's rows in the optimality of level k, j <= k.
+
+multipliers[k][k] are the violations of level k. [T 3.4.116])";
+
+// what Python gets: an answer that does not change with the next solve
+struct Answer : Solution {
+  std::vector<std::vector<Vector>> multipliers;
+};
+
+Level make_level(const ConstMatrixRef& A, const ConstVectorRef& lower, const ConstVectorRef& upper,
+                 double rho) {
+  Level level{.A = A, .lower = lower, .upper = upper, .rho = rho};
+  check({level}, A.cols());
+  return level;
+}
+
+Level make_checked_bounds(const ConstVectorRef& lower, const ConstVectorRef& upper) {
+  Level level = make_bounds(lower, upper);
+  check({level}, lower.size());
+  return level;
+}
+
+Answer solve(Solver& solver, const Hierarchy& levels) {
+  check(levels, solver.unknowns());
+  py::gil_scoped_release release;
+  Answer answer{solver.solve(levels), solver.multipliers()};
+  return answer;
+}
+
+void bind_level(py::module_& module) {
+  py::class_<Level> level(module, "Level", kLevelDoc);
+  level.def(py::init(&make_level), "A"_a, "lower"_a, "upper"_a, "rho"_a = 0.0)
+      .def_readonly("A", &Level::A, "(m, n); empty for bounds")
+      .def_readonly("lower", &Level::lower, "(m,)")
+      .def_readonly("upper", &Level::upper, "(m,)")
+      .def_readonly("rho", &Level::rho)
+      .def_property_readonly("rows", &Level::rows)
+      .def("__repr__", [](const Level& self) {
+        return (self.bounds ? "Bounds(n=" : "Level(m=") + std::to_string(self.rows()) +
+               (self.bounds ? ")" : ", rho=" + std::to_string(self.rho) + ")");
+      });
+  module.def("Bounds", &make_checked_bounds, "lower"_a, "upper"_a, kBoundsDoc);
+}
+
+void bind_solution(py::module_& module) {
+  py::enum_<SolverStatus>(module, "Status", "How a solve ended.")
+      .value("Solved", SolverStatus::Solved)
+      .value("ReducedAccuracy", SolverStatus::ReducedAccuracy)
+      .value("IterationLimit", SolverStatus::IterationLimit)
+      .value("LostPrecision", SolverStatus::LostPrecision)
+      .value("InvalidInput", SolverStatus::InvalidInput);
+  py::enum_<Side>(module, "Side", "The side at which a row is held.")
+      .value("Lower", Side::Lower)
+      .value("Upper", Side::Upper);
+  py::class_<ActiveRow>(module, "ActiveRow", "A row that holds x back.")
+      .def_readonly("level", &ActiveRow::level, "level that the row belongs to")
+      .def_readonly("row", &ActiveRow::row, "its row there")
+      .def_readonly("side", &ActiveRow::side)
+      .def_readonly("held_by", &ActiveRow::held_by, "level that pushes against it")
+      .def_readonly("multiplier", &ActiveRow::multiplier, ">= 0, of that level's problem")
+      .def("__repr__", [](const ActiveRow& self) {
+        return "ActiveRow(level=" + std::to_string(self.level) + ", row=" + std::to_string(self.row) +
+               (self.side == Side::Upper ? ", Upper" : ", Lower") +
+               ", held_by=" + std::to_string(self.held_by) + ")";
+      });
+  py::class_<Answer>(module, "Solution", "The answer of one solve.")
+      .def_readonly("x", &Answer::x, "(n,)")
+      .def_readonly("status", &Answer::status)
+      .def_readonly("violations", &Answer::violations,
+                    "per level (m,): A x - clip(A x, lower, upper)")
+      .def_readonly("working_set", &Answer::working_set)
+      .def_readonly("factorizations", &Answer::factorizations,
+                    "level factorisations done, at least one a non-empty level")
+      .def_readonly("changes", &Answer::changes, "working-set changes")
+      .def_readonly("final_levels", &Answer::final_levels, "levels known to be optimal")
+      .def_readonly("optimality", &Answer::optimality,
+                    "worst relative residual of the optimality conditions of all levels")
+      .def_readonly("multipliers", &Answer::multipliers, kMultipliersDoc);
+}
+
+}  // namespace
+
+void bind_solver(py::module_& module) {
+  bind_level(module);
+  bind_solution(module);
+  py::class_<SolverOptions>(module, "SolverOptions")
+      .def(py::init([](std::string method, int max_changes) {
+             return SolverOptions{.method = std::move(method), .max_changes = max_changes};
+           }),
+           py::kw_only(), "method"_a = SolverOptions{}.method,
+           "max_changes"_a = SolverOptions{}.max_changes)
+      .def_readwrite("method", &SolverOptions::method, "'lexicographic'")
+      .def_readwrite("max_changes", &SolverOptions::max_changes,
+                     "working-set changes a solve, after which it ends with IterationLimit");
+  py::class_<Solver>(module, "Solver", kSolverDoc)
+      .def(py::init<Index, SolverOptions>(), "n"_a, "options"_a = SolverOptions{})
+      .def("solve", &solve, "levels"_a, kSolveDoc)
+      .def("reset", &Solver::reset, "Forgets the working sets: the next solve is cold.")
+      .def_property_readonly("n", &Solver::unknowns, "number of unknowns");
+}

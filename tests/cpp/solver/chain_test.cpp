@@ -1,0 +1,78 @@
+// Strategy: the defining properties of the basis on random rows, with rank deficiency by construction. [T 2.2.15-23]
+#include "hurcules/solver/chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/random_hierarchy.hpp"
+
+namespace hurcules {
+namespace {
+
+struct Built {
+  Hierarchy levels;
+  RowTable rows;
+  Chain chain;
+};
+
+void build(Built& built, Index unknowns) {
+  ASSERT_TRUE(built.rows.read(built.levels, unknowns));
+  built.chain.reserve(unknowns, built.rows.size() + 1, static_cast<Index>(built.levels.size()));
+  built.chain.build(built.rows);
+}
+
+// level 1 repeats a row of level 0 and sums two others, so it adds one direction only
+Hierarchy rank_deficient(unsigned seed) {
+  hurcules_test::RandomHierarchy random(seed);
+  Hierarchy levels = {random.equality(3, 8, 0.1), random.equality(3, 8, 0.1),
+                      random.interval(4, 8, 0.1)};
+  levels[1].A.row(0) = levels[0].A.row(2);
+  levels[1].A.row(2) = levels[0].A.row(0) - 2.0 * levels[0].A.row(1);
+  return levels;
+}
+
+TEST(Chain, DirectionsAreOrthonormalAndCompleteTheSpace) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    Built built{.levels = rank_deficient(seed), .rows = {}, .chain = {}};
+    build(built, 8);
+    built.chain.complete(built.rows);
+    Matrix Q(8, 8);
+    for (Index j = 0; j < 8; ++j) Q.row(j) = Eigen::Map<const Vector>(built.chain.direction(j), 8);
+    EXPECT_LT((Q * Q.transpose() - Matrix::Identity(8, 8)).norm(), 1e-13) << "seed " << seed;
+  }
+}
+
+TEST(Chain, RankCountsOnlyNewDirections) {
+  Built built{.levels = rank_deficient(7), .rows = {}, .chain = {}};
+  build(built, 8);
+  EXPECT_EQ(built.chain.rank_before(0), 0);
+  EXPECT_EQ(built.chain.rank_before(1), 3);
+  EXPECT_EQ(built.chain.rank_before(2), 4);  // by construction
+  EXPECT_EQ(built.chain.rank_before(3), 4);  // interval rows take no direction
+}
+
+TEST(Chain, FreeDirectionsDoNotMoveTheRowsAbove) {
+  Built built{.levels = rank_deficient(3), .rows = {}, .chain = {}};
+  build(built, 8);
+  built.chain.complete(built.rows);
+  for (Index j = 4; j < 8; ++j) {
+    const Vector z = Eigen::Map<const Vector>(built.chain.direction(j), 8);
+    EXPECT_LT((built.levels[0].A * z).norm(), 1e-13);  // J_{k-1} Z_{k-1} = 0
+    EXPECT_LT((built.levels[1].A * z).norm(), 1e-13);
+  }
+}
+
+TEST(Chain, CoordinatesRebuildEveryRow) {
+  Built built{.levels = rank_deficient(5), .rows = {}, .chain = {}};
+  build(built, 8);
+  built.chain.complete(built.rows);
+  for (int i = 0; i < built.rows.size(); ++i) {
+    Vector a = Vector::Zero(8);
+    for (Index j = 0; j < 8; ++j) {
+      a += built.chain.coordinates(i)[j] * Eigen::Map<const Vector>(built.chain.direction(j), 8);
+    }
+    EXPECT_LT((a - Eigen::Map<const Vector>(built.rows[i].a, 8)).norm(), 1e-13) << "row " << i;
+  }
+}
+
+}  // namespace
+}  // namespace hurcules

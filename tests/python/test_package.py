@@ -1,0 +1,151 @@
+"""The package as it is installed: versions, names, models, and the one message when MuJoCo is another.
+
+Another MuJoCo is simulated by a module of that name; the linker's own refusal of another libmujoco is not tested.
+"""
+
+import importlib
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import hurcules
+from hurcules import _core, _exec, _version, doctor, models
+
+
+@pytest.fixture(scope="module")
+def pyproject(root: Path) -> dict[str, dict[str, object]]:
+    return tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def pin(root: Path) -> str:
+    match = re.search(r'"mujoco==([\d.]+)"', (root / "pyproject.toml").read_text(encoding="utf-8"))
+    assert match
+    return match[1]
+
+
+def test_version_stands_in_pyproject_alone(pyproject: dict[str, dict[str, object]]) -> None:
+    assert hurcules.__version__ == pyproject["project"]["version"] == _core.build["version"]
+
+
+def test_mujoco_is_the_pinned_one_at_build_and_at_run_time(pin: str) -> None:
+    assert _version.wanted_mujoco() == pin == _core.build["mujoco"]
+
+
+def test_mujoco_is_pinned_in_one_place(root: Path, pin: str) -> None:
+    listed = subprocess.run(["git", "ls-files"], cwd=root, capture_output=True, text=True)
+    if listed.returncode != 0:
+        pytest.skip("not a git checkout")
+    prose = {".md", ".xml", ".txt", ".obj", ".png", ".html", ".json"}
+    files = [root / name for name in listed.stdout.splitlines() if Path(name).suffix not in prose]
+    files += root.rglob("CMakeLists.txt")
+    holders = {
+        str(file.relative_to(root))
+        for file in files
+        if file.is_file() and "build" not in file.parts and ".venv" not in file.parts
+        if pin in file.read_text(encoding="utf-8", errors="ignore")
+    }
+    assert holders == {"pyproject.toml"}
+
+
+@pytest.mark.parametrize(("module", "came"), [("3.0.0", "3.0.0"), (None, "none")])
+def test_another_mujoco_gives_one_clear_message(
+    monkeypatch: pytest.MonkeyPatch, pin: str, module: str | None, came: str
+) -> None:
+    fake = None if module is None else ModuleType("mujoco")
+    if fake is not None:
+        fake.__dict__["__version__"] = module
+    monkeypatch.setitem(sys.modules, "mujoco", fake)
+    with pytest.raises(ImportError) as caught:
+        _version.require_mujoco()
+    message = str(caught.value)
+    assert f"needs MuJoCo {pin}" in message
+    assert f"installed is {came}" in message
+    assert f"pip install mujoco=={pin}" in message
+
+
+def test_import_with_another_mujoco_ends_with_that_message(tmp_path: Path, pin: str) -> None:
+    (tmp_path / "mujoco.py").write_text('__version__ = "2.3.7"\n')
+    run = subprocess.run(
+        [sys.executable, "-c", "import hurcules"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 1
+    assert run.stderr.splitlines()[-1].startswith(
+        f"ImportError: hurcules {hurcules.__version__} needs MuJoCo {pin}, installed is 2.3.7"
+    )
+
+
+@pytest.mark.parametrize("name", ["hurcules", "hurcules.models", "hurcules.rhqp", "hurcules.doctor"])
+def test_all_names_exactly_what_is_there(name: str) -> None:
+    module = importlib.import_module(name)
+    assert len(set(module.__all__)) == len(module.__all__)
+    assert [entry for entry in module.__all__ if not hasattr(module, entry)] == []
+
+
+def test_error_is_a_value_error_of_the_package() -> None:
+    assert issubclass(hurcules.Error, ValueError)
+    assert f"{hurcules.Error.__module__}.{hurcules.Error.__qualname__}" == "hurcules.Error"
+
+
+def test_the_program_lies_beside_the_module_and_runs() -> None:
+    program = _exec.program()
+    assert program.is_file()
+    run = subprocess.run([program, "no-such-mission"], env={}, capture_output=True, text=True)
+    assert run.returncode == 2, run.stderr
+    assert "no-such-mission" in run.stderr
+
+
+@pytest.mark.parametrize("scene", models.scenes())
+def test_every_scene_compiles_with_a_robot(scene: str) -> None:
+    assert models.load("rescue", scene=scene).nq > 0
+
+
+@pytest.mark.parametrize("name", models.names())
+def test_every_robot_compiles_on_flat_ground(name: str) -> None:
+    assert models.path(name).is_file()
+    assert models.load(name).nq > 0
+
+
+def test_unknown_names_are_answered_with_those_that_exist() -> None:
+    with pytest.raises(hurcules.Error, match="robot 'nobody' does not exist; there are: .*rescue"):
+        models.load("nobody")
+    with pytest.raises(hurcules.Error, match="scene 'nowhere' does not exist; there are: .*flat"):
+        models.load("rescue", scene="nowhere")
+    with pytest.raises(hurcules.Error, match="made for robot 'rescue', not 'manipulation'"):
+        models.load("manipulation", mission="stretch")
+    with pytest.raises(hurcules.Error, match="'nothing' does not exist; there are: .*rescue.*stretch"):
+        models.path("nothing")
+
+
+@pytest.mark.parametrize(
+    ("scene", "says"), [("<mujoco><worldbdy/></mujoco>", "worldbdy"), ("<mujoco>", "line")]
+)
+def test_broken_mjcf_gives_the_text_of_what_is_wrong(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, scene: str, says: str
+) -> None:
+    for kind, text in (("robots", "<mujoco><size/></mujoco>"), ("scenes", scene)):
+        (tmp_path / kind).mkdir()
+        (tmp_path / kind / "x.xml").write_text(text)
+    monkeypatch.setattr(models, "folder", lambda: tmp_path)
+    with pytest.raises(hurcules.Error, match=says):
+        models.load("x", scene="x")
+
+
+def test_doctor_names_a_remedy_for_whatever_is_not_well() -> None:
+    findings = doctor.examine()
+    assert [f.what for f in findings if f.status != "ok" and not f.remedy] == []
+    broken = [f for f in findings if f.status == "broken"]
+    assert broken == []
+
+
+def test_a_renderer_that_fails_is_reported_not_raised() -> None:
+    assert doctor.render_with("no-such-backend") != ""
