@@ -32,8 +32,15 @@ void Solver::Workspace::keep_working_sets() {
   kept_.clear();
   for (int k = 0; k < solution_.final_levels; ++k) {
     const LevelRecord& record = records_[k];
-    for (int h = record.first_held; h < record.first_held + record.held; ++h) {
-      kept_.push_back({k, held_[h].row, held_[h].side});
+    std::fill(settled_.begin(), settled_.end(), 0);
+    // a row that has a role is not listed again as idle
+    for (const bool idle : {false, true}) {
+      for (int h = record.first_held; h < record.first_norm + record.norm; ++h) {
+        const HeldRow& held = held_[h];
+        if (settled_[held.row] || (held.role == Role::Idle) != idle) continue;
+        settled_[held.row] = 1;
+        kept_.push_back({k, held.row, held.side, held.role});
+      }
     }
   }
 }
@@ -93,6 +100,7 @@ void Solver::Workspace::save(StateWriter& writer) const {
     writer.put(kept.held_by);
     writer.put(kept.row);
     writer.put(static_cast<double>(kept.side));
+    writer.put(static_cast<double>(kept.role));
   }
 }
 
@@ -103,6 +111,7 @@ void Solver::Workspace::restore(StateReader& reader) {
     kept.held_by = static_cast<int>(reader.get());
     kept.row = static_cast<int>(reader.get());
     kept.side = reader.get() < 0.0 ? Side::Lower : Side::Upper;
+    kept.role = static_cast<Role>(static_cast<int>(reader.get()));
   }
 }
 

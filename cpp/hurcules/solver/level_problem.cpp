@@ -53,7 +53,7 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
   first_ = chain.rank_before(level);
   own_ = chain.rank_before(level + 1) - first_;
   free_ = chain.unknowns() - first_;
-  own_inequalities_ = 0;
+  own_norm_ = 0.0;
   satisfied_ = true;
   x_scale_ = std::max(1.0, x_above.lpNorm<Eigen::Infinity>());
   for (int i = 0; i < end_; ++i) {
@@ -67,11 +67,16 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
       upper_[i] = std::max(row.upper, value);
       continue;
     }
-    if (!row.equality) ++own_inequalities_;
+    own_norm_ = std::max(own_norm_, row.norm);
     const double rounding = tolerance::kZeroResidual * (row.norm * x_scale_ + std::abs(value));
     const double allowed = row.equality ? rounding : tolerance(rows, i, x_scale_, 0.0);
     if (std::abs(rows.violation(i, value)) > allowed) satisfied_ = false;
   }
+}
+
+double LevelProblem::least_settling(double largest_multiplier) const {
+  return std::max(tolerance::kSettling * largest_multiplier,
+                  tolerance::kNoForce * own_norm_ * own_norm_ * x_scale_);
 }
 
 double LevelProblem::tolerance(const RowTable& rows, int i, double x_scale,

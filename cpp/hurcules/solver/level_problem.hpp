@@ -36,11 +36,13 @@ class LevelProblem {
   [[nodiscard]] double upper(int i) const { return upper_[i]; }
   // own violated rows aside, does x break a row that counts here?
   [[nodiscard]] bool breaks(const RowTable& rows, const Vector& x) const;
-  [[nodiscard]] int rows_that_count() const { return end_; }
+  // largest |a| of the level's own rows
+  [[nodiscard]] double own_norm() const { return own_norm_; }
+  // the multiplier below which a limit does not settle the violation of a level with rho = 0
+  [[nodiscard]] double least_settling(double largest_multiplier) const;
   [[nodiscard]] int table_row(int candidate) const { return candidate_row_[candidate]; }
   [[nodiscard]] int candidate(int table_row) const { return row_candidate_[table_row]; }
   [[nodiscard]] bool own(int i) const { return i >= begin_ && i < end_; }
-  [[nodiscard]] bool has_own_inequality() const { return own_inequalities_ > 0; }
   [[nodiscard]] bool satisfied() const { return satisfied_; }
 
   LeastDistance distance;
@@ -51,10 +53,10 @@ class LevelProblem {
   [[nodiscard]] double tolerance(const RowTable& rows, int i, double x_scale, double target_scale) const;
   void fill_row(const RowTable& rows, const Chain& chain, int i, Index c, double rho);
 
-  int level_ = 0, begin_ = 0, end_ = 0, own_inequalities_ = 0;
+  int level_ = 0, begin_ = 0, end_ = 0;
   Index first_ = 0, own_ = 0, free_ = 0;  // first free direction, own directions, free directions
   bool satisfied_ = false;
-  double rho_ = 0.0, x_scale_ = 1.0;
+  double rho_ = 0.0, x_scale_ = 1.0, own_norm_ = 0.0;
   bool minimum_norm_ = false;
   Vector centre_, lower_, upper_, c_, t_, change_;
   Matrix stacked_;  // (own rows + own directions, own directions + 1)

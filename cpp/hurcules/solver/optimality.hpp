@@ -22,11 +22,19 @@ struct LevelRecord {
   int first_norm = 0, norm = 0;    // rows that hold only the smallest step (rho = 0)
 };
 
+// What a held row does for its level. Only rho = 0 knows other roles than Violation.
+enum class Role : char {
+  Violation,     // it takes part in the smallest violation
+  SmallestStep,  // it only keeps the step from being smaller
+  Idle,          // it is touched and does neither, or it is listed a second time
+};
+
 // a row that pushes back in a level's problem
 struct HeldRow {
   int row = 0;  // in the table
   Side side = Side::Upper;
   double multiplier = 0.0;
+  Role role = Role::Violation;
 };
 
 class Optimality {

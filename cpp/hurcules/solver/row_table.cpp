@@ -22,11 +22,15 @@ void RowTable::reserve(Index rows, Index levels) {
   old_pattern_.reserve(rows + levels);
 }
 
+void RowTable::clear() {
+  rows_.clear();
+  begin_.assign(1, 0);
+}
+
 bool RowTable::read(const Hierarchy& hierarchy, Index unknowns) {
   std::swap(pattern_, old_pattern_);
-  rows_.clear();
   pattern_.clear();
-  begin_.assign(1, 0);
+  clear();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     const Level& level = hierarchy[k];
     const bool fits = level.bounds ? level.rows() == unknowns
@@ -36,7 +40,7 @@ bool RowTable::read(const Hierarchy& hierarchy, Index unknowns) {
     for (int i = 0; i < level.rows(); ++i) {
       if (!read_row(level, static_cast<int>(k), i, unknowns)) return false;
     }
-    begin_.push_back(size());
+    end_level();
     pattern_.push_back(kEndOfLevel);
   }
   same_pattern_ = pattern_ == old_pattern_;

@@ -22,6 +22,10 @@ class RowTable {
  public:
   // memory for `rows` rows in `levels` levels
   void reserve(Index rows, Index levels);
+  // a table by hand: clear, then add the rows of a level and end it
+  void clear();
+  void add(const Row& row) { rows_.push_back(row); }
+  void end_level() { begin_.push_back(size()); }
   // reads the rows; false when a number is NaN, a shape is off, or lower > upper
   [[nodiscard]] bool read(const Hierarchy& hierarchy, Index unknowns);
 

@@ -18,7 +18,11 @@ inline constexpr double kNegative = 1e-11;
 inline constexpr double kDependent = 1e-10;
 // an active row misses its limit and is worth a correction, relative to max(1, |x|)
 inline constexpr double kMiss = 2e-14;
-// the first regularisation of a level with rho = 0, relative to max |a|
+// a limit settles the violation of a level with rho = 0 when its multiplier is above this part of the largest
+inline constexpr double kSettling = 1e-9;
+// ... and when it is no rounding: relative to max |a|^2 max(1, |x|) of the level
+inline constexpr double kNoForce = 1e-12;
+// the regularisation of the proximal steps of a level with rho = 0, relative to max |a|
 inline constexpr double kProximal = 1e-4;
 // a residual that is rounding and moves nothing, relative to |a| |x| + |b|
 inline constexpr double kZeroResidual = 1e-15;

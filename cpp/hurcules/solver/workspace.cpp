@@ -12,8 +12,6 @@ namespace {
 
 // proximal steps of a level with rho = 0; one to four are usual
 constexpr int kMaxProximalSteps = 40;
-// a row with a multiplier below this part of the largest does not settle a level's violation
-constexpr double kSettling = 1e-9;
 
 Index count_rows(const Hierarchy& hierarchy) {
   Index rows = 0;
@@ -48,6 +46,7 @@ void Solver::Workspace::reserve(const Hierarchy& hierarchy) {
   rows_.reserve(reserved_rows_, reserved_levels_);
   chain_.reserve(unknowns_, reserved_rows_ + 1, reserved_levels_);
   problem_.reserve(unknowns_, reserved_rows_);
+  settled_level_.reserve(unknowns_, reserved_rows_);
   optimality_.reserve(unknowns_);
   records_.resize(reserved_levels_);
   for (LevelRecord& record : records_) {
@@ -56,7 +55,7 @@ void Solver::Workspace::reserve(const Hierarchy& hierarchy) {
   }
   // every level may hold every row, once for its violation and once for its smallest step
   held_.reserve(2 * reserved_levels_ * reserved_rows_);
-  kept_.reserve(reserved_levels_ * reserved_rows_);
+  kept_.reserve(2 * reserved_levels_ * reserved_rows_);
   previous_.reserve(reserved_rows_ + unknowns_);
   solution_.working_set.reserve(2 * reserved_levels_ * reserved_rows_);
   settled_.resize(reserved_rows_);
@@ -113,7 +112,7 @@ bool Solver::Workspace::solve_first_bounds(int k) {
     if (x >= row.lower && x <= row.upper) continue;
     const Side side = x < row.lower ? Side::Lower : Side::Upper;
     x = side == Side::Lower ? row.lower : row.upper;
-    held_.push_back({i, side, std::abs(x)});  // t + nu side a = 0
+    held_.push_back({i, side, std::abs(x), Role::SmallestStep});  // t + nu side a = 0
   }
   return true;
 }
@@ -132,7 +131,7 @@ bool Solver::Workspace::solve_regularized(double rho, int k) {
   }
   problem_.read_x(chain_, x_);
   problem_.refine(rows_, chain_, x_);
-  keep_held(rho * rho);
+  keep_held(rho * rho, Role::Violation);
   begin_norm_ = static_cast<int>(held_.size());
   return done;
 }
@@ -140,18 +139,17 @@ bool Solver::Workspace::solve_regularized(double rho, int k) {
 bool Solver::Workspace::solve_unregularized(int k) {
   problem_.solve_free(rows_, chain_, 0.0, x_above_, x_);
   if (!problem_.breaks(rows_, x_)) return true;
-  double largest = 0.0;
-  for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
-    largest = std::max(largest, rows_[i].norm);
-  }
-  if (largest == 0.0) {
+  if (problem_.own_norm() == 0.0) {
     x_ = x_above_;
     return true;
   }
+  if (has_kept(k) && settled_level_.solve(rows_, problem_, k, x_above_, kept_, x_, held_, begin_norm_)) {
+    return true;
+  }
   chain_.complete(rows_);
-  const double epsilon = tolerance::kProximal * largest;
+  const double epsilon = tolerance::kProximal * problem_.own_norm();
   if (!proximal_steps(epsilon, k)) return false;
-  keep_held(epsilon * epsilon);
+  keep_held(epsilon * epsilon, Role::Violation);
   begin_norm_ = static_cast<int>(held_.size());
   return smallest_step();
 }
@@ -186,9 +184,11 @@ bool Solver::Workspace::smallest_step() {
   for (std::size_t h = begin_held_; h < held_.size(); ++h) {
     largest = std::max(largest, std::abs(held_[h].multiplier));
   }
+  const double least = problem_.least_settling(largest);
   std::fill(settled_.begin(), settled_.end(), 0);
   for (std::size_t h = begin_held_; h < held_.size(); ++h) {
-    settled_[held_[h].row] = held_[h].multiplier > kSettling * largest;
+    settled_[held_[h].row] = held_[h].multiplier > least;
+    if (!settled_[held_[h].row]) held_[h].role = Role::Idle;
   }
   problem_.fill_minimum_norm(rows_, chain_, x_, x_above_, settled_);
   if (problem_.distance.dimension() == 0) return true;
@@ -197,14 +197,19 @@ bool Solver::Workspace::smallest_step() {
   const bool done = problem_.distance.solve_primal(solution_.changes, budget);
   problem_.read_x(chain_, x_);
   problem_.refine(rows_, chain_, x_);
-  keep_held(1.0);
+  keep_held(1.0, Role::SmallestStep);
   return done;
+}
+
+bool Solver::Workspace::has_kept(int k) const {
+  return std::any_of(kept_.begin(), kept_.end(), [k](const KeptRow& kept) { return kept.held_by == k; });
 }
 
 void Solver::Workspace::collect_kept(int k) {
   previous_.clear();
   for (const KeptRow& kept : kept_) {
-    if (kept.held_by == k) previous_.push_back({problem_.candidate(kept.row), kept.side, false, 0.0});
+    if (kept.held_by != k) continue;
+    previous_.push_back({problem_.candidate(kept.row), kept.side, false, 0.0});
   }
 }
 
@@ -232,9 +237,10 @@ bool Solver::Workspace::find_working_set() {
   return done;
 }
 
-void Solver::Workspace::keep_held(double scale) {
+void Solver::Workspace::keep_held(double scale, Role unfixed) {
   for (const ActiveSlot& slot : problem_.distance.active()) {
-    held_.push_back({problem_.table_row(slot.candidate), slot.side, scale * slot.multiplier});
+    const Role role = slot.fixed ? Role::Idle : unfixed;
+    held_.push_back({problem_.table_row(slot.candidate), slot.side, scale * slot.multiplier, role});
   }
 }
 

@@ -7,6 +7,7 @@
 #include "hurcules/solver/level_problem.hpp"
 #include "hurcules/solver/optimality.hpp"
 #include "hurcules/solver/row_table.hpp"
+#include "hurcules/solver/settled_level.hpp"
 #include "hurcules/solver/solver.hpp"
 
 namespace hurcules {
@@ -25,12 +26,6 @@ struct Solver::Workspace {
   void restore(StateReader& reader);
 
  private:
-  // a row of the last solve's working set of level held_by
-  struct KeptRow {
-    int held_by, row;
-    Side side;
-  };
-
   [[nodiscard]] bool fits(const Hierarchy& hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
   bool solve_level(const Level& level, int k);
@@ -39,12 +34,13 @@ struct Solver::Workspace {
   bool solve_unregularized(int k);  // rho = 0: proximal steps, then the smallest step
   bool proximal_steps(double epsilon, int k);
   bool smallest_step();
+  [[nodiscard]] bool has_kept(int k) const;
   // the rows that level k held in the last solve, as candidates of this one
   void collect_kept(int k);
   // from previous_ when there is one, else from the centre: to the optimal working set
   bool find_working_set();
-  // slots -> held rows, multipliers times scale
-  void keep_held(double scale);
+  // slots -> held rows, multipliers times scale; a fixed slot is Idle
+  void keep_held(double scale, Role unfixed);
 
   void finish_level(double rho, int k);
   void keep_working_sets();
@@ -57,6 +53,7 @@ struct Solver::Workspace {
   RowTable rows_;
   Chain chain_;
   LevelProblem problem_;
+  SettledLevel settled_level_;
   Optimality optimality_;
   Vector x_, x_above_, centre_;
   std::vector<LevelRecord> records_;
