@@ -1,9 +1,11 @@
 // Any MJCF robot as the controller sees it: coordinates, frames, Jacobians.
 //
-// The controller moves n coordinates. A coordinate drives one joint or several together (both knees of Hurcules are
-// one); the MJCF names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
-// joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
-// A Robot has its own mjData: asking it never disturbs a simulation.
+// The controller moves n coordinates. A coordinate drives one joint or several together (both knees
+// of Hurcules are one); the MJCF names them by tuples `coordinate_NAME` of (joint, factor). Without
+// such tuples every hinge or slide joint that has an actuator is a coordinate, and without
+// actuators every hinge or slide joint. All other joints are held: free, ball, belts, other bodies.
+// A Robot has its own mjData: asking it never disturbs a simulation. It keeps scratch memory
+// between questions, so one thread asks one Robot.
 #pragma once
 
 #include <memory>
@@ -25,13 +27,15 @@ using ModelPtr = std::shared_ptr<const mjModel_>;
 [[nodiscard]] ModelPtr load_model_text(const std::string& mjcf, const std::string& folder = "");
 // a model that somebody else owns and keeps alive
 [[nodiscard]] ModelPtr borrow_model(const mjModel_* model);
+// throws Error unless the MuJoCo in this process is the one that we were built with
+void check_mujoco_version();
 
 // One joint of a coordinate: joint position = factor * coordinate.
 struct DrivenJoint {
-  int joint = 0;       // mjModel joint id
-  int qpos = 0;        // address in qpos
-  int dof = 0;         // address in qvel
-  int actuator = -1;   // actuator id, -1 for none
+  int joint = 0;      // mjModel joint id
+  int qpos = 0;       // address in qpos
+  int dof = 0;        // address in qvel
+  int actuator = -1;  // actuator id, -1 for none
   double factor = 1.0;
 };
 
@@ -41,13 +45,20 @@ struct Coordinate {
   double lower = 0.0;               // [rad] or [m], -inf when unlimited
   double upper = 0.0;               // [rad] or [m]
   double max_velocity = 0.0;        // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
-  double max_effort = 0.0;          // [N m] or [N], sum over its actuators, else inf
+  double max_effort = 0.0;  // [N m] or [N], sum over its actuators; inf without force ranges
 };
 
 // A site, body, camera or geom of the model, by number (mjtObj type and id).
 struct Frame {
   int type = 0;
   int id = 0;
+};
+
+// The model in two numbers: equal for every copy of one compiled model.
+struct ModelIdentity {
+  unsigned long long signature = 0;  // mjModel.signature
+  Index coordinates = 0;             // n
+  friend bool operator==(const ModelIdentity&, const ModelIdentity&) = default;
 };
 
 class Robot {
@@ -65,9 +76,11 @@ class Robot {
   [[nodiscard]] Index coordinate(const std::string& name) const;
   // looks among sites, then bodies, cameras, geoms; throws Error with the names that exist
   [[nodiscard]] Frame frame(const std::string& name) const;
+  // what a task remembers to notice that it is asked about another robot
+  [[nodiscard]] ModelIdentity identity() const;
 
-  // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it is.
-  // Each updates every pose and Jacobian.
+  // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it
+  // is. Each updates every pose and Jacobian.
   void set_qpos(const ConstVectorRef& qpos);
   void set_configuration(const ConstVectorRef& q);
   // [rad/s], (n); used by the drift terms only
@@ -81,29 +94,36 @@ class Robot {
   void coordinates_of(const ConstVectorRef& qpos, VectorRef q) const;
 
   [[nodiscard]] Vector3 position(Frame frame) const;     // p_WF [m]
-  [[nodiscard]] Matrix3 orientation(Frame frame) const;  // R_WF
+  [[nodiscard]] Matrix3 orientation(Frame frame) const;  // R_WF; a camera looks along its -z
+  // the same, but a camera looks along its x and z is up in its image
+  [[nodiscard]] Matrix3 view_orientation(Frame frame) const;
   // velocity of the frame's origin and angular velocity in W, by the coordinates alone: (3, n) each
   void position_jacobian(Frame frame, MatrixRef J) const;
   void rotation_jacobian(Frame frame, MatrixRef J) const;
   // Jdot v of both, (3): what the frame accelerates with when the coordinates do not
   [[nodiscard]] Vector3 position_drift(Frame frame) const;
   [[nodiscard]] Vector3 rotation_drift(Frame frame) const;
-  // centre of mass of the tree that holds the coordinates: [m] in W, and (3, n)
+  // centre of mass of the tree that holds the first coordinate: [m] in W, (3, n), [m/s^2]
   [[nodiscard]] Vector3 com() const;
   void com_jacobian(MatrixRef J) const;
-  // joint-space inertia of the coordinates, base held: (n, n)
+  [[nodiscard]] Vector3 com_drift() const;
+  // joint-space inertia of the coordinates, base held, with armature: (n, n) [kg m^2] (hinges)
   void mass_matrix(MatrixRef M) const;
 
  private:
   void update();
   // (3, nv) of the model -> (3, n) of the coordinates
   void reduce(const Matrix& full, MatrixRef J) const;
+  [[nodiscard]] Vector3 drift(const Matrix& jacobian_rate) const;
 
   ModelPtr model_;
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
-  mutable Matrix full_, other_;  // scratch for Jacobians, (3, nv)
+  int tree_ = 0;            // body at the root of the tree that holds the first coordinate
+  bool moving_ = false;     // some coordinate has a velocity: only then is there a drift
+  mutable Matrix full_;     // scratch for Jacobians, (3, nv)
+  mutable Matrix inertia_;  // scratch for the mass matrix, (nv, nv)
 };
 
 }  // namespace hurcules

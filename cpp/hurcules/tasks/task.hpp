@@ -1,7 +1,11 @@
-// What a task is: it measures. Value against target, Jacobian, drift, and the interval it wants the error in.
+// What a task is: it measures. Value against target, Jacobian, drift, and the interval it wants the
+// error in.
 //
-// error e(q) (m) with  de/dt = J qdot - velocity_des  and the wish  lower <= e <= upper  (a point: lower = upper = 0).
-// A controller decides what to do about it; a task knows no solver.
+//   error e(q) = s - s_des (m)  with  de/dt = J qdot - velocity_des      [T 4.3.2], its g_k
+//   the wish  lower <= e <= upper  (a point: lower = upper = 0)          [T 4.3.8]
+// A controller decides what to do about it; a task knows no solver. A new task holds the robot's
+// present value. Every number is bounded and finite in every configuration: near a singularity a
+// task's Jacobian fades instead of growing, each task says where.
 #pragma once
 
 #include <string>
@@ -18,19 +22,24 @@ class Task {
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
 
-  // measures at the robot's present configuration: error, jacobian, drift
+  // measures at the robot's present configuration: error, jacobian, drift; throws Error when the
+  // robot is not of the model that the task was made for
   virtual void update(const Robot& robot) = 0;
-  // makes the present value the target (error becomes zero)
+  // makes the present value the target, at rest (error becomes zero), and updates
   virtual void hold(const Robot& robot) = 0;
-  // moves the target by velocity * dt and feeds the velocity forward until the next advance; (m), unit/s
+  // moves the target by velocity * dt and feeds the velocity forward until the next advance or
+  // hold; (m), unit/s; dt [s]. The error follows at the next update.
   virtual void advance(const ConstVectorRef& velocity, double dt) = 0;
-  // what must be kept between ticks: the target and the feed-forward
+  // what must be kept between ticks: the target, the feed-forward and the interval
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
 
+  // the interval that the error shall be in; (m), task unit, -inf and inf for no side
+  virtual void set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper);
+
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Index rows() const { return error_.size(); }
-  [[nodiscard]] const Vector& error() const { return error_; }                // (m), s - s_des  [T 4.3.2]
+  [[nodiscard]] const Vector& error() const { return error_; }                // (m)
   [[nodiscard]] const Matrix& jacobian() const { return jacobian_; }          // (m, n)
   [[nodiscard]] const Vector& drift() const { return drift_; }                // (m), Jdot qdot
   [[nodiscard]] const Vector& velocity_des() const { return velocity_des_; }  // (m)
@@ -41,10 +50,19 @@ class Task {
 
  protected:
   Task(std::string name, Index rows, Index coordinates);
+  // the same for a task that asks only this robot, or another one of the same model
+  Task(std::string name, Index rows, const Robot& robot);
+
+  void require_robot(const Robot& robot) const;
+  // throws Error unless `values` are one finite number a row
+  void require_rows(const ConstVectorRef& values, const char* what) const;
 
   std::string name_;
   Vector error_, drift_, velocity_des_, lower_, upper_;
   Matrix jacobian_;
+
+ private:
+  ModelIdentity identity_;
 };
 
 }  // namespace hurcules

@@ -1,0 +1,163 @@
+#include "hurcules/robot/coordinates.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string name_of(const mjModel& m, int type, int id) {
+  const char* name = mj_id2name(&m, type, id);
+  return name && *name ? name : "joint" + std::to_string(id);
+}
+
+// "left_coordinate_HIP" without "coordinate_" is "left_HIP"
+std::optional<std::string> without(const char* name, const std::string& marker) {
+  const std::string text = name ? name : "";
+  const auto at = text.find(marker);
+  if (at == std::string::npos) return std::nullopt;
+  return text.substr(0, at) + text.substr(at + marker.size());
+}
+
+bool is_single(const mjModel& m, int joint) {
+  return m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE;
+}
+
+bool drives(const mjModel& m, int actuator, int joint) {
+  const int kind = m.actuator_trntype[actuator];
+  return (kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT) &&
+         m.actuator_trnid[2 * actuator] == joint;
+}
+
+int actuator_of(const mjModel& m, int joint) {
+  for (int a = 0; a < m.nu; ++a)
+    if (drives(m, a, joint)) return a;
+  return -1;
+}
+
+DrivenJoint driven(const mjModel& m, int joint, double factor) {
+  return {joint, m.jnt_qposadr[joint], m.jnt_dofadr[joint], actuator_of(m, joint), factor};
+}
+
+Coordinate from_tuple(const mjModel& m, int tuple, const std::string& name) {
+  Coordinate coordinate;
+  coordinate.name = name;
+  for (int i = 0; i < m.tuple_size[tuple]; ++i) {
+    const int at = m.tuple_adr[tuple] + i;
+    const int id = m.tuple_objid[at];
+    require(m.tuple_objtype[at] == mjOBJ_JOINT && is_single(m, id),
+            "coordinate '" + name + "' wants hinge or slide joints, element " + std::to_string(i) +
+                " of its tuple is something else");
+    require(m.tuple_objprm[at] != 0 && std::isfinite(m.tuple_objprm[at]),
+            "coordinate '" + name + "' wants a factor for joint '" + name_of(m, mjOBJ_JOINT, id) +
+                "', its prm is 0 or not finite");
+    coordinate.joints.push_back(driven(m, id, m.tuple_objprm[at]));
+  }
+  require(!coordinate.joints.empty(),
+          "coordinate '" + name + "' wants a joint, its tuple is empty");
+  return coordinate;
+}
+
+std::vector<Coordinate> from_tuples(const mjModel& m) {
+  std::vector<Coordinate> found;
+  for (int t = 0; t < m.ntuple; ++t)
+    if (const auto name = without(mj_id2name(&m, mjOBJ_TUPLE, t), "coordinate_"))
+      found.push_back(from_tuple(m, t, *name));
+  return found;
+}
+
+std::vector<Coordinate> from_joints(const mjModel& m, bool with_actuator) {
+  std::vector<Coordinate> found;
+  for (int j = 0; j < m.njnt; ++j) {
+    if (!is_single(m, j) || (with_actuator && actuator_of(m, j) < 0)) continue;
+    found.emplace_back();
+    found.back().name = name_of(m, mjOBJ_JOINT, j);
+    found.back().joints = {driven(m, j, 1.0)};
+  }
+  return found;
+}
+
+// [rad/s] or [m/s] of the joint
+double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
+  const std::string joint = name_of(m, mjOBJ_JOINT, driven_joint.joint);
+  for (int i = 0; i < m.nnumeric; ++i) {
+    if (without(mj_id2name(&m, mjOBJ_NUMERIC, i), "velocity_limit_") != joint) continue;
+    const double limit = m.numeric_data[m.numeric_adr[i]];
+    require(limit > 0, "velocity limit of joint '" + joint + "' wants to be above 0, " +
+                           std::to_string(limit) + " came");
+    return limit;
+  }
+  return kInfinity;
+}
+
+// [N m] or [N] that every actuator of the joint can give both ways, 0 without actuators
+double effort_limit(const mjModel& m, int joint) {
+  double sum = 0;
+  for (int a = 0; a < m.nu; ++a) {
+    if (!drives(m, a, joint)) continue;
+    if (!m.actuator_forcelimited[a]) sum = kInfinity;
+    const double* range = m.actuator_forcerange + 2 * a;
+    sum += std::min(-range[0], range[1]) * std::abs(m.actuator_gear[6 * a]);
+  }
+  if (!m.jnt_actfrclimited[joint]) return sum;
+  const double* range = m.jnt_actfrcrange + 2 * joint;
+  return std::min(sum, std::min(-range[0], range[1]));
+}
+
+// the tightest of what its joints allow, in the units of the coordinate
+void set_limits(const mjModel& m, Coordinate& coordinate) {
+  coordinate.lower = -kInfinity;
+  coordinate.upper = coordinate.max_velocity = kInfinity;
+  coordinate.max_effort = 0;
+  for (const DrivenJoint& driven_joint : coordinate.joints) {
+    const int joint = driven_joint.joint;
+    const double factor = driven_joint.factor;
+    if (m.jnt_limited[joint]) {
+      const double a = m.jnt_range[2 * joint] / factor;
+      const double b = m.jnt_range[2 * joint + 1] / factor;
+      coordinate.lower = std::max(coordinate.lower, std::min(a, b));
+      coordinate.upper = std::min(coordinate.upper, std::max(a, b));
+    }
+    coordinate.max_velocity =
+        std::min(coordinate.max_velocity, velocity_limit(m, driven_joint) / std::abs(factor));
+    coordinate.max_effort += std::abs(factor) * effort_limit(m, joint);
+  }
+  if (coordinate.max_effort <= 0) coordinate.max_effort = kInfinity;
+  require(coordinate.lower <= coordinate.upper,
+          "coordinate '" + coordinate.name + "': the ranges of its joints do not meet");
+}
+
+void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinates) {
+  std::set<std::string> names;
+  std::set<int> joints;
+  for (const Coordinate& coordinate : coordinates) {
+    require(names.insert(coordinate.name).second,
+            "two coordinates are called '" + coordinate.name + "'");
+    for (const DrivenJoint& driven_joint : coordinate.joints)
+      require(joints.insert(driven_joint.joint).second,
+              "joint '" + name_of(m, mjOBJ_JOINT, driven_joint.joint) +
+                  "' belongs to one coordinate only, '" + coordinate.name + "' names it again");
+  }
+}
+
+}  // namespace
+
+std::vector<Coordinate> find_coordinates(const mjModel& m) {
+  std::vector<Coordinate> found = from_tuples(m);
+  if (found.empty()) found = from_joints(m, true);
+  if (found.empty()) found = from_joints(m, false);
+  for (Coordinate& coordinate : found) set_limits(m, coordinate);
+  require_distinct(m, found);
+  return found;
+}
+
+}  // namespace hurcules

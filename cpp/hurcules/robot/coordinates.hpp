@@ -1,0 +1,21 @@
+// Which joints the controller moves, read from names in the MJCF.
+//
+//   <custom>
+//     <tuple name="coordinate_KN"> <element objtype="joint" objname="LKN" prm="1"/> ... </tuple>
+//     <numeric name="velocity_limit_LKN" data="0.6"/>
+//   </custom>
+// A prefix that `attach` put in front of these names goes in front of NAME and JOINT.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/robot/robot.hpp"
+
+namespace hurcules {
+
+// The coordinates in the order of their tuples, else of their joints. Throws Error for a tuple of
+// something else than hinge and slide joints, a factor 0, a joint of two coordinates, ranges of
+// coupled joints that do not meet, and two coordinates of one name.
+[[nodiscard]] std::vector<Coordinate> find_coordinates(const mjModel_& model);
+
+}  // namespace hurcules

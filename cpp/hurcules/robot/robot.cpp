@@ -1,0 +1,146 @@
+// The state of a robot: its names, its configuration and velocity.
+#include "hurcules/robot/robot.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/robot/coordinates.hpp"
+
+namespace hurcules {
+namespace {
+
+int count(const mjModel& m, int type) {
+  switch (type) {
+    case mjOBJ_SITE:
+      return static_cast<int>(m.nsite);
+    case mjOBJ_BODY:
+      return static_cast<int>(m.nbody);
+    case mjOBJ_CAMERA:
+      return static_cast<int>(m.ncam);
+    case mjOBJ_GEOM:
+      return static_cast<int>(m.ngeom);
+    default:
+      return static_cast<int>(m.nkey);
+  }
+}
+
+std::vector<std::string> names(const mjModel& m, std::initializer_list<int> types) {
+  std::vector<std::string> found;
+  for (const int type : types)
+    for (int i = 0; i < count(m, type); ++i)
+      if (const char* name = mj_id2name(&m, type, i); name && *name) found.emplace_back(name);
+  return found;
+}
+
+void require_values(const ConstVectorRef& values, Index size, const char* what) {
+  if (values.size() != size)
+    throw Error(std::string(what) + " wants " + std::to_string(size) + " values, " +
+                std::to_string(values.size()) + " came");
+  for (Index i = 0; i < size; ++i)
+    if (!std::isfinite(values[i]))
+      throw Error(std::string(what) + ": value " + std::to_string(i) + " is not finite");
+}
+
+}  // namespace
+
+Robot::Robot(ModelPtr model) : model_(std::move(model)), data_(nullptr, mj_deleteData) {
+  require(model_ != nullptr, "a robot wants a model, none came");
+  const mjModel& m = *model_;
+  coordinates_ = find_coordinates(m);
+  data_.reset(mj_makeData(&m));
+  require(data_ != nullptr, "MuJoCo has no memory for this model");
+  q_ = Vector::Zero(size());
+  v_ = Vector::Zero(size());
+  full_ = Matrix::Zero(3, m.nv);
+  inertia_ = Matrix::Zero(m.nv, m.nv);
+  if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
+  set_keyframe("");
+}
+
+Robot::~Robot() = default;
+
+std::vector<std::string> Robot::coordinate_names() const {
+  std::vector<std::string> found;
+  for (const Coordinate& coordinate : coordinates_) found.push_back(coordinate.name);
+  return found;
+}
+
+Index Robot::coordinate(const std::string& name) const {
+  const auto same = [&](const Coordinate& coordinate) { return coordinate.name == name; };
+  const auto found = std::find_if(coordinates_.begin(), coordinates_.end(), same);
+  if (found == coordinates_.end())
+    throw Error(unknown_name("coordinate", name, coordinate_names()));
+  return found - coordinates_.begin();
+}
+
+Frame Robot::frame(const std::string& name) const {
+  for (const int type : {mjOBJ_SITE, mjOBJ_BODY, mjOBJ_CAMERA, mjOBJ_GEOM}) {
+    const int id = mj_name2id(model_.get(), type, name.c_str());
+    if (id < 0) continue;
+    if (type == mjOBJ_CAMERA && model_->cam_mode[id] != mjCAMLIGHT_FIXED)
+      throw Error("camera '" + name + "' follows something; a frame is fixed in a body");
+    return {type, id};
+  }
+  const auto existing = names(*model_, {mjOBJ_SITE, mjOBJ_BODY, mjOBJ_CAMERA, mjOBJ_GEOM});
+  throw Error(unknown_name("frame", name, existing));
+}
+
+ModelIdentity Robot::identity() const {
+  return {model_->signature, size()};
+}
+
+void Robot::set_qpos(const ConstVectorRef& qpos) {
+  require_values(qpos, model_->nq, "set_qpos");
+  qpos_ = qpos;
+  update();
+}
+
+void Robot::set_configuration(const ConstVectorRef& q) {
+  require_values(q, size(), "set_configuration");
+  for (Index i = 0; i < size(); ++i)
+    for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
+  update();
+}
+
+void Robot::set_velocity(const ConstVectorRef& velocity) {
+  require_values(velocity, size(), "set_velocity");
+  v_ = velocity;
+  moving_ = (v_.array() != 0).any();
+  for (Index i = 0; i < size(); ++i)
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      data_->qvel[joint.dof] = joint.factor * v_[i];
+  if (moving_) mj_comVel(model_.get(), data_.get());
+}
+
+void Robot::set_keyframe(const std::string& name) {
+  const mjModel& m = *model_;
+  const int key = name.empty() ? -1 : mj_name2id(&m, mjOBJ_KEY, name.c_str());
+  if (key < 0 && !name.empty()) throw Error(unknown_name("keyframe", name, names(m, {mjOBJ_KEY})));
+  qpos_ = Eigen::Map<const Vector>(key < 0 ? m.qpos0 : m.key_qpos + key * m.nq, m.nq);
+  update();
+}
+
+void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
+  if (qpos.size() != model_->nq || q.size() != size())
+    throw Error("coordinates_of wants qpos of " + std::to_string(model_->nq) + " and q of " +
+                std::to_string(size()) + " values, " + std::to_string(qpos.size()) + " and " +
+                std::to_string(q.size()) + " came");
+  for (Index i = 0; i < size(); ++i) {
+    const DrivenJoint& first = coordinates_[i].joints.front();
+    q[i] = qpos[first.qpos] / first.factor;
+  }
+}
+
+void Robot::update() {
+  std::copy(qpos_.begin(), qpos_.end(), data_->qpos);
+  mj_kinematics(model_.get(), data_.get());
+  mj_comPos(model_.get(), data_.get());
+  mj_camlight(model_.get(), data_.get());
+  if (moving_) mj_comVel(model_.get(), data_.get());
+  coordinates_of(qpos_, q_);
+}
+
+}  // namespace hurcules

@@ -1,0 +1,85 @@
+#include "hurcules/tasks/gaze_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/tasks/angle.hpp"
+
+namespace hurcules {
+namespace {
+
+// unit vector of given yaw and pitch, x ahead and z up
+Vector3 direction(double yaw, double pitch) {
+  return {std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
+}
+
+}  // namespace
+
+GazeTask::GazeTask(std::string name, const Robot& robot, const std::string& frame)
+    : Task(std::move(name), 2, robot),
+      frame_(robot.frame(frame)),
+      camera_(robot, frame_),
+      seen_(robot) {
+  target_ = robot.position(frame_) + robot.view_orientation(frame_).col(0);
+  GazeTask::update(robot);
+  error_.setZero();
+}
+
+void GazeTask::update(const Robot& robot) {
+  require_robot(robot);
+  camera_.measure(robot);
+  position_ = robot.position(frame_);
+  orientation_ = robot.view_orientation(frame_);
+  seen_.rest_at(target_);
+  camera_.express(seen_);
+
+  const Angle yaw = azimuth(seen_), pitch = elevation(seen_);
+  error_ << -yaw.value, -pitch.value;
+  drift_ << -yaw.drift, -pitch.drift;
+  jacobian_.row(0).noalias() = -yaw.gradient.transpose().lazyProduct(seen_.jacobian);
+  jacobian_.row(1).noalias() = -pitch.gradient.transpose().lazyProduct(seen_.jacobian);
+}
+
+void GazeTask::hold(const Robot& robot) {
+  require_robot(robot);
+  const double distance = std::max((target_ - robot.position(frame_)).norm(), kShort);
+  target_ = robot.position(frame_) + distance * robot.view_orientation(frame_).col(0);
+  velocity_des_.setZero();
+  update(robot);
+}
+
+void GazeTask::advance(const ConstVectorRef& velocity, double dt) {
+  require_rows(velocity, "velocity");
+  velocity_des_ = velocity;
+  const Vector3 seen = orientation_.transpose() * (target_ - position_);
+  const double yaw = std::atan2(seen.y(), seen.x()) + velocity[0] * dt;
+  const double pitch = std::atan2(seen.z(), std::hypot(seen.x(), seen.y())) + velocity[1] * dt;
+  // beyond the zenith the target would come back on the other side
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double held = std::clamp(pitch, -kQuarter, kQuarter);
+  target_ = position_ + seen.norm() * (orientation_ * direction(yaw, held));
+}
+
+void GazeTask::set_target(const Vector3& target) {
+  require(target.allFinite(), "target of a GazeTask wants to be finite");
+  target_ = target;
+  velocity_des_.setZero();
+}
+
+void GazeTask::save(StateWriter& writer) const {
+  Task::save(writer);
+  writer.put(target_);
+  writer.put(position_);
+  for (Index i = 0; i < 9; ++i) writer.put(orientation_(i));
+}
+
+void GazeTask::restore(StateReader& reader) {
+  Task::restore(reader);
+  reader.get(target_);
+  reader.get(position_);
+  for (Index i = 0; i < 9; ++i) orientation_(i) = reader.get();
+}
+
+}  // namespace hurcules

@@ -1,0 +1,69 @@
+#include "hurcules/tasks/orientation_task.hpp"
+
+#include <Eigen/Geometry>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+
+namespace hurcules {
+
+OrientationTask::OrientationTask(std::string name, const Robot& robot, const std::string& frame,
+                                 const OrientationTaskOptions& options)
+    : Task(std::move(name), 3, robot),
+      frame_(robot.frame(frame)),
+      reference_(robot, options.reference),
+      rotation_(robot) {
+  OrientationTask::hold(robot);
+}
+
+void OrientationTask::update(const Robot& robot) {
+  require_robot(robot);
+  reference_.measure(robot);
+  rotation_.measure(robot, frame_);
+  reference_.express(rotation_);
+
+  const Vector3 e = rotation_log(rotation_.orientation * target_.transpose());
+  const Matrix3 gain = left_jacobian_inverse(e);
+  const Vector3 rate = gain * rotation_.velocity;
+  error_ = e;
+  jacobian_.noalias() = gain.lazyProduct(rotation_.jacobian);
+  drift_ = gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
+  velocity_des_ = right_jacobian_inverse(e) * turn_;
+}
+
+void OrientationTask::hold(const Robot& robot) {
+  turn_.setZero();
+  update(robot);
+  target_ = rotation_.orientation;
+  update(robot);
+}
+
+void OrientationTask::advance(const ConstVectorRef& velocity, double dt) {
+  require_rows(velocity, "velocity");
+  turn_ = velocity;
+  velocity_des_ = right_jacobian_inverse(error_) * turn_;
+  // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
+  if (turn_.squaredNorm() == 0) return;
+  target_ = Eigen::Quaterniond(rotation_exp(turn_ * dt) * target_).normalized().toRotationMatrix();
+}
+
+void OrientationTask::set_target(const Matrix3& target) {
+  if (!is_rotation(target)) throw Error("target of task '" + name_ + "' wants a rotation matrix");
+  target_ = target;
+  turn_.setZero();
+  velocity_des_.setZero();
+}
+
+void OrientationTask::save(StateWriter& writer) const {
+  Task::save(writer);
+  for (Index i = 0; i < 9; ++i) writer.put(target_(i));
+  writer.put(turn_);
+}
+
+void OrientationTask::restore(StateReader& reader) {
+  Task::restore(reader);
+  for (Index i = 0; i < 9; ++i) target_(i) = reader.get();
+  reader.get(turn_);
+}
+
+}  // namespace hurcules

@@ -1,0 +1,45 @@
+// The orientation of a frame at a target orientation.
+//
+//   e = log(R_RF R_des^T) [rad] (3), |e| <= pi: the turn from target to frame, in the axes of R
+//   J = Jl^-1(e) J_w,RF (3, n),  velocity_des = Jr^-1(e) w_des           [T §4.3.2], its g_lhor
+// R is the reference: the world, or a frame of the robot. The Jacobian is exact for large errors
+// too (pose.hpp), so de/dt = J qdot - velocity_des holds everywhere but at |e| = pi, where e jumps
+// to -e (all numbers stay bounded). Cameras: x along the line of sight, z up in the image.
+#pragma once
+
+#include "hurcules/tasks/reference.hpp"
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+struct OrientationTaskOptions {
+  std::string reference = "";  // frame in which the orientation is measured, "" = the world
+};
+
+class OrientationTask : public Task {
+ public:
+  OrientationTask(std::string name, const Robot& robot, const std::string& frame,
+                  const OrientationTaskOptions& options = {});
+
+  void update(const Robot& robot) override;
+  void hold(const Robot& robot) override;
+  // turns the target by exp(velocity dt); angular velocity in the axes of R [rad/s], (3)
+  void advance(const ConstVectorRef& velocity, double dt) override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+
+  [[nodiscard]] const Matrix3& target() const { return target_; }  // R_des in the reference
+  // at rest; seen at the next update; throws Error unless it is a rotation
+  void set_target(const Matrix3& target);
+  // R_RF at the last update
+  [[nodiscard]] const Matrix3& orientation() const { return rotation_.orientation; }
+
+ private:
+  Frame frame_;
+  Reference reference_;
+  RotationMotion rotation_;
+  Matrix3 target_ = Matrix3::Identity();
+  Vector3 turn_ = Vector3::Zero();  // w_des [rad/s], in the axes of the reference
+};
+
+}  // namespace hurcules

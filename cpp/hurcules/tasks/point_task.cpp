@@ -1,0 +1,27 @@
+#include "hurcules/tasks/point_task.hpp"
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+PointTask::PointTask(std::string name, const Robot& robot, PointTaskOptions options)
+    : ValueTask(std::move(name), options.axes.rows(), robot),
+      axes_(std::move(options.axes)),
+      reference_(robot, options.reference),
+      point_(robot) {
+  const std::string came = std::to_string(axes_.rows()) + " x " + std::to_string(axes_.cols());
+  require(axes_.cols() == 3 && axes_.rows() >= 1 && axes_.rows() <= 3,
+          "axes of task '" + name_ + "' want shape (1 to 3, 3), " + came + " came");
+  require(axes_.allFinite(), "axes of task '" + name_ + "' want finite values");
+}
+
+void PointTask::measure(const Robot& robot) {
+  reference_.measure(robot);
+  measure_point(robot, point_);
+  reference_.express(point_);
+  value_.noalias() = axes_ * point_.position;
+  jacobian_.noalias() = axes_.lazyProduct(point_.jacobian);
+  drift_.noalias() = axes_ * point_.drift;
+}
+
+}  // namespace hurcules

@@ -1,0 +1,36 @@
+// A point of the robot at a target: the common part of PositionTask and CenterOfMassTask.
+//
+//   e = A p_RF - s_des [m] (m),  J = A J_RF (m, n)                       [T 4.3.2]
+// p_RF is the point in the axes of the reference R (the world, or a frame of the robot that may
+// move too), A picks 1 to 3 directions.
+#pragma once
+
+#include "hurcules/tasks/reference.hpp"
+#include "hurcules/tasks/value_task.hpp"
+
+namespace hurcules {
+
+struct PointTaskOptions {
+  std::string reference = "";         // frame in which the point is measured, "" = the world
+  Matrix axes = Matrix3::Identity();  // A (m, 3), m = 1 to 3: rows in the axes of the reference
+};
+
+class PointTask : public ValueTask {
+ public:
+  // p_RF [m] at the last update, all three components
+  [[nodiscard]] const Vector3& position() const { return point_.position; }
+
+ protected:
+  PointTask(std::string name, const Robot& robot, PointTaskOptions options);
+  // the point in W
+  virtual void measure_point(const Robot& robot, PointMotion& point) = 0;
+
+ private:
+  void measure(const Robot& robot) final;
+
+  Matrix axes_;
+  Reference reference_;
+  PointMotion point_;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,11 @@
+#include "hurcules/tasks/position_task.hpp"
+
+namespace hurcules {
+
+PositionTask::PositionTask(std::string name, const Robot& robot, const std::string& frame,
+                           PositionTaskOptions options)
+    : PointTask(std::move(name), robot, std::move(options)), frame_(robot.frame(frame)) {
+  PositionTask::hold(robot);
+}
+
+}  // namespace hurcules

@@ -1,0 +1,27 @@
+// The origin of a frame at a target position: hand, pelvis, or one hand relative to the other.
+//
+//   s = A p_RF(q) [m], J = A J_RF                                        [T §4.3.2], its g_lhpos,
+//   g_pel
+// Values, axes and reference: point_task.hpp. No singularity of its own.
+#pragma once
+
+#include "hurcules/tasks/point_task.hpp"
+
+namespace hurcules {
+
+using PositionTaskOptions = PointTaskOptions;
+
+class PositionTask : public PointTask {
+ public:
+  PositionTask(std::string name, const Robot& robot, const std::string& frame,
+               PositionTaskOptions options = {});
+
+ private:
+  void measure_point(const Robot& robot, PointMotion& point) override {
+    point.measure(robot, frame_);
+  }
+
+  Frame frame_;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,25 @@
+// Coordinates at chosen positions.
+//
+//   e = q_selected - q_des [rad] or [m] (m),  J = rows of the identity (m, n)    [T 4.3.2]
+// Linear: exact everywhere, without drift.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/tasks/value_task.hpp"
+
+namespace hurcules {
+
+class PostureTask : public ValueTask {
+ public:
+  // coordinates by name, in this order; none = all of the robot
+  PostureTask(std::string name, const Robot& robot,
+              const std::vector<std::string>& coordinates = {});
+
+ private:
+  void measure(const Robot& robot) override;
+
+  std::vector<Index> selected_;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,55 @@
+// How points and frames move, seen from the world or from a frame of the robot.
+//
+// The Jacobians belong to the coordinates, the drift is the part of the acceleration that remains
+// when the coordinates do not accelerate.
+#pragma once
+
+#include <optional>
+
+#include "hurcules/robot/robot.hpp"
+
+namespace hurcules {
+
+// A point or a direction (then without unit).
+struct PointMotion {
+  explicit PointMotion(const Robot& robot) : jacobian(Matrix::Zero(3, robot.size())) {}
+  void measure(const Robot& robot, Frame frame);  // the origin of a frame, in W
+  void measure_com(const Robot& robot);           // the centre of mass, in W
+  void rest_at(const Vector3& point);             // a point fixed in W
+
+  Vector3 position = Vector3::Zero();  // [m]
+  Vector3 velocity = Vector3::Zero();  // [m/s]
+  Vector3 drift = Vector3::Zero();     // [m/s^2]
+  Matrix jacobian;                     // [m/rad], (3, n)
+};
+
+struct RotationMotion {
+  explicit RotationMotion(const Robot& robot) : jacobian(Matrix::Zero(3, robot.size())) {}
+  void measure(const Robot& robot, Frame frame);
+  // the direction R * axis of an axis that is fixed in the frame
+  void direction(const Vector3& axis, PointMotion& result) const;
+
+  Matrix3 orientation = Matrix3::Identity();  // R
+  Vector3 velocity = Vector3::Zero();         // [rad/s]
+  Vector3 drift = Vector3::Zero();            // [rad/s^2]
+  Matrix jacobian;                            // (3, n)
+};
+
+// The frame in which motions are expressed. Measure it, then express what was measured in W.
+class Reference {
+ public:
+  // "" is the world
+  Reference(const Robot& robot, const std::string& name);
+  Reference(const Robot& robot, Frame frame);
+
+  void measure(const Robot& robot);
+  void express(PointMotion& point) const;
+  void express(RotationMotion& rotation) const;
+
+ private:
+  std::optional<Frame> frame_;
+  PointMotion origin_;
+  RotationMotion rotation_;
+};
+
+}  // namespace hurcules

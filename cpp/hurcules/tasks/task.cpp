@@ -1,0 +1,62 @@
+#include "hurcules/tasks/task.hpp"
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+Task::Task(std::string name, Index rows, Index coordinates)
+    : name_(std::move(name)),
+      error_(Vector::Zero(rows)),
+      drift_(Vector::Zero(rows)),
+      velocity_des_(Vector::Zero(rows)),
+      lower_(Vector::Zero(rows)),
+      upper_(Vector::Zero(rows)),
+      jacobian_(Matrix::Zero(rows, coordinates)),
+      identity_{0, coordinates} {}
+
+Task::Task(std::string name, Index rows, const Robot& robot)
+    : Task(std::move(name), rows, robot.size()) {
+  identity_ = robot.identity();
+}
+
+void Task::save(StateWriter& writer) const {
+  writer.put(velocity_des_);
+  writer.put(lower_);
+  writer.put(upper_);
+}
+
+void Task::restore(StateReader& reader) {
+  reader.get(velocity_des_);
+  reader.get(lower_);
+  reader.get(upper_);
+}
+
+void Task::set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper) {
+  if (lower.size() != rows() || upper.size() != rows())
+    throw Error("interval of task '" + name_ + "' wants " + std::to_string(rows()) + " values, " +
+                std::to_string(lower.size()) + " and " + std::to_string(upper.size()) + " came");
+  for (Index row = 0; row < rows(); ++row)
+    if (!(lower[row] <= upper[row]))  // also for a number that is none
+      throw Error("interval of task '" + name_ + "', row " + std::to_string(row) +
+                  ": lower <= upper is wanted, " + std::to_string(lower[row]) + " and " +
+                  std::to_string(upper[row]) + " came");
+  lower_ = lower;
+  upper_ = upper;
+}
+
+void Task::require_robot(const Robot& robot) const {
+  if (robot.identity() != identity_)
+    throw Error("task '" + name_ + "' was made for another robot: " +
+                std::to_string(identity_.coordinates) + " coordinates are wanted, " +
+                std::to_string(robot.size()) + " came, or the models differ");
+}
+
+void Task::require_rows(const ConstVectorRef& values, const char* what) const {
+  if (values.size() != rows())
+    throw Error(std::string(what) + " of task '" + name_ + "' wants " + std::to_string(rows()) +
+                " values, " + std::to_string(values.size()) + " came");
+  if (!values.allFinite())
+    throw Error(std::string(what) + " of task '" + name_ + "' wants finite values");
+}
+
+}  // namespace hurcules

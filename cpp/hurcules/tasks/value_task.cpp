@@ -1,0 +1,50 @@
+#include "hurcules/tasks/value_task.hpp"
+
+#include "hurcules/base/pose.hpp"
+
+namespace hurcules {
+
+ValueTask::ValueTask(std::string name, Index rows, const Robot& robot, bool wraps)
+    : Task(std::move(name), rows, robot),
+      value_(Vector::Zero(rows)),
+      target_(Vector::Zero(rows)),
+      wraps_(wraps) {}
+
+void ValueTask::update(const Robot& robot) {
+  require_robot(robot);
+  measure(robot);
+  error_ = value_ - target_;
+  for (Index row = 0; wraps_ && row < rows(); ++row) error_[row] = wrap_angle(error_[row]);
+}
+
+void ValueTask::hold(const Robot& robot) {
+  require_robot(robot);
+  measure(robot);
+  target_ = value_;
+  error_.setZero();
+  velocity_des_.setZero();
+}
+
+void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
+  require_rows(velocity, "velocity");
+  velocity_des_ = velocity;
+  target_ += velocity * dt;
+}
+
+void ValueTask::set_target(const ConstVectorRef& target) {
+  require_rows(target, "target");
+  target_ = target;
+  velocity_des_.setZero();
+}
+
+void ValueTask::save(StateWriter& writer) const {
+  Task::save(writer);
+  writer.put(target_);
+}
+
+void ValueTask::restore(StateReader& reader) {
+  Task::restore(reader);
+  reader.get(target_);
+}
+
+}  // namespace hurcules

@@ -1,0 +1,37 @@
+// A task whose value is a list of numbers: the common part of all but gaze, orientation and limits.
+//
+//   e = s - s_des (m), angles wrapped to [-pi, pi];  hold: s_des = s;  advance: s_des += velocity
+//   dt
+#pragma once
+
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+class ValueTask : public Task {
+ public:
+  void update(const Robot& robot) override;
+  void hold(const Robot& robot) override;
+  void advance(const ConstVectorRef& velocity, double dt) override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+
+  [[nodiscard]] const Vector& value() const { return value_; }    // s (m), at the last update
+  [[nodiscard]] const Vector& target() const { return target_; }  // s_des (m)
+  // at rest; seen at the next update
+  void set_target(const ConstVectorRef& target);
+
+ protected:
+  // The last line of a constructor of a derived class is hold(robot).
+  ValueTask(std::string name, Index rows, const Robot& robot, bool wraps = false);
+
+  // sets value_, jacobian_ and drift_
+  virtual void measure(const Robot& robot) = 0;
+
+  Vector value_, target_;
+
+ private:
+  bool wraps_;
+};
+
+}  // namespace hurcules

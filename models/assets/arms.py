@@ -1,0 +1,215 @@
+"""Meshes of the arms; all symmetric in y, so that left and right share them.
+
+Metres, in the frame of the link that shows the mesh.
+"""
+
+import numpy as np
+
+from solids import box, lathe, loft, mirror, panel, plate, shell
+
+
+def shoulder_can():
+    """Pitch drive between torso and shoulder."""
+    return lathe(
+        [(0.080, -0.022), (0.086, -0.014), (0.086, 0.004), (0.074, 0.010), (0.074, 0.05)], 28
+    )
+
+
+def pauldron():
+    """Shoulder armour around the roll drive."""
+    return shell(
+        [
+            (-0.132, 0.118, 0.118, 0),
+            (-0.105, 0.148, 0.146, 0),
+            (0.02, 0.165, 0.156, 0),
+            (0.062, 0.150, 0.144, 0),
+            (0.088, 0.10, 0.10, 0),
+        ],
+        0.038,
+    )
+
+
+def upper_arm():
+    """Bevelled sleeve and the two elbow cheeks."""
+    part = shell(
+        [
+            (-0.225, 0.092, 0.094, 0),
+            (-0.195, 0.122, 0.122, 0),
+            (-0.06, 0.136, 0.134, 0),
+            (-0.012, 0.128, 0.126, 0),
+            (0.006, 0.105, 0.105, 0),
+        ],
+        0.034,
+    )
+    cheek = [
+        (-0.046, -0.30),
+        (-0.02, -0.328),
+        (0.02, -0.328),
+        (0.046, -0.30),
+        (0.055, -0.20),
+        (-0.055, -0.20),
+    ]
+    return part + mirror(plate(cheek, 0.046, 0.066, 0.005))
+
+
+def elbow():
+    """Elbow drive on the joint axis, between the cheeks."""
+    part = lathe([(0.044, -0.045), (0.050, -0.040), (0.050, 0.040), (0.044, 0.045)], 24)
+    return part + lathe([(0.022, -0.074), (0.026, -0.070), (0.026, 0.070), (0.022, 0.074)], 16)
+
+
+def scoop_root():
+    """Root of the rescue lower arm with the two spring housings of the compliant elbow."""
+    part = shell(
+        [
+            (-0.20, 0.036, 0.112, -0.004),
+            (-0.16, 0.055, 0.116, 0),
+            (-0.07, 0.080, 0.090, 0),
+            (-0.015, 0.080, 0.086, 0),
+            (0.02, 0.06, 0.08, 0),
+        ],
+        0.018,
+    )
+    return part + mirror(
+        lathe(
+            [(0.012, -0.165), (0.016, -0.16), (0.016, -0.075), (0.012, -0.07)],
+            14,
+            (0.036, 0.03, 0),
+            "z",
+        )
+    )
+
+
+def blade_ring(z, half, bottom, floor, lip):
+    """Cross-section of the scoop: flat below, raised lips at both sides."""
+    w = 0.014
+    return [
+        (bottom, -half + 0.008, z),
+        (bottom, half - 0.008, z),
+        (bottom + 0.006, half, z),
+        (lip, half, z),
+        (lip, half - w / 2, z),
+        (floor, half - 2 * w, z),
+        (floor, -half + 2 * w, z),
+        (lip, -half + w / 2, z),
+        (lip, -half, z),
+        (bottom + 0.006, -half, z),
+    ][::-1]
+
+
+def scoop_blade():
+    """Carrying blade, to 0.58 m from the elbow."""
+    rows = [
+        (-0.58, 0.060, -0.018, 0.002, 0.018),
+        (-0.16, 0.060, -0.018, 0.004, 0.018),
+        (-0.14, 0.058, -0.016, 0.006, 0.016),
+    ]
+    return loft([blade_ring(*r) for r in rows])
+
+
+def scoop_tip():
+    """Tip of the blade, thinning to a rounded edge 0.70 m from the elbow."""
+    rows = [
+        (-0.70, 0.036, -0.018, -0.0145, -0.0125),
+        (-0.69, 0.048, -0.018, -0.012, -0.010),
+        (-0.64, 0.058, -0.018, -0.007, 0.004),
+        (-0.58, 0.060, -0.018, 0.002, 0.018),
+    ]
+    return loft([blade_ring(*r) for r in rows])
+
+
+def scoop_grip():
+    """Rubber strips on the carrying face."""
+    return [
+        f
+        for z in np.arange(-0.56, -0.20, 0.045)
+        for f in box((0.006, 0.062, 0.018), (0.004, 0, z), 0.002)
+    ]
+
+
+def forearm():
+    """Sleeve of the manipulation forearm."""
+    return shell(
+        [
+            (-0.178, 0.084, 0.084, 0),
+            (-0.15, 0.106, 0.106, 0),
+            (-0.06, 0.116, 0.114, 0),
+            (-0.02, 0.09, 0.088, 0),
+            (0.02, 0.06, 0.08, 0),
+        ],
+        0.028,
+    )
+
+
+def wrist_roll():
+    """Roll drive with two rings."""
+    return lathe(
+        [
+            (0.040, -0.105),
+            (0.047, -0.10),
+            (0.047, -0.075),
+            (0.042, -0.07),
+            (0.042, -0.035),
+            (0.049, -0.03),
+            (0.049, -0.006),
+            (0.042, 0.0),
+        ],
+        24,
+        axis="z",
+    ) + mirror(plate([(-0.03, -0.15), (0.03, -0.15), (0.034, -0.09), (-0.034, -0.09)], 0.036, 0.05))
+
+
+def wrist_pitch():
+    """Pitch drive and the flange of the hand."""
+    return lathe([(0.030, -0.036), (0.034, -0.032), (0.034, 0.032), (0.030, 0.036)], 20) + lathe(
+        [(0.040, -0.062), (0.044, -0.056), (0.044, -0.04), (0.030, -0.02)], 24, axis="z"
+    )
+
+
+def palm():
+    """Gripper body with the cross guide of the fingers."""
+    part = shell(
+        [
+            (-0.078, 0.085, 0.118, 0),
+            (-0.062, 0.10, 0.13, 0),
+            (-0.03, 0.10, 0.12, 0),
+            (-0.004, 0.085, 0.085, 0),
+        ],
+        0.022,
+    )
+    return part + box((0.05, 0.20, 0.02), (0, 0, -0.078), 0.004)
+
+
+def finger():
+    """Left finger (closing towards -y): carriage and blade."""
+    part = box((0.044, 0.03, 0.034), (0, 0.012, -0.008), 0.005)
+    return part + panel(
+        [
+            (-0.012, -0.012),
+            (0.028, -0.012),
+            (0.020, -0.07),
+            (0.006, -0.112),
+            (-0.002, -0.112),
+            (-0.002, -0.03),
+        ],
+        -0.018,
+        0.018,
+        0.003,
+    )
+
+
+PARTS = (
+    shoulder_can,
+    pauldron,
+    upper_arm,
+    elbow,
+    scoop_root,
+    scoop_blade,
+    scoop_tip,
+    scoop_grip,
+    forearm,
+    wrist_roll,
+    wrist_pitch,
+    palm,
+    finger,
+)

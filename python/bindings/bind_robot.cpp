@@ -1,0 +1,181 @@
+// robot: any MJCF robot as the controller sees it. In Python a frame is named, never numbered.
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstdint>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/robot/robot.hpp"
+
+namespace py = pybind11;
+using namespace hurcules;
+
+namespace {
+
+constexpr const char* kRobot =
+    R"(Any MJCF robot as the controller sees it: coordinates, frames, Jacobians.
+
+The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
+names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
+joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
+It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
+A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
+
+Args:
+  model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
+
+Raises:
+  Error: the file cannot be read, or the tuples name no proper coordinates.
+)";
+constexpr const char* kCoordinate = "What the controller moves: one joint, or several together.";
+constexpr const char* kDrivenJoint =
+    "One joint of a coordinate: its position = factor * coordinate.";
+constexpr const char* kCoordinates = "list of Coordinate, n of them";
+constexpr const char* kLower = "[rad] or [m], -inf when unlimited";
+constexpr const char* kUpper = "[rad] or [m], inf when unlimited";
+constexpr const char* kMaxVelocity =
+    "[rad/s] or [m/s], from the numeric velocity_limit_JOINT, else inf";
+constexpr const char* kMaxEffort = "[N m] or [N], sum over its actuators, inf without force ranges";
+constexpr const char* kSetQpos = "Sets the whole qpos (nq,), base and loose bodies too.";
+constexpr const char* kSetConfiguration =
+    "Sets the coordinates q (n,) [rad] or [m]; all else stays as it is.";
+constexpr const char* kSetVelocity = "Sets the velocity (n,) [rad/s] or [m/s]; only drifts use it.";
+constexpr const char* kSetKeyframe =
+    "Takes the posture of a keyframe, or the model's initial one for ''.";
+constexpr const char* kCoordinatesOf = "Coordinates (n,) out of a whole qpos (nq,).";
+constexpr const char* kPosition = "p_WF (3,) [m]: origin of the frame in W.";
+constexpr const char* kOrientation =
+    "R_WF (3, 3); for a camera as MuJoCo has it: it looks along its -z.";
+constexpr const char* kViewOrientation =
+    "R_WF (3, 3) with x along the line of sight of a camera and z up; else like orientation.";
+constexpr const char* kPositionJacobian =
+    "(3, n) [m/rad]: velocity of the frame's origin in W by the coordinates.";
+constexpr const char* kRotationJacobian =
+    "(3, n): angular velocity of the frame in W by the coordinates.";
+constexpr const char* kPositionDrift =
+    "(3,) [m/s^2]: Jdot v, acceleration of the origin when the coordinates do not accelerate.";
+constexpr const char* kRotationDrift =
+    "(3,) [rad/s^2]: Jdot v, angular acceleration when the coordinates do not accelerate.";
+constexpr const char* kCom = "(3,) [m]: centre of mass in W of the tree of the first coordinate.";
+constexpr const char* kComJacobian = "(3, n) [m/rad]: velocity of the centre of mass in W.";
+constexpr const char* kComDrift = "(3,) [m/s^2]: Jdot v of the centre of mass.";
+constexpr const char* kMassMatrix =
+    "(n, n) [kg m^2]: joint-space inertia of the coordinates with armature, base held.";
+
+using FrameJacobian = void (Robot::*)(Frame, MatrixRef) const;
+
+template <FrameJacobian jacobian>
+Matrix frame_jacobian(const Robot& robot, const std::string& frame) {
+  Matrix J(3, robot.size());
+  (robot.*jacobian)(robot.frame(frame), J);
+  return J;
+}
+
+// a function of a frame, asked by the frame's name
+template <typename Result>
+auto by_name(Result (Robot::*question)(Frame) const) {
+  return [question](const Robot& robot, const std::string& frame) {
+    return (robot.*question)(robot.frame(frame));
+  };
+}
+
+std::unique_ptr<Robot> robot_of_object(const py::object& model) {
+  if (!py::hasattr(model, "_address"))
+    throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
+                std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
+  const auto address = model.attr("_address").cast<std::uintptr_t>();
+  return std::make_unique<Robot>(borrow_model(reinterpret_cast<const mjModel_*>(address)));
+}
+
+std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model) {
+  return std::make_unique<Robot>(load_model(model.string()));
+}
+
+void bind_coordinate(py::module_& module) {
+  py::class_<DrivenJoint>(module, "DrivenJoint", kDrivenJoint)
+      .def_readonly("joint", &DrivenJoint::joint, "joint id of the model")
+      .def_readonly("qpos", &DrivenJoint::qpos, "address in qpos")
+      .def_readonly("dof", &DrivenJoint::dof, "address in qvel")
+      .def_readonly("actuator", &DrivenJoint::actuator, "actuator id, -1 for none")
+      .def_readonly("factor", &DrivenJoint::factor);
+  py::class_<Coordinate>(module, "Coordinate", kCoordinate)
+      .def_readonly("name", &Coordinate::name)
+      .def_readonly("joints", &Coordinate::joints, "list of DrivenJoint; the first one is read")
+      .def_readonly("lower", &Coordinate::lower, kLower)
+      .def_readonly("upper", &Coordinate::upper, kUpper)
+      .def_readonly("max_velocity", &Coordinate::max_velocity, kMaxVelocity)
+      .def_readonly("max_effort", &Coordinate::max_effort, kMaxEffort)
+      .def("__repr__", [](const Coordinate& self) { return "Coordinate('" + self.name + "')"; });
+}
+
+void bind_state(py::class_<Robot>& robot) {
+  const auto copy = py::return_value_policy::copy;
+  robot.def_property_readonly("size", &Robot::size, "n")
+      .def_property_readonly("coordinates", &Robot::coordinates, copy, kCoordinates)
+      .def_property_readonly("coordinate_names", &Robot::coordinate_names)
+      .def("coordinate", &Robot::coordinate, py::arg("name"), "Index of a coordinate.")
+      .def("set_qpos", &Robot::set_qpos, py::arg("qpos"), kSetQpos)
+      .def("set_configuration", &Robot::set_configuration, py::arg("q"), kSetConfiguration)
+      .def("set_velocity", &Robot::set_velocity, py::arg("velocity"), kSetVelocity)
+      .def("set_keyframe", &Robot::set_keyframe, py::arg("name"), kSetKeyframe)
+      .def_property_readonly("configuration", &Robot::configuration, copy, "q (n,) [rad] or [m]")
+      .def_property_readonly("velocity", &Robot::velocity, copy, "(n,) [rad/s] or [m/s]")
+      .def_property_readonly("qpos", &Robot::qpos, copy, "(nq,)")
+      .def(
+          "coordinates_of",
+          [](const Robot& self, const ConstVectorRef& qpos) {
+            Vector q(self.size());
+            self.coordinates_of(qpos, q);
+            return q;
+          },
+          py::arg("qpos"), kCoordinatesOf);
+}
+
+void bind_kinematics(py::class_<Robot>& robot) {
+  const py::arg frame("frame");
+  robot.def("position", by_name(&Robot::position), frame, kPosition)
+      .def("orientation", by_name(&Robot::orientation), frame, kOrientation)
+      .def("view_orientation", by_name(&Robot::view_orientation), frame, kViewOrientation)
+      .def("position_jacobian", &frame_jacobian<&Robot::position_jacobian>, frame,
+           kPositionJacobian)
+      .def("rotation_jacobian", &frame_jacobian<&Robot::rotation_jacobian>, frame,
+           kRotationJacobian)
+      .def("position_drift", by_name(&Robot::position_drift), frame, kPositionDrift)
+      .def("rotation_drift", by_name(&Robot::rotation_drift), frame, kRotationDrift)
+      .def_property_readonly("com", &Robot::com, kCom)
+      .def("com_drift", &Robot::com_drift, kComDrift)
+      .def(
+          "com_jacobian",
+          [](const Robot& self) {
+            Matrix J(3, self.size());
+            self.com_jacobian(J);
+            return J;
+          },
+          kComJacobian)
+      .def(
+          "mass_matrix",
+          [](const Robot& self) {
+            Matrix M(self.size(), self.size());
+            self.mass_matrix(M);
+            return M;
+          },
+          kMassMatrix);
+}
+
+}  // namespace
+
+void bind_robot(py::module_& module);
+
+void bind_robot(py::module_& module) {
+  bind_coordinate(module);
+  py::class_<Robot> robot(module, "Robot", kRobot);
+  robot.def(py::init(&robot_of_path), py::arg("model"))
+      .def(py::init(&robot_of_object), py::arg("model"), py::keep_alive<1, 2>())
+      .def("__repr__", [](const Robot& self) {
+        return "Robot(" + std::to_string(self.size()) + " coordinates)";
+      });
+  bind_state(robot);
+  bind_kinematics(robot);
+}

@@ -1,0 +1,249 @@
+// tasks: what the controller shall achieve. Options of the C++ tasks are keyword arguments here.
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/tasks/angle_task.hpp"
+#include "hurcules/tasks/center_of_mass_task.hpp"
+#include "hurcules/tasks/gaze_task.hpp"
+#include "hurcules/tasks/joint_limits.hpp"
+#include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/position_task.hpp"
+#include "hurcules/tasks/posture_task.hpp"
+#include "hurcules/tasks/swivel_task.hpp"
+
+namespace py = pybind11;
+using namespace hurcules;
+using Name = std::string;
+
+namespace {
+
+constexpr const char* kTask = R"(What a task is: it measures, a controller decides.
+
+Error e (m,) with de/dt = J qdot - velocity_des, and the wish lower <= e <= upper (a point: both 0).
+A new task holds the robot's present value. Arrays are copies, as of the last update.
+)";
+constexpr const char* kUpdate = "Measures at the robot's present configuration.";
+constexpr const char* kHold = "Makes the present value the target, at rest, and updates.";
+constexpr const char* kAdvance =
+    R"(Moves the target and feeds the velocity forward until the next advance or hold.
+
+Args:
+  velocity: (m,) unit of the task per second.
+  dt: [s]. The target moves by velocity * dt; the error follows at the next update.
+)";
+constexpr const char* kSetInterval =
+    "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
+constexpr const char* kState = "What must be kept between ticks, as a flat list; see restore.";
+constexpr const char* kRestore = "Goes on from what state() gave.";
+constexpr const char* kNoOrder =
+    "tasks are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
+constexpr const char* kValueTask =
+    "A task whose value is a list of numbers: e = value - target, angles the short way round.";
+constexpr const char* kSetTarget = "Sets the target (m,), at rest; seen at the next update.";
+constexpr const char* kJointLimits =
+    R"(Ranges and speed limits of all coordinates; e = q (n,), J = 1.
+
+Args:
+  name: shown in plots and messages.
+  robot: Robot, whose limits it starts with.
+)";
+constexpr const char* kSetRange =
+    "Narrows the range of one coordinate [rad] or [m]; never wider than the robot's.";
+constexpr const char* kSetMaxVelocity = "Speed limit of one coordinate [rad/s] or [m/s], above 0.";
+constexpr const char* kPostureTask = R"(Coordinates at chosen positions [rad] or [m] (m,).
+
+Args:
+  name, robot: see JointLimits.
+  coordinates: their names, in this order; none means all.
+)";
+constexpr const char* kPositionTask = R"(The origin of a frame at a target position [m] (m,).
+
+Args:
+  name, robot: see JointLimits.
+  frame: name of a site, body, camera or geom.
+  reference: frame in whose axes the position is measured, '' for the world.
+  axes: (m, 3), m = 1 to 3 directions in the axes of the reference.
+)";
+constexpr const char* kCenterOfMassTask =
+    R"(The centre of mass of the whole tree at a target [m] (m,).
+
+Args:
+  name, robot, reference, axes: see PositionTask.
+)";
+constexpr const char* kOrientationTask = R"(The orientation of a frame at a target orientation.
+
+e = log(R R_des^T) [rad] (3,) in the axes of the reference; advance takes an angular velocity
+[rad/s] (3,) in these axes.
+
+Args:
+  name, robot, frame, reference: see PositionTask.
+)";
+constexpr const char* kAngleTask = R"(One angle [rad] (1,) of an axis that is fixed in a frame.
+
+Args:
+  name, robot, frame, reference: see PositionTask.
+  kind: AngleKind.Elevation over the x-y plane, or AngleKind.Heading about z, of the reference.
+  axis: (3,) in the frame.
+)";
+constexpr const char* kSwivelTask =
+    R"(The turn [rad] (1,) of an arm's plane about the line from shoulder to wrist.
+
+Zero where the elbow lies on the side of `direction`; fades where the arm is straight.
+
+Args:
+  name, robot: see JointLimits.
+  shoulder, elbow, wrist, torso: names of frames; the torso carries the shoulder.
+  direction: (3,) in the axes of the torso.
+)";
+constexpr const char* kGazeTask =
+    R"(The camera looks at a point of the world; e = (yaw, pitch) [rad] (2,).
+
+A positive error: the camera looks to the left of, above the target. advance moves the target
+around the camera, [rad/s] (2,) to the left and upward.
+
+Args:
+  name, robot: see JointLimits.
+  frame: a camera, or any other frame, which then looks along its x axis.
+)";
+
+std::vector<double> state(const Task& task) {
+  std::vector<double> values;
+  StateWriter writer(values);
+  task.save(writer);
+  return values;
+}
+
+void restore(Task& task, const std::vector<double>& values) {
+  StateReader reader(values);
+  task.restore(reader);
+}
+
+void bind_task(py::module_& module) {
+  const auto copy = py::return_value_policy::copy;
+  py::class_<Task>(module, "Task", kTask)
+      .def("update", &Task::update, py::arg("robot"), kUpdate)
+      .def("hold", &Task::hold, py::arg("robot"), kHold)
+      .def("advance", &Task::advance, py::arg("velocity"), py::arg("dt"), kAdvance)
+      .def("set_interval", &Task::set_interval, py::arg("lower"), py::arg("upper"), kSetInterval)
+      .def("state", &state, kState)
+      .def("restore", &restore, py::arg("state"), kRestore)
+      .def_property_readonly("name", &Task::name)
+      .def_property_readonly("rows", &Task::rows, "m")
+      .def_property_readonly("error", &Task::error, copy, "e (m,)")
+      .def_property_readonly("jacobian", &Task::jacobian, copy, "J (m, n)")
+      .def_property_readonly("drift", &Task::drift, copy, "(m,): Jdot qdot")
+      .def_property_readonly("velocity_des", &Task::velocity_des, copy, "(m,)")
+      .def_property_readonly("lower", &Task::lower, copy, "(m,), of the error")
+      .def_property_readonly("upper", &Task::upper, copy, "(m,), of the error")
+      .def_property_readonly("bounds_coordinates", &Task::bounds_coordinates)
+      .def("__lt__", [](const Task&, const py::object&) -> bool { throw py::type_error(kNoOrder); })
+      .def("__gt__", [](const Task&, const py::object&) -> bool { throw py::type_error(kNoOrder); })
+      .def("__repr__", [](const Task& self) {
+        return "Task('" + self.name() + "', rows=" + std::to_string(self.rows()) + ")";
+      });
+  py::class_<ValueTask, Task>(module, "ValueTask", kValueTask)
+      .def_property_readonly("value", &ValueTask::value, copy, "s (m,), at the last update")
+      .def_property_readonly("target", &ValueTask::target, copy, "s_des (m,)")
+      .def("set_target", &ValueTask::set_target, py::arg("target"), kSetTarget);
+}
+
+void bind_coordinate_tasks(py::module_& module) {
+  const auto copy = py::return_value_policy::copy;
+  const py::arg name("name"), robot("robot"), coordinate("coordinate");
+  py::class_<JointLimits, Task>(module, "JointLimits", kJointLimits)
+      .def(py::init<Name, const Robot&>(), name, robot)
+      .def("set_range", &JointLimits::set_range, coordinate, py::arg("lower"), py::arg("upper"),
+           kSetRange)
+      .def("reset_ranges", &JointLimits::reset_ranges, "The ranges of the robot again.")
+      .def_property_readonly("max_velocity", &JointLimits::max_velocity, copy, "(n,) [rad/s]")
+      .def("set_max_velocity", &JointLimits::set_max_velocity, coordinate, py::arg("limit"),
+           kSetMaxVelocity);
+  py::class_<PostureTask, ValueTask>(module, "PostureTask", kPostureTask)
+      .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
+           py::arg("coordinates") = std::vector<Name>{});
+}
+
+void bind_point_tasks(py::module_& module) {
+  const PointTaskOptions defaults;
+  const py::arg name("name"), robot("robot");
+  const auto reference = py::arg("reference") = defaults.reference;
+  const auto axes = py::arg("axes") = defaults.axes;
+  const auto position = [](Name n, const Robot& r, const Name& frame, Name ref, Matrix rows) {
+    return std::make_unique<PositionTask>(std::move(n), r, frame,
+                                          PositionTaskOptions{std::move(ref), std::move(rows)});
+  };
+  const auto com = [](Name n, const Robot& r, Name ref, Matrix rows) {
+    return std::make_unique<CenterOfMassTask>(
+        std::move(n), r, CenterOfMassTaskOptions{std::move(ref), std::move(rows)});
+  };
+  const auto copy = py::return_value_policy::copy;
+  py::class_<PointTask, ValueTask>(module, "PointTask", "A point of the robot at a target.")
+      .def_property_readonly("position", &PointTask::position, copy, "p_RF (3,) [m]");
+  py::class_<PositionTask, PointTask>(module, "PositionTask", kPositionTask)
+      .def(py::init(position), name, robot, py::arg("frame"), reference, axes);
+  py::class_<CenterOfMassTask, PointTask>(module, "CenterOfMassTask", kCenterOfMassTask)
+      .def(py::init(com), name, robot, reference, axes);
+}
+
+void bind_rotation_tasks(py::module_& module) {
+  const AngleTaskOptions defaults;
+  const auto copy = py::return_value_policy::copy;
+  const py::arg name("name"), robot("robot"), frame("frame");
+  const auto reference = py::arg("reference") = defaults.reference;
+  const auto orientation = [](Name n, const Robot& r, const Name& f, Name ref) {
+    return std::make_unique<OrientationTask>(std::move(n), r, f,
+                                             OrientationTaskOptions{std::move(ref)});
+  };
+  const auto angle = [](Name n, const Robot& r, const Name& f, AngleKind kind, const Vector3& axis,
+                        Name ref) {
+    return std::make_unique<AngleTask>(std::move(n), r, f,
+                                       AngleTaskOptions{kind, axis, std::move(ref)});
+  };
+  py::class_<OrientationTask, Task>(module, "OrientationTask", kOrientationTask)
+      .def(py::init(orientation), name, robot, frame, reference)
+      .def_property_readonly("orientation", &OrientationTask::orientation, copy, "R_RF (3, 3)")
+      .def_property_readonly("target", &OrientationTask::target, copy, "R_des (3, 3)")
+      .def("set_target", &OrientationTask::set_target, py::arg("target"),
+           "Sets the target, a rotation (3, 3), at rest; seen at the next update.");
+  py::enum_<AngleKind>(module, "AngleKind", "Which angle an AngleTask measures.")
+      .value("Elevation", AngleKind::Elevation)
+      .value("Heading", AngleKind::Heading);
+  py::class_<AngleTask, ValueTask>(module, "AngleTask", kAngleTask)
+      .def(py::init(angle), name, robot, frame, py::arg("kind") = defaults.kind,
+           py::arg("axis") = defaults.axis, reference);
+}
+
+void bind_arm_and_head_tasks(py::module_& module) {
+  const auto copy = py::return_value_policy::copy;
+  const py::arg name("name"), robot("robot");
+  const auto swivel = [](Name n, const Robot& r, Name shoulder, Name elbow, Name wrist, Name torso,
+                         const Vector3& direction) {
+    return std::make_unique<SwivelTask>(
+        std::move(n), r,
+        SwivelTaskOptions{std::move(shoulder), std::move(elbow), std::move(wrist), std::move(torso),
+                          direction});
+  };
+  py::class_<SwivelTask, ValueTask>(module, "SwivelTask", kSwivelTask)
+      .def(py::init(swivel), name, robot, py::kw_only(), py::arg("shoulder"), py::arg("elbow"),
+           py::arg("wrist"), py::arg("torso"),
+           py::arg("direction") = SwivelTaskOptions{}.direction);
+  py::class_<GazeTask, Task>(module, "GazeTask", kGazeTask)
+      .def(py::init<Name, const Robot&, const Name&>(), name, robot, py::arg("frame"))
+      .def_property_readonly("target", &GazeTask::target, copy, "p_WT (3,) [m]")
+      .def("set_target", &GazeTask::set_target, py::arg("target"),
+           "Sets the target (3,) [m] in W, at rest; seen at the next update.");
+}
+
+}  // namespace
+
+void bind_tasks(py::module_& module);
+
+void bind_tasks(py::module_& module) {
+  bind_task(module);
+  bind_coordinate_tasks(module);
+  bind_point_tasks(module);
+  bind_rotation_tasks(module);
+  bind_arm_and_head_tasks(module);
+}

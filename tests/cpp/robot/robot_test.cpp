@@ -1,0 +1,266 @@
+// Strategy: Jacobians, drifts and poses of every kind of frame against central differences at
+// seeded random configurations; hand-computed values on the pendulum; wrong input as an Error. Not
+// tested: MuJoCo's kinematics themselves.
+#include "hurcules/robot/robot.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "hurcules/base/pose.hpp"
+#include "support/expect.hpp"
+#include "support/no_allocation.hpp"
+#include "support/random_motion.hpp"
+#include "support/tiny_models.hpp"
+
+namespace {
+
+using namespace hurcules;
+using namespace hurcules_test;
+
+constexpr double kStep = 1e-5;  // a central difference is exact to about its square
+
+struct Case {
+  const char* model;
+  const char* frame;
+};
+
+class RobotFrame : public testing::TestWithParam<Case> {
+ protected:
+  Robot robot_{load_model_text(GetParam().model)};
+  Frame frame_ = robot_.frame(GetParam().frame);
+
+  Matrix position_jacobian() {
+    Matrix J(3, robot_.size());
+    robot_.position_jacobian(frame_, J);
+    return J;
+  }
+  Matrix rotation_jacobian() {
+    Matrix J(3, robot_.size());
+    robot_.rotation_jacobian(frame_, J);
+    return J;
+  }
+};
+
+TEST_P(RobotFrame, JacobiansEqualDifferencesOfThePose) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    RandomMotion(seed).move(robot_);
+    const Vector q = robot_.configuration();
+    const Matrix Jp = position_jacobian(), Jr = rotation_jacobian();
+    Matrix linear(3, robot_.size()), angular(3, robot_.size());
+    for (Index i = 0; i < robot_.size(); ++i) {
+      robot_.set_configuration(q + kStep * Vector::Unit(robot_.size(), i));
+      const Vector3 p = robot_.position(frame_);
+      const Matrix3 R = robot_.orientation(frame_);
+      robot_.set_configuration(q - kStep * Vector::Unit(robot_.size(), i));
+      linear.col(i) = (p - robot_.position(frame_)) / (2 * kStep);
+      angular.col(i) = rotation_log(R * robot_.orientation(frame_).transpose()) / (2 * kStep);
+    }
+    EXPECT_TRUE(near(Jp, linear, 1e-9)) << "seed " << seed;
+    EXPECT_TRUE(near(Jr, angular, 1e-9)) << "seed " << seed;
+  }
+}
+
+TEST_P(RobotFrame, DriftsEqualDifferencesOfTheVelocity) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    RandomMotion random(seed);
+    random.move(robot_);
+    const Vector q = robot_.configuration(), v = random.vector(robot_.size(), 1.0);
+    robot_.set_velocity(v);
+    const Vector3 linear = robot_.position_drift(frame_), angular = robot_.rotation_drift(frame_);
+    robot_.set_configuration(q + kStep * v);
+    const Vector3 linear_after = position_jacobian() * v, angular_after = rotation_jacobian() * v;
+    robot_.set_configuration(q - kStep * v);
+    EXPECT_TRUE(near(linear, (linear_after - position_jacobian() * v) / (2 * kStep), 1e-7));
+    EXPECT_TRUE(near(angular, (angular_after - rotation_jacobian() * v) / (2 * kStep), 1e-7));
+  }
+}
+
+TEST_P(RobotFrame, DriftsDoNotCareWhetherVelocityOrConfigurationCameFirst) {
+  RandomMotion random(1);
+  const Vector q = random.configuration(robot_), v = random.vector(robot_.size(), 1.0);
+  robot_.set_configuration(q);
+  robot_.set_velocity(v);
+  const Vector3 linear = robot_.position_drift(frame_), angular = robot_.rotation_drift(frame_);
+  robot_.set_configuration(Vector::Zero(robot_.size()));
+  robot_.set_velocity(v);
+  robot_.set_configuration(q);
+  EXPECT_EQ(robot_.position_drift(frame_), linear);
+  EXPECT_EQ(robot_.rotation_drift(frame_), angular);
+}
+
+TEST_P(RobotFrame, QuestionsAllocateNothing) {
+  const Vector v = Vector::Ones(robot_.size()), q = 0.1 * v, qpos = robot_.qpos();
+  Matrix J(3, robot_.size()), M(robot_.size(), robot_.size());
+  Vector out(robot_.size());
+  double sum = 0;
+  const NoAllocation guard;
+  robot_.set_qpos(qpos);
+  robot_.set_velocity(v);
+  robot_.set_configuration(q);
+  robot_.coordinates_of(qpos, out);
+  robot_.position_jacobian(frame_, J);
+  robot_.rotation_jacobian(frame_, J);
+  robot_.com_jacobian(J);
+  robot_.mass_matrix(M);
+  sum += robot_.position(frame_).x() + robot_.orientation(frame_)(0) + robot_.com().x();
+  sum += robot_.position_drift(frame_).x() + robot_.rotation_drift(frame_).x();
+  sum += robot_.com_drift().x() + robot_.view_orientation(frame_)(0);
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryKind, RobotFrame,
+                         testing::Values(Case{kArm, "tip"}, Case{kArm, "hand"}, Case{kArm, "eye"},
+                                         Case{kArm, "forearm"}, Case{kArm, "goal"},
+                                         Case{kTwin, "hand_l"}, Case{kTwin, "head"},
+                                         Case{kTwin, "eye"}, Case{kTwin, "toe_r"},
+                                         Case{kTwin, "base_site"}, Case{kTwin, "ball"}),
+                         [](const auto& test) {
+                           return std::string(test.param.model == kArm ? "Arm_" : "Twin_") +
+                                  test.param.frame;
+                         });
+
+TEST(Robot, PendulumStandsWhereAHandComputesIt) {
+  Robot robot(load_model_text(kPendulum));
+  robot.set_configuration(Eigen::Vector2d(0.7, 0.3));
+  const Frame ball = robot.frame("ball");
+  const Vector3 p(0.7 - 0.5 * std::sin(0.3), 0, -0.5 * std::cos(0.3));
+  EXPECT_TRUE(near(robot.position(ball), p, 1e-14));
+  Matrix J(3, 2), wanted(3, 2);
+  robot.position_jacobian(ball, J);
+  wanted << 1, -0.5 * std::cos(0.3), 0, 0, 0, 0.5 * std::sin(0.3);
+  EXPECT_TRUE(near(J, wanted, 1e-14));
+  // three parts cart, one part ball
+  EXPECT_TRUE(near(robot.com(), 0.75 * Vector3(0.7, 0, 0) + 0.25 * p, 1e-14));
+}
+
+TEST(Robot, MassMatrixIsThatOfCartAndBall) {
+  Robot robot(load_model_text(kPendulum));
+  robot.set_configuration(Eigen::Vector2d(0.0, 0.3));
+  Matrix M(2, 2), wanted(2, 2);
+  robot.mass_matrix(M);
+  const double coupling = -0.5 * std::cos(0.3), ball = 0.4 * 0.1 * 0.1 + 0.25;
+  wanted << 4, coupling, coupling, ball;
+  EXPECT_TRUE(near(M, wanted, 1e-13));
+}
+
+TEST(Robot, CoupledMassMatrixGivesTheEnergyOfBothLegs) {
+  Robot robot(load_model_text(kTwin));
+  RandomMotion(3).move(robot);
+  Matrix M(13, 13);
+  robot.mass_matrix(M);
+  EXPECT_TRUE(near(M, M.transpose(), 1e-12));
+  // each leg: 3 kg at 0.2 m and a ball of 0.05 m; factors 1 and -2
+  const double leg = 3 * 0.2 * 0.2 + 0.4 * 3 * 0.05 * 0.05;
+  EXPECT_NEAR(M(1, 1), leg * (1 + 4), tolerance(1e-12));
+}
+
+TEST(Robot, CenterOfMassJacobianAndDriftEqualDifferences) {
+  Robot robot(load_model_text(kTwin));
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    RandomMotion random(seed);
+    random.move(robot);
+    const Vector q = robot.configuration(), v = random.vector(13, 1.0);
+    robot.set_velocity(v);
+    Matrix J(3, 13), Jh(3, 13), difference(3, 13);
+    robot.com_jacobian(J);
+    const Vector3 drift = robot.com_drift();
+    for (Index i = 0; i < 13; ++i) {
+      robot.set_configuration(q + kStep * Vector::Unit(13, i));
+      const Vector3 ahead = robot.com();
+      robot.set_configuration(q - kStep * Vector::Unit(13, i));
+      difference.col(i) = (ahead - robot.com()) / (2 * kStep);
+    }
+    EXPECT_TRUE(near(J, difference, 1e-9)) << "seed " << seed;
+    robot.set_configuration(q + kStep * v);
+    robot.com_jacobian(Jh);
+    const Vector3 ahead = Jh * v;
+    robot.set_configuration(q - kStep * v);
+    robot.com_jacobian(Jh);
+    EXPECT_TRUE(near(drift, (ahead - Jh * v) / (2 * kStep), 1e-8)) << "seed " << seed;
+  }
+}
+
+TEST(Robot, LooseBodiesDoNotBelongToTheCenterOfMass) {
+  Robot robot(load_model_text(kTwin));
+  const Vector3 before = robot.com();
+  Vector qpos = robot.qpos();
+  qpos[0] += 5;  // the ball
+  robot.set_qpos(qpos);
+  EXPECT_TRUE(near(robot.com(), before, 1e-14));
+}
+
+TEST(Robot, BaseGoesWhereQposPutsIt) {
+  Robot robot(load_model_text(kTwin));
+  Vector qpos = robot.qpos();
+  const double half = std::sqrt(0.5);
+  qpos.segment(7, 7) << 3, 4, 5, half, 0, 0, half;  // a quarter turn to the left
+  robot.set_qpos(qpos);
+  EXPECT_TRUE(near(robot.position(robot.frame("base")), Vector3(3, 4, 5), 1e-14));
+  EXPECT_TRUE(near(robot.position(robot.frame("gaze")), Vector3(3, 4.1, 6), 1e-14));
+  // and stays there when only the coordinates move
+  robot.set_configuration(Vector::Zero(13));
+  EXPECT_TRUE(near(robot.position(robot.frame("base")), Vector3(3, 4, 5), 1e-14));
+}
+
+TEST(Robot, CameraViewHasXAlongTheLineOfSight) {
+  Robot robot(load_model_text(kTwin));
+  EXPECT_TRUE(near(robot.view_orientation(robot.frame("eye")), Matrix3::Identity(), 1e-14));
+  EXPECT_TRUE(near(robot.orientation(robot.frame("eye")).col(2), -Vector3::UnitX(), 1e-14));
+}
+
+TEST(Robot, KeyframeSetsTheWholePosture) {
+  Robot robot(load_model_text(kArm));
+  robot.set_keyframe("home");
+  EXPECT_DOUBLE_EQ(robot.configuration()[3], 1.2);
+  robot.set_keyframe("");
+  EXPECT_DOUBLE_EQ(robot.configuration()[3], 0.0);
+}
+
+TEST(Robot, UnknownNamesAreAnsweredWithTheNamesThatExist) {
+  Robot robot(load_model_text(kArm));
+  EXPECT_EQ(error_text([&] { robot.set_keyframe("hmoe"); }),
+            "keyframe 'hmoe' does not exist; there are: home, straight");
+  EXPECT_EQ(error_text([&] { (void)robot.coordinate("j8"); }),
+            "coordinate 'j8' does not exist; there are: j1, j2, j3, j4, j5, j6, j7");
+  const std::string text = error_text([&] { (void)robot.frame("hnad"); });
+  EXPECT_TRUE(contains(text, "frame 'hnad' does not exist; there are: goal, tip, world")) << text;
+  EXPECT_TRUE(contains(text, "eye, forearm")) << text;
+}
+
+TEST(Robot, WrongSizesAndNumbersThatAreNoneAreErrors) {
+  Robot robot(load_model_text(kArm));
+  EXPECT_EQ(error_text([&] { robot.set_configuration(Vector::Zero(6)); }),
+            "set_configuration wants 7 values, 6 came");
+  Vector bad = Vector::Zero(7);
+  bad[2] = std::nan("");
+  EXPECT_EQ(error_text([&] { robot.set_configuration(bad); }),
+            "set_configuration: value 2 is not finite");
+  EXPECT_EQ(error_text([&] { robot.set_qpos(bad); }), "set_qpos: value 2 is not finite");
+  bad[2] = HUGE_VAL;
+  EXPECT_EQ(error_text([&] { robot.set_velocity(bad); }), "set_velocity: value 2 is not finite");
+  // nothing changed
+  EXPECT_TRUE(near(robot.configuration(), Vector::Zero(7), 0));
+}
+
+TEST(Robot, OfOneNameTheSiteComesFirst) {
+  const Robot robot(
+      load_model_text("<mujoco><worldbody><body name='hand' pos='1 0 0'>"
+                      "<site name='hand' pos='0 2 0'/></body></worldbody></mujoco>"));
+  EXPECT_TRUE(near(robot.position(robot.frame("hand")), Vector3(1, 2, 0), 0));
+}
+
+TEST(Robot, AFollowingCameraIsNoFrame) {
+  const Robot robot(
+      load_model_text("<mujoco><worldbody><camera name='c' mode='targetbody' "
+                      "target='b'/><body name='b'/></worldbody></mujoco>"));
+  EXPECT_TRUE(contains(error_text([&] { (void)robot.frame("c"); }), "follows something"));
+}
+
+TEST(Robot, CopiesOfAModelHaveOneIdentity) {
+  const Robot a(load_model_text(kArm)), b(load_model_text(kArm)), other(load_model_text(kTwin));
+  EXPECT_EQ(a.identity(), b.identity());
+  EXPECT_NE(a.identity(), other.identity());
+}
+
+}  // namespace
