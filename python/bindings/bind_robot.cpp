@@ -38,6 +38,15 @@ constexpr const char* kUpper = "[rad] or [m], inf when unlimited";
 constexpr const char* kMaxVelocity =
     "[rad/s] or [m/s], from the numeric velocity_limit_JOINT, else inf";
 constexpr const char* kMaxEffort = "[N m] or [N], sum over its actuators, inf without force ranges";
+constexpr const char* kStandOn =
+    R"(The body that stays where it is when the coordinates move; by default the root of its tree.
+
+A robot with folding legs stands on those that lie on the ground: its root, and all above, then
+moves with the knees, and Jacobians, drifts and inertia count that.
+
+Raises:
+  Error: no such body, a body of another tree, or a tree without a free joint.
+)";
 constexpr const char* kSetQpos = "Sets the whole qpos (nq,), base and loose bodies too.";
 constexpr const char* kSetConfiguration =
     "Sets the coordinates q (n,) [rad] or [m]; all else stays as it is.";
@@ -119,6 +128,7 @@ void bind_state(py::class_<Robot>& robot) {
       .def("set_qpos", &Robot::set_qpos, py::arg("qpos"), kSetQpos)
       .def("set_configuration", &Robot::set_configuration, py::arg("q"), kSetConfiguration)
       .def("set_velocity", &Robot::set_velocity, py::arg("velocity"), kSetVelocity)
+      .def("stand_on", &Robot::stand_on, py::arg("body"), kStandOn)
       .def("set_keyframe", &Robot::set_keyframe, py::arg("name"), kSetKeyframe)
       .def_property_readonly("configuration", &Robot::configuration, copy, "q (n,) [rad] or [m]")
       .def_property_readonly("velocity", &Robot::velocity, copy, "(n,) [rad/s] or [m/s]")

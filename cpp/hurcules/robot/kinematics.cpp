@@ -78,14 +78,14 @@ Vector3 Robot::position_drift(Frame frame) const {
   if (!moving_) return Vector3::Zero();
   const Placement at = placement(*model_, *data_, frame);
   mj_jacDot(model_.get(), data_.get(), full_.data(), nullptr, at.position, at.body);
-  return drift(full_);
+  return drift(full_) - support_drift(vector(at.position), at.body);
 }
 
 Vector3 Robot::rotation_drift(Frame frame) const {
   if (!moving_) return Vector3::Zero();
   const Placement at = placement(*model_, *data_, frame);
   mj_jacDot(model_.get(), data_.get(), nullptr, full_.data(), at.position, at.body);
-  return drift(full_);
+  return drift(full_) - support_rotation_drift(at.body);
 }
 
 Vector3 Robot::com() const {
@@ -106,19 +106,25 @@ Vector3 Robot::com_drift() const {
     mj_jacDot(&m, data_.get(), full_.data(), nullptr, data_->xipos + 3 * body, body);
     force += m.body_mass[body] * drift(full_);
   }
-  return force / m.body_subtreemass[tree_];
+  return force / m.body_subtreemass[tree_] - support_drift(com(), tree_);
 }
 
 void Robot::mass_matrix(MatrixRef M) const {
   assert(M.rows() == size() && M.cols() == size());
   mj_crb(model_.get(), data_.get());
   mj_fullM(model_.get(), data_.get(), inertia_.data());
-  for (Index i = 0; i < size(); ++i) {
-    for (Index k = 0; k < size(); ++k) {
+  // M = S' inertia S, S the motion of all joints by coordinate
+  for (Index k = 0; k < size(); ++k) {
+    momentum_.setZero();
+    for (const DrivenJoint& joint : coordinates_[k].joints)
+      momentum_ += joint.factor * inertia_.col(joint.dof);
+    if (support_ >= 0)
+      for (Index r = 0; r < 6; ++r) momentum_ += root_motion_(r, k) * inertia_.col(root_dof_ + r);
+    for (Index i = 0; i < size(); ++i) {
       M(i, k) = 0;
-      for (const DrivenJoint& a : coordinates_[i].joints)
-        for (const DrivenJoint& b : coordinates_[k].joints)
-          M(i, k) += a.factor * b.factor * inertia_(a.dof, b.dof);
+      for (const DrivenJoint& joint : coordinates_[i].joints)
+        M(i, k) += joint.factor * momentum_[joint.dof];
+      if (support_ >= 0) M(i, k) += root_motion_.col(i).dot(momentum_.segment<6>(root_dof_));
     }
   }
 }
@@ -129,6 +135,8 @@ void Robot::reduce(const Matrix& full, MatrixRef J) const {
     J.col(i).setZero();
     for (const DrivenJoint& joint : coordinates_[i].joints)
       J.col(i) += joint.factor * full.col(joint.dof);
+    if (support_ < 0) continue;
+    for (Index r = 0; r < 6; ++r) J.col(i) += root_motion_(r, i) * full.col(root_dof_ + r);
   }
 }
 

@@ -55,7 +55,9 @@ Robot::Robot(ModelPtr model) : model_(std::move(model)), data_(nullptr, mj_delet
   q_ = Vector::Zero(size());
   v_ = Vector::Zero(size());
   full_ = Matrix::Zero(3, m.nv);
+  turn_ = Matrix::Zero(3, m.nv);
   inertia_ = Matrix::Zero(m.nv, m.nv);
+  momentum_ = Vector::Zero(m.nv);
   if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
   set_keyframe("");
 }
@@ -96,6 +98,7 @@ void Robot::set_qpos(const ConstVectorRef& qpos) {
   require_values(qpos, model_->nq, "set_qpos");
   qpos_ = qpos;
   update();
+  note_support();
 }
 
 void Robot::set_configuration(const ConstVectorRef& q) {
@@ -103,6 +106,7 @@ void Robot::set_configuration(const ConstVectorRef& q) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
   update();
+  keep_support();
 }
 
 void Robot::set_velocity(const ConstVectorRef& velocity) {
@@ -112,6 +116,7 @@ void Robot::set_velocity(const ConstVectorRef& velocity) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       data_->qvel[joint.dof] = joint.factor * v_[i];
+  note_root_speed();
   if (moving_) mj_comVel(model_.get(), data_.get());
 }
 
@@ -121,6 +126,7 @@ void Robot::set_keyframe(const std::string& name) {
   if (key < 0 && !name.empty()) throw Error(unknown_name("keyframe", name, names(m, {mjOBJ_KEY})));
   qpos_ = Eigen::Map<const Vector>(key < 0 ? m.qpos0 : m.key_qpos + key * m.nq, m.nq);
   update();
+  note_support();
 }
 
 void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
@@ -139,6 +145,7 @@ void Robot::update() {
   mj_kinematics(model_.get(), data_.get());
   mj_comPos(model_.get(), data_.get());
   mj_camlight(model_.get(), data_.get());
+  note_root_speed();
   if (moving_) mj_comVel(model_.get(), data_.get());
   coordinates_of(qpos_, q_);
 }

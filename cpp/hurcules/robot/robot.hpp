@@ -79,8 +79,14 @@ class Robot {
   // what a task remembers to notice that it is asked about another robot
   [[nodiscard]] ModelIdentity identity() const;
 
+  // The body that stays where it is when the coordinates move; By default
+  // that is the root of its tree. A robot with folding legs stands on
+  // those that lie on the ground: then its root, and all above, moves with the knees, and Jacobians,
+  // drifts and inertia count that. Throws Error for a body of another tree, or one without free root.
+  void stand_on(const std::string& body);
+
   // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it
-  // is. Each updates every pose and Jacobian.
+  // is but a root that stands on another body. Each updates every pose and Jacobian.
   void set_qpos(const ConstVectorRef& qpos);
   void set_configuration(const ConstVectorRef& q);
   // [rad/s], (n); used by the drift terms only
@@ -107,23 +113,37 @@ class Robot {
   [[nodiscard]] Vector3 com() const;
   void com_jacobian(MatrixRef J) const;
   [[nodiscard]] Vector3 com_drift() const;
-  // joint-space inertia of the coordinates, base held, with armature: (n, n) [kg m^2] (hinges)
+  // inertia of the coordinates with armature, standing as stand_on says: (n, n) [kg m^2] (hinges)
   void mass_matrix(MatrixRef M) const;
 
  private:
   void update();
+  void keep_support();     // moves the root so that the support stands where it stood
+  void note_support();     // where the support stands, and how the root moves with the coordinates
+  void note_root_speed();  // of the velocity
   // (3, nv) of the model -> (3, n) of the coordinates
   void reduce(const Matrix& full, MatrixRef J) const;
   [[nodiscard]] Vector3 drift(const Matrix& jacobian_rate) const;
+  // what a point of a body's tree would accelerate with, fixed to the support, if the root did not
+  [[nodiscard]] Vector3 support_drift(const Vector3& point, int body) const;
+  [[nodiscard]] Vector3 support_rotation_drift(int body) const;
+  [[nodiscard]] bool stands(int body) const;  // its tree stands on something else than the root
 
   ModelPtr model_;
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
   int tree_ = 0;            // body at the root of the tree that holds the first coordinate
+  int support_ = -1;        // body that stands, -1 for the root
+  int root_qpos_ = -1, root_dof_ = -1;       // of its tree's free joint
+  Vector3 p_WS_ = Vector3::Zero();           // [m] where the support stands
+  Matrix3 R_WS_ = Matrix3::Identity();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> root_motion_;  // qvel of the root by coordinate, (6, n)
   bool moving_ = false;     // some coordinate has a velocity: only then is there a drift
   mutable Matrix full_;     // scratch for Jacobians, (3, nv)
+  mutable Matrix turn_;     // the same, for those of the support
   mutable Matrix inertia_;  // scratch for the mass matrix, (nv, nv)
+  mutable Vector momentum_;  // (nv)
 };
 
 }  // namespace hurcules
