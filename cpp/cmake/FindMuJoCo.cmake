@@ -1,28 +1,21 @@
-# mujoco::mujoco out of the installed Python wheel, of exactly the version that pyproject.toml pins.
-file(READ "${PROJECT_SOURCE_DIR}/pyproject.toml" _pyproject)
-string(REGEX MATCH "mujoco==([0-9.]+)" _ "${_pyproject}")
-set(MuJoCo_VERSION "${CMAKE_MATCH_1}")
+# mujoco::mujoco, of exactly the version asked for: under MuJoCo_ROOT, else out of the installed Python wheel.
+set(library libmujoco.so.${MuJoCo_FIND_VERSION})
+hurcules_python_package(mujoco wheel)
 
-find_package(Python 3.11 REQUIRED COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
-execute_process(COMMAND "${Python_EXECUTABLE}" -c
-  "import importlib.util as u, os; s = u.find_spec('mujoco'); print(os.path.dirname(s.origin) if s else '')"
-  OUTPUT_VARIABLE MuJoCo_DIR OUTPUT_STRIP_TRAILING_WHITESPACE)
-set(MuJoCo_LIBRARY "${MuJoCo_DIR}/libmujoco.so.${MuJoCo_VERSION}")
-if(NOT EXISTS "${MuJoCo_LIBRARY}")
-  message(FATAL_ERROR "mujoco ${MuJoCo_VERSION} not found for ${Python_EXECUTABLE} (looked for "
-    "'${MuJoCo_LIBRARY}'): pip install mujoco==${MuJoCo_VERSION}")
-endif()
+# searched anew each time: the wheel of a pip build lies in a folder that is gone afterwards
+find_library(MuJoCo_LIBRARY NAMES ${library} HINTS "${wheel}" ${HURCULES_HINTS} NO_CACHE)
+find_path(MuJoCo_INCLUDE_DIR mujoco/mujoco.h HINTS "${wheel}/include" ${HURCULES_HINTS} PATH_SUFFIXES include NO_CACHE)
 
-if(NOT TARGET mujoco::mujoco)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(MuJoCo
+  REQUIRED_VARS MuJoCo_LIBRARY MuJoCo_INCLUDE_DIR
+  REASON_FAILURE_MESSAGE "${library} is neither under MuJoCo_ROOT nor in a Python package of ${Python_EXECUTABLE}: \
+try pip install mujoco==${MuJoCo_FIND_VERSION}")
+
+if(MuJoCo_FOUND AND NOT TARGET mujoco::mujoco)
   add_library(mujoco::mujoco SHARED IMPORTED)
   set_target_properties(mujoco::mujoco PROPERTIES
     IMPORTED_LOCATION "${MuJoCo_LIBRARY}"
-    IMPORTED_SONAME "libmujoco.so.${MuJoCo_VERSION}"
-    INTERFACE_INCLUDE_DIRECTORIES "${MuJoCo_DIR}/include")
+    IMPORTED_SONAME "${library}"
+    INTERFACE_INCLUDE_DIRECTORIES "${MuJoCo_INCLUDE_DIR}")
 endif()
-
-# Eigen's headers come as a wheel too (cmeel-eigen)
-execute_process(COMMAND "${Python_EXECUTABLE}" -c
-  "import importlib.util as u; s = u.find_spec('cmeel'); print(list(s.submodule_search_locations)[0] + '.prefix' if s else '')"
-  OUTPUT_VARIABLE _cmeel OUTPUT_STRIP_TRAILING_WHITESPACE)
-list(APPEND CMAKE_PREFIX_PATH "${_cmeel}")

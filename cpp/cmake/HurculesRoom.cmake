@@ -13,10 +13,10 @@ function(hurcules_room name)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/hurcules/${name}/*.cpp")
   add_library(hurcules_${name} STATIC ${sources})
   add_library(hurcules::${name} ALIAS hurcules_${name})
+  set_target_properties(hurcules_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(hurcules_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
-  # same bits everywhere: no fused or reordered arithmetic
-  target_compile_options(hurcules_${name} PRIVATE -ffp-contract=off)
+  target_compile_features(hurcules_${name} PUBLIC cxx_std_20)
   hurcules_warnings(hurcules_${name})
   target_link_libraries(hurcules_${name} PUBLIC ${ROOM_LINKS})
 endfunction()

@@ -1,7 +1,7 @@
 """The arrows of the house (house-style, section 1), read from the include and import lines.
 
-Strategy: one function per rule returns the offences it finds in a list of lines; the tests run it over the real files, and
-once over made-up lines to see that it can fail. Not tested: what a room links beyond what cpp/CMakeLists.txt says.
+Strategy: one function per rule returns the offences it finds; the tests run it over the real files,
+and once over made-up lines to see that it can fail. Not tested: links beyond cpp/CMakeLists.txt.
 """
 
 import ast
@@ -96,9 +96,13 @@ def test_the_arrows_have_no_circle() -> None:
 
 def test_cmake_links_no_more_than_the_arrows_allow(root: Path) -> None:
     text = (root / "cpp" / "CMakeLists.txt").read_text(encoding="utf-8")
-    links = {room: set(re.findall(r"hurcules_(\w+)", targets)) for room, targets in LINKS.findall(text)}
+    links = {
+        room: set(re.findall(r"hurcules_(\w+)", targets)) for room, targets in LINKS.findall(text)
+    }
     assert set(links) == set(ARROWS)
-    assert {room: targets - ARROWS[room] for room, targets in links.items()} == {r: set() for r in ARROWS}
+    assert {room: targets - ARROWS[room] for room, targets in links.items()} == {
+        r: set() for r in ARROWS
+    }
 
 
 def test_the_checker_finds_what_is_forbidden() -> None:
@@ -108,18 +112,28 @@ def test_the_checker_finds_what_is_forbidden() -> None:
     assert offences("sim", "a.cpp", ['"python/bindings/module.hpp"'])
     assert offences("sim", "a.hpp", ["<mujoco/mujoco.h>"])
     assert offences("control", "a.cpp", ["<mujoco/mujoco.h>"])
-    assert not offences("sim", "a.cpp", ["<mujoco/mujoco.h>", "<vector>", '"hurcules/base/types.hpp"'])
-    assert INCLUDE.findall('#include "x.hpp"\n  # include <y>\n// #include <z>\n') == ['"x.hpp"', "<y>"]
+    assert not offences(
+        "sim", "a.cpp", ["<mujoco/mujoco.h>", "<vector>", '"hurcules/base/types.hpp"']
+    )
+    assert INCLUDE.findall('#include "x.hpp"\n  # include <y>\n// #include <z>\n') == [
+        '"x.hpp"',
+        "<y>",
+    ]
 
 
 def test_hurcules_does_not_import_hurcules_envs(root: Path) -> None:
     files = sorted((root / "python" / "hurcules").rglob("*.py"))
-    found = {str(file): upward_imports(file.read_text(encoding="utf-8"), "hurcules_envs") for file in files}
+    found = {
+        str(file): upward_imports(file.read_text(encoding="utf-8"), "hurcules_envs")
+        for file in files
+    }
     assert {file: lines for file, lines in found.items() if lines} == {}
 
 
 def test_the_import_checker_finds_what_is_forbidden() -> None:
-    source = "import os\nif os:\n    from a.b import c\ndef f():\n    import a\nclass C:\n    import a.d\n"
+    source = (
+        "import os\nif os:\n  from a.b import c\ndef f():\n  import a\nclass C:\n  import a.d\n"
+    )
     assert upward_imports(source, "a") == [3, 7]
 
 
@@ -129,7 +143,9 @@ def test_every_equation_tag_has_its_letter_in_the_notation(root: Path) -> None:
     letters = {letter for file in files for letter in TAG.findall(file.read_text(encoding="utf-8"))}
     assert "T" in letters, "the pattern of tags finds nothing any more"
     # explained at the start of a line: of a table, a list or a paragraph
-    assert [x for x in sorted(letters) if not re.search(rf"^\W*{x}\b", notation, re.MULTILINE)] == []
+    assert [
+        x for x in sorted(letters) if not re.search(rf"^\W*{x}\b", notation, re.MULTILINE)
+    ] == []
 
 
 def test_tags_are_told_from_units() -> None:

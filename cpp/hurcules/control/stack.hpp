@@ -1,6 +1,8 @@
-// Tasks by priority, written as the thesis writes it:  Stack stack = joint < hpos < hpitch < pel < gaze;
+// Tasks by priority, written as the thesis writes it:  Stack stack = joint < hpos < hpitch < pel <
+// gaze;
 //
-// `a < b`: a comes before b. `a + b`: on one level. The stack points at the tasks; whoever made them keeps them.
+// `a < b`: a comes before b. `a + b`: on one level. The stack points at the tasks; whoever made
+// them keeps them.
 #pragma once
 
 #include <string>

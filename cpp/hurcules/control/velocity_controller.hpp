@@ -1,22 +1,35 @@
-// From a stack to coordinate velocities: the first-order closed-loop inverse kinematics of [T §4.3.1].
+// From a stack to coordinate velocities: the first-order closed-loop inverse kinematics of [T
+// §4.3.1].
 //
 //   y_k = -K g_k + ds_des/dt                       [T 4.3.2]
 //   J qdot <= (s_upper - s) / T                    [T 4.3.9], horizon T as a gain (solver.md §7)
 //   qdot* = lexicographic minimum of the levels    [T 4.3.3]
 //   q*(t + dt) = q*(t) + qdot* dt                  [T 4.3.7]
+//
+// A level made of one task that bounds the coordinates becomes simple bounds, together with the
+// velocity and acceleration limits (rate_interval.hpp). All other levels are rows with the gain K
+// on both sides of their interval.
 #pragma once
 
+#include <vector>
+
+#include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack.hpp"
 #include "hurcules/solver/solver.hpp"
 
 namespace hurcules {
 
+class JointLimits;
+
 struct VelocityControllerOptions {
-  double dt = 1e-3;        // [s] control period
-  double gain = 5.0;       // [1/s] K of [T 4.3.2]
-  double horizon = 0.05;   // [s] T of [T 4.3.9]: a limit is approached no faster than distance / horizon
+  double dt = 1e-3;   // [s] control period
+  double gain = 5.0;  // [1/s] K of [T 4.3.2]
+  double horizon =
+      0.05;  // [s] T of [T 4.3.9]: a limit is approached no faster than distance / horizon
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
-  SolverOptions solver;
+  double return_speed =
+      0.2;  // [rad/s] at which a coordinate found outside its limits is driven back
+  SolverOptions solver = {};
 };
 
 class VelocityController {
@@ -26,18 +39,43 @@ class VelocityController {
   void set_stack(const Stack& stack);
   // measures the tasks at the robot's configuration, builds the levels, solves: qdot* (n) [rad/s]
   const Vector& compute(const Robot& robot);
-  // the three parts of compute, for those who time them
-  void measure(const Robot& robot);      // tasks -> hierarchy
-  const Vector& solve();                 // hierarchy -> qdot*
+  // the two parts of compute, for those who time them
+  void measure(const Robot& robot);  // tasks -> hierarchy
+  const Vector& solve();             // hierarchy -> qdot*
+  // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
+  void integrate(VectorRef q) const;  // [T 4.3.7]
 
-  [[nodiscard]] const Stack& stack() const;
-  [[nodiscard]] const Hierarchy& hierarchy() const;
-  [[nodiscard]] const Solution& solution() const;
-  [[nodiscard]] const Vector& velocity() const;  // the last qdot*
-  [[nodiscard]] const VelocityControllerOptions& options() const;
+  [[nodiscard]] const Stack& stack() const { return stack_; }
+  [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
+  [[nodiscard]] const Solution& solution() const { return solver_.solution(); }
+  [[nodiscard]] const Vector& velocity() const { return velocity_; }  // the last qdot*
+  [[nodiscard]] const VelocityControllerOptions& options() const { return options_; }
+  // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
+  [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
+  // the coordinate limits of the stack, null when it has none
+  [[nodiscard]] const Task* limits() const { return bounds_task_; }
   void reset();  // at rest, cold
+  // goes on at the velocity of another controller of the same robot, cold
+  void take_over(const VelocityController& previous);
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
+
+ private:
+  void fill_bounds(const Task& limits, Level& level);
+  void fill_rows(const StackLevel& source, Level& level) const;
+  void find_active_limits();
+
+  VelocityControllerOptions options_;
+  std::vector<RateLimits> rate_limits_;  // (n)
+  Stack stack_;
+  Hierarchy hierarchy_;
+  Solver solver_;
+  Vector velocity_;
+  const Task* bounds_task_ = nullptr;          // null when the stack has none
+  const JointLimits* joint_limits_ = nullptr;  // the same, when it is this kind of task
+  int bounds_level_ = -1;
+  std::vector<RateInterval> intervals_;  // (n), of the last measure
+  Eigen::VectorXi active_limits_;
 };
 
 }  // namespace hurcules

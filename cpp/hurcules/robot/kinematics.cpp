@@ -62,6 +62,18 @@ Matrix3 Robot::view_orientation(Frame frame) const {
   return view;
 }
 
+Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
+  assert(qvel.size() == model_->nv);
+  const Placement at = placement(*model_, *data_, frame);
+  mj_jac(model_.get(), data_.get(), full_.data(), turn_.data(), at.position, at.body);
+  Twist twist;
+  for (int dof = 0; dof < model_->nv; ++dof) {
+    twist.linear += qvel[dof] * full_.col(dof);
+    twist.angular += qvel[dof] * turn_.col(dof);
+  }
+  return twist;
+}
+
 void Robot::position_jacobian(Frame frame, MatrixRef J) const {
   const Placement at = placement(*model_, *data_, frame);
   mj_jac(model_.get(), data_.get(), full_.data(), nullptr, at.position, at.body);

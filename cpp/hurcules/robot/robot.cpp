@@ -105,6 +105,7 @@ void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
+  lift_root();
   update();
   keep_support();
 }

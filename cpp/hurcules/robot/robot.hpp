@@ -54,6 +54,12 @@ struct Frame {
   int id = 0;
 };
 
+// Velocity of a frame in W.
+struct Twist {
+  Vector3 linear = Vector3::Zero();   // [m/s] of its origin
+  Vector3 angular = Vector3::Zero();  // [rad/s]
+};
+
 // The model in two numbers: equal for every copy of one compiled model.
 struct ModelIdentity {
   unsigned long long signature = 0;  // mjModel.signature
@@ -99,6 +105,8 @@ class Robot {
   // coordinates (n) out of a whole qpos (nq)
   void coordinates_of(const ConstVectorRef& qpos, VectorRef q) const;
 
+  // velocity of a frame for a whole qvel (nv) as sensed, whatever the coordinates do
+  [[nodiscard]] Twist twist(Frame frame, const ConstVectorRef& qvel) const;
   [[nodiscard]] Vector3 position(Frame frame) const;     // p_WF [m]
   [[nodiscard]] Matrix3 orientation(Frame frame) const;  // R_WF; a camera looks along its -z
   // the same, but a camera looks along its x and z is up in its image
@@ -119,6 +127,7 @@ class Robot {
  private:
   void update();
   void keep_support();     // moves the root so that the support stands where it stood
+  void lift_root();        // to the origin: what keep_support finds is then the joints' doing alone
   void note_support();     // where the support stands, and how the root moves with the coordinates
   void note_root_speed();  // of the velocity
   // (3, nv) of the model -> (3, n) of the coordinates

@@ -33,6 +33,11 @@ void Robot::note_support() {
   R_WS_ = orientation(support);
 }
 
+void Robot::lift_root() {
+  if (support_ < 0) return;
+  qpos_.segment<7>(root_qpos_) << 0, 0, 0, 1, 0, 0, 0;
+}
+
 void Robot::keep_support() {
   if (support_ < 0) return;
   const Frame support{mjOBJ_BODY, support_}, root{mjOBJ_BODY, tree_};

@@ -1,0 +1,64 @@
+# make demo: build, run the main mission, show where its results lie.    make test: prove it.
+# Everything lies in .venv and build; both are made on demand and can be deleted at any time.
+PYTHON ?= $(shell .ci/machine python)
+MISSION ?= stretch
+DEMO_ARGS ?=
+WERROR ?= OFF
+ASSERTS ?= OFF
+
+VENV := .venv
+BIN := $(VENV)/bin
+BUILD := build/make
+SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings tests/cpp benchmarks \
+  -name '*.?pp' -o -name CMakeLists.txt -o -name '*.cmake*')
+
+# the names of all sources: newer than the build when one came or went
+$(shell mkdir -p build && find cpp python envs tests/cpp benchmarks -type f -not -name '*.pyc' | sort > build/names.new; \
+  cmp -s build/names.new build/names || mv build/names.new build/names)
+
+.PHONY: demo test ctest pytest sanitize bench setup clean
+
+demo: setup
+	$(BIN)/hurcules run $(MISSION) $(DEMO_ARGS)
+
+# pytest runs the examples too
+test: ctest pytest
+
+ctest: setup
+	$(BIN)/ctest --test-dir $(BUILD) --output-on-failure --parallel $(shell nproc)
+
+pytest: setup
+	$(BIN)/python -m pytest
+
+# the C++ tests again: debug build, asserts, address and undefined-behaviour sanitizers, Eigen's allocation guard
+sanitize: setup
+	PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)" cmake --workflow --preset dev
+
+bench: setup
+	$(BIN)/hurcules bench
+
+setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
+
+# the virtual environment, with what builds and tests
+$(VENV)/ready: pyproject.toml .ci/machine
+	@.ci/machine check $(PYTHON)
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"
+	$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")' \
+	  > $(VENV)/build-requirements.txt
+	$(BIN)/python -m pip install --quiet -r $(VENV)/build-requirements.txt --group dev
+	@touch $@
+
+# one build serves the module, the tests and the benchmarks
+$(BUILD)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready build/names $(SOURCES)
+	@echo "compiling Hurcules; from nothing this takes some minutes"
+	@$(BIN)/python -m pip install --quiet --no-build-isolation --editable . \
+	  --config-settings build-dir=$(BUILD) \
+	  --config-settings cmake.define.HURCULES_TESTS=ON \
+	  --config-settings cmake.define.HURCULES_BENCHMARKS=ON \
+	  --config-settings cmake.define.HURCULES_WERROR=$(WERROR) \
+	  --config-settings cmake.define.HURCULES_ASSERTS=$(ASSERTS)
+	@touch $@
+
+clean:
+	rm -rf $(VENV) build

@@ -1,0 +1,30 @@
+// What the command line asks for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace hurcules_sim {
+
+inline constexpr const char* kHelp =
+    "usage: hurcules-sim MISSION [--seconds S] [--seed N] [--json FILE] [--csv FILE]"
+    " [--model FILE]\n";
+
+struct Arguments {
+  std::string mission;
+  std::optional<double> seconds;  // [s] stop after this time
+  std::uint64_t seed = 0;
+  std::string json, csv;  // files to write, "" for none
+  std::string model;      // scene, "" for the mission's own
+  bool help = false, version = false;
+};
+
+// throws hurcules::Error with one line that says what was wanted and what came
+[[nodiscard]] Arguments parse(int count, const char* const* words);
+
+// path of a file under models/: beside this program, in ../share/hurcules, or where it was built;
+// throws hurcules::Error with the places that were looked at
+[[nodiscard]] std::string find_model(const std::string& file);
+
+}  // namespace hurcules_sim

@@ -1,0 +1,131 @@
+// hurcules-sim: runs a mission without Python, says how it went, and how long each stage took.
+//
+// Ends with 0 when the mission succeeded or was stopped by --seconds, 1 when it failed, 2 for wrong
+// usage, 130 after Ctrl-C; what was recorded until then is saved.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include "arguments.hpp"
+#include "hurcules/base/error.hpp"
+#include "hurcules/sim/simulation.hpp"
+#include "report.hpp"
+
+namespace {
+
+using namespace hurcules_sim;
+
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kInterrupted = 130 };
+
+volatile std::sig_atomic_t interrupted = 0;
+
+double now() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(since).count();
+}
+
+// opened before the run, so that a place that cannot be written is told at once
+std::ofstream open(const std::string& file) {
+  std::ofstream out;
+  if (file.empty()) return out;
+  out.open(file);
+  hurcules::require(out.is_open(), "file '" + file + "' cannot be written");
+  return out;
+}
+
+hurcules::Simulation make_simulation(const Arguments& arguments) {
+  const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
+  const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
+  hurcules::SimulationOptions options;
+  options.seed = arguments.seed;
+  options.record = !arguments.csv.empty();
+  options.clock = now;
+  return {hurcules::load_model(scene), arguments.mission, options};
+}
+
+// in pieces, so that Ctrl-C is heard
+void simulate(hurcules::Simulation& simulation, const Arguments& arguments) {
+  constexpr std::int64_t kPiece = 20;  // ticks
+  std::int64_t left = -1;
+  if (arguments.seconds) left = std::llround(*arguments.seconds / simulation.dt());
+  while (!simulation.finished() && left != 0 && !interrupted) {
+    const std::int64_t piece = left < 0 ? kPiece : std::min(left, kPiece);
+    simulation.step(static_cast<int>(piece));
+    if (left > 0) left -= piece;
+  }
+}
+
+std::string reason(const hurcules::Simulation& simulation) {
+  if (simulation.finished()) return simulation.reason();
+  char time[32];
+  std::snprintf(time, sizeof time, "%.3f s", simulation.time());
+  return interrupted ? std::string("interrupted at ") + time
+                     : std::string("stopped at ") + time + ", as asked";
+}
+
+// true when the file has all that was written to it
+bool close(std::ofstream& out, const std::string& file) {
+  out.close();
+  if (!out) std::cerr << "hurcules-sim: file '" << file << "' could not be written completely\n";
+  return !out.fail();
+}
+
+bool save(const Run& run, std::ofstream& json, std::ofstream& csv) {
+  bool saved = true;
+  if (json.is_open()) {
+    write_json(run, json);
+    saved = close(json, run.arguments.json) && saved;
+  }
+  if (csv.is_open()) {
+    write_csv(run.simulation, csv);
+    saved = close(csv, run.arguments.csv) && saved;
+  }
+  if (interrupted) {
+    std::string files = run.arguments.json;
+    files += (files.empty() || run.arguments.csv.empty() ? "" : ", ") + run.arguments.csv;
+    std::cout << "\ninterrupted; " << (files.empty() ? "no file was asked for" : "saved: " + files)
+              << '\n';
+  }
+  return saved;
+}
+
+int run(const Arguments& arguments) {
+  hurcules::Simulation simulation = make_simulation(arguments);
+  std::ofstream json = open(arguments.json), csv = open(arguments.csv);
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  const double started = now();
+  simulate(simulation, arguments);
+  const Run result{arguments, simulation, now() - started, reason(simulation)};
+  print(result, std::cout);
+  if (!save(result, json, csv)) return kFailed;
+  if (interrupted) return kInterrupted;
+  return simulation.success() || !simulation.finished() ? kDone : kFailed;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  try {
+    const Arguments arguments = parse(count, words);
+    if (arguments.version) {
+      std::cout << "hurcules-sim " << HURCULES_VERSION << '\n';
+      return kDone;
+    }
+    if (arguments.help) {
+      std::cout << kHelp;
+      return kDone;
+    }
+    return run(arguments);
+  } catch (const hurcules::Error& error) {
+    std::cerr << "hurcules-sim: " << error.what() << '\n';
+    return kUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "hurcules-sim: " << error.what() << '\n';
+    return kFailed;
+  }
+}

@@ -1,0 +1,19 @@
+# Eigen and MuJoCo, where pip puts them or where the usual hints point; used by the build and by the installed package.
+# Wants HURCULES_MUJOCO_VERSION; looks in HURCULES_HINTS too.
+find_package(Python 3.11 QUIET COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
+
+# folder of an installed Python package, or "": nothing is imported
+function(hurcules_python_package name folder)
+  set(found "")
+  if(Python_Interpreter_FOUND)
+    execute_process(COMMAND "${Python_EXECUTABLE}" -c
+      "import importlib.util as u; s = u.find_spec('${name}'); print(s.submodule_search_locations[0] if s else '')"
+      OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  endif()
+  set(${folder} "${found}" PARENT_SCOPE)
+endfunction()
+
+hurcules_python_package(cmeel cmeel)
+list(APPEND CMAKE_PREFIX_PATH "${cmeel}.prefix" ${HURCULES_HINTS})
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(MuJoCo ${HURCULES_MUJOCO_VERSION} EXACT REQUIRED)

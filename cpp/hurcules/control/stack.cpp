@@ -1,0 +1,72 @@
+#include "hurcules/control/stack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+void check(const StackLevel& level) {
+  require(!level.tasks.empty(),
+          "a level of a stack wants at least one task; '" + level.name + "' has none");
+  require(level.rho >= 0.0 && std::isfinite(level.rho),
+          "level '" + level.name + "' wants a finite rho >= 0, got " + std::to_string(level.rho));
+  for (const Task* task : level.tasks) {
+    require(task != nullptr, "level '" + level.name + "' holds a task that does not exist (null)");
+  }
+}
+
+void check_each_task_once(const std::vector<StackLevel>& levels) {
+  std::vector<const Task*> seen;
+  for (const StackLevel& level : levels) {
+    for (const Task* task : level.tasks) {
+      require(std::find(seen.begin(), seen.end(), task) == seen.end(),
+              "task '" + task->name() + "' stands twice in one stack");
+      seen.push_back(task);
+    }
+  }
+}
+
+}  // namespace
+
+StackLevel::StackLevel(Task& task) : name(task.name()), tasks{&task} {}
+
+StackLevel::StackLevel(std::string level_name, std::vector<Task*> level_tasks, double level_rho)
+    : name(std::move(level_name)), tasks(std::move(level_tasks)), rho(level_rho) {
+  check(*this);
+}
+
+Stack::Stack(std::vector<StackLevel> levels) : levels_(std::move(levels)) {
+  for (const StackLevel& level : levels_) check(level);
+  check_each_task_once(levels_);
+}
+
+std::string Stack::text() const {
+  std::string text;
+  for (const StackLevel& level : levels_) text += (text.empty() ? "" : " < ") + level.name;
+  return text;
+}
+
+StackLevel operator+(const StackLevel& a, const StackLevel& b) {
+  require(a.rho == b.rho, "levels '" + a.name + "' and '" + b.name +
+                              "' have different rho and cannot be one level");
+  std::vector<Task*> tasks = a.tasks;
+  tasks.insert(tasks.end(), b.tasks.begin(), b.tasks.end());
+  return {a.name + " + " + b.name, std::move(tasks), a.rho};
+}
+
+Stack operator<(const StackLevel& first, const StackLevel& second) {
+  return Stack({first, second});
+}
+
+Stack operator<(const Stack& stack, const StackLevel& next) {
+  std::vector<StackLevel> levels = stack.levels();
+  levels.push_back(next);
+  return Stack(std::move(levels));
+}
+
+}  // namespace hurcules

@@ -1,0 +1,11 @@
+// Every task that a stack can be made of: missions reach the tasks through the controller's room.
+#pragma once
+
+#include "hurcules/tasks/angle_task.hpp"
+#include "hurcules/tasks/center_of_mass_task.hpp"
+#include "hurcules/tasks/gaze_task.hpp"
+#include "hurcules/tasks/joint_limits.hpp"
+#include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/position_task.hpp"
+#include "hurcules/tasks/posture_task.hpp"
+#include "hurcules/tasks/swivel_task.hpp"

@@ -1,0 +1,23 @@
+// One phase of a mission: which stack rules, what happens at its start, who commands, and when it
+// is over.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "hurcules/control/stack.hpp"
+
+namespace hurcules {
+
+struct Phase {
+  std::string name;
+  Stack stack;
+  // once, before its first tick at this time [s]: the robot stands at the reference configuration
+  std::function<void(const Robot& plan, double time)> enter;
+  // each tick of dt [s]: what the operator commands, (k), in [m/s] or [rad/s]; it comes in as zero
+  std::function<void(VectorRef command, double dt)> operate;
+  // each tick, before anything else: true ends the phase; elapsed [s] since its start
+  std::function<bool(double elapsed)> done;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,32 @@
+// What is known about Hurcules in numbers, beside its model: the ranges of its modes and the servo
+// of its joints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/control/tasks.hpp"
+
+namespace hurcules {
+
+// A range of a coordinate in a mode of work: narrower than the hardware's.
+struct ModeRange {
+  std::string coordinate;
+  double lower = 0.0;  // [rad]
+  double upper = 0.0;  // [rad]
+};
+
+// What a joint's servo reckons with (triple_pole in joint_pid.hpp).
+struct ServoRow {
+  std::string joint;       // MJCF joint, or a belt
+  double inertia = 0.0;    // [kg m^2] that it turns, rotor included
+  double bandwidth = 0.0;  // [rad/s]
+};
+
+// Rescue-ready: battery and transfer bed limit hip and knee, the backpack the shoulders [T §4.4].
+[[nodiscard]] const std::vector<ModeRange>& rescue_ready_ranges();
+[[nodiscard]] const std::vector<ServoRow>& rescue_servo();
+
+void set_ranges(JointLimits& limits, const std::vector<ModeRange>& ranges);
+
+}  // namespace hurcules

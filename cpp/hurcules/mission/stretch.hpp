@@ -1,0 +1,41 @@
+// The stretch of the rescue robot [T §4.4]: both lower arms reach forward on one button, all else
+// stays as it was.
+//
+//   joint < hpos (6) < hpitch (2) < pel (1) < gaze (2),   rho = 0.1, K = 5 1/s
+// First the hip meets its limit and the knees take over, then the shoulders meet theirs and the hip
+// is free again: the pelvis gives way by 0.40 m; hands, pitch and gaze keep their references.
+#pragma once
+
+#include "hurcules/control/tasks.hpp"
+#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/stretch_figures.hpp"
+
+namespace hurcules {
+
+class Stretch final : public Mission {
+ public:
+  explicit Stretch(const Robot& plan);
+  [[nodiscard]] static MissionSetup setup_of();
+
+  void note_commanded(const TickReport& report) override;
+  void note_measured(const TickReport& report) override;
+  [[nodiscard]] std::string_view verdict() const override { return story_.verdict(); }
+
+ private:
+  void start(const Robot& plan, const Robot& world) override;
+  void move_targets(const Robot& plan, const ConstVectorRef& command, double dt) override;
+  void save_memory(StateWriter& writer) const override;
+  void restore_memory(StateReader& reader) override;
+  void operate(VectorRef command, double dt) const;
+  [[nodiscard]] StretchErrors errors() const;
+
+  JointLimits joint_;
+  PositionTask left_hand_, right_hand_;
+  AngleTask left_pitch_, right_pitch_;
+  PositionTask pelvis_;
+  GazeTask gaze_;
+  StretchFigures story_;
+  double stretched_ = 0.0;  // [m] forward command given so far, mean of both hands
+};
+
+}  // namespace hurcules

@@ -1,0 +1,37 @@
+// What happened and when, without text until somebody reads it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+
+namespace hurcules {
+
+enum class EventKind { PhaseStarted, LimitMet, LimitReleased };
+
+struct Event {
+  double time = 0.0;  // [s]
+  EventKind kind = EventKind::PhaseStarted;
+  Index what = 0;  // phase or coordinate
+  int side = 0;    // -1 lower, 1 upper limit
+};
+
+class EventList {
+ public:
+  EventList() { events_.reserve(kRoom); }
+  // does not grow in a tick: beyond its room events are counted only
+  void add(const Event& event);
+  void clear();
+  // forgets what happened from this time on [s]
+  void truncate(double time);
+  [[nodiscard]] const std::vector<Event>& events() const { return events_; }
+  [[nodiscard]] std::size_t lost() const { return lost_; }
+
+ private:
+  static constexpr std::size_t kRoom = 4096;
+  std::vector<Event> events_;
+  std::size_t lost_ = 0;
+};
+
+}  // namespace hurcules

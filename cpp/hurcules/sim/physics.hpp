@@ -1,0 +1,55 @@
+// The simulated world: MuJoCo's model and data, the tracks, and a look at whether it still makes
+// sense.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hurcules/base/state.hpp"
+#include "hurcules/robot/robot.hpp"
+#include "hurcules/sim/tracks.hpp"
+
+namespace hurcules {
+
+class Physics {
+ public:
+  // with data of its own, or with somebody else's, who keeps it alive
+  explicit Physics(ModelPtr model, mjData_* borrowed = nullptr);
+
+  // index of the first keyframe whose name contains this text; throws Error with the names that
+  // exist
+  [[nodiscard]] int find_keyframe(const std::string& text) const;
+  // everything at rest in a keyframe, time zero
+  void reset(int keyframe);
+  void step();
+  // false once a position, a velocity or an acceleration was not finite or huge; such a state is
+  // never stepped again
+  [[nodiscard]] bool is_sound() const { return sound_; }
+  // looks again, after somebody else wrote to the data
+  bool check();
+
+  [[nodiscard]] const mjModel_* model() const { return model_.get(); }
+  [[nodiscard]] const ModelPtr& model_ptr() const { return model_; }
+  [[nodiscard]] mjData_* data() { return data_.get(); }
+  [[nodiscard]] const mjData_* data() const { return data_.get(); }
+  [[nodiscard]] const Tracks& tracks() const { return tracks_; }
+  [[nodiscard]] double dt() const;                      // [s]
+  [[nodiscard]] Eigen::Map<Vector> qpos();              // (nq)
+  [[nodiscard]] Eigen::Map<const Vector> qpos() const;  // (nq)
+  [[nodiscard]] Eigen::Map<const Vector> qvel() const;  // (nv)
+
+  // MuJoCo's whole integration state
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  [[nodiscard]] bool looks_sound() const;
+
+  ModelPtr model_;
+  std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
+  Tracks tracks_;
+  bool sound_ = true;
+  mutable Vector state_;  // scratch, mjSTATE_INTEGRATION
+};
+
+}  // namespace hurcules

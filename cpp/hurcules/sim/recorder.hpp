@@ -1,0 +1,44 @@
+// Time series: named numbers that live elsewhere, copied once a tick.
+//
+// A channel is a name and the address of a double; the owner keeps it alive. Memory grows in
+// reserve only, never in a tick.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+
+namespace hurcules {
+
+class Recorder {
+ public:
+  // before the first row
+  void add(std::string channel, const double* source);
+  // PREFIX/NAME for each entry of a vector whose size stays as it is
+  void add(const std::string& prefix, const std::vector<std::string>& names, const Vector& sources);
+
+  // room for so many rows more; outside the tick
+  void reserve(std::size_t rows);
+  // one row of what the sources hold now
+  void record();
+  // forgets the rows from this time on [s]; the first channel is the time
+  void truncate(double time);
+
+  [[nodiscard]] const std::vector<std::string>& channels() const { return channels_; }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] std::size_t columns() const { return channels_.size(); }
+  // one channel over time, (rows)
+  [[nodiscard]] Vector series(std::size_t channel) const;
+  [[nodiscard]] double at(std::size_t row, std::size_t channel) const;
+  // what the sources hold now, (columns)
+  [[nodiscard]] Vector snapshot() const;
+
+ private:
+  std::vector<std::string> channels_;
+  std::vector<const double*> sources_;
+  std::vector<double> values_;  // row by row
+  std::size_t rows_ = 0;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,112 @@
+#include "hurcules/sim/servo.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+const ServoRow& row_of(const std::vector<ServoRow>& table, const std::string& joint) {
+  std::vector<std::string> names;
+  for (const ServoRow& row : table) {
+    if (row.joint == joint) return row;
+    names.push_back(row.joint);
+  }
+  throw Error(unknown_name("servo of joint", joint, names));
+}
+
+std::string joint_name(const mjModel* m, int joint) {
+  const char* const name = mj_id2name(m, mjOBJ_JOINT, joint);
+  return name ? name : "";
+}
+
+// [N m] at the joint, the same both ways
+double max_torque(const mjModel* m, int actuator) {
+  if (!m->actuator_forcelimited[actuator]) return std::numeric_limits<double>::infinity();
+  const mjtNum* const range = m->actuator_forcerange + 2 * actuator;
+  return std::min(-range[0], range[1]) * std::abs(m->actuator_gear[6 * actuator]);
+}
+
+void require_motor(const mjModel* m, int actuator, const std::string& joint) {
+  require(m->actuator_gaintype[actuator] == mjGAIN_FIXED &&
+              m->actuator_biastype[actuator] == mjBIAS_NONE &&
+              m->actuator_gainprm[mjNGAIN * actuator] == 1.0,
+          "the actuator of joint '" + joint + "' wants to be a motor: the servo commands torque");
+}
+
+}  // namespace
+
+Servo::Servo(const Robot& robot, const std::vector<ServoRow>& table, double dt)
+    : pid_(triple_pole({}, dt)) {
+  const mjModel* const m = robot.model().get();
+  std::vector<JointDrive> drives;
+  std::vector<bool> taken(static_cast<std::size_t>(m->nu), false);
+  const auto add = [&](Motor motor, int joint) {
+    names_.push_back(joint_name(m, joint));
+    require_motor(m, motor.actuator, names_.back());
+    motor.qpos = m->jnt_qposadr[joint];
+    motor.dof = m->jnt_dofadr[joint];
+    motor.gear = m->actuator_gear[6 * motor.actuator];
+    motors_.push_back(motor);
+    taken[static_cast<std::size_t>(motor.actuator)] = true;
+    const ServoRow& row = row_of(table, names_.back());
+    drives.push_back({row.inertia, row.bandwidth, max_torque(m, motor.actuator)});
+  };
+  for (Index i = 0; i < robot.size(); ++i) {
+    for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(i)].joints) {
+      if (joint.actuator < 0) continue;
+      add({.actuator = joint.actuator, .coordinate = i, .factor = joint.factor}, joint.joint);
+    }
+  }
+  coordinate_joints_ = motors_.size();
+  for (int a = 0; a < m->nu; ++a) {
+    if (taken[static_cast<std::size_t>(a)] || m->actuator_trntype[a] != mjTRN_JOINT) continue;
+    add({.actuator = a}, m->actuator_trnid[2 * a]);
+  }
+  pid_ = JointPid(triple_pole(drives, dt));
+  error_.position = error_.velocity = place_ = Vector::Zero(pid_.size());
+}
+
+void Servo::act(const Reference& reference, mjData* data) {
+  for (Index i = 0; i < pid_.size(); ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    const bool driven = motor.coordinate >= 0;
+    const double position =
+        driven ? motor.factor * reference.position[motor.coordinate] : place_[i];
+    const double velocity = driven ? motor.factor * reference.velocity[motor.coordinate] : 0.0;
+    error_.position[i] = position - data->qpos[motor.qpos];
+    error_.velocity[i] = velocity - data->qvel[motor.dof];
+  }
+  const Vector& torque = pid_.compute(error_);
+  for (Index i = 0; i < pid_.size(); ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    data->ctrl[motor.actuator] = torque[i] / motor.gear;
+  }
+}
+
+void Servo::reset(const mjData* data) {
+  pid_.reset();
+  error_.position.setZero();
+  error_.velocity.setZero();
+  for (Index i = 0; i < pid_.size(); ++i) {
+    place_[i] = data->qpos[motors_[static_cast<std::size_t>(i)].qpos];
+  }
+}
+
+void Servo::save(StateWriter& writer) const {
+  pid_.save(writer);
+  writer.put(place_);
+}
+
+void Servo::restore(StateReader& reader) {
+  pid_.restore(reader);
+  reader.get(place_);
+}
+
+}  // namespace hurcules

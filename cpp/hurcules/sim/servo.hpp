@@ -1,0 +1,63 @@
+// The joint servos: one robust PID for every joint that the coordinates drive, both knees on their
+// own, and for every other motor, which holds its place: the drives brake.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/control/joint_pid.hpp"
+#include "hurcules/mission/robot_tables.hpp"
+#include "hurcules/robot/robot.hpp"
+
+struct mjData_;
+
+namespace hurcules {
+
+class Servo {
+ public:
+  // throws Error for a motor without a row in the table, or with gains of its own
+  Servo(const Robot& robot, const std::vector<ServoRow>& table, double dt);
+
+  // reads the joints of `data` and writes its ctrl; reference of the coordinates [rad], [rad/s],
+  // (n)
+  struct Reference {
+    const Vector& position;
+    const Vector& velocity;
+  };
+  void act(const Reference& reference, mjData_* data);
+  // at rest and without memory; the motors that no coordinate drives hold where `data` has them
+  void reset(const mjData_* data);
+
+  [[nodiscard]] const std::vector<std::string>& names() const {
+    return names_;
+  }  // of the joints, (m)
+  [[nodiscard]] std::size_t coordinate_joints() const {
+    return coordinate_joints_;
+  }                                                                     // they come first
+  [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
+  [[nodiscard]] const Vector& demand() const {
+    return pid_.demand();
+  }                                                                 // [N m], (m), before saturation
+  [[nodiscard]] const JointError& error() const { return error_; }  // [rad], [rad/s], (m)
+  [[nodiscard]] const JointPid& pid() const { return pid_; }
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct Motor {
+    int actuator = 0;
+    int qpos = 0, dof = 0;  // addresses
+    double gear = 1.0;
+    Index coordinate = -1;  // -1: holds its place
+    double factor = 1.0;    // joint = factor * coordinate
+  };
+
+  std::vector<Motor> motors_;
+  std::vector<std::string> names_;
+  std::size_t coordinate_joints_ = 0;
+  JointPid pid_;
+  JointError error_;
+  Vector place_;  // [rad], (m): what a motor without a coordinate holds
+};
+
+}  // namespace hurcules

@@ -1,0 +1,124 @@
+#include "hurcules/sim/simulation.hpp"
+
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+int Simulation::step(int n, const Vector* command) {
+  require(n >= 0, "step wants a number of ticks >= 0, got " + std::to_string(n));
+  if (command) {
+    const auto channels = static_cast<Index>(mission_->channels().size());
+    require(command->size() == channels && command->allFinite(),
+            "a command wants " + std::to_string(channels) + " finite numbers");
+  }
+  if (options_.record) log_.reserve(static_cast<std::size_t>(n));
+  if (options_.clock) timings_.reserve(static_cast<std::size_t>(n));
+  if (!finished() && !physics_.check()) end(Ending::Diverged, time());
+  int done = 0;
+  for (; done < n && !finished(); ++done) tick(command);
+  observe();
+  return done;
+}
+
+void Simulation::tick(const Vector* command) {
+  StageTimer timer(options_.clock, stage_seconds_);
+  sense();
+  timer.done(Stage::Sense);
+  kinematics();
+  timer.done(Stage::Kinematics);
+  hierarchy(command);
+  timer.done(Stage::Problem);
+  solve();
+  timer.done(Stage::Solve);
+  integrate();
+  servo();
+  timer.done(Stage::Servo);
+  advance_physics();
+  timer.done(Stage::Physics);
+  record();
+  timer.done(Stage::Record);
+  if (options_.clock) timings_.record();
+  judge();
+}
+
+// what the joint encoders and the base say
+void Simulation::sense() {
+  world_.set_qpos(std::as_const(physics_).qpos());
+  sense_coordinates();
+  sense_base();
+}
+
+// the reference configuration, on its support
+void Simulation::kinematics() {
+  if (options_.base == BaseSource::Sensed) plan_.set_qpos(world_.qpos());
+  plan_.set_configuration(telemetry_.q_des);
+}
+
+// targets move by the command, then tasks become levels  [T 4.3.2]
+void Simulation::hierarchy(const Vector* command) {
+  mission_->apply(plan_, command ? *command : mission_->operator_command(dt()), dt());
+  telemetry_.command = mission_->command();
+  controller_->measure(plan_);
+}
+
+// qdot*  [T 4.3.3]
+void Simulation::solve() {
+  telemetry_.qd_des = controller_->solve();
+  note_solution();
+}
+
+// q*  [T 4.3.7]
+void Simulation::integrate() {
+  controller_->integrate(telemetry_.q_des);
+}
+
+// torques  [T A.2.12]
+void Simulation::servo() {
+  servo_.act({telemetry_.q_des, telemetry_.qd_des}, physics_.data());
+  telemetry_.torque = servo_.torque();
+  telemetry_.demand = servo_.demand();
+  telemetry_.joint_error = servo_.error().position;
+}
+
+void Simulation::advance_physics() {
+  physics_.step();
+}
+
+// figures, limits and the row of the log; the tasks are left as measured at the real motion
+void Simulation::record() {
+  limit_watch_.look(telemetry_);
+  const auto joints = static_cast<Index>(servo_.coordinate_joints());
+  const TickReport report = {telemetry_.time, controller_->active_limits(),
+                             telemetry_.joint_error.head(joints).cwiseAbs().maxCoeff(),
+                             limit_watch_.commanded().torque};
+  mission_->note_commanded(report);
+  measure_actual();
+  mission_->note_measured(report);
+  note_events();
+  telemetry_.tick_us = 1e6 * stage_seconds_.head<5>().sum();  // sense to servo
+  if (options_.record) log_.record();
+}
+
+// what the tick means for the run; the clock goes on
+void Simulation::judge() {
+  const double now = telemetry_.time;
+  telemetry_.time = static_cast<double>(++ticks_) * dt();
+  if (!physics_.is_sound()) return end(Ending::Diverged, now);
+  if (controller_->solution().status == SolverStatus::InvalidInput) {
+    return end(Ending::SolverFailed, now);
+  }
+  const double height = world_.position(pelvis_).z() - telemetry_.base_position.z();
+  if (fall_watch_.fell(world_.orientation(support_), height)) {
+    return end(Ending::Fell, now);
+  }
+  if (telemetry_.time >= mission_->setup().max_seconds) return end(Ending::TimeUp, now);
+  const std::size_t phase = mission_->phase();
+  if (!mission_->select_phase(plan_, telemetry_.time)) {
+    return end(mission_->verdict().empty() ? Ending::Completed : Ending::Missed, now);
+  }
+  if (mission_->phase() != phase) enter_phase();
+}
+
+}  // namespace hurcules

@@ -1,0 +1,55 @@
+// Everything that a tick leaves behind for log, observation and figures: plain numbers at fixed
+// addresses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+#include "hurcules/sim/recorder.hpp"
+
+namespace hurcules {
+
+// The names along the vectors below.
+struct TelemetryNames {
+  std::vector<std::string> coordinates;  // (n)
+  std::vector<std::string> joints;       // (m) of the servo
+  std::vector<std::string> levels;       // (p)
+  std::vector<std::string> task_rows;    // (r) "lhpos/0", all tasks of all levels but the limits
+  std::vector<std::string> commands;     // (k)
+};
+
+struct Telemetry {
+  explicit Telemetry(const TelemetryNames& names);
+  // recorders know the addresses of the numbers: they stay
+  Telemetry(const Telemetry&) = delete;
+  Telemetry& operator=(const Telemetry&) = delete;
+  void clear();
+
+  double time = 0.0;                         // [s] since reset
+  double phase = 0.0;                        // number of the phase
+  Vector q, qd;                              // [rad], [rad/s] (n) measured
+  Vector q_des, qd_des;                      // (n) commanded
+  Vector lag;                                // [rad] (n) commanded minus measured
+  Vector limit_lower, limit_upper;           // [rad] (n) of the present mode
+  Vector to_lower, to_upper;                 // [rad] (n) measured distance to them, negative beyond
+  Vector active;                             // (n) -1 0 1: held back by a position limit
+  Vector torque, demand;                     // [N m] (m) applied, and asked for
+  Vector joint_error;                        // [rad] (m)
+  Vector level_error, level_error_measured;  // (p) norms, in the unit of the tasks
+  Vector level_active;                       // (p) rows of any level that this one pushes against
+  Vector task_error, task_error_measured;    // (r)
+  Vector command;                            // [m/s] or [rad/s] (k)
+  Vector base_position, base_rotation;       // [m], rotation vector [rad] (3) of the support in W
+  Vector base_velocity, base_spin;           // [m/s], [rad/s] (3)
+  Vector target_in_base;  // [m] (3) the casualty, seen from the support; zero without one
+  double factorizations = 0.0, changes = 0.0, iterations = 0.0, status = 0.0, optimality = 0.0;
+  double tick_us = 0.0;  // [us] sense to servo; 0 without a clock
+
+  // what the log holds; tick_us only with a clock
+  void add_log_channels(const TelemetryNames& names, bool timed, Recorder& recorder) const;
+  // what a policy sees
+  void add_observation_channels(const TelemetryNames& names, Recorder& recorder) const;
+};
+
+}  // namespace hurcules

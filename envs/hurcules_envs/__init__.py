@@ -1,0 +1,16 @@
+"""Gymnasium environments of Hurcules; importing this package registers them.
+
+`gymnasium.make("hurcules_envs:Hurcules/Stretch-v0")` imports it by itself.
+"""
+
+from gymnasium.envs.registration import register
+
+# id: (entry point as text, so that a spec can be stored; steps of 20 ms)
+_STEPS = {"Hurcules/Stretch-v0": ("hurcules_envs.stretch:StretchEnv", 3000)}
+
+ENVIRONMENTS = tuple(_STEPS)
+
+__all__ = ["ENVIRONMENTS"]
+
+for _id, (_entry_point, _most) in _STEPS.items():
+    register(id=_id, entry_point=_entry_point, max_episode_steps=_most)

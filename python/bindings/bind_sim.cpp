@@ -1,0 +1,245 @@
+// sim: the closed loop of a mission, and one physics step with tracks.
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "bind_sim_docs.hpp"
+#include "hurcules/base/error.hpp"
+#include "hurcules/sim/simulation.hpp"
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+using namespace hurcules;
+using namespace hurcules_bindings;
+
+void bind_sim(py::module_& module);
+
+namespace {
+
+double now() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(since).count();
+}
+
+// the C struct behind an object of the package mujoco
+template <typename Struct>
+Struct* pointer(const py::object& object, const char* wanted) {
+  if (!py::hasattr(object, "_address")) {
+    throw Error(std::string("a ") + wanted + " is wanted, a " +
+                py::str(py::type::of(object).attr("__name__")).cast<std::string>() + " came");
+  }
+  return reinterpret_cast<Struct*>(object.attr("_address").cast<std::uintptr_t>());
+}
+
+struct Scene {
+  const mjModel_* model;
+  mjData_* data;
+};
+
+Scene scene_of(const py::object& model, const py::object& data) {
+  const Scene scene{pointer<const mjModel_>(model, "mujoco.MjModel"),
+                    pointer<mjData_>(data, "mujoco.MjData")};
+  require(pointer<const mjModel_>(data.attr("model"), "mujoco.MjModel") == scene.model,
+          "data wants to be of the model that came with it; it is of another one");
+  return scene;
+}
+
+void step_physics(const py::object& model, const py::object& data, int n) {
+  const Scene scene = scene_of(model, data);
+  require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
+  py::gil_scoped_release release;
+  const Tracks tracks(scene.model);
+  for (int i = 0; i < n; ++i) step(scene.model, scene.data, tracks);
+}
+
+std::unique_ptr<Simulation> make_simulation(const py::object& model, const py::object& data,
+                                            const std::string& mission,
+                                            const SimulationOptions& options) {
+  const Scene scene = scene_of(model, data);
+  return std::make_unique<Simulation>(borrow_model(scene.model), mission, options, scene.data);
+}
+
+// in pieces, so that Ctrl-C is heard
+int step_simulation(Simulation& self, int n, const std::optional<Vector>& command) {
+  constexpr int kPiece = 1000;
+  require(n >= 0, "step wants a number of ticks >= 0, got " + std::to_string(n));
+  int done = 0;
+  do {
+    const int piece = std::min(n - done, kPiece);
+    {
+      py::gil_scoped_release release;
+      done += self.step(piece, command ? &*command : nullptr);
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  } while (done < n && !self.finished());
+  return done;
+}
+
+py::dict series(const Recorder& recorder) {
+  py::dict result;
+  for (std::size_t i = 0; i < recorder.columns(); ++i) {
+    result[py::str(recorder.channels()[i])] = recorder.series(i);
+  }
+  return result;
+}
+
+py::dict excess(const Excess& worst) {
+  return py::dict("position_rad"_a = worst.position, "velocity"_a = worst.velocity,
+                  "torque"_a = worst.torque);
+}
+
+py::dict limit_violation(const Simulation& self) {
+  py::dict result = excess(self.limits().measured());
+  result["commanded"] = excess(self.limits().commanded());
+  return result;
+}
+
+py::dict figures(const Simulation& self) {
+  py::dict result;
+  for (const Figure& figure : self.mission().figures()) result[py::str(figure.name)] = figure.value;
+  return result;
+}
+
+py::dict thesis_figures(const Simulation& self) {
+  py::dict result;
+  for (const Figure& figure : self.mission().figures()) {
+    if (figure.thesis == figure.thesis) result[py::str(figure.name)] = figure.thesis;
+  }
+  return result;
+}
+
+py::dict solver(const Simulation& self) {
+  const Telemetry& now = self.telemetry();
+  return py::dict("status"_a = now.status, "factorizations"_a = now.factorizations,
+                  "changes"_a = now.changes, "optimality"_a = now.optimality);
+}
+
+std::vector<std::pair<double, std::string>> events(const Simulation& self) {
+  std::vector<std::pair<double, std::string>> result;
+  for (const Event& event : self.events().events()) {
+    result.emplace_back(event.time, self.text(event));
+  }
+  return result;
+}
+
+std::vector<std::string> phase_names(const Simulation& self) {
+  std::vector<std::string> names;
+  for (const Phase& phase : self.mission().phases()) names.push_back(phase.name);
+  return names;
+}
+
+std::vector<std::string> command_names(const Simulation& self) {
+  std::vector<std::string> names;
+  for (const Channel& channel : self.mission().channels()) names.push_back(channel.name);
+  return names;
+}
+
+Vector command_scale(const Simulation& self) {
+  const std::vector<Channel>& channels = self.mission().channels();
+  Vector scale(static_cast<Index>(channels.size()));
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    scale[static_cast<Index>(i)] = channels[i].scale;
+  return scale;
+}
+
+Vector state(const Simulation& self) {
+  const std::vector<double> values = self.state();
+  return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
+}
+
+void restore(Simulation& self, const Vector& state) {
+  self.restore(std::vector<double>(state.begin(), state.end()));
+}
+
+void bind_options(py::module_& module) {
+  using Options = SimulationOptions;
+  const Options defaults;
+  py::enum_<BaseSource>(module, "BaseSource", "Where the planner's support stands.")
+      .value("Held", BaseSource::Held, "where it stood at the start")
+      .value("Sensed", BaseSource::Sensed, "where it is now");
+  py::class_<Options>(module, "SimulationOptions", kOptions)
+      .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
+                       bool timed, BaseSource base) {
+             return Options{seed, variation, std::move(method), record, timed ? now : nullptr,
+                            base};
+           }),
+           py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
+           "method"_a = defaults.method, "record"_a = defaults.record,
+           "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base)
+      .def_readwrite("seed", &Options::seed)
+      .def_readwrite("variation", &Options::variation)
+      .def_readwrite("method", &Options::method)
+      .def_readwrite("record", &Options::record)
+      .def_property(
+          "timed", [](const Options& self) { return self.clock != nullptr; },
+          [](Options& self, bool timed) { self.clock = timed ? now : nullptr; })
+      .def_readwrite("base", &Options::base);
+}
+
+void bind_run(py::class_<Simulation>& simulation) {
+  simulation.def("step", &step_simulation, "n"_a = 1, "command"_a = py::none(), kStep)
+      .def("reset", &Simulation::reset, "seed"_a, kReset)
+      .def("state", &state, kState)
+      .def("restore", &restore, "state"_a, kRestore)
+      .def("operator_command", &Simulation::operator_command, kOperatorCommand)
+      .def_property_readonly("dt", &Simulation::dt, "[s]")
+      .def_property_readonly("time", &Simulation::time, "[s] since reset")
+      .def_property_readonly("finished", &Simulation::finished)
+      .def_property_readonly("success", &Simulation::success)
+      .def_property_readonly("reason", &Simulation::reason, kReason)
+      .def_property_readonly(
+          "phase", [](const Simulation& self) { return phase_names(self)[self.mission().phase()]; })
+      .def_property_readonly("phases", &phase_names)
+      .def_property_readonly("command_names", &command_names)
+      .def_property_readonly("command_scale", &command_scale, "(k,) [m/s] or [rad/s]");
+}
+
+void bind_results(py::class_<Simulation>& simulation) {
+  simulation
+      .def(
+          "observation", [](const Simulation& self) { return self.observation().snapshot(); },
+          kObservation)
+      .def_property_readonly("observation_names",
+                             [](const Simulation& self) { return self.observation().channels(); })
+      .def_property_readonly("levels", &Simulation::levels, "decreasing priority")
+      .def(
+          "level_errors",
+          [](const Simulation& self) { return self.telemetry().level_error_measured; },
+          kLevelErrors)
+      .def(
+          "commanded_level_errors",
+          [](const Simulation& self) { return self.telemetry().level_error; }, kCommandedErrors)
+      .def("solver", &solver, kSolver)
+      .def_property_readonly("channels",
+                             [](const Simulation& self) { return self.log().channels(); })
+      .def(
+          "log", [](const Simulation& self) { return series(self.log()); }, kLog)
+      .def(
+          "timings", [](const Simulation& self) { return series(self.timings()); }, kTimings)
+      .def("figures", &figures, kFigures)
+      .def("thesis_figures", &thesis_figures, kThesisFigures)
+      .def("events", &events, kEvents)
+      .def("limit_violation", &limit_violation, kViolation);
+}
+
+}  // namespace
+
+void bind_sim(py::module_& module) {
+  module.def("step", &step_physics, "model"_a, "data"_a, "n"_a = 1, kStepPhysics);
+  module.def("missions", &mission_names, kMissions);
+  module.def(
+      "mission_scene", [](const std::string& mission) { return mission_setup(mission).scene; },
+      "mission"_a, kMissionScene);
+  bind_options(module);
+  py::class_<Simulation> simulation(module, "Simulation", kSimulation);
+  simulation.def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",
+                 "options"_a = SimulationOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
+  bind_run(simulation);
+  bind_results(simulation);
+}

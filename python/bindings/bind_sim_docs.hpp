@@ -1,0 +1,86 @@
+// The doc texts of bind_sim.cpp.
+#pragma once
+
+namespace hurcules_bindings {
+
+inline constexpr const char* kStepPhysics =
+    R"(mj_step with the traction of the tracks; plain mj_step leaves the belts without any.
+
+Args:
+  model: mujoco.MjModel; its tracks are the tuples `track_NAME`.
+  data: mujoco.MjData of this model.
+  n: number of steps. Releases the interpreter lock.
+
+Raises:
+  Error: tracks without the dense Jacobian and the elliptic cones that they want.
+)";
+inline constexpr const char* kMissions = "Names of the missions.";
+inline constexpr const char* kMissionScene = "Scene file of a mission, under models/.";
+inline constexpr const char* kOptions = R"(Options of a simulation.
+
+Args:
+  seed: of the differences between runs.
+  variation: scale of these: casualty +-3 cm and +-0.05 rad, start posture +-2 mrad.
+  method: of the solver, see rhqp.SolverOptions.
+  record: keep the time series.
+  timed: keep the time of each stage of each tick.
+  base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.
+)";
+inline constexpr const char* kSimulation =
+    R"(The closed loop of a mission at 1 kHz, in C++, on a model and data that Python owns.
+
+Args:
+  model: mujoco.MjModel of the mission's scene.
+  data: mujoco.MjData of this model; the simulation resets and steps it.
+  mission: name of the mission.
+  options: SimulationOptions.
+
+Raises:
+  Error: the model lacks something that the mission asks for.
+)";
+inline constexpr const char* kStep = R"(Control ticks of 1 ms. Releases the interpreter lock.
+
+Args:
+  n: how many.
+  command: (k,) [m/s] or [rad/s] in task space, held to command_scale; None is the operator.
+
+Returns:
+  The ticks done: fewer when the mission ends.
+
+Raises:
+  Error: a command of another size, or not finite.
+)";
+inline constexpr const char* kReset = "Back to the start of the mission, varied by this seed.";
+inline constexpr const char* kState =
+    "All that decides how the run goes on, as one array; the log and the events are not in it.";
+inline constexpr const char* kRestore =
+    R"(Goes on from what state() gave, bit for bit, in any simulation of the same mission and model.
+
+The log keeps what it recorded before that time.
+
+Raises:
+  Error: the state belongs to another model or mission.
+)";
+inline constexpr const char* kReason =
+    "'' while running, else why it ended: 'completed', 'fell over at ...'";
+inline constexpr const char* kObservation = "What a policy sees now (m,), see observation_names.";
+inline constexpr const char* kOperatorCommand =
+    "What the mission's own operator commands next (k,).";
+inline constexpr const char* kLevelErrors =
+    "Norm of the errors of each level in the physics now, in the unit of its tasks.";
+inline constexpr const char* kCommandedErrors =
+    "The same of the commanded motion, at the last tick.";
+inline constexpr const char* kSolver =
+    "How the last solve went: status (number of rhqp.Status), factorizations, changes, optimality.";
+inline constexpr const char* kLog = "Every recorded channel over time: dict of name to (ticks,).";
+inline constexpr const char* kTimings =
+    "Seconds that each stage of each tick took: dict of (ticks,).";
+inline constexpr const char* kFigures = "The mission's own figures; NaN for what has not happened.";
+inline constexpr const char* kThesisFigures =
+    "What the thesis reports for those figures that it gives.";
+inline constexpr const char* kEvents = "(time [s], text) of phases, and of limits met and left.";
+inline constexpr const char* kViolation =
+    "Worst excess over any limit: position_rad, velocity, torque in the physics, 0 for none; "
+    "commanded: the same of the commanded motion.";
+
+}  // namespace hurcules_bindings

@@ -1,0 +1,59 @@
+// hurcules._core: the C++ library as a Python module. One bind_ROOM.cpp a room; this file calls them from the ground up.
+#include <mujoco/mujoco.h>
+#include <pybind11/pybind11.h>
+
+#include <Eigen/Core>
+#include <string>
+
+namespace py = pybind11;
+
+void bind_base(py::module_& module);
+void bind_solver(py::module_& module);
+void bind_robot(py::module_& module);
+void bind_tasks(py::module_& module);
+void bind_control(py::module_& module);
+void bind_sim(py::module_& module);
+
+namespace {
+
+constexpr const char* kDoc = "Compiled part of hurcules; use it through the package hurcules.";
+
+// the loader picks libmujoco by its full version, so this fails only where somebody replaced the file
+void check_mujoco() {
+  if (mj_version() == mjVERSION_HEADER) return;
+  throw py::import_error("hurcules was built with MuJoCo " + std::to_string(mjVERSION_HEADER) +
+                         ", but the library that was loaded is " + std::to_string(mj_version()));
+}
+
+py::dict build() {
+  py::dict facts;
+  facts["version"] = HURCULES_VERSION;
+  facts["mujoco"] = mj_versionString();
+  facts["eigen"] = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                   "." + std::to_string(EIGEN_MINOR_VERSION);
+  facts["simd"] = Eigen::SimdInstructionSetsInUse();
+  facts["compiler"] = HURCULES_COMPILER;
+  facts["build_type"] = HURCULES_BUILD_TYPE;
+  facts["flags"] = HURCULES_FLAGS;
+#ifdef NDEBUG
+  facts["asserts"] = false;
+#else
+  facts["asserts"] = true;
+#endif
+  return facts;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = kDoc;
+  check_mujoco();
+  // str -> str or bool: version, mujoco, eigen, simd, compiler, build_type, flags, asserts
+  module.attr("build") = build();
+  bind_base(module);
+  bind_solver(module);
+  bind_robot(module);
+  bind_tasks(module);
+  bind_control(module);
+  bind_sim(module);
+}

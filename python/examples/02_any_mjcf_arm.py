@@ -1,0 +1,48 @@
+"""Any MJCF arm: three joints written as text, its hand sent to a point, without leaving a joint limit.
+
+Run:  python python/examples/02_any_mjcf_arm.py
+"""
+
+import mujoco
+import numpy as np
+
+import hurcules
+
+ARM = """
+<mujoco>
+  <default><joint type="hinge" axis="0 1 0" range="-1.2 1.2"/><geom type="capsule" size="0.03"/></default>
+  <worldbody>
+    <body>
+      <joint name="turn" axis="0 0 1" range="-3 3"/>
+      <geom fromto="0 0 0 0 0 0.4"/>
+      <body pos="0 0 0.4">
+        <joint name="shoulder"/>
+        <geom fromto="0 0 0 0.4 0 0"/>
+        <body pos="0.4 0 0">
+          <joint name="elbow"/>
+          <geom fromto="0 0 0 0.3 0 0"/>
+          <site name="hand" pos="0.3 0 0"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+robot = hurcules.Robot(mujoco.MjModel.from_xml_string(ARM))
+robot.set_configuration([0.0, 0.3, 0.3])
+
+limits = hurcules.JointLimits("limits", robot)
+hand = hurcules.PositionTask("hand", robot, "hand")
+hand.set_target([0.3, 0.3, 0.6])
+
+controller = hurcules.VelocityController(robot)
+controller.set_stack(hurcules.Stack([limits, hand]))
+
+q, dt = robot.configuration, controller.options.dt
+for tick in range(2001):
+    if tick % 400 == 0:
+        distance = np.linalg.norm(robot.position("hand") - hand.target)
+        print(f"{tick * dt:3.1f} s   q = {q.round(3)}   to go {1000 * distance:6.1f} mm")
+    robot.set_configuration(q)
+    q = q + controller.compute(robot) * dt

@@ -1,0 +1,37 @@
+"""Two hands of Hurcules (19 coordinates, 4 levels) reach for points; one of them lies out of reach.
+
+Run:  python python/examples/03_two_hands_with_limits.py
+"""
+
+import numpy as np
+
+import hurcules
+from hurcules import Stack
+
+model = hurcules.models.load("manipulation")
+
+# the reach, in twelve lines: limits first, then the left hand, then the right, then the posture
+robot = hurcules.Robot(model)
+robot.set_keyframe("ready")
+limits = hurcules.JointLimits("joint", robot)
+left = hurcules.PositionTask("lhpos", robot, "L_tcp")
+right = hurcules.PositionTask("rhpos", robot, "R_tcp")
+posture = hurcules.PostureTask("posture", robot)
+left.set_target(left.value + [1.5, 0.2, -0.3])  # out of reach
+right.set_target(right.value + [0.1, 0.0, 0.2])
+controller = hurcules.VelocityController(robot)
+controller.set_stack(Stack([limits, left, right, posture]))
+for _ in range(8000):  # 8 s at 1 kHz
+    robot.set_configuration(robot.configuration + 1e-3 * controller.compute(robot))
+
+print(controller.stack)
+for hand in (left, right):
+    hand.update(robot)
+    print(f"{hand.name}: {1000 * np.linalg.norm(hand.error):6.1f} mm from its target")
+for row in controller.solution.working_set:
+    name = robot.coordinate_names[row.row] if row.level == 0 else f"level {row.level}"
+    print(f"{name} is held at its {row.side.name.lower()} limit")
+
+lower, upper = limits.lower, limits.upper
+outside = np.maximum(lower - robot.configuration, robot.configuration - upper).max()
+print(f"worst excess over a joint limit: {max(0.0, outside):.1e} rad")

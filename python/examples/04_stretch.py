@@ -1,0 +1,29 @@
+"""The first seconds of the mission `stretch`, in the physics: 680 kg on tracks, controlled at 1 kHz.
+
+Run:  python python/examples/04_stretch.py        (the whole mission with film: hurcules run stretch)
+"""
+
+from time import perf_counter
+
+import numpy as np
+
+import hurcules
+
+simulation = hurcules.Simulation("stretch", seed=0)
+print("levels:", " < ".join(simulation.levels))
+
+started = perf_counter()
+while simulation.time < 6.0 and not simulation.finished:
+    simulation.step(1000)
+    errors = dict(zip(simulation.levels, simulation.level_errors(), strict=True))
+    hands, pelvis = 1000 * errors["hpos"], 1000 * errors["pel"]
+    phase = simulation.phase
+    print(f"{simulation.time:4.1f} s  {phase:8}  hands {hands:5.2f} mm  pelvis {pelvis:5.2f} mm")
+speed = simulation.time / (perf_counter() - started)
+
+log = simulation.log()
+lag = max(np.abs(log[name]).max() for name in log if name.startswith("joint_error/"))
+print(f"{speed:.1f} x real time, largest joint control error {1000 * lag:.1f} mrad")
+print("over a joint limit:", simulation.limit_violation()["position_rad"], "rad")
+for time, text in simulation.events():
+    print(f"{time:6.3f} s  {text}")

@@ -1,0 +1,37 @@
+"""Step the Gymnasium environment: first with the operator's own actions, then with a policy of zeros.
+
+Run:  python python/examples/05_step_the_environment.py
+"""
+
+import gymnasium
+import numpy as np
+
+env = gymnasium.make("hurcules_envs:Hurcules/Stretch-v0")
+core = env.unwrapped
+for name, scale in zip(core.action_names, core.action_scale, strict=True):
+    print(f"action {name:13} 1 means {scale:.3f} a second")
+
+
+def episode(policy, steps):
+    """Sums the reward and its terms over some steps."""
+    env.reset(seed=0)
+    total, parts = 0.0, dict.fromkeys(core.terms, 0.0)
+    for _ in range(steps):
+        _, reward, terminated, truncated, info = env.step(policy())
+        total += reward
+        for term in parts:
+            parts[term] += info[f"reward_{term}"]
+        if terminated or truncated:
+            break
+    return total, parts, info
+
+
+policies = {
+    "operator": core.operator_action,
+    "hold": lambda: np.zeros(env.action_space.shape, np.float32),
+}
+for name, policy in policies.items():
+    total, parts, info = episode(policy, 300)
+    terms = "  ".join(f"{term} {value:+.3f}" for term, value in parts.items())
+    print(f"{name}: {info['time']:.0f} s, reward {total:+.3f} = {terms}")
+env.close()

@@ -1,0 +1,465 @@
+"""The compiled part of hurcules. Arrays are float64 and copies; shapes and units stand beside them."""
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, ClassVar, NoReturn, overload, type_check_only
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_Vector = NDArray[np.float64]  # one axis
+_Matrix = NDArray[np.float64]  # two axes
+
+build: dict[str, str | bool]  # version, mujoco, eigen, simd, compiler, build_type, flags, asserts
+
+class Error(ValueError): ...
+
+@type_check_only
+class _Given:  # only the library makes these
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+@type_check_only
+class _Enum:  # what pybind11 gives each enumeration
+    def __init__(self, value: int) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __int__(self) -> int: ...
+    def __index__(self) -> int: ...
+
+# solver: see hurcules.rhqp
+
+class Level:
+    def __init__(
+        self, A: ArrayLike, lower: ArrayLike, upper: ArrayLike, rho: float = 0.0
+    ) -> None: ...  # (m, n), (m,), (m,)
+    @property
+    def A(self) -> _Matrix: ...  # (m, n); empty for bounds
+    @property
+    def lower(self) -> _Vector: ...  # (m,)
+    @property
+    def upper(self) -> _Vector: ...  # (m,)
+    @property
+    def rho(self) -> float: ...
+    @property
+    def rows(self) -> int: ...  # m
+
+def Bounds(lower: ArrayLike, upper: ArrayLike) -> Level: ...  # (n,), (n,)
+
+class Status(_Enum):
+    Solved: ClassVar[Status]
+    ReducedAccuracy: ClassVar[Status]
+    IterationLimit: ClassVar[Status]
+    LostPrecision: ClassVar[Status]
+    InvalidInput: ClassVar[Status]
+    __members__: ClassVar[dict[str, Status]]
+
+class Side(_Enum):
+    Lower: ClassVar[Side]
+    Upper: ClassVar[Side]
+    __members__: ClassVar[dict[str, Side]]
+
+class ActiveRow(_Given):
+    @property
+    def level(self) -> int: ...
+    @property
+    def row(self) -> int: ...
+    @property
+    def side(self) -> Side: ...
+    @property
+    def held_by(self) -> int: ...  # level that pushes against it
+    @property
+    def multiplier(self) -> float: ...  # >= 0
+
+class Solution(_Given):
+    @property
+    def x(self) -> _Vector: ...  # (n,)
+    @property
+    def status(self) -> Status: ...
+    @property
+    def violations(self) -> list[_Vector]: ...  # a level (m,)
+    @property
+    def working_set(self) -> list[ActiveRow]: ...
+    @property
+    def factorizations(self) -> int: ...
+    @property
+    def changes(self) -> int: ...
+    @property
+    def final_levels(self) -> int: ...
+    @property
+    def optimality(self) -> float: ...
+    @property
+    def multipliers(self) -> list[list[_Vector]]: ...  # [k][j] (m_j,), j <= k
+
+class SolverOptions:
+    method: str
+    max_changes: int
+    def __init__(self, *, method: str = "lexicographic", max_changes: int = 10000) -> None: ...
+
+class Solver:
+    def __init__(self, n: int, options: SolverOptions = ...) -> None: ...
+    def solve(self, levels: Sequence[Level]) -> Solution: ...
+    def reset(self) -> None: ...
+    @property
+    def n(self) -> int: ...
+
+# robot
+
+class DrivenJoint(_Given):
+    @property
+    def joint(self) -> int: ...
+    @property
+    def qpos(self) -> int: ...
+    @property
+    def dof(self) -> int: ...
+    @property
+    def actuator(self) -> int: ...
+    @property
+    def factor(self) -> float: ...
+
+class Coordinate(_Given):
+    @property
+    def name(self) -> str: ...
+    @property
+    def joints(self) -> list[DrivenJoint]: ...
+    @property
+    def lower(self) -> float: ...  # [rad] or [m]
+    @property
+    def upper(self) -> float: ...  # [rad] or [m]
+    @property
+    def max_velocity(self) -> float: ...  # [rad/s] or [m/s]
+    @property
+    def max_effort(self) -> float: ...  # [N m] or [N]
+
+class Robot:
+    @overload
+    def __init__(self, model: str | os.PathLike[str]) -> None: ...
+    @overload
+    def __init__(self, model: mujoco.MjModel) -> None: ...
+    @property
+    def size(self) -> int: ...  # n
+    @property
+    def coordinates(self) -> list[Coordinate]: ...
+    @property
+    def coordinate_names(self) -> list[str]: ...
+    def coordinate(self, name: str) -> int: ...
+    def set_qpos(self, qpos: ArrayLike) -> None: ...  # (nq,)
+    def set_configuration(self, q: ArrayLike) -> None: ...  # (n,) [rad] or [m]
+    def set_velocity(self, velocity: ArrayLike) -> None: ...  # (n,) [rad/s] or [m/s]
+    def stand_on(self, body: str) -> None: ...
+    def set_keyframe(self, name: str) -> None: ...
+    @property
+    def configuration(self) -> _Vector: ...  # (n,) [rad] or [m]
+    @property
+    def velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    @property
+    def qpos(self) -> _Vector: ...  # (nq,)
+    def coordinates_of(self, qpos: ArrayLike) -> _Vector: ...  # (nq,) -> (n,)
+    def position(self, frame: str) -> _Vector: ...  # (3,) [m]
+    def orientation(self, frame: str) -> _Matrix: ...  # (3, 3)
+    def view_orientation(self, frame: str) -> _Matrix: ...  # (3, 3)
+    def position_jacobian(self, frame: str) -> _Matrix: ...  # (3, n)
+    def rotation_jacobian(self, frame: str) -> _Matrix: ...  # (3, n)
+    def position_drift(self, frame: str) -> _Vector: ...  # (3,) [m/s^2]
+    def rotation_drift(self, frame: str) -> _Vector: ...  # (3,) [rad/s^2]
+    @property
+    def com(self) -> _Vector: ...  # (3,) [m]
+    def com_drift(self) -> _Vector: ...  # (3,) [m/s^2]
+    def com_jacobian(self) -> _Matrix: ...  # (3, n)
+    def mass_matrix(self) -> _Matrix: ...  # (n, n) [kg m^2]
+
+# tasks
+
+class Task(_Given):
+    def update(self, robot: Robot) -> None: ...
+    def hold(self, robot: Robot) -> None: ...
+    def advance(self, velocity: ArrayLike, dt: float) -> None: ...  # (m,) unit/s, [s]
+    def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None: ...  # (m,), (m,)
+    def state(self) -> list[float]: ...
+    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def rows(self) -> int: ...  # m
+    @property
+    def error(self) -> _Vector: ...  # (m,)
+    @property
+    def jacobian(self) -> _Matrix: ...  # (m, n)
+    @property
+    def drift(self) -> _Vector: ...  # (m,)
+    @property
+    def velocity_des(self) -> _Vector: ...  # (m,)
+    @property
+    def lower(self) -> _Vector: ...  # (m,), of the error
+    @property
+    def upper(self) -> _Vector: ...  # (m,), of the error
+    @property
+    def bounds_coordinates(self) -> bool: ...
+    def __lt__(self, other: Any) -> NoReturn: ...  # use Stack([a, b, c])
+    def __gt__(self, other: Any) -> NoReturn: ...
+
+class ValueTask(Task):
+    @property
+    def value(self) -> _Vector: ...  # (m,)
+    @property
+    def target(self) -> _Vector: ...  # (m,)
+    def set_target(self, target: ArrayLike) -> None: ...  # (m,)
+
+class JointLimits(Task):
+    def __init__(self, name: str, robot: Robot) -> None: ...
+    def set_range(self, coordinate: str, lower: float, upper: float) -> None: ...  # [rad] or [m]
+    def reset_ranges(self) -> None: ...
+    @property
+    def max_velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    def set_max_velocity(self, coordinate: str, limit: float) -> None: ...
+
+class PostureTask(ValueTask):
+    def __init__(self, name: str, robot: Robot, coordinates: Sequence[str] = ...) -> None: ...
+
+class PointTask(ValueTask):
+    @property
+    def position(self) -> _Vector: ...  # (3,) [m]
+
+class PositionTask(PointTask):
+    def __init__(
+        self, name: str, robot: Robot, frame: str, reference: str = "", axes: ArrayLike = ...
+    ) -> None: ...  # axes (m, 3)
+
+class CenterOfMassTask(PointTask):
+    def __init__(
+        self, name: str, robot: Robot, reference: str = "", axes: ArrayLike = ...
+    ) -> None: ...  # axes (m, 3)
+
+class OrientationTask(Task):
+    def __init__(self, name: str, robot: Robot, frame: str, reference: str = "") -> None: ...
+    @property
+    def orientation(self) -> _Matrix: ...  # (3, 3)
+    @property
+    def target(self) -> _Matrix: ...  # (3, 3)
+    def set_target(self, target: ArrayLike) -> None: ...  # (3, 3)
+
+class AngleKind(_Enum):
+    Elevation: ClassVar[AngleKind]
+    Heading: ClassVar[AngleKind]
+    __members__: ClassVar[dict[str, AngleKind]]
+
+class AngleTask(ValueTask):
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        frame: str,
+        kind: AngleKind = ...,
+        axis: ArrayLike = ...,
+        reference: str = "",
+    ) -> None: ...  # axis (3,)
+
+class SwivelTask(ValueTask):
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        *,
+        shoulder: str,
+        elbow: str,
+        wrist: str,
+        torso: str,
+        direction: ArrayLike = ...,
+    ) -> None: ...  # direction (3,)
+
+class GazeTask(Task):
+    def __init__(self, name: str, robot: Robot, frame: str) -> None: ...
+    @property
+    def target(self) -> _Vector: ...  # (3,) [m]
+    def set_target(self, target: ArrayLike) -> None: ...  # (3,) [m]
+
+# control
+
+class StackLevel:
+    def __init__(self, name: str, tasks: Iterable[Task], rho: float = 0.1) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def rho(self) -> float: ...
+    @property
+    def tasks(self) -> list[Task]: ...
+
+class Stack:
+    def __init__(self, levels: Iterable[Task | StackLevel | Iterable[Task]]) -> None: ...
+    @property
+    def levels(self) -> list[str]: ...  # decreasing priority
+    def __len__(self) -> int: ...
+
+class ControlSolution(_Given):
+    @property
+    def x(self) -> _Vector: ...  # (n,)
+    @property
+    def status(self) -> Status: ...
+    @property
+    def violations(self) -> list[_Vector]: ...  # a level (m,)
+    @property
+    def working_set(self) -> list[ActiveRow]: ...
+    @property
+    def factorizations(self) -> int: ...
+    @property
+    def changes(self) -> int: ...
+    @property
+    def final_levels(self) -> int: ...
+    @property
+    def optimality(self) -> float: ...
+
+class VelocityControllerOptions:
+    dt: float  # [s]
+    gain: float  # [1/s]
+    horizon: float  # [s]
+    max_acceleration: float  # [rad/s^2]
+    return_speed: float  # [rad/s]
+    solver: SolverOptions
+    def __init__(
+        self,
+        *,
+        dt: float = 0.001,
+        gain: float = 5.0,
+        horizon: float = 0.05,
+        max_acceleration: float = 20.0,
+        return_speed: float = 0.2,
+        solver: SolverOptions = ...,
+    ) -> None: ...
+
+class VelocityController:
+    def __init__(self, robot: Robot, options: VelocityControllerOptions = ...) -> None: ...
+    def set_stack(self, stack: Stack) -> None: ...
+    def compute(self, robot: Robot) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    def integrate(self, q: ArrayLike) -> _Vector: ...  # (n,) -> (n,) [rad] or [m]
+    def reset(self) -> None: ...
+    def state(self) -> list[float]: ...
+    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def options(self) -> VelocityControllerOptions: ...
+    @property
+    def velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    @property
+    def active_limits(self) -> NDArray[np.int32]: ...  # (n,) -1, 0, 1
+    @property
+    def solution(self) -> ControlSolution: ...
+    @property
+    def hierarchy(self) -> list[Level]: ...
+    @property
+    def stack(self) -> str: ...  # "joint < hpos < ..."
+
+class JointPidOptions:
+    K: _Vector  # (m,) [N m s/rad]
+    K_P: _Vector  # (m,) [1/s]
+    K_I: _Vector  # (m,) [1/s^2]
+    gamma: float
+    max_torque: _Vector  # (m,) [N m]
+    dt: float  # [s]
+    def __init__(
+        self,
+        *,
+        K: ArrayLike,
+        K_P: ArrayLike,
+        K_I: ArrayLike,
+        max_torque: ArrayLike,
+        gamma: float = 1.0,
+        dt: float = 0.001,
+    ) -> None: ...
+
+class JointPid:
+    def __init__(self, options: JointPidOptions) -> None: ...
+    def compute(
+        self, position: ArrayLike, velocity: ArrayLike
+    ) -> _Vector: ...  # (m,) [rad], (m,) [rad/s] -> (m,) [N m]
+    def reset(self) -> None: ...
+    def state(self) -> list[float]: ...
+    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def options(self) -> JointPidOptions: ...
+    @property
+    def torque(self) -> _Vector: ...  # (m,) [N m]
+    @property
+    def demand(self) -> _Vector: ...  # (m,) [N m], before saturation
+    @property
+    def integral(self) -> _Vector: ...  # (m,) [rad s]
+
+# sim
+
+def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None: ...
+def missions() -> list[str]: ...
+def mission_scene(mission: str) -> str: ...
+
+class BaseSource(_Enum):
+    Held: ClassVar[BaseSource]
+    Sensed: ClassVar[BaseSource]
+    __members__: ClassVar[dict[str, BaseSource]]
+
+class SimulationOptions:
+    seed: int
+    variation: float
+    method: str
+    record: bool
+    timed: bool
+    base: BaseSource
+    def __init__(
+        self,
+        *,
+        seed: int = 0,
+        variation: float = 1.0,
+        method: str = "lexicographic",
+        record: bool = True,
+        timed: bool = False,
+        base: BaseSource = ...,
+    ) -> None: ...
+
+class Simulation:
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        mission: str = "stretch",
+        options: SimulationOptions = ...,
+    ) -> None: ...
+    def step(self, n: int = 1, command: ArrayLike | None = None) -> int: ...  # (k,) [SI unit/s]
+    def reset(self, seed: int) -> None: ...
+    def state(self) -> _Vector: ...
+    def restore(self, state: ArrayLike) -> None: ...
+    def operator_command(self) -> _Vector: ...  # (k,) [m/s] or [rad/s]
+    @property
+    def dt(self) -> float: ...  # [s]
+    @property
+    def time(self) -> float: ...  # [s]
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def success(self) -> bool: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def phase(self) -> str: ...
+    @property
+    def phases(self) -> list[str]: ...
+    @property
+    def command_names(self) -> list[str]: ...
+    @property
+    def command_scale(self) -> _Vector: ...  # (k,) [m/s] or [rad/s]
+    def observation(self) -> _Vector: ...  # (m,)
+    @property
+    def observation_names(self) -> list[str]: ...
+    @property
+    def levels(self) -> list[str]: ...
+    def level_errors(self) -> _Vector: ...  # measured, a level
+    def commanded_level_errors(self) -> _Vector: ...
+    def solver(self) -> dict[str, float]: ...  # status, factorizations, changes, optimality
+    @property
+    def channels(self) -> list[str]: ...
+    def log(self) -> dict[str, _Vector]: ...  # (ticks,) each
+    def timings(self) -> dict[str, _Vector]: ...  # (ticks,) each [s]
+    def figures(self) -> dict[str, float]: ...  # NaN for what has not happened
+    def thesis_figures(self) -> dict[str, float]: ...
+    def events(self) -> list[tuple[float, str]]: ...  # [s]
+    def limit_violation(self) -> dict[str, Any]: ...

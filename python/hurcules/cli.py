@@ -1,0 +1,139 @@
+"""The command `hurcules`: run a mission, list what there is, examine the machine."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+import hurcules
+from hurcules._core import Error
+from hurcules.output import WriteError
+from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
+
+__all__ = ["main"]
+
+USAGE = 2  # exit code of wrong usage
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+    help="Hurcules, a 680 kg rescue robot on tracks, in MuJoCo: strict priorities at 1 kHz.",
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(hurcules.__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Keeps `hurcules` a command with subcommands."""
+
+
+@app.command("run")
+def run_mission(
+    mission: Annotated[str, typer.Argument(help="One of `hurcules list`.")] = "stretch",
+    seed: Annotated[int, typer.Option(help="Draws what differs between runs.")] = 0,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results.", show_default="out/MISSION")
+    ] = None,
+    seconds: Annotated[
+        float | None, typer.Option(help="Stop after this time [s].", show_default="to the end")
+    ] = None,
+    method: Annotated[str, typer.Option(help="How the hierarchy is solved.")] = "lexicographic",
+    video: Annotated[bool, typer.Option("--video/--no-video", help="Film the run.")] = True,
+) -> None:
+    """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.
+
+    Exit status: 0 done, 1 the mission failed (`summary.json` says why), 2 wrong usage, 130 Ctrl-C.
+
+    For example `hurcules run`, or with more words:
+
+    - `hurcules run stretch --seed 7 --out /tmp/seven`
+
+    - `hurcules run stretch --seconds 5 --no-video`
+    """
+    options = RunOptions(mission, seed, out or Path("out", mission), seconds, method, video)
+    raise typer.Exit(run(options, Console()))
+
+
+@app.command("list")
+def list_all() -> None:
+    """List missions, scenes, models and environments.
+
+    For example `hurcules list`.
+    """
+    import hurcules_envs
+
+    rows = {
+        "missions": hurcules.missions(),
+        "scenes": hurcules.models.scenes(),
+        "models": hurcules.models.names(),
+        "environments": [f"hurcules_envs:{name}" for name in hurcules_envs.ENVIRONMENTS],
+    }
+    table = Table(box=None, show_header=False, padding=(0, 3, 0, 0))
+    for kind, names in rows.items():
+        table.add_row(f"[bold]{kind}", "\n".join(names))
+    Console().print(table)
+
+
+@app.command()
+def doctor() -> None:
+    """Say what this machine has and lacks, with the remedy.
+
+    Exit status 1 when something is broken, 0 when at most something optional is missing.
+
+    For example `hurcules doctor`.
+    """
+    from hurcules.doctor import examine
+
+    console = Console()
+    colours = {"ok": "green", "lacks": "yellow", "broken": "red"}
+    findings = examine()
+    table = Table(box=None, show_header=False, padding=(0, 3, 0, 0))
+    for finding in findings:
+        detail = finding.detail + (f"\nremedy: {finding.remedy}" if finding.remedy else "")
+        mark = f"[{colours[finding.status]}]{finding.status}"
+        table.add_row(f"[bold]{finding.what}", mark, detail)
+    console.print(table)
+    raise typer.Exit(FAILED if any(f.status == "broken" for f in findings) else 0)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command line; every failure is one line.
+
+    Args:
+        arguments: without the program's name; by default those of this process.
+
+    Returns:
+        The exit code.
+    """
+    try:
+        return app(arguments, standalone_mode=False) or 0
+    except typer.TyperException as error:
+        return _complain(error.format_message(), USAGE)
+    except WriteError as error:
+        return _complain(str(error), FAILED)
+    except Error as error:
+        return _complain(str(error), USAGE)
+    except (KeyboardInterrupt, typer.Abort):
+        return _complain("interrupted before anything was recorded", INTERRUPTED)
+
+
+def _complain(text: str, code: int) -> int:
+    if text:  # without arguments there is the help, and no complaint
+        print(f"hurcules: error: {' '.join(text.split())}", file=sys.stderr)
+    return code

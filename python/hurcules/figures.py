@@ -1,0 +1,80 @@
+"""What the figures of a mission are called, and how a number is shown."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+__all__ = ["FIGURES", "Figure", "describe", "readable"]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A number that a mission ends with."""
+
+    label: str
+    where: str = ""  # in the thesis, for those that it gives
+
+
+_LIMITS = "§4.4, Fig. 4.26"
+
+# by the name in `Simulation.figures`; times count from the start of the stretch
+FIGURES = {
+    "hip_locked_s": Figure("hip meets its limit and stops", _LIMITS),
+    "hip_released_s": Figure("hip is released and moves again", _LIMITS),
+    "shoulder_locked_s": Figure("shoulder pitch meets its limit", _LIMITS),
+    "pelvis_error_m": Figure("pelvis gives way by, commanded", "§4.4"),
+    "pelvis_error_measured_m": Figure("the same, measured"),
+    "pelvis_error_at_hip_locked_m": Figure("pelvis error when the hip stops"),
+    "pelvis_error_at_shoulder_locked_m": Figure("pelvis error when the shoulders stop"),
+    "hand_error_max_m": Figure("largest hand position error, commanded"),
+    "hand_error_measured_max_m": Figure("the same, measured"),
+    "hand_error_final_m": Figure("hand position error at the end, measured"),
+    "pitch_error_max_rad": Figure("largest hand pitch error, commanded"),
+    "pitch_error_measured_max_rad": Figure("the same, measured"),
+    "pitch_error_final_rad": Figure("hand pitch error at the end, measured"),
+    "gaze_error_max_rad": Figure("largest gaze error, commanded"),
+    "gaze_error_measured_max_rad": Figure("the same, measured"),
+    "joint_error_max_rad": Figure("largest joint control error", "Figs. A.3-A.4"),
+    "joint_error_max_s": Figure("when that was"),
+    "stretched_m": Figure("hands went forward by"),
+    "torque_excess_max_nm": Figure("torque asked for above a motor's limit"),
+}
+
+# suffix of a name: unit, then (below this magnitude, factor, smaller unit)
+_UNITS = {
+    "_s": ("s", (0.0, 1.0, "s")),
+    "_m": ("m", (0.1, 1e3, "mm")),
+    "_rad": ("rad", (0.1, 1e3, "mrad")),
+    "_us": ("µs", (0.0, 1.0, "µs")),
+    "_N": ("N", (0.0, 1.0, "N")),
+    "_nm": ("N m", (0.0, 1.0, "N m")),
+}
+
+
+def describe(name: str) -> Figure:
+    """The description of a figure; one that nobody described is called by its name."""
+    return FIGURES.get(name) or Figure(name.replace("_", " "))
+
+
+def readable(name: str, value: float | None) -> str:
+    """A number as a person reads it: "14.3 s", "0.31 mm", "-" for none.
+
+    Args:
+        name: ends with the unit of the value, e.g. "hand_error_max_m".
+        value: in that unit.
+    """
+    if value is None or not math.isfinite(value):
+        return "-"
+    suffix = next((s for s in _UNITS if name.endswith(s)), None)
+    if suffix is None:
+        return f"{value:.4g}"
+    unit, (below, factor, smaller) = _UNITS[suffix]
+    if 0.0 < abs(value) < below:
+        return f"{_digits(value * factor)} {smaller}"
+    return f"{_digits(value)} {unit}"
+
+
+def _digits(value: float) -> str:
+    """Three digits that count, trailing zeros kept; plain 0 for nothing."""
+    return f"{value:#.3g}".rstrip(".") if value else "0"

@@ -1,0 +1,102 @@
+"""The robots and scenes that come with Hurcules, as MuJoCo models.
+
+A robot (models/robots/NAME.xml) stands in a scene (models/scenes/NAME.xml). Most scenes are mere
+surroundings and take any robot; the scene of a mission names the robot that it is made for.
+"""
+
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import mujoco
+
+from hurcules import _core
+from hurcules._core import Error
+
+__all__ = ["folder", "load", "names", "path", "scenes"]
+
+
+def folder() -> Path:
+    """Returns the folder models/: beside the compiled module in a wheel, else the checkout's."""
+    installed = Path(_core.__file__).with_name("models")
+    return installed if installed.is_dir() else Path(__file__).resolve().parents[2] / "models"
+
+
+def names() -> list[str]:
+    """Returns the names of the robots."""
+    return _stems("robots")
+
+
+def scenes() -> list[str]:
+    """Returns the names of the scenes."""
+    return _stems("scenes")
+
+
+def path(name: str) -> Path:
+    """Returns the MJCF file of a robot or of a scene.
+
+    Raises:
+        Error: nothing has this name; the text lists the names that exist.
+    """
+    if name in names():
+        return folder() / "robots" / f"{name}.xml"
+    return _existing("scenes", name, "robot or scene", names() + scenes())
+
+
+def load(
+    name: str | None = None, scene: str | None = None, mission: str | None = None
+) -> mujoco.MjModel:
+    """Compiles a robot in its surroundings.
+
+    Args:
+        name: one of `names()`; by default the robot that the scene is made for, else "rescue".
+        scene: one of `scenes()`; by default that of the mission, without a mission "flat".
+        mission: one of `hurcules.missions()`.
+
+    Raises:
+        Error: an unknown name, a scene made for another robot, or MuJoCo's text about broken MJCF.
+    """
+    if scene is None:
+        scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
+    surroundings = _existing("scenes", scene, "scene", scenes())
+    inhabitant = _robot_in(surroundings)
+    name = name or inhabitant or "rescue"
+    robot = _existing("robots", name, "robot", names())
+    if inhabitant is None:
+        includes = f'<include file="{robot}"/><include file="{surroundings}"/>'
+        return _compile(f'<mujoco model="{name} in {scene}">{includes}</mujoco>')
+    if inhabitant != name:
+        raise Error(f"scene '{scene}' is made for robot '{inhabitant}', not '{name}'")
+    return _compile(surroundings)
+
+
+def _stems(kind: str) -> list[str]:
+    return sorted(file.stem for file in (folder() / kind).glob("*.xml"))
+
+
+def _existing(kind: str, name: str, noun: str, known: list[str]) -> Path:
+    if name not in known:
+        raise Error(f"{noun} '{name}' does not exist; there are: {', '.join(known)}")
+    return folder() / kind / f"{name}.xml"
+
+
+def _robot_in(scene: Path) -> str | None:
+    """The robot that a scene includes itself, None for mere surroundings."""
+    try:
+        includes = ElementTree.parse(scene).getroot().iter("include")
+    except ElementTree.ParseError as error:
+        raise Error(f"{scene}: {error}") from error
+    files = [Path(include.get("file", "")) for include in includes]
+    return next((file.stem for file in files if file.parent.name == "robots"), None)
+
+
+def _compile(source: Path | str) -> mujoco.MjModel:
+    """Compiles a file, or MJCF text whose files are looked for in models/robots."""
+    try:
+        if isinstance(source, Path):
+            return mujoco.MjModel.from_xml_path(str(source))
+        spec = mujoco.MjSpec.from_string(source)
+        spec.modelfiledir = str(folder() / "robots")
+        return spec.compile()
+    except ValueError as error:
+        text = " ".join(str(error).split())
+        raise Error(f"MuJoCo rejects the model: {text}") from error

@@ -1,0 +1,52 @@
+"""Chooses MuJoCo's OpenGL. Imports nothing of the package: it must run before MuJoCo is imported.
+
+MuJoCo reads the environment variable MUJOCO_GL at its import and then keeps its choice.
+"""
+
+import ctypes
+import os
+import sys
+from collections.abc import MutableMapping
+from pathlib import Path
+
+__all__ = ["REMEDY", "choose_backend"]
+
+REMEDY = (
+    "apt-get install libosmesa6 (or libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0), "
+    "or set MUJOCO_GL to the one of egl, osmesa, glfw that works on this machine"
+)
+
+# one library of each group must load; without OpenGL beside EGL the import of MuJoCo itself fails
+_LIBRARIES: dict[str, list[tuple[str, ...]]] = {
+    "osmesa": [("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")],
+    "egl": [("libEGL.so.1", "libEGL.so"), ("libOpenGL.so.0", "libGL.so.1")],
+}
+
+
+def choose_backend(environment: MutableMapping[str, str] = os.environ) -> str:
+    """Sets MUJOCO_GL on a Linux machine without a display, unless somebody has set it.
+
+    With a graphics device EGL comes first, without one OSMesa: the faster one each time.
+
+    Args:
+        environment: where MUJOCO_GL, DISPLAY and WAYLAND_DISPLAY are read, and MUJOCO_GL is set.
+
+    Returns:
+        The value of MUJOCO_GL afterwards, "" when MuJoCo's own choice is left alone.
+    """
+    has_display = environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY")
+    if sys.platform == "linux" and not has_display and "MUJOCO_GL" not in environment:
+        device = any(Path("/dev").glob("nvidia[0-9]*")) or any(Path("/dev/dri").glob("render*"))
+        for backend in ("egl", "osmesa") if device else ("osmesa", "egl"):
+            if all(any(_loads(name) for name in group) for group in _LIBRARIES[backend]):
+                environment["MUJOCO_GL"] = backend
+                break
+    return environment.get("MUJOCO_GL", "")
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True

@@ -1,0 +1,95 @@
+"""The folder that a run writes to: whole files or none, and a clear word when the disk says no."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules._core import Error
+
+__all__ = ["Output", "WriteError"]
+
+
+class WriteError(Error):
+    """A file could not be written; the text says why, and which files were."""
+
+
+class Output:
+    """A folder for results.
+
+    Attributes:
+        folder: the folder; it exists and can be written.
+        saved: the files written so far.
+    """
+
+    def __init__(self, folder: Path, names: Sequence[str]) -> None:
+        """Makes the folder and removes what an earlier run left there under these names.
+
+        Raises:
+            Error: the folder cannot be made or written.
+        """
+        self.folder = folder
+        self.saved: list[Path] = []
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            probe = folder / ".probe"
+            probe.touch()
+            probe.unlink()
+            for name in names:
+                (folder / name).unlink(missing_ok=True)
+        except OSError as error:
+            raise Error(f"--out: cannot write to {folder}: {error.strerror}") from error
+
+    def write(self, name: str, writer: Callable[[Path], None]) -> Path:
+        """Writes a file under another name and renames it when it is whole.
+
+        Args:
+            name: of the file.
+            writer: writes everything to the path that it is given.
+
+        Returns:
+            The file.
+
+        Raises:
+            WriteError: disk full, no permission, ...
+        """
+        path, part = self.folder / name, self.folder / f"part-{name}"
+        try:
+            writer(part)
+            part.replace(path)
+        except OSError as error:
+            # an encoder's failure has no strerror but many lines, the last of which tells
+            reason = error.strerror or str(error).strip().splitlines()[-1]
+            raise WriteError(f"cannot write {path}: {reason}; {self.told()}") from error
+        finally:
+            part.unlink(missing_ok=True)
+        self.saved.append(path)
+        return path
+
+    def write_json(self, name: str, content: dict[str, Any]) -> Path:
+        """Writes plain data as JSON; raises as `write`."""
+        text = json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+        return self.write(name, lambda path: void(path.write_text(text, encoding="utf-8")))
+
+    def write_arrays(self, name: str, arrays: dict[str, NDArray[np.float64]]) -> Path:
+        """Writes arrays as a compressed .npz; raises as `write`."""
+
+        def save(path: Path) -> None:
+            with path.open("wb") as file:
+                np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # names are channels
+
+        return self.write(name, save)
+
+    def told(self) -> str:
+        """What was saved, in words."""
+        names = ", ".join(path.name for path in self.saved)
+        return f"saved in {self.folder}: {names}" if names else "nothing was saved"
+
+
+def void(_: object) -> None:
+    """Drops a result."""

@@ -1,0 +1,111 @@
+"""Runs a simulation and keeps what the film, the log and the report are made from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules.simulation import Simulation
+from hurcules.video import Frame
+
+__all__ = ["CHANNELS", "STAGES", "Recording", "record"]
+
+Array = NDArray[np.float64]
+
+# What the channels of log.npz are: (ticks,) each, one value a control tick. Errors that do not say
+# "measured" are those of the commanded motion.
+CHANNELS = (
+    ("time, phase", "[s] since the start; number of the phase"),
+    ("q/C, qd/C", "[rad], [rad/s] measured motion of coordinate C"),
+    ("q_des/C, qd_des/C", "[rad], [rad/s] its commanded motion"),
+    ("limit_lower/C, limit_upper/C", "[rad] its position limits in force"),
+    ("active/C", "-1, 0, 1: held back by its lower limit, by none, by its upper limit"),
+    ("torque/J, joint_error/J", "[N m] of the motor of joint J, [rad] reference minus measured"),
+    ("error/L, measured_error/L", "[m] or [rad] norm of the task errors of level L"),
+    ("active_rows/L", "rows that hold level L back"),
+    ("command/K", "[m/s] or [rad/s] task-space command K"),
+    ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
+    ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
+    ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
+)
+# What timing.npz holds, (ticks,) each [s]. It is a file of its own: log.npz is the same for a seed.
+STAGES = "time, sense, kinematics, hierarchy, solve, servo, physics, record"
+
+
+@dataclass
+class Recording:
+    """A run, or as much of it as was done."""
+
+    log: dict[str, Array] = field(default_factory=dict)  # by channel, (ticks,); see CHANNELS
+    timings: dict[str, Array] = field(default_factory=dict)  # [s] by stage, (ticks,); see STAGES
+    frames: list[Frame] = field(default_factory=list)
+    wall_seconds: float = 0.0  # spent in the simulation alone
+    interrupted: bool = False  # by Ctrl-C
+
+    @property
+    def control_tick_us(self) -> Array:
+        """Time of each control tick, sensing to servo without physics [µs], (ticks,)."""
+        stages = ("sense", "kinematics", "hierarchy", "solve", "servo")
+        return np.asarray(1e6 * sum(self.timings[stage] for stage in stages))
+
+    @property
+    def simulated_seconds(self) -> float:
+        """Time of the last recorded tick [s]."""
+        return self.frames[-1].time if self.frames else 0.0
+
+
+def record(
+    simulation: Simulation,
+    ticks: int | None,
+    ticks_per_frame: int,
+    progress: Callable[[float], None],
+) -> Recording:
+    """Steps to the end of the mission. Ctrl-C ends it early: what was recorded is kept.
+
+    Args:
+        simulation: made with record=True and timed=True.
+        ticks: stop after this many at the latest; None lets the mission end.
+        ticks_per_frame: between two frames of the film.
+        progress: called at each frame with the speed, simulated over real time.
+    """
+    recording = Recording()
+    moments = [_moment(simulation)]
+    done = 0
+    try:
+        while not simulation.finished and (ticks is None or done < ticks):
+            wanted = ticks_per_frame if ticks is None else min(ticks_per_frame, ticks - done)
+            started = perf_counter()
+            done += simulation.step(wanted)
+            recording.wall_seconds += perf_counter() - started
+            moments.append(_moment(simulation))
+            progress(simulation.time / recording.wall_seconds)
+    except KeyboardInterrupt:
+        recording.interrupted = True
+    recording.log, recording.timings = simulation.log(), simulation.timings()
+    recording.log.pop("tick_us", None)
+    recording.frames = [
+        Frame(time, qpos, phase, active_limits(recording.log, time))
+        for time, qpos, phase in moments
+    ]
+    return recording
+
+
+def active_limits(log: dict[str, Array], time: float) -> tuple[str, ...]:
+    """The position limits that hold a coordinate back at this time, e.g. ("HIP upper",)."""
+    if not len(log["time"]):
+        return ()
+    tick = min(int(np.searchsorted(log["time"], time)), len(log["time"]) - 1)
+    sides = {-1: "lower", 1: "upper"}
+    return tuple(
+        f"{channel.removeprefix('active/')} {sides[int(values[tick])]}"
+        for channel, values in log.items()
+        if channel.startswith("active/") and values[tick] != 0
+    )
+
+
+def _moment(simulation: Simulation) -> tuple[float, Array, str]:
+    return simulation.time, simulation.data.qpos.copy(), simulation.phase

@@ -1,0 +1,67 @@
+"""Pictures without a window: a renderer, or a clear word that there is none, and the camera."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules._core import Error
+from hurcules.opengl import REMEDY
+
+__all__ = ["RendererError", "make_renderer", "open_renderer", "overview_camera", "pose"]
+
+
+class RendererError(Error):
+    """There is no usable OpenGL renderer; the text names the remedy."""
+
+
+def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
+    """Makes an off-screen renderer that the caller closes.
+
+    Args:
+        model: what is drawn; its off-screen buffer is enlarged where it is too small.
+        width: [pixels].
+        height: [pixels].
+
+    Raises:
+        RendererError: there is no OpenGL that works.
+    """
+    buffer = model.vis.global_
+    buffer.offwidth, buffer.offheight = max(buffer.offwidth, width), max(buffer.offheight, height)
+    try:
+        return mujoco.Renderer(model, height, width)
+    # each OpenGL fails with an exception of its own: RuntimeError, FatalError, ImportError, ...
+    except Exception as error:
+        text = " ".join(str(error).split()) or type(error).__name__
+        raise RendererError(f"no usable renderer ({text}): {REMEDY}") from error
+
+
+@contextmanager
+def open_renderer(model: mujoco.MjModel, width: int, height: int) -> Iterator[mujoco.Renderer]:
+    """As `make_renderer`, closed at the end of the `with` block."""
+    renderer = make_renderer(model, width, height)
+    try:
+        yield renderer
+    finally:
+        renderer.close()
+
+
+def overview_camera() -> mujoco.MjvCamera:
+    """The camera of videos and pictures: from the front left, the whole machine and its reach."""
+    camera = mujoco.MjvCamera()
+    camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+    camera.lookat[:] = (1.25, 0.0, 0.48)
+    camera.distance, camera.azimuth, camera.elevation = 3.8, 114.0, -14.0
+    return camera
+
+
+def pose(model: mujoco.MjModel, data: mujoco.MjData, qpos: NDArray[np.float64]) -> None:
+    """Puts everything where `qpos` (nq) says, as far as drawing needs it."""
+    data.qpos[:] = qpos
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_camlight(model, data)

@@ -1,0 +1,130 @@
+"""report.html: a run on one page with film, figures, pictures and plots; needs no other file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules.figures import describe, readable
+from hurcules.recording import CHANNELS, STAGES, Recording
+from hurcules.report import plots
+from hurcules.report.style import data_address, jpeg
+
+__all__ = ["Snapshot", "write"]
+
+SNAPSHOT_WIDTH = 480  # [pixels]
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The robot at an event."""
+
+    time: float  # [s]
+    text: str
+    picture: NDArray[np.uint8]  # (height, width, 3)
+
+
+def write(
+    path: Path,
+    summary: dict[str, Any],
+    recording: Recording,
+    snapshots: Sequence[Snapshot] = (),
+    video: Path | str = "not asked for",
+) -> None:
+    """Writes the page.
+
+    Args:
+        path: the file.
+        summary: as `hurcules.summary.summarize` returns it.
+        recording: the log and the timings of the run.
+        snapshots: pictures in the order of time.
+        video: the film, or why there is none.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    source = files(__package__).joinpath("template.html").read_text("utf-8")
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    template = environment.from_string(source)
+    film = data_address(video.read_bytes(), "video/mp4") if isinstance(video, Path) else ""
+    page = template.render(
+        summary=summary,
+        cards=_cards(summary),
+        rows=_rows(summary),
+        video=film,
+        without_video=video,
+        snapshots=[
+            {"time": s.time, "text": s.text, "address": jpeg(s.picture, SNAPSHOT_WIDTH)}
+            for s in snapshots
+        ],
+        plots=_plots(recording, summary),
+        channels=CHANNELS,
+        stages=STAGES,
+    )
+    path.write_text(page, encoding="utf-8")
+
+
+def _cards(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """The few numbers that somebody in a hurry reads."""
+    worst = summary["limit_violation"]
+    return [
+        (readable("_s", summary["simulated_seconds"]), "simulated"),
+        (f"{summary['real_time_factor'] or 0:.1f} x", "real time, one core"),
+        (readable("_us", summary["control_tick_us"]["median"]), "control tick, median"),
+        (readable("_us", summary["control_tick_us"]["p99"]), "control tick, p99"),
+        (readable("_rad", worst["position_rad"]), "over a joint limit, physics"),
+        (readable("_rad", worst["commanded"]["position_rad"]), "over a joint limit, commanded"),
+    ]
+
+
+def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
+    return [
+        {
+            "label": describe(name).label,
+            "measured": readable(name, value),
+            "thesis": readable(name, summary["thesis"].get(name)),
+            "where": describe(name).where,
+        }
+        for name, value in summary["figures"].items()
+    ]
+
+
+def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]]:
+    if len(recording.log["time"]) < 2:
+        return []
+    log = recording.log | {"tick_us": recording.control_tick_us}
+    events = sorted({round(event["time_s"], 1) for event in summary["events"] if event["time_s"]})
+    drawn = (
+        (plots.joint_positions, "Joint positions", _POSITIONS),
+        (plots.joint_velocities, "Reference velocities", _VELOCITIES),
+        (plots.control_errors, "Control errors", _ERRORS),
+        (plots.task_errors, "Task errors", _TASKS),
+        (plots.active_limits, "Active limits", _LIMITS),
+        (plots.solver_work, "Work of the solver", _SOLVER),
+        (plots.tick_times, "Time of a control tick", _TIMES),
+    )
+    return [{"title": title, "text": text, "svg": draw(log, events)} for draw, title, text in drawn]
+
+
+_POSITIONS = (
+    "The coordinates that move (after Figures 4.25 and 4.26). Dashed: limits; shaded: held "
+    "by a limit; upright lines: events. The right arm is left out where it mirrors the left."
+)
+_VELOCITIES = "What the hierarchy asks of each coordinate (Figure 4.26 a)."
+_ERRORS = (
+    "Reference minus measured position (Figure 4.26 b); it jumps where a limit is taken or left. "
+    "Dashed: the thesis' 0.4 degrees."
+)
+_TASKS = (
+    "The error of each level, in decreasing priority: what has to give way stands on the right."
+)
+_LIMITS = "Which position limit holds which coordinate, and when."
+_SOLVER = "Level factorizations and working-set changes of each solve; the least is one a level."
+_TIMES = "Sensing to servo without physics, on the machine above."

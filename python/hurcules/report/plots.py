@@ -1,0 +1,182 @@
+"""The plots of a report, after Figures 4.24 to 4.26 of the thesis: each makes SVG of a log."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from hurcules.report.style import ACCENT, GREY, INK, LINES, axes, grid, mark, svg, thin
+
+__all__ = [
+    "active_limits",
+    "control_errors",
+    "joint_positions",
+    "joint_velocities",
+    "solver_work",
+    "task_errors",
+    "tick_times",
+]
+
+Array = NDArray[np.float64]
+Log = dict[str, Array]  # see hurcules.recording.CHANNELS
+
+MOVES = 0.02  # [rad] a coordinate that moves less is left out of the plots of joints
+TRACKING_TARGET = 7.0e-3  # [rad] 0.4 degrees, thesis Figs. A.3-A.4
+
+
+def joint_positions(log: Log, events: Sequence[float]) -> str:
+    """Each coordinate that moves, with its limits; shaded while a limit holds it."""
+    names = moving(log)
+    figure, plots = grid(math.ceil(len(names) / 4), 4, 1.9)
+    for plot, name in zip(plots, names, strict=False):
+        plot.plot(*thin(log["time"], log[f"q/{name}"]), color=INK)
+        _draw_limits(plot, log, name)
+        mark(plot, events)
+        plot.set_title(name)
+    for plot in plots[len(names) :]:
+        plot.set_axis_off()
+    for plot in plots[max(0, len(names) - 4) : len(names)]:
+        plot.set_xlabel("time [s]")
+        plot.tick_params(labelbottom=True)
+    for plot in plots[::4]:
+        plot.set_ylabel("position [rad]")
+    return svg(figure)
+
+
+def joint_velocities(log: Log, events: Sequence[float]) -> str:
+    """Reference velocities of the coordinates (Figure 4.26 a)."""
+    series = {name: log[f"qd_des/{name}"] for name in moving(log)}
+    return _lines(log["time"], series, events, "reference velocity [rad/s]")
+
+
+def control_errors(log: Log, events: Sequence[float]) -> str:
+    """Reference minus measured position of the joints (Figure 4.26 b)."""
+    joints = _after(log, "joint_error/")
+    # the joint of a coordinate has its name, or L before it: both knees are one coordinate
+    shown = [j for name in moving(log) for j in joints if j in (name, f"L{name}")]
+    series = {name: 1e3 * log[f"joint_error/{name}"] for name in shown}
+    return _lines(log["time"], series, events, "control error [mrad]", 1e3 * TRACKING_TARGET)
+
+
+def task_errors(log: Log, events: Sequence[float]) -> str:
+    """The error of each level below the limits."""
+    names = [name for name in _after(log, "error/") if np.any(log[f"error/{name}"])]
+    figure, plots = grid(1, max(1, len(names)), 2.0)
+    for plot, name in zip(plots, names, strict=False):
+        plot.plot(*thin(log["time"], log[f"error/{name}"]), color=INK)
+        mark(plot, events)
+        plot.set_title(name)
+        plot.set_xlabel("time [s]")
+        plot.ticklabel_format(axis="y", scilimits=(-3, 3))
+    plots[0].set_ylabel("error [m, rad]")
+    return svg(figure)
+
+
+def active_limits(log: Log, events: Sequence[float]) -> str:
+    """When which position limit holds a coordinate."""
+    names = [name for name in coordinates(log) if np.any(log[f"active/{name}"])]
+    figure, plot = axes(0.7 + 0.28 * max(1, len(names)))
+    for row, name in enumerate(names):
+        for side, shade in ((1, ACCENT), (-1, GREY)):
+            spans = _spans(log["time"], log[f"active/{name}"] == side)
+            plot.broken_barh(spans, (row - 0.32, 0.64), color=shade, linewidth=0)
+    mark(plot, events)
+    plot.set_yticks(range(len(names)), names, color=INK)
+    plot.set_ylim(max(1, len(names)) - 0.4, -0.6)
+    plot.set_xlim(log["time"][0], log["time"][-1])
+    plot.set_xlabel("time [s]    (orange: upper limit, grey: lower limit)")
+    return svg(figure)
+
+
+def solver_work(log: Log, events: Sequence[float]) -> str:
+    """Factorizations and working-set changes of each solve."""
+    figure, plots = grid(1, 2, 2.0)
+    for plot, name in zip(plots, ("factorizations", "changes"), strict=True):
+        plot.plot(*thin(log["time"], log[name]), color=INK, linewidth=0.9)
+        mark(plot, events)
+        plot.set_title(f"{name} a solve")
+        plot.set_xlabel("time [s]")
+        plot.set_ylim(bottom=0)
+    return svg(figure)
+
+
+def tick_times(log: Log, events: Sequence[float]) -> str:
+    """How long a control tick took: over time, and how often."""
+    figure, (series, histogram) = grid(1, 2, 2.0, sharex=False)
+    micros, most = log["tick_us"], 1.3 * float(np.percentile(log["tick_us"], 99.9))
+    series.plot(*thin(log["time"], micros), color=INK, linewidth=0.6)
+    series.set_xlabel("time [s]")
+    series.set_ylabel("control tick [µs]")
+    series.set_ylim(0, most)
+    mark(series, events)
+    histogram.hist(micros, bins=80, range=(0.0, most), color=GREY)
+    for share, name in ((50, "median"), (99, "p99")):
+        value = float(np.percentile(micros, share))
+        histogram.axvline(value, color=ACCENT, linewidth=1.0)
+        histogram.annotate(f" {name} {value:.0f}", (value, 0.9), xycoords=("data", "axes fraction"))
+    histogram.set_xlabel("control tick [µs]")
+    histogram.set_ylabel("ticks")
+    return svg(figure)
+
+
+def coordinates(log: Log) -> list[str]:
+    """The names of the coordinates in a log."""
+    return _after(log, "q/")
+
+
+def moving(log: Log) -> list[str]:
+    """The coordinates that move, those of the right arm left out where they mirror the left."""
+    moved = [name for name in coordinates(log) if np.ptp(log[f"q/{name}"]) > MOVES]
+    return [
+        name
+        for name in moved
+        if not (name.startswith("R") and "L" + name[1:] in moved and _mirrors(log, name))
+    ]
+
+
+def _mirrors(log: Log, name: str) -> bool:
+    right, left = log[f"q/{name}"], log[f"q/L{name[1:]}"]
+    return bool(np.max(np.abs(np.abs(right) - np.abs(left))) < MOVES)
+
+
+def _lines(time: Array, series: Log, events: Sequence[float], label: str, band: float = 0.0) -> str:
+    """Lines by name over the same time, and a dashed band around zero where one is wanted."""
+    figure, plot = axes(2.6)
+    for (name, values), colour in zip(series.items(), LINES, strict=False):
+        plot.plot(*thin(time, values), color=colour, label=name)
+    for side in (-band, band) if band else ():
+        plot.axhline(side, color=GREY, linewidth=0.9, linestyle=(0, (6, 3)))
+    mark(plot, events)
+    plot.set_xlabel("time [s]")
+    plot.set_ylabel(label)
+    if series:
+        plot.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return svg(figure)
+
+
+def _draw_limits(plot: Axes, log: Log, name: str) -> None:
+    """The limits in grey as far as they are near the motion, and a shade where one is active."""
+    low, high = plot.get_ylim()
+    room = 0.35 * (high - low)
+    for side in ("lower", "upper"):
+        limit = log[f"limit_{side}/{name}"]
+        near = (limit > low - room) & (limit < high + room)
+        if np.any(near):
+            plot.plot(*thin(log["time"], limit), color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+    for start, length in _spans(log["time"], log[f"active/{name}"] != 0):
+        plot.axvspan(start, start + length, color=ACCENT, alpha=0.12, linewidth=0)
+
+
+def _spans(time: Array, active: NDArray[np.bool_]) -> list[tuple[float, float]]:
+    """(start, length) [s] of each stretch of time in which `active` (ticks,) holds."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], active, [False])).astype(int)))
+    stops = np.append(time, time[-1])
+    return [(time[a], stops[b] - time[a]) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _after(log: Log, prefix: str) -> list[str]:
+    return [channel.removeprefix(prefix) for channel in log if channel.startswith(prefix)]

@@ -1,0 +1,121 @@
+"""The look of the plots, and how long series become small pictures."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable
+from io import BytesIO, StringIO
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from PIL import Image
+
+__all__ = [
+    "ACCENT",
+    "GREY",
+    "INK",
+    "LINES",
+    "axes",
+    "data_address",
+    "grid",
+    "jpeg",
+    "mark",
+    "svg",
+    "thin",
+]
+
+Array = NDArray[np.float64]
+
+INK, GREY, FAINT, ACCENT = "#22272e", "#8b949e", "#e4e7eb", "#d9480f"
+# quiet colours for lines that share axes; the accent is kept for limits and events
+LINES = ("#22272e", "#2b6cb0", "#5a9bd4", "#2f855a", "#7fb685", "#805ad5", "#b794f4", "#8b949e")
+
+_RC: Any = {
+    "font.family": "sans-serif",
+    "font.size": 9,
+    "axes.edgecolor": GREY,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.grid": True,
+    "grid.color": FAINT,
+    "grid.linewidth": 0.6,
+    "xtick.color": GREY,
+    "ytick.color": GREY,
+    "lines.linewidth": 1.3,
+    "legend.frameon": False,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "hurcules",
+}
+
+
+def grid(rows: int, columns: int, height: float, sharex: bool = True) -> tuple[Figure, list[Axes]]:
+    """A picture of rows x columns plots, `height` inches each row, over one time if `sharex`."""
+    with matplotlib.rc_context(_RC):
+        figure = Figure(figsize=(10.0, height * rows), layout="constrained")
+        plots = figure.subplots(rows, columns, sharex=sharex, squeeze=False)
+    return figure, list(plots.flat)
+
+
+def axes(height: float) -> tuple[Figure, Axes]:
+    """A picture of one plot, `height` inches high."""
+    figure, plots = grid(1, 1, height)
+    return figure, plots[0]
+
+
+def mark(plot: Axes, times: Iterable[float]) -> None:
+    """Fine upright lines where something happened [s]."""
+    for time in times:
+        plot.axvline(time, color=ACCENT, linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.7, zorder=1)
+
+
+def thin(time: Array, values: Array, buckets: int = 500) -> tuple[Array, Array]:
+    """Fewer points with the same picture: the least and the greatest of each stretch of time.
+
+    Args:
+        time: (ticks,) [s].
+        values: (ticks,).
+        buckets: stretches, each of which leaves two points.
+    """
+    if len(time) <= 2 * buckets:
+        return time, values
+    kept = []
+    for part in np.array_split(np.arange(len(time)), buckets):
+        kept += sorted({part[np.argmin(values[part])], part[np.argmax(values[part])]})
+    index = np.array([0, *kept, len(time) - 1])
+    return time[index], values[index]
+
+
+def svg(figure: Figure) -> str:
+    """The picture as SVG to stand inside a page."""
+    text = StringIO()
+    with matplotlib.rc_context(_RC):
+        figure.savefig(text, format="svg", transparent=True, metadata={"Date": None})
+    source = text.getvalue()
+    return source[source.index("<svg") :]
+
+
+def jpeg(picture: NDArray[np.uint8], width: int) -> str:
+    """A picture (height, width, 3) as a data address for a page, made `width` pixels wide."""
+    image = Image.fromarray(picture)
+    height = round(width * image.height / image.width)
+    image = image.resize((width, height), Image.Resampling.LANCZOS)
+    return data_address(_encoded(image), "image/jpeg")
+
+
+def data_address(content: bytes, kind: str) -> str:
+    """The content of a file as an address, so that a page needs no other file."""
+    return f"data:{kind};base64,{b64encode(content).decode()}"
+
+
+def _encoded(image: Any) -> bytes:
+    buffer = BytesIO()
+    image.save(buffer, format="JPEG", quality=86, optimize=True)
+    return buffer.getvalue()

@@ -1,0 +1,199 @@
+"""`hurcules run`: a mission, and what is left of it: log, figures, film, report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from hurcules import report
+from hurcules._core import Error
+from hurcules.figures import describe, readable
+from hurcules.output import Output
+from hurcules.recording import Recording, record
+from hurcules.rendering import RendererError
+from hurcules.report import Snapshot
+from hurcules.simulation import Simulation
+from hurcules.summary import summarize
+from hurcules.video import Painter, film
+
+__all__ = ["DONE", "FAILED", "INTERRUPTED", "RunOptions", "run"]
+
+DONE, FAILED, INTERRUPTED = 0, 1, 130  # exit codes
+FILES = ("log.npz", "timing.npz", "summary.json", "video.mp4", "report.html")
+FPS, SPEED = 20, 2  # pictures a second of film, seconds of mission a second of film
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """What `hurcules run` was asked for."""
+
+    mission: str = "stretch"
+    seed: int = 0
+    out: Path = Path("out", "stretch")  # folder for the results
+    seconds: float | None = None  # [s] stop after this time; None lets the mission end
+    method: str = "lexicographic"
+    video: bool = True
+
+
+def run(options: RunOptions, console: Console) -> int:
+    """Runs a mission and writes its results.
+
+    Ctrl-C ends the part at work; what was recorded is saved, and said.
+
+    Args:
+        options: what to run and where to write.
+        console: progress and results go here.
+
+    Returns:
+        The exit code: DONE, FAILED or INTERRUPTED.
+
+    Raises:
+        Error: wrong usage (unknown mission or method, bad number, a folder that cannot be written).
+        WriteError: a file could not be written; those before it were.
+    """
+    simulation = Simulation(options.mission, options.seed, method=options.method, timed=True)
+    ticks = _ticks(options.seconds, simulation.dt)
+    output = Output(options.out, FILES)
+    recording = _simulate(simulation, ticks, console)
+    summary = summarize(simulation, recording, options.seed, options.method)
+    try:
+        interrupted = _save(options, simulation, recording, summary, output, console)
+    except KeyboardInterrupt:
+        interrupted = True
+    if interrupted:
+        console.print(f"interrupted at {simulation.time:.3f} s; {output.told()}", style="bold")
+        return INTERRUPTED
+    _tell(summary, output, console)
+    return DONE if simulation.success or not simulation.finished else FAILED
+
+
+def _ticks(seconds: float | None, dt: float) -> int | None:
+    if seconds is None:
+        return None
+    if not (math.isfinite(seconds) and seconds >= dt):
+        raise Error(f"--seconds: wanted a time of {dt} s or more, got {seconds}")
+    return round(seconds / dt)
+
+
+def _simulate(simulation: Simulation, ticks: int | None, console: Console) -> Recording:
+    with _progress(console) as bar:
+        total = ticks * simulation.dt if ticks else None
+        task = bar.add_task(f"simulate {simulation.mission}", total=total, note="")
+
+        def show(speed: float) -> None:
+            note = f"{simulation.time:5.1f} s   {speed:4.1f} x real time   {simulation.phase}"
+            bar.update(task, completed=simulation.time, note=note)
+
+        recording = record(simulation, ticks, round(SPEED / FPS / simulation.dt), show)
+        bar.update(task, total=simulation.time or 1.0)
+    return recording
+
+
+def _save(
+    options: RunOptions,
+    simulation: Simulation,
+    recording: Recording,
+    summary: dict[str, Any],
+    output: Output,
+    console: Console,
+) -> bool:
+    """Writes everything, what matters most first. Returns whether Ctrl-C cut it short."""
+    output.write_arrays("log.npz", recording.log)
+    output.write_arrays("timing.npz", recording.timings)
+    output.write_json("summary.json", summary)
+    video: Path | str = "not asked for (--no-video)"
+    snapshots: list[Snapshot] = []
+    interrupted = recording.interrupted
+    if interrupted:
+        video = "the run was interrupted"
+    elif options.video:
+        try:
+            with Painter(simulation.model) as painter:
+                interrupted = _film(painter, recording, output, console)
+                video = output.saved[-1]
+                snapshots = _snapshots(painter, recording, summary)
+        except RendererError as missing:
+            video = str(missing)
+            console.print(f"no video: {missing}", style="yellow", highlight=False)
+    output.write(
+        "report.html", lambda path: report.write(path, summary, recording, snapshots, video)
+    )
+    return interrupted
+
+
+def _film(painter: Painter, recording: Recording, output: Output, console: Console) -> bool:
+    """Returns whether Ctrl-C cut the film short."""
+    done = 0
+    with _progress(console) as bar:
+        task = bar.add_task("film", total=len(recording.frames), note="")
+
+        def shoot(path: Path) -> None:
+            nonlocal done
+            done = film(
+                painter,
+                path,
+                recording.frames,
+                fps=FPS,
+                note=f"{SPEED}x speed",
+                progress=lambda n: bar.update(task, completed=n, note=f"{n} pictures"),
+            )
+
+        output.write("video.mp4", shoot)
+    return done < len(recording.frames)
+
+
+def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) -> list[Snapshot]:
+    """The robot at the events, those that happen together in one picture."""
+    moments: list[tuple[float, str]] = []
+    for event in summary["events"]:
+        time, text = event["time_s"], event["text"]
+        if moments and time - moments[-1][0] < 0.25:
+            moments[-1] = (moments[-1][0], f"{moments[-1][1]}; {text}")
+        else:
+            moments.append((time, text))
+    moments.append((recording.simulated_seconds, summary["reason"]))
+    pictures = []
+    for time, text in moments:
+        nearest = min(recording.frames, key=lambda frame: abs(frame.time - time))
+        pictures.append(Snapshot(time, text, painter.picture(nearest.qpos).copy()))
+    return pictures
+
+
+def _tell(summary: dict[str, Any], output: Output, console: Console) -> None:
+    """The end in plain figures, and where everything lies."""
+    table = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
+    for heading in ("", "measured", "thesis"):
+        table.add_column(heading, justify="right" if heading else "left")
+    for name, value in summary["figures"].items():
+        thesis = readable(name, summary["thesis"].get(name))
+        table.add_row(describe(name).label, readable(name, value), thesis)
+    worst, tick = summary["limit_violation"], summary["control_tick_us"]
+    for what, excess in (("commanded", worst["commanded"]), ("physics", worst)):
+        table.add_row(f"over a joint limit, {what}", readable("_rad", excess["position_rad"]))
+    table.add_row("control tick, median / p99", f"{tick['median']:.0f} / {tick['p99']:.0f} µs")
+    table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
+    verdict = "[bold green]done" if summary["success"] else "[bold]stopped"
+    console.print(f"\n{verdict}[/]: {summary['reason']} ({summary['simulated_seconds']:.1f} s)")
+    console.print(table)
+    for path in output.saved:
+        console.print(f"  {path}", highlight=False, soft_wrap=True)
+
+
+@contextmanager
+def _progress(console: Console) -> Iterator[Progress]:
+    columns = (
+        TextColumn("{task.description:18}"),
+        BarColumn(bar_width=28),
+        TextColumn("{task.fields[note]}"),
+        TimeElapsedColumn(),
+    )
+    with Progress(*columns, console=console) as bar:
+        yield bar

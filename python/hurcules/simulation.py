@@ -1,0 +1,68 @@
+"""A mission in its scene: the C++ loop, stepped from Python.
+
+`simulation = hurcules.Simulation("stretch", seed=0)`, then `simulation.step(100)` for 0.1 s, as
+long as it is not `simulation.finished`.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from hurcules import _core, models
+from hurcules._core import Error
+
+__all__ = ["Simulation"]
+
+
+class Simulation(_core.Simulation):
+    """Robot, scene, controller and mission, closed at 1 kHz.
+
+    Same mission, seed and commands: same bits, here, in `hurcules run` and in `hurcules-sim`.
+
+    Attributes:
+        mission: name of the mission.
+        model: mujoco.MjModel of the scene.
+        data: mujoco.MjData, the physics. Read it freely; who writes to it changes the run.
+    """
+
+    def __init__(
+        self,
+        mission: str = "stretch",
+        seed: int = 0,
+        *,
+        variation: float = 1.0,
+        method: str = "lexicographic",
+        record: bool = True,
+        timed: bool = False,
+    ) -> None:
+        """Loads the mission's scene and stands at its start.
+
+        Args:
+            mission: one of `hurcules.missions()`.
+            seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
+            variation: how much differs between seeds: 1 as the mission says, 0 nothing.
+            method: how the hierarchy is solved, see `rhqp.SolverOptions`.
+            record: keeps every signal of every tick for `log`.
+            timed: keeps the time of each stage of each tick for `timings`.
+
+        Raises:
+            Error: no such mission or method (the text names those that exist), or a bad number.
+        """
+        if mission not in _core.missions():
+            known = ", ".join(_core.missions())
+            raise Error(f"mission '{mission}' does not exist; there are: {known}")
+        whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
+        if not whole or not 0 <= seed < 2**64:
+            raise Error(f"seed: wanted a whole number from 0 to 2**64 - 1, got {seed!r}")
+        options = _core.SimulationOptions(
+            seed=int(seed),
+            variation=float(variation),
+            method=method,
+            record=record,
+            timed=timed,
+        )
+        self.mission = mission
+        self.model = models.load(mission=mission)
+        self.data = mujoco.MjData(self.model)
+        super().__init__(self.model, self.data, mission, options)

@@ -1,0 +1,95 @@
+"""summary.json: what a run came to, in figures, each beside the thesis' own where it gives one."""
+
+from __future__ import annotations
+
+import math
+import platform
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules._version import __version__
+from hurcules.recording import Recording
+from hurcules.simulation import Simulation
+
+__all__ = ["summarize"]
+
+
+def summarize(
+    simulation: Simulation, recording: Recording, seed: int, method: str
+) -> dict[str, Any]:
+    """Sums up a run.
+
+    Args:
+        simulation: after the run.
+        recording: what it left.
+        seed: of the run.
+        method: of the solver.
+
+    Returns:
+        Plain data for JSON: numbers are finite or None.
+    """
+    wall = recording.wall_seconds
+    return _plain(
+        {
+            "mission": simulation.mission,
+            "seed": seed,
+            "version": __version__,
+            "method": method,
+            "success": simulation.success,
+            "reason": _reason(simulation, recording),
+            "simulated_seconds": simulation.time,
+            "real_time_factor": simulation.time / wall if wall else None,
+            "control_tick_us": _statistics(recording.control_tick_us),
+            "limit_violation": simulation.limit_violation(),
+            "figures": simulation.figures(),
+            "thesis": simulation.thesis_figures(),
+            "events": [{"time_s": round(time, 6), "text": text} for time, text in simulation.events()],
+            "machine": {
+                "processor": _processor(),
+                "system": platform.platform(),
+                "python": platform.python_version(),
+                "mujoco": mujoco.__version__,
+            },
+        }
+    )
+
+
+def _reason(simulation: Simulation, recording: Recording) -> str:
+    if recording.interrupted:
+        return f"interrupted at {simulation.time:.3f} s"
+    return simulation.reason or f"stopped at {simulation.time:.3f} s, as asked"
+
+
+def _statistics(values: NDArray[np.float64]) -> dict[str, float | None]:
+    if not len(values):
+        return {"median": None, "p99": None, "max": None}
+    median, p99 = np.percentile(values, (50, 99))
+    return {"median": float(median), "p99": float(p99), "max": float(values.max())}
+
+
+def _processor() -> str:
+    """The name of the processor, where the system tells it."""
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            lines = [line for line in file if line.startswith("model name")]
+    except OSError:
+        lines = []
+    return lines[0].split(":", 1)[1].strip() if lines else platform.processor()
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers as Python's; what is not finite as None, for JSON has no word for it."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    if isinstance(value, int | np.integer):
+        return int(value)
+    if isinstance(value, float | np.floating):
+        return float(value) if math.isfinite(value) else None
+    return value

@@ -1,0 +1,153 @@
+"""The film of a run: overview, the head camera in a corner, and a strip that says what goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+import imageio.v2 as imageio
+import matplotlib
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from hurcules.rendering import open_renderer, overview_camera, pose
+
+__all__ = ["Frame", "Painter", "film"]
+
+Picture = NDArray[np.uint8]  # (height, width, 3)
+
+WIDTH, HEIGHT = 1280, 720  # multiples of 16, as the encoder wants them
+INSET_WIDTH, INSET_HEIGHT = 320, 180
+STRIP = 64  # height of the caption [pixels]
+SHADOW_MAP = 2048  # half of MuJoCo's: software rendering spends most of its time there
+ACCENT, PAPER, SOFT, INK = (255, 138, 60), (246, 246, 243), (170, 174, 180), (20, 22, 25)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What the film needs to know of one moment."""
+
+    time: float  # [s]
+    qpos: NDArray[np.float64]  # (nq)
+    phase: str
+    active: tuple[str, ...]  # active limits, e.g. ("HIP upper",)
+
+
+class Painter:
+    """Draws frames of one model; a context manager, for it holds the renderers."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        """Opens the renderers.
+
+        Raises:
+            RendererError: there is no OpenGL that works.
+        """
+        self._model, self._data = model, mujoco.MjData(model)
+        model.vis.quality.shadowsize = min(SHADOW_MAP, model.vis.quality.shadowsize)
+        self._head = next((name for name in _cameras(model) if name.startswith("head")), None)
+        self._stack = ExitStack()
+        self._overview = self._stack.enter_context(open_renderer(model, WIDTH, HEIGHT))
+        if self._head:
+            self._inset = self._stack.enter_context(open_renderer(model, INSET_WIDTH, INSET_HEIGHT))
+        fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+        self._text = ImageFont.truetype(str(fonts / "DejaVuSans.ttf"), 22)
+        self._bold = ImageFont.truetype(str(fonts / "DejaVuSans-Bold.ttf"), 26)
+
+    def __enter__(self) -> Painter:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def picture(self, qpos: NDArray[np.float64]) -> Picture:
+        """The overview alone, (720, 1280, 3)."""
+        pose(self._model, self._data, qpos)
+        self._overview.update_scene(self._data, overview_camera())
+        return self._overview.render()
+
+    def frame(self, frame: Frame, note: str = "") -> Picture:
+        """The overview with the head camera's picture and the caption, (720, 1280, 3)."""
+        image = Image.fromarray(self.picture(frame.qpos))
+        if self._head:
+            self._paste_inset(image)
+        self._write_caption(image, frame, note)
+        return np.asarray(image)
+
+    def _paste_inset(self, image: Image.Image) -> None:
+        self._inset.update_scene(self._data, self._head)
+        self._inset.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
+        inset = Image.fromarray(self._inset.render())
+        left, top = WIDTH - INSET_WIDTH - 24, 24
+        draw = ImageDraw.Draw(image)
+        draw.rectangle((left - 3, top - 3, left + INSET_WIDTH + 2, top + INSET_HEIGHT + 2), PAPER)
+        image.paste(inset, (left, top))
+        draw.text((left + 10, top + 8), "head camera", PAPER, self._text.font_variant(size=16))
+
+    def _write_caption(self, image: Image.Image, frame: Frame, note: str) -> None:
+        draw = ImageDraw.Draw(image)
+        middle = HEIGHT - STRIP // 2
+        draw.rectangle((0, HEIGHT - STRIP, WIDTH, HEIGHT), INK)
+        draw.text((28, middle), f"{frame.time:5.1f} s", PAPER, self._bold, anchor="lm")
+        draw.text((160, middle), f"{frame.phase}   {note}", SOFT, self._text, anchor="lm")
+        right = WIDTH - 28.0
+        for text in reversed(frame.active):
+            width = draw.textlength(text, self._text) + 24
+            draw.rounded_rectangle((right - width, middle - 18, right, middle + 18), 6, ACCENT)
+            draw.text((right - width / 2, middle), text, INK, self._text, anchor="mm")
+            right -= width + 12
+        label = "limits" if frame.active else "no active limit"
+        draw.text((right, middle), label, SOFT, self._text, anchor="rm")
+
+
+def film(
+    painter: Painter,
+    path: Path,
+    frames: Sequence[Frame],
+    fps: int,
+    note: str,
+    progress: Callable[[int], None],
+) -> int:
+    """Writes an H.264 film. Ctrl-C ends it early: what was drawn is kept.
+
+    Args:
+        painter: draws the frames.
+        path: the file, .mp4.
+        frames: one a picture.
+        fps: [1/s] pictures a second.
+        note: stands in the caption of each frame.
+        progress: called after each frame with the number drawn.
+
+    Returns:
+        The number of frames in the film, less than asked for only after Ctrl-C.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    done = 0
+    writer = imageio.get_writer(
+        path,
+        format="FFMPEG",
+        fps=fps,
+        codec="libx264",
+        quality=None,
+        macro_block_size=16,
+        output_params=["-crf", "25", "-preset", "veryfast", "-movflags", "+faststart"],
+    )
+    try:
+        for frame in frames:
+            writer.append_data(painter.frame(frame, note))
+            done += 1
+            progress(done)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        writer.close()
+    return done
+
+
+def _cameras(model: mujoco.MjModel) -> list[str]:
+    return [model.camera(i).name for i in range(model.ncam)]

@@ -1,0 +1,162 @@
+// Strategy: the stretch of thesis §4.4 on the real robot without physics: the commanded motion
+// alone, one tick a millisecond. Its claims are those of hurcules-facts B5; the same run in the
+// physics is in sim/stretch_physics_test.cpp.
+#include "hurcules/mission/stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "hurcules/control/velocity_controller.hpp"
+#include "hurcules/sim/standing_model.hpp"
+#include "support/expect.hpp"
+
+namespace {
+
+using namespace hurcules;
+using namespace hurcules_test;
+
+// The run is made once and looked at by all tests.
+struct Run {
+  Run() {
+    world.set_keyframe("stretch");
+    Vector qpos = plan.qpos();
+    standing.copy_configuration(world, qpos);
+    plan.set_qpos(qpos);
+    controller.set_stack(stretch.phases().front().stack);
+    stretch.reset(plan, world);
+    const Vector start = plan.configuration();
+    const Frame hand = plan.frame("L_tcp");
+    const Vector3 hand_start = plan.position(hand);
+    do {
+      tick();
+    } while (stretch.select_phase(plan, time));
+    for (const Figure& figure : stretch.figures()) figures[figure.name] = figure.value;
+    hand_moved = plan.position(hand) - hand_start;
+    lean_start = start;
+  }
+
+  void tick() {
+    stretch.apply(stretch.operator_command(1e-3), 1e-3);
+    controller.compute(plan);
+    Vector q = plan.configuration();
+    controller.integrate(q);
+    stretch.note_commanded({time, controller.active_limits(), 0.0, 0.0});
+    plan.set_configuration(q);
+    for (Index i = 0; i < q.size(); ++i) {
+      const std::string& name = plan.coordinates()[static_cast<std::size_t>(i)].name;
+      highest.try_emplace(name, q[i]).first->second = std::max(highest[name], q[i]);
+    }
+    worst_status = std::max(worst_status, static_cast<int>(controller.solution().status));
+    fastest = std::max(fastest, controller.velocity().cwiseAbs().maxCoeff());
+    time = std::round(1e3 * time + 1.0) * 1e-3;
+  }
+
+  Robot world{load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml")};
+  StandingModel standing = standing_model(world, "lower_leg_L");
+  Robot plan{standing.model};
+  Stretch stretch{plan};
+  VelocityController controller{plan};
+  double time = 0.0, fastest = 0.0;
+  int worst_status = 0;
+  std::map<std::string, double> figures, highest;
+  Vector3 hand_moved = Vector3::Zero();
+  Vector lean_start;
+};
+
+const Run& run() {
+  static const Run made;
+  return made;
+}
+
+double figure(const std::string& name) {
+  return run().figures.at(name);
+}
+
+TEST(Stretch, HasTheFiveLevelsOfTheThesis) {
+  EXPECT_EQ(run().stretch.stack().text(), "joint < hpos < hpitch < pel < gaze");
+  const std::vector<Index> rows = {13, 6, 2, 1, 2};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(run().controller.hierarchy()[k].rows(), rows[k]);
+    EXPECT_EQ(run().controller.hierarchy()[k].rho, k == 0 ? 0.0 : 0.1);
+  }
+}
+
+TEST(Stretch, BothArmsGoForwardByTheCommandAlone) {
+  // S01
+  EXPECT_NEAR(figure("stretched_m"), 0.875, 1e-9);
+  EXPECT_TRUE(near(run().hand_moved, Vector3(0.875, 0, 0), 2e-4));
+}
+
+TEST(Stretch, HipMeetsItsLimitAndThePelvisBeginsToGiveWay) {
+  // S02: thesis about 15 s; our geometry 14.3 (hurcules-facts A4)
+  EXPECT_NEAR(figure("hip_locked_s"), 14.3, 0.3);
+  EXPECT_LT(figure("pelvis_error_at_hip_locked_m"), 2e-3);
+  EXPECT_NEAR(run().highest.at("HIP"), 0.36, 1e-6);
+}
+
+TEST(Stretch, ShoulderMeetsItsLimitAndTheHipIsReleased) {
+  // S03: thesis about 25 s, both at once; our geometry 23.7 and 23.8
+  EXPECT_NEAR(figure("shoulder_locked_s"), 23.7, 0.3);
+  EXPECT_NEAR(figure("hip_released_s"), figure("shoulder_locked_s"), 0.2);
+  EXPECT_NEAR(figure("pelvis_error_at_shoulder_locked_m"), 0.07, 0.01);
+  EXPECT_NEAR(run().highest.at("LSP"), 2.58, 1e-6);
+  EXPECT_LT(run().plan.configuration()[run().plan.coordinate("HIP")], 0.0);
+}
+
+TEST(Stretch, PelvisEndsFortyCentimetresOffAndHandsDoNot) {
+  // S05
+  EXPECT_NEAR(figure("pelvis_error_m"), 0.40, 0.005);
+  EXPECT_LT(figure("hand_error_max_m"), 3e-4);
+  EXPECT_LT(figure("pitch_error_max_rad"), 2e-4);
+}
+
+TEST(Stretch, NoLimitIsEverExceededAndEverySolveIsGood) {
+  for (const ModeRange& range : rescue_ready_ranges()) {
+    EXPECT_LE(run().highest.at(range.coordinate), range.upper) << range.coordinate;
+  }
+  EXPECT_EQ(run().worst_status, static_cast<int>(SolverStatus::Solved));
+  EXPECT_LT(run().fastest, 1.5);
+}
+
+TEST(Stretch, LastsAsLongAsItsCommand) {
+  EXPECT_NEAR(run().time, 2.0 + 0.875 / 0.0215 + 2.0, 2e-3);
+  EXPECT_LT(run().time, run().stretch.setup().max_seconds);
+}
+
+TEST(Stretch, TheOperatorPressesHalfOfFullScale) {
+  const std::vector<Channel>& channels = run().stretch.channels();
+  ASSERT_EQ(channels.size(), 11U);
+  EXPECT_EQ(channels[0].name, "left_hand_x");
+  EXPECT_EQ(channels[0].scale, 2.0 * 0.0215);
+}
+
+TEST(RobotTables, ModeRangesNarrowTheRobotsOwn) {
+  JointLimits limits("joint", run().plan);
+  set_ranges(limits, rescue_ready_ranges());  // throws where one is wider
+  EXPECT_EQ(limits.upper()[run().plan.coordinate("HIP")], 0.36);
+}
+
+TEST(RobotTables, ServoReckonsWithTheInertiaOfTheModel) {
+  // diagonal of the joint-space inertia at both ends of the stretch; the knees share theirs
+  Robot robot(run().standing.model);
+  Matrix M(robot.size(), robot.size());
+  Vector largest = Vector::Zero(robot.size());
+  for (const Vector& q : {run().lean_start, Vector(run().plan.configuration())}) {
+    Vector qpos = run().plan.qpos();
+    robot.set_qpos(qpos);
+    robot.set_configuration(q);
+    robot.mass_matrix(M);
+    largest = largest.cwiseMax(M.diagonal());
+  }
+  for (const ServoRow& row : rescue_servo()) {
+    if (contains(row.joint, "belt")) continue;
+    const bool knee = contains(row.joint, "KN");
+    const Index i = robot.coordinate(knee ? "KN" : row.joint);
+    const double inertia = knee ? largest[i] / 2.0 : largest[i];
+    EXPECT_LT(inertia, 1.15 * row.inertia) << row.joint;
+    EXPECT_GT(inertia, row.inertia / 1.15) << row.joint;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,113 @@
+"""The command line: help, lists, and one clear line for every wrong use. Runs themselves: test_run.py.
+
+Called in this process through `hurcules.cli.main`, which is what the console script calls.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import hurcules
+from hurcules import cli, doctor
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = cli.main(arguments)
+    said = capsys.readouterr()
+    return code, said.out, said.err
+
+
+@pytest.mark.parametrize("command", ["run", "list", "doctor"])
+def test_help_of_each_command_shows_an_example(
+    capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    code, out, err = call(capsys, command, "--help")
+    assert (code, err) == (0, "")
+    assert f"hurcules {command}" in out
+    assert "For example" in out
+
+
+def test_without_arguments_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys)
+    assert (code, err) == (2, "")
+    assert all(command in out for command in ("run", "list", "doctor"))
+
+
+def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "--version") == (0, f"{hurcules.__version__}\n", "")
+
+
+def test_list_names_everything_that_there_is(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "list")
+    assert code == 0
+    for kind in ("missions", "scenes", "models", "environments"):
+        assert kind in out
+    names = [*hurcules.missions(), *hurcules.models.scenes(), *hurcules.models.names()]
+    for name in [*names, "hurcules_envs:Hurcules/Stretch-v0"]:
+        assert re.search(rf"(^|\s){re.escape(name)}\s", out), name
+
+
+def test_doctor_tells_each_finding_and_ends_well_where_nothing_is_broken(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    code, out, _ = call(capsys, "doctor")
+    assert code == 0
+    for word in ("Python", "MuJoCo", "renderer", "codec", "processor"):
+        assert word in out
+
+
+def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    finding = doctor.Finding("heart", "broken", "stopped", "start it")
+    monkeypatch.setattr(doctor, "examine", lambda: [finding])
+    code, out, _ = call(capsys, "doctor")
+    assert code == 1
+    assert "start it" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["run", "nowhere"], "mission 'nowhere' does not exist; there are: stretch"),
+        (["run", "--method", "magic"], "magic"),
+        (["run", "--seed", "-1"], "seed: wanted a whole number from 0 to 2**64 - 1, got -1"),
+        (["run", "--seed", "x"], "--seed"),
+        (["run", "--seed", str(2**64)], "seed: wanted a whole number"),
+        (["run", "--seconds", "x"], "--seconds"),
+        (["run", "--seconds", "0"], "--seconds: wanted a time of 0.001 s or more, got 0.0"),
+        (["run", "--seconds", "nan"], "--seconds: wanted"),
+        (["run", "--seconds", "inf"], "--seconds: wanted"),
+        (["run", "--frobnicate"], "--frobnicate"),
+        (["run", "stretch", "again"], "again"),
+        (["jump"], "jump"),
+    ],
+)
+def test_wrong_use_gives_one_line_and_exit_code_2(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], says: str
+) -> None:
+    code, out, err = call(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("hurcules: error: ")
+    assert err.count("\n") == 1
+    assert says in err
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_run(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "file").touch()
+    code, out, err = call(capsys, "run", "--out", str(tmp_path / "file" / "out"))
+    assert (code, out) == (2, "")
+    assert err == f"hurcules: error: --out: cannot write to {tmp_path}/file/out: Not a directory\n"
+
+
+def test_the_console_script_ends_with_the_code_of_main() -> None:
+    script = Path(sys.executable).with_name("hurcules")
+    done = subprocess.run([script, "run", "nowhere"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("hurcules: error: mission 'nowhere'")
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,67 @@
+"""The README keeps its word: its Python runs, its commands and its files exist."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hurcules import cli
+
+
+@pytest.fixture(scope="module")
+def readme(root: Path) -> str:
+    return (root / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(text: str, language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
+
+
+def test_each_python_block_runs(readme: str, tmp_path: Path) -> None:
+    programs = blocks(readme, "python")
+    assert programs
+    for program in programs:
+        done = subprocess.run(
+            [sys.executable, "-W", "error", "-c", program],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+        assert done.returncode == 0, f"{program}\n{done.stderr}"
+
+
+def test_the_loop_on_the_first_screen_has_ten_lines(readme: str) -> None:
+    lines = [line for line in blocks(readme, "python")[0].splitlines() if line.strip()]
+    assert len(lines) <= 10
+
+
+def test_every_make_target_that_is_named_exists(readme: str, root: Path) -> None:
+    makefile = (root / "Makefile").read_text(encoding="utf-8")
+    named = set(re.findall(r"\bmake ([a-z]+)\b", "\n".join(blocks(readme, "sh"))))
+    assert {"demo", "test"} <= named
+    assert [name for name in named if not re.search(rf"^{name}:", makefile, re.MULTILINE)] == []
+
+
+def test_every_command_that_is_named_exists(
+    readme: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    named = set(re.findall(r"^hurcules ([a-z]+)", "\n".join(blocks(readme, "sh")), re.MULTILINE))
+    assert {"run", "list", "doctor"} <= named
+    for name in named:
+        assert cli.main([name, "--help"]) == 0
+        assert name in capsys.readouterr().out
+
+
+def test_every_link_leads_to_a_file(readme: str, root: Path) -> None:
+    links = re.findall(r"\]\(([^)#:]+)\)", readme) + re.findall(r'src="([^":]+)"', readme)
+    assert links
+    assert [link for link in links if not (root / link).exists()] == []
+
+
+def test_the_pictures_are_small(root: Path) -> None:
+    pictures = [path for path in (root / "docs").iterdir() if path.suffix in {".png", ".gif"}]
+    assert pictures
+    assert [path.name for path in pictures if path.stat().st_size > 300_000] == []

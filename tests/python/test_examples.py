@@ -1,0 +1,43 @@
+"""The examples run as they stand, say something, and stay short."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "python" / "examples").glob("*.py"))
+
+
+def test_there_are_five_numbered_ones() -> None:
+    assert [path.name[:3] for path in EXAMPLES] == ["01_", "02_", "03_", "04_", "05_"]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_it_runs_and_says_something(example: Path, tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", example],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    assert len(done.stdout.splitlines()) >= 5
+    assert "nan" not in done.stdout
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_it_is_short_and_says_at_its_top_what_it_is(example: Path) -> None:
+    text = example.read_text(encoding="utf-8")
+    assert len(text.splitlines()) < 60
+    assert f"Run:  python python/examples/{example.name}" in (ast.get_docstring(ast.parse(text)) or "")
+
+
+def test_the_two_hand_reach_takes_twelve_lines() -> None:
+    text = EXAMPLES[2].read_text(encoding="utf-8")
+    block = text.partition("in twelve lines")[2].partition("\n\n")[0]
+    lines = [line for line in block.splitlines()[1:] if line.strip()]
+    assert 0 < len(lines) <= 12

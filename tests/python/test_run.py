@@ -1,0 +1,244 @@
+"""`hurcules run`: what it writes, what it says, and how it ends when something goes wrong.
+
+A whole mission is run by `make demo`, not here: these runs are cut short with --seconds.
+"""
+
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import imageio.v2 as imageio
+import numpy as np
+import pytest
+from rich.console import Console
+
+import hurcules
+from hurcules import run as runs
+from hurcules.recording import CHANNELS, STAGES
+from hurcules.run import DONE, FAILED, RunOptions, run
+
+COMMAND = [sys.executable, "-c", "import sys; from hurcules.cli import main; sys.exit(main())"]
+SECONDS = 2.4  # the stretch begins at 2 s
+
+
+def quiet() -> Console:
+    return Console(file=io.StringIO(), width=100)
+
+
+def said(console: Console) -> str:
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue()
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A short run with film: its folder and what it said."""
+    out, console = tmp_path_factory.mktemp("run") / "deep" / "out", quiet()
+    assert run(RunOptions(out=out, seconds=SECONDS), console) == DONE
+    return out, said(console)
+
+
+@pytest.fixture(scope="module")
+def summary(result: tuple[Path, str]) -> dict[str, Any]:
+    text = (result[0] / "summary.json").read_text(encoding="utf-8")
+    found: dict[str, Any] = json.loads(text)
+    return found
+
+
+def test_a_run_writes_its_files_and_says_where(result: tuple[Path, str]) -> None:
+    out, text = result
+    names = ["log.npz", "report.html", "summary.json", "timing.npz", "video.mp4"]
+    assert sorted(path.name for path in out.iterdir()) == names
+    joined = text.replace("\n", "")
+    assert [name for name in names if f"{out / name}" not in joined] == []
+
+
+def test_the_summary_has_all_that_it_always_has(summary: dict[str, Any]) -> None:
+    assert summary["mission"] == "stretch"
+    assert summary["seed"] == 0
+    assert summary["version"] == hurcules.__version__
+    assert summary["simulated_seconds"] == pytest.approx(SECONDS)
+    assert summary["success"] is False
+    assert summary["reason"] == "stopped at 2.400 s, as asked"
+    assert summary["real_time_factor"] > 0
+    tick = summary["control_tick_us"]
+    assert 0 < tick["median"] <= tick["p99"] <= tick["max"]
+    worst = summary["limit_violation"]
+    for excess in (worst, worst["commanded"]):
+        assert all(excess[name] >= 0 for name in ("position_rad", "velocity", "torque"))
+    assert worst["commanded"]["position_rad"] == 0
+
+
+def test_the_summary_has_the_thesis_beside_the_figures(summary: dict[str, Any]) -> None:
+    assert set(summary["thesis"]) <= set(summary["figures"])
+    assert summary["thesis"]["hip_locked_s"] == 15.0
+    assert summary["thesis"]["pelvis_error_m"] == 0.40
+    assert summary["figures"]["hip_locked_s"] is None  # not in so short a run
+
+
+def test_every_figure_of_the_mission_is_described() -> None:
+    from hurcules.figures import FIGURES
+
+    assert set(hurcules.Simulation("stretch").figures()) == set(FIGURES)
+
+
+def test_the_log_holds_every_tick_of_every_documented_channel(result: tuple[Path, str]) -> None:
+    log = np.load(result[0] / "log.npz")
+    documented = {word.split("/")[0] for names, _ in CHANNELS for word in names.split(", ")}
+    assert {name.split("/")[0] for name in log.files} == documented
+    assert {log[name].shape for name in log.files} == {(round(1000 * SECONDS),)}
+    assert {log[name].dtype for name in log.files} == {np.dtype(np.float64)}
+    np.testing.assert_allclose(np.diff(log["time"]), 1e-3)
+
+
+def test_the_timings_hold_every_stage(result: tuple[Path, str]) -> None:
+    assert ", ".join(np.load(result[0] / "timing.npz").files) == STAGES
+
+
+# imageio's reader, not its writer, leaves pipes open
+@pytest.mark.filterwarnings("ignore:unclosed file", "ignore::pytest.PytestUnraisableExceptionWarning")
+def test_the_film_is_h264_and_plays_at_twice_the_speed(result: tuple[Path, str]) -> None:
+    with imageio.get_reader(result[0] / "video.mp4") as reader:
+        facts = reader.get_meta_data()
+        pictures = [picture for picture in reader]
+    assert facts["codec"] == "h264"
+    assert facts["size"] == (1280, 720)
+    assert len(pictures) / facts["fps"] == pytest.approx(SECONDS / 2, abs=0.06)
+    assert np.std(pictures[0][:600]) > 10  # something is drawn
+    assert np.mean(np.abs(pictures[0].astype(int) - pictures[-1])) > 0.1  # and something moved
+
+
+def test_the_report_needs_no_other_file(result: tuple[Path, str]) -> None:
+    page = (result[0] / "report.html").read_text(encoding="utf-8")
+    assert 'src="http' not in page
+    assert 'href="http' not in page
+    assert "data:video/mp4;base64," in page
+    assert page.count("<svg") == 7
+    for title in ("Joint positions", "Control errors", "Task errors", "Active limits"):
+        assert f"<h2>{title}</h2>" in page
+
+
+def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Path) -> None:
+    logs = []
+    for name, seed in (("a", 3), ("b", 3), ("c", 4)):
+        options = RunOptions(out=tmp_path / name, seed=seed, seconds=0.3, video=False)
+        assert run(options, quiet()) == DONE
+        logs.append((tmp_path / name / "log.npz").read_bytes())
+    assert logs[0] == logs[1]
+    assert logs[0] != logs[2]
+
+
+def test_files_of_an_earlier_run_do_not_stay(tmp_path: Path) -> None:
+    (tmp_path / "video.mp4").write_text("old")
+    (tmp_path / "mine.txt").write_text("kept")
+    assert run(RunOptions(out=tmp_path, seconds=0.1, video=False), quiet()) == DONE
+    assert not (tmp_path / "video.mp4").exists()
+    assert (tmp_path / "mine.txt").read_text() == "kept"
+
+
+def test_without_a_renderer_the_rest_is_done_and_the_remedy_named(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [*COMMAND, "run", "--seconds", "0.2", "--out", str(tmp_path)],
+        env={**os.environ, "MUJOCO_GL": "disable", "COLUMNS": "300"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "no video: no usable renderer" in done.stdout
+    assert "apt-get install" in done.stdout
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "log.npz",
+        "report.html",
+        "summary.json",
+        "timing.npz",
+    ]
+    assert "No film: no usable renderer" in (tmp_path / "report.html").read_text()
+
+
+def test_ctrl_c_saves_what_was_recorded_and_says_so(tmp_path: Path) -> None:
+    # ends itself by Ctrl-C in the middle of the simulation, as a person would
+    program = """
+import os, signal, sys
+from hurcules import cli, recording
+moment = recording._moment
+def interrupting(simulation):
+    if simulation.time > 0.5:
+        os.kill(os.getpid(), signal.SIGINT)
+    return moment(simulation)
+recording._moment = interrupting
+sys.exit(cli.main())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, "run", "--out", str(tmp_path)],
+        env={**os.environ, "COLUMNS": "300"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 128 + signal.SIGINT
+    assert "Traceback" not in done.stderr
+    assert "interrupted at 0.600 s; " in done.stdout
+    assert f"saved in {tmp_path}: log.npz, timing.npz, summary.json, report.html" in done.stdout
+    assert len(np.load(tmp_path / "log.npz")["time"]) == 600
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert (summary["success"], summary["reason"]) == (False, "interrupted at 0.600 s")
+
+
+def test_ctrl_c_in_the_film_keeps_the_pictures_that_were_drawn(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    drawn = runs.Painter.frame
+
+    def interrupting(painter: runs.Painter, frame: Any, note: str = "") -> Any:
+        if frame.time > 0.4:
+            raise KeyboardInterrupt
+        return drawn(painter, frame, note)
+
+    monkeypatch.setattr(runs.Painter, "frame", interrupting)
+    console = quiet()
+    assert run(RunOptions(out=tmp_path, seconds=1.0), console) == runs.INTERRUPTED
+    assert "report.html" in said(console)
+    with imageio.get_reader(tmp_path / "video.mp4") as reader:
+        assert reader.count_frames() == 5  # at 0, 0.1, ... 0.4 s
+
+
+def test_a_full_disk_gives_one_line_that_says_what_was_saved(tmp_path: Path) -> None:
+    # a limit on the size of files stands for the full disk: timing.npz is smaller than log.npz
+    program = """
+import resource, sys
+from hurcules import cli
+resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
+sys.exit(cli.main())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, "run", "--no-video", "--seconds", "0.3", "--out", tmp_path],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 1, done.stderr
+    assert done.stderr.count("\n") == 1
+    assert f"cannot write {tmp_path}/log.npz: File too large; nothing was saved" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_mission_that_fails_says_why_and_ends_with_1(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    class Pushed(hurcules.Simulation):
+        """A giant pushes the trunk over."""
+
+        def step(self, n: int = 1, command: Any = None) -> int:
+            self.data.body("waist").xfrc_applied[:3] = (-9000.0, 0.0, 0.0)
+            return super().step(n, command)
+
+    monkeypatch.setattr(runs, "Simulation", Pushed)
+    console = quiet()
+    assert run(RunOptions(out=tmp_path, video=False), console) == FAILED
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["success"] is False
+    assert summary["reason"].startswith("fell over at ")
+    assert summary["reason"] in said(console)
