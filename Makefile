@@ -35,7 +35,7 @@ sanitize: setup
 	PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)" cmake --workflow --preset dev
 
 bench: setup
-	$(BIN)/hurcules bench
+	$(BUILD)/benchmarks/timing
 
 setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
 

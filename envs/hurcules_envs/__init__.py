@@ -5,6 +5,8 @@
 
 from gymnasium.envs.registration import register
 
+import hurcules  # noqa: F401  # first of all: it chooses MuJoCo's OpenGL
+
 # id: (entry point as text, so that a spec can be stored; steps of 20 ms)
 _STEPS = {"Hurcules/Stretch-v0": ("hurcules_envs.stretch:StretchEnv", 3000)}
 

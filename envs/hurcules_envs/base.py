@@ -9,14 +9,14 @@ from abc import abstractmethod
 from typing import Any, ClassVar
 
 import gymnasium
-import hurcules
 import mujoco
 import numpy as np
 from gymnasium import spaces
 from gymnasium.utils import EzPickle
-from hurcules.rendering import make_renderer, overview_camera, pose
 from numpy.typing import NDArray
 
+import hurcules
+from hurcules.rendering import make_renderer, overview_camera, pose
 from hurcules_envs.observations import observation_space
 
 __all__ = ["HurculesEnv"]
@@ -47,7 +47,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         """Loads the mission's scene.
 
         Args:
-            render_mode: None or "rgb_array".
+            render_mode: None or "rgb_array"; "human" is Gymnasium's own, when pygame is there.
             variation: how much differs between seeds: 1 as the mission says, 0 nothing.
 
         Raises:
@@ -77,8 +77,8 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         """Stands at the start of the mission.
 
         Args:
-            seed: goes to the core as it is, so that `hurcules run --seed` is the same run; without one
-                the environment's generator draws it.
+            seed: goes to the core as it is, so that `hurcules run --seed` is the same run; without
+                one the environment's generator draws it.
             options: none are known.
 
         Raises:

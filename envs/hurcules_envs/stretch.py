@@ -14,10 +14,10 @@ __all__ = ["StretchEnv"]
 class StretchEnv(HurculesEnv):
     """The stretch, commanded in task space.
 
-    The rescue robot (680 kg) stands on its lower-leg tracks before a lying casualty. The action moves the
-    references of its tasks; underneath, the hierarchy `joint < hpos < hpitch < pel < gaze` is solved at
-    1 kHz, so that no action drives a joint over its limits and lower tasks give way first. Axes are the
-    world's: x forward, y left, z up.
+    The rescue robot (680 kg) stands on its lower-leg tracks before a lying casualty. The action
+    moves the references of its tasks; underneath, the hierarchy `joint < hpos < hpitch < pel <
+    gaze` is solved at 1 kHz, so that no action commands a joint over its limits and lower tasks
+    give way first. Axes are the world's: x forward, y left, z up.
 
     Action: Box(-1, 1, (11,), float32). Zero holds; 1 is the scale.
 
@@ -33,30 +33,31 @@ class StretchEnv(HurculesEnv):
     | 7     | right_pitch  | rad/s | 0.1   | pitch of the right lower arm              |
     | 8     | pelvis_x     | m/s   | 0.043 | reference of the pelvis, forward          |
     | 9     | gaze_yaw     | rad/s | 0.1   | line of sight of the head, to the left    |
-    | 10    | gaze_pitch   | rad/s | 0.1   | the same, down                            |
+    | 10    | gaze_pitch   | rad/s | 0.1   | the same, up                              |
 
     Observation: Box of shape (96,), float32; values beyond the range are cut off. C runs over the
-    coordinates KN, HIP, WST, NKY, NKP, LSP, LSR, LSY, LEB, RSP, RSR, RSY, REB; A over x, y, z.
+    coordinates KN, HIP, WST, NKY, NKP, LSP, LSR, LSY, LEB, RSP, RSR, RSY, REB; L over the levels;
+    A over the axes x, y, z.
 
-    | index | name               | unit     | least | most | what it is                                  |
-    |-------|--------------------|----------|-------|------|---------------------------------------------|
-    | 0-12  | q/C                | rad      | -4    | 4    | measured position                           |
-    | 13-25 | qd/C               | rad/s    | -10   | 10   | measured velocity                           |
-    | 26-38 | lag/C              | rad      | -2    | 2    | reference minus measured position           |
-    | 39-51 | to_lower/C         | rad      | -8    | 8    | distance to the lower limit                 |
-    | 52-64 | to_upper/C         | rad      | -8    | 8    | distance to the upper limit                 |
-    | 65-67 | task_error/lhpos   | m        | -5    | 5    | left hand minus its reference               |
-    | 68-70 | task_error/rhpos   | m        | -5    | 5    | right hand minus its reference              |
-    | 71    | task_error/lhpitch | rad      | -5    | 5    | left lower arm minus its reference          |
-    | 72    | task_error/rhpitch | rad      | -5    | 5    | right lower arm minus its reference         |
-    | 73    | task_error/pel     | m        | -5    | 5    | pelvis minus its reference                  |
-    | 74-75 | task_error/gaze    | rad      | -5    | 5    | line of sight minus its reference           |
-    | 76-80 | active_rows/L      | 1        | 0     | 64   | rows that hold back joint, hpos, hpitch, pel, gaze |
-    | 81-83 | base/A             | m        | -100  | 100  | position of the support                     |
-    | 84-86 | base_rotation/A    | rad      | -3.2  | 3.2  | its rotation vector                         |
-    | 87-89 | base_velocity/A    | m/s      | -20   | 20   | its velocity                                |
-    | 90-92 | base_spin/A        | rad/s    | -20   | 20   | its angular velocity                        |
-    | 93-95 | target_in_base/A   | m        | -100  | 100  | the casualty's chest, seen from the support |
+    | index | name               | unit  | least | most | what it is                           |
+    |-------|--------------------|-------|-------|------|--------------------------------------|
+    | 0-12  | q/C                | rad   | -4    | 4    | measured position                    |
+    | 13-25 | qd/C               | rad/s | -10   | 10   | measured velocity                    |
+    | 26-38 | lag/C              | rad   | -2    | 2    | reference minus measured position    |
+    | 39-51 | to_lower/C         | rad   | -8    | 8    | distance to the lower limit          |
+    | 52-64 | to_upper/C         | rad   | -8    | 8    | distance to the upper limit          |
+    | 65-67 | task_error/lhpos   | m     | -5    | 5    | left hand minus its reference        |
+    | 68-70 | task_error/rhpos   | m     | -5    | 5    | right hand minus its reference       |
+    | 71    | task_error/lhpitch | rad   | -5    | 5    | left lower arm minus its reference   |
+    | 72    | task_error/rhpitch | rad   | -5    | 5    | right lower arm minus its reference  |
+    | 73    | task_error/pel     | m     | -5    | 5    | pelvis minus its reference           |
+    | 74-75 | task_error/gaze    | rad   | -5    | 5    | line of sight minus its reference    |
+    | 76-80 | active_rows/L      | 1     | 0     | 64   | rows that hold level L back          |
+    | 81-83 | base/A             | m     | -100  | 100  | position of the support              |
+    | 84-86 | base_rotation/A    | rad   | -3.2  | 3.2  | its rotation vector                  |
+    | 87-89 | base_velocity/A    | m/s   | -20   | 20   | its velocity                         |
+    | 90-92 | base_spin/A        | rad/s | -20   | 20   | its angular velocity                 |
+    | 93-95 | target_in_base/A   | m     | -100  | 100  | casualty's chest from the support    |
 
     Reward, a step: the sum of these terms, each in `info` as `reward_TERM`.
 
@@ -70,12 +71,12 @@ class StretchEnv(HurculesEnv):
     | effort   | -0.2 a second at full torque of all motors (mean square of the share) |
     | fall     | -10 once, when the robot falls or the run fails                     |
 
-    Start: keyframe `stretch`; the seed moves the casualty by up to 3 cm and 0.05 rad and each joint by up
-    to 2 mrad, times `variation`.
+    Start: keyframe `stretch`; the seed moves the casualty by up to 3 cm and 0.05 rad and each joint
+    by up to 2 mrad, times `variation`.
 
-    End: `terminated` when the mission is over: the hands went 0.875 m forward and held there for 2 s
-    (`is_success` says whether all errors are small), the robot fell, or the numbers failed. `truncated`
-    after 3000 steps (60 s).
+    End: `terminated` when the mission is over: the hands went 0.875 m forward and held there for
+    2 s (`is_success` says whether all errors are small), the robot fell, or the numbers failed.
+    `truncated` after 3000 steps (60 s).
 
     Arguments: `render_mode` None or "rgb_array"; `variation` 1.0.
     """

@@ -1,4 +1,4 @@
-"""Any MJCF arm: three joints written as text, its hand sent to a point, without leaving a joint limit.
+"""Any MJCF arm: three joints as text, the hand sent to a point, no joint limit passed.
 
 Run:  python python/examples/02_any_mjcf_arm.py
 """
@@ -10,7 +10,10 @@ import hurcules
 
 ARM = """
 <mujoco>
-  <default><joint type="hinge" axis="0 1 0" range="-1.2 1.2"/><geom type="capsule" size="0.03"/></default>
+  <default>
+    <joint type="hinge" axis="0 1 0" range="-1.2 1.2"/>
+    <geom type="capsule" size="0.03"/>
+  </default>
   <worldbody>
     <body>
       <joint name="turn" axis="0 0 1" range="-3 3"/>
@@ -39,10 +42,10 @@ hand.set_target([0.3, 0.3, 0.6])
 controller = hurcules.VelocityController(robot)
 controller.set_stack(hurcules.Stack([limits, hand]))
 
-q, dt = robot.configuration, controller.options.dt
 for tick in range(2001):
     if tick % 400 == 0:
+        q = robot.configuration.round(3)
         distance = np.linalg.norm(robot.position("hand") - hand.target)
-        print(f"{tick * dt:3.1f} s   q = {q.round(3)}   to go {1000 * distance:6.1f} mm")
-    robot.set_configuration(q)
-    q = q + controller.compute(robot) * dt
+        print(f"{tick / 1000:3.1f} s   q = {q}   to go {1000 * distance:6.1f} mm")
+    controller.compute(robot)
+    robot.set_configuration(controller.integrate(robot.configuration))

@@ -1,6 +1,8 @@
-"""The first seconds of the mission `stretch`, in the physics: 680 kg on tracks, controlled at 1 kHz.
+"""The first seconds of the mission `stretch`, in the physics: 680 kg on tracks, at 1 kHz.
 
-Run:  python python/examples/04_stretch.py        (the whole mission with film: hurcules run stretch)
+Run:  python python/examples/04_stretch.py
+
+The whole mission, with film and report: hurcules run stretch
 """
 
 from time import perf_counter

@@ -1,4 +1,4 @@
-"""Step the Gymnasium environment: first with the operator's own actions, then with a policy of zeros.
+"""Step the Gymnasium environment: with the operator's own actions, then with zeros.
 
 Run:  python python/examples/05_step_the_environment.py
 """

@@ -1,4 +1,4 @@
-"""The compiled part of hurcules. Arrays are float64 and copies; shapes and units stand beside them."""
+"""The compiled part of hurcules. Arrays are float64 and copies; shape and unit beside each."""
 
 import os
 from collections.abc import Iterable, Sequence
@@ -76,7 +76,8 @@ class ActiveRow(_Given):
     @property
     def multiplier(self) -> float: ...  # >= 0
 
-class Solution(_Given):
+@type_check_only
+class _Solved(_Given):
     @property
     def x(self) -> _Vector: ...  # (n,)
     @property
@@ -93,6 +94,8 @@ class Solution(_Given):
     def final_levels(self) -> int: ...
     @property
     def optimality(self) -> float: ...
+
+class Solution(_Solved):
     @property
     def multipliers(self) -> list[list[_Vector]]: ...  # [k][j] (m_j,), j <= k
 
@@ -295,23 +298,7 @@ class Stack:
     def levels(self) -> list[str]: ...  # decreasing priority
     def __len__(self) -> int: ...
 
-class ControlSolution(_Given):
-    @property
-    def x(self) -> _Vector: ...  # (n,)
-    @property
-    def status(self) -> Status: ...
-    @property
-    def violations(self) -> list[_Vector]: ...  # a level (m,)
-    @property
-    def working_set(self) -> list[ActiveRow]: ...
-    @property
-    def factorizations(self) -> int: ...
-    @property
-    def changes(self) -> int: ...
-    @property
-    def final_levels(self) -> int: ...
-    @property
-    def optimality(self) -> float: ...
+class ControlSolution(_Solved): ...
 
 class VelocityControllerOptions:
     dt: float  # [s]

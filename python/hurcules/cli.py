@@ -70,6 +70,14 @@ def run_mission(
     raise typer.Exit(run(options, Console()))
 
 
+def _plain_table() -> Table:
+    """Columns without lines; what is too long goes on below, whole."""
+    table = Table(box=None, show_header=False, padding=(0, 3, 0, 0))
+    for _ in range(3):
+        table.add_column(overflow="fold")
+    return table
+
+
 @app.command("list")
 def list_all() -> None:
     """List missions, scenes, models and environments.
@@ -84,7 +92,7 @@ def list_all() -> None:
         "models": hurcules.models.names(),
         "environments": [f"hurcules_envs:{name}" for name in hurcules_envs.ENVIRONMENTS],
     }
-    table = Table(box=None, show_header=False, padding=(0, 3, 0, 0))
+    table = _plain_table()
     for kind, names in rows.items():
         table.add_row(f"[bold]{kind}", "\n".join(names))
     Console().print(table)
@@ -103,7 +111,7 @@ def doctor() -> None:
     console = Console()
     colours = {"ok": "green", "lacks": "yellow", "broken": "red"}
     findings = examine()
-    table = Table(box=None, show_header=False, padding=(0, 3, 0, 0))
+    table = _plain_table()
     for finding in findings:
         detail = finding.detail + (f"\nremedy: {finding.remedy}" if finding.remedy else "")
         mark = f"[{colours[finding.status]}]{finding.status}"

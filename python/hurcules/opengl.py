@@ -13,7 +13,7 @@ __all__ = ["REMEDY", "choose_backend"]
 
 REMEDY = (
     "apt-get install libosmesa6 (or libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0), "
-    "or set MUJOCO_GL to the one of egl, osmesa, glfw that works on this machine"
+    "or set MUJOCO_GL, before Python starts, to egl, osmesa or glfw: the one that works here"
 )
 
 # one library of each group must load; without OpenGL beside EGL the import of MuJoCo itself fails

@@ -54,8 +54,8 @@ def overview_camera() -> mujoco.MjvCamera:
     """The camera of videos and pictures: from the front left, the whole machine and its reach."""
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_FREE
-    camera.lookat[:] = (1.25, 0.0, 0.48)
-    camera.distance, camera.azimuth, camera.elevation = 3.8, 114.0, -14.0
+    camera.lookat[:] = (1.3, 0.0, 0.46)
+    camera.distance, camera.azimuth, camera.elevation = 3.5, 103.0, -10.0
     return camera
 
 

@@ -163,7 +163,8 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
     pictures = []
     for time, text in moments:
         nearest = min(recording.frames, key=lambda frame: abs(frame.time - time))
-        pictures.append(Snapshot(time, text, painter.picture(nearest.qpos).copy()))
+        picture = painter.picture(nearest.qpos)[130:670, 60:1260]  # less of sky and ground
+        pictures.append(Snapshot(time, text, picture.copy()))
     return pictures
 
 
@@ -180,8 +181,8 @@ def _tell(summary: dict[str, Any], output: Output, console: Console) -> None:
         table.add_row(f"over a joint limit, {what}", readable("_rad", excess["position_rad"]))
     table.add_row("control tick, median / p99", f"{tick['median']:.0f} / {tick['p99']:.0f} µs")
     table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
-    verdict = "[bold green]done" if summary["success"] else "[bold]stopped"
-    console.print(f"\n{verdict}[/]: {summary['reason']} ({summary['simulated_seconds']:.1f} s)")
+    colour = "bold green" if summary["success"] else "bold"
+    console.print(f"\n{summary['reason']}, {summary['simulated_seconds']:.1f} s", style=colour)
     console.print(table)
     for path in output.saved:
         console.print(f"  {path}", highlight=False, soft_wrap=True)

@@ -46,7 +46,9 @@ def summarize(
             "limit_violation": simulation.limit_violation(),
             "figures": simulation.figures(),
             "thesis": simulation.thesis_figures(),
-            "events": [{"time_s": round(time, 6), "text": text} for time, text in simulation.events()],
+            "events": [
+                {"time_s": round(time, 6), "text": text} for time, text in simulation.events()
+            ],
             "machine": {
                 "processor": _processor(),
                 "system": platform.platform(),

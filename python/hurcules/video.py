@@ -81,7 +81,7 @@ class Painter:
         self._inset.update_scene(self._data, self._head)
         self._inset.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
         inset = Image.fromarray(self._inset.render())
-        left, top = WIDTH - INSET_WIDTH - 24, 24
+        left, top = WIDTH - INSET_WIDTH - 24, STRIP + 24
         draw = ImageDraw.Draw(image)
         draw.rectangle((left - 3, top - 3, left + INSET_WIDTH + 2, top + INSET_HEIGHT + 2), PAPER)
         image.paste(inset, (left, top))
@@ -89,8 +89,8 @@ class Painter:
 
     def _write_caption(self, image: Image.Image, frame: Frame, note: str) -> None:
         draw = ImageDraw.Draw(image)
-        middle = HEIGHT - STRIP // 2
-        draw.rectangle((0, HEIGHT - STRIP, WIDTH, HEIGHT), INK)
+        middle = STRIP // 2
+        draw.rectangle((0, 0, WIDTH, STRIP), INK)  # at the top: players lay their buttons below
         draw.text((28, middle), f"{frame.time:5.1f} s", PAPER, self._bold, anchor="lm")
         draw.text((160, middle), f"{frame.phase}   {note}", SOFT, self._text, anchor="lm")
         right = WIDTH - 28.0

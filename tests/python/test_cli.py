@@ -1,4 +1,4 @@
-"""The command line: help, lists, and one clear line for every wrong use. Runs themselves: test_run.py.
+"""The command line: help, lists, and one clear line for every wrong use; runs: test_run.py.
 
 Called in this process through `hurcules.cli.main`, which is what the console script calls.
 """

@@ -1,110 +1,19 @@
-"""The environments: Gymnasium's own checker, tables against spaces, determinism, states, wrong input.
+"""What the environments do: reward, determinism, states, wrong input.
 
 Whether a policy can learn is not tested here.
 """
 
 import copy
-import json
-import os
-import pickle
-import re
-import subprocess
-import sys
-import warnings
-from collections.abc import Iterator
 from typing import Any
 
-import gymnasium
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
 
 import hurcules
-import hurcules_envs
+from environments import env, rollout, same
 from hurcules_envs.base import HurculesEnv
 
-IDS = [f"hurcules_envs:{name}" for name in hurcules_envs.ENVIRONMENTS]
-Table = list[dict[str, str]]
-
-
-@pytest.fixture(params=IDS)
-def env(request: pytest.FixtureRequest) -> Iterator[HurculesEnv]:
-    made = gymnasium.make(request.param, disable_env_checker=True)
-    unwrapped = made.unwrapped
-    assert isinstance(unwrapped, HurculesEnv)
-    yield unwrapped
-    made.close()
-
-
-def tables(env: HurculesEnv) -> list[Table]:
-    """The tables in the text of an environment's class: a list of rows, each by heading."""
-    found: list[Table] = []
-    headings: list[str] = []
-    for line in (type(env).__doc__ or "").splitlines():
-        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        if not line.strip().startswith("|"):
-            headings = []
-        elif not headings:
-            headings = cells
-            found.append([])
-        elif not set(cells[0]) <= {"-"}:
-            found[-1].append(dict(zip(headings, cells, strict=True)))
-    return found
-
-
-def span(row: dict[str, str]) -> range:
-    first, _, last = row["index"].partition("-")
-    return range(int(first), int(last or first) + 1)
-
-
-def rollout(env: HurculesEnv, seed: int, steps: int) -> list[Any]:
-    actions = np.random.default_rng(seed).uniform(-1, 1, (steps, *env.action_space.shape))
-    taken: list[Any] = [env.reset(seed=seed)]
-    return taken + [env.step(action.astype(np.float32)) for action in actions]
-
-
-def same(a: Any, b: Any) -> bool:
-    return bool(pickle.dumps(a) == pickle.dumps(b))
-
-
-@pytest.mark.parametrize("name", IDS)
-def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
-    env = gymnasium.make(name)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        check_env(env.unwrapped)
-    env.close()
-
-
-def test_the_table_of_actions_is_true(env: HurculesEnv) -> None:
-    table = tables(env)[0]
-    assert [row["name"] for row in table] == env.action_names
-    assert [float(row["scale"]) for row in table] == env.action_scale.tolist()
-    assert [span(row) for row in table] == [range(i, i + 1) for i in range(len(table))]
-    assert env.action_space == gymnasium.spaces.Box(-1, 1, (len(table),), np.float32)
-
-
-def test_the_table_of_observations_is_true(env: HurculesEnv) -> None:
-    box = env.observation_space
-    assert isinstance(box, gymnasium.spaces.Box)
-    spans = [(span(row), row) for row in tables(env)[1]]
-    assert [i for indices, _ in spans for i in indices] == list(range(box.shape[0]))
-    for indices, row in spans:
-        stem = re.sub(r"/[A-Z]$", "", row["name"])
-        assert {env.observation_names[i].startswith(f"{stem}/") for i in indices} == {True}, stem
-        assert {box.low[i] for i in indices} == {np.float32(row["least"])}
-        assert {box.high[i] for i in indices} == {np.float32(row["most"])}
-    assert len(env.observation_names) == box.shape[0]
-
-
-def test_the_table_of_the_reward_is_true(env: HurculesEnv) -> None:
-    assert [row["term"] for row in tables(env)[2]] == list(env.terms)
-
-
-def test_the_coordinates_stand_in_the_order_of_the_text(env: HurculesEnv) -> None:
-    text = " ".join((type(env).__doc__ or "").split())
-    positions = [name[2:] for name in env.observation_names if name.startswith("q/")]
-    assert ", ".join(positions) in text
+__all__ = ["env"]
 
 
 def test_the_terms_of_the_reward_sum_to_it(env: HurculesEnv) -> None:
@@ -225,7 +134,7 @@ def test_an_action_that_is_not_finite_is_refused(env: HurculesEnv, wrong: float)
 
 
 def test_wrong_arguments_are_refused_with_what_there_is(env: HurculesEnv) -> None:
-    with pytest.raises(hurcules.Error, match="render mode 'smell' does not exist.* rgb_array"):
+    with pytest.raises(hurcules.Error, match=r"render mode 'smell' does not exist.* rgb_array"):
         type(env)(render_mode="smell")
     with pytest.raises(hurcules.Error, match="variation"):
         type(env)(variation=-1.0)
@@ -243,84 +152,3 @@ def test_a_fall_ends_the_episode_and_costs(env: HurculesEnv) -> None:
     assert (terminated, truncated) == (True, False)
     assert info["reward_fall"] == -10.0
     assert info["is_success"] is False
-
-
-@pytest.mark.parametrize("name", IDS)
-def test_the_spec_and_the_environment_can_be_stored(name: str) -> None:
-    env = gymnasium.make(name)
-    assert env.spec is not None
-    again = gymnasium.make(gymnasium.envs.registration.EnvSpec.from_json(env.spec.to_json()))
-    pickled = pickle.loads(pickle.dumps(env.unwrapped))
-    starts = [e.reset(seed=4)[0] for e in (env, again, pickled)]
-    assert same(starts[0], starts[1])
-    assert same(starts[0], starts[2])
-    for e in (env, again, pickled, pickled):  # twice does no harm
-        e.close()
-
-
-@pytest.mark.parametrize("name", IDS)
-def test_the_time_limit_truncates(name: str) -> None:
-    env = gymnasium.make(name, max_episode_steps=3)
-    env.reset(seed=0)
-    ends = [env.step(np.zeros(11, np.float32))[2:4] for _ in range(3)]
-    env.close()
-    assert ends == [(False, False), (False, False), (False, True)]
-
-
-@pytest.mark.parametrize("name", IDS)
-def test_vectors_of_environments_step(name: str) -> None:
-    envs = gymnasium.make_vec(name, num_envs=2, vectorization_mode="sync")
-    observations, _ = envs.reset(seed=7)
-    single = gymnasium.make(name)
-    assert np.array_equal(observations[0], single.reset(seed=7)[0])
-    assert envs.step(envs.action_space.sample())[0].shape == observations.shape
-    single.close()
-    envs.close()
-
-
-def test_pictures_are_drawn(env: HurculesEnv) -> None:
-    drawing = type(env)(render_mode="rgb_array")
-    drawing.reset(seed=0)
-    picture = drawing.render()
-    drawing.close()
-    assert picture is not None
-    assert (picture.shape, picture.dtype) == ((368, 640, 3), np.uint8)
-    assert picture.std() > 10
-
-
-def test_drawing_does_not_disturb_the_run(env: HurculesEnv) -> None:
-    drawing = type(env)(render_mode="rgb_array")
-    for e in (env, drawing):
-        e.reset(seed=0)
-    action = np.full(11, 0.5, np.float32)
-    for _ in range(5):
-        drawing.render()
-        assert same(env.step(action), drawing.step(action))
-    drawing.close()
-
-
-def test_without_a_renderer_the_remedy_is_named() -> None:
-    program = f"""
-import gymnasium, hurcules
-env = gymnasium.make({IDS[0]!r}, render_mode="rgb_array")
-env.reset(seed=0)
-try:
-    env.render()
-except hurcules.Error as error:
-    print(error)
-"""
-    done = subprocess.run(
-        [sys.executable, "-c", program],
-        env={**os.environ, "MUJOCO_GL": "disable"},
-        capture_output=True,
-        text=True,
-    )
-    assert done.stdout.startswith("no usable renderer (")
-    assert "apt-get install" in done.stdout
-
-
-def test_state_and_info_are_plain_numbers(env: HurculesEnv) -> None:
-    _, info = env.reset(seed=0)
-    plain = {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in info.items()}
-    assert json.loads(json.dumps(plain)) == plain
-    assert env.get_state().dtype == np.float64

@@ -33,7 +33,9 @@ def test_it_runs_and_says_something(example: Path, tmp_path: Path) -> None:
 def test_it_is_short_and_says_at_its_top_what_it_is(example: Path) -> None:
     text = example.read_text(encoding="utf-8")
     assert len(text.splitlines()) < 60
-    assert f"Run:  python python/examples/{example.name}" in (ast.get_docstring(ast.parse(text)) or "")
+    assert f"Run:  python python/examples/{example.name}" in (
+        ast.get_docstring(ast.parse(text)) or ""
+    )
 
 
 def test_the_two_hand_reach_takes_twelve_lines() -> None:

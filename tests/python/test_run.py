@@ -101,7 +101,9 @@ def test_the_timings_hold_every_stage(result: tuple[Path, str]) -> None:
 
 
 # imageio's reader, not its writer, leaves pipes open
-@pytest.mark.filterwarnings("ignore:unclosed file", "ignore::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.filterwarnings(
+    "ignore:unclosed file", "ignore::pytest.PytestUnraisableExceptionWarning"
+)
 def test_the_film_is_h264_and_plays_at_twice_the_speed(result: tuple[Path, str]) -> None:
     with imageio.get_reader(result[0] / "video.mp4") as reader:
         facts = reader.get_meta_data()

@@ -1,7 +1,7 @@
 """The types are true: _core.pyi against the compiled module, annotations against mypy, `__all__`.
 
-mypy's stubtest compares names; what it cannot see, the arguments of compiled functions, is read from the
-first line that pybind11 writes into each text and compared here, defaults included.
+mypy's stubtest compares names; what it cannot see, the arguments of compiled functions, is read
+from the first line that pybind11 writes into each text and compared here, defaults included.
 """
 
 import ast
@@ -50,7 +50,7 @@ def test_the_stub_names_what_the_compiled_module_has(root: Path) -> None:
 
 
 def stub_functions(root: Path) -> list[tuple[str, ast.FunctionDef]]:
-    """(dotted name, definition) of each function in the stub that is not of pybind11 or a property."""
+    """(dotted name, definition) of each function in the stub, without properties."""
     tree = ast.parse((root / "python/hurcules/_core.pyi").read_text(encoding="utf-8"))
     found = [(node.name, node) for node in tree.body if isinstance(node, ast.FunctionDef)]
     for owner in tree.body:
@@ -82,7 +82,9 @@ def bound_arguments(text: str) -> list[tuple[str, str]]:
         depth += (letter in "([{<") - (letter in ")]}>")
         parts += [""] if letter == "," and depth == 0 else []
         parts[-1] += letter if letter != "," or depth else ""
-    named = [re.match(r"\s*(\*|\w+)(?:: .*?)?(?: = (.*))?$", part, re.DOTALL) for part in parts if part]
+    named = [
+        re.match(r"\s*(\*|\w+)(?:: .*?)?(?: = (.*))?$", part, re.DOTALL) for part in parts if part
+    ]
     return [(match[1], match[2] or "") for match in named if match]
 
 

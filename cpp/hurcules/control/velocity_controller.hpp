@@ -22,13 +22,11 @@ namespace hurcules {
 class JointLimits;
 
 struct VelocityControllerOptions {
-  double dt = 1e-3;   // [s] control period
-  double gain = 5.0;  // [1/s] K of [T 4.3.2]
-  double horizon =
-      0.05;  // [s] T of [T 4.3.9]: a limit is approached no faster than distance / horizon
+  double dt = 1e-3;       // [s] control period
+  double gain = 5.0;      // [1/s] K of [T 4.3.2]
+  double horizon = 0.05;  // [s] T of [T 4.3.9]: a limit is approached at distance / T at most
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
-  double return_speed =
-      0.2;  // [rad/s] at which a coordinate found outside its limits is driven back
+  double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
   SolverOptions solver = {};
 };
 

@@ -7,11 +7,10 @@
 namespace hurcules {
 
 int Simulation::step(int n, const Vector* command) {
-  require(n >= 0, "step wants a number of ticks >= 0, got " + std::to_string(n));
-  if (command) {
-    const auto channels = static_cast<Index>(mission_->channels().size());
-    require(command->size() == channels && command->allFinite(),
-            "a command wants " + std::to_string(channels) + " finite numbers");
+  if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
+  const auto channels = static_cast<Index>(mission_->channels().size());
+  if (command && !(command->size() == channels && command->allFinite())) {
+    throw Error("a command wants " + std::to_string(channels) + " finite numbers");
   }
   if (options_.record) log_.reserve(static_cast<std::size_t>(n));
   if (options_.clock) timings_.reserve(static_cast<std::size_t>(n));

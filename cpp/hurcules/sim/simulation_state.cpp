@@ -41,6 +41,7 @@ void Simulation::place_scene(std::uint64_t seed) {
   if (limits) vary_posture(variation, random, {limits->lower(), limits->upper()}, q);
   plan_.set_configuration(q);
   start_qpos_ = plan_.qpos();
+  plan_.set_qpos(start_qpos_);  // stands to the last bit as after restore
   physics_.qpos() = start_qpos_;
   world_.set_qpos(start_qpos_);
   telemetry_.q_des = q;

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hurcules.figures import describe, readable
 from hurcules.recording import CHANNELS, STAGES, Recording
 from hurcules.report import plots
-from hurcules.report.style import data_address, jpeg
+from hurcules.report.style import applied, data_address, jpeg
 
 __all__ = ["Snapshot", "write"]
 
@@ -57,7 +57,8 @@ def write(
     page = template.render(
         summary=summary,
         cards=_cards(summary),
-        rows=_rows(summary),
+        rows=[row for row in _rows(summary) if row["thesis"]],
+        more=[row for row in _rows(summary) if not row["thesis"]],
         video=film,
         without_video=video,
         snapshots=[
@@ -85,11 +86,12 @@ def _cards(summary: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
+    thesis = summary["thesis"]
     return [
         {
             "label": describe(name).label,
             "measured": readable(name, value),
-            "thesis": readable(name, summary["thesis"].get(name)),
+            "thesis": readable(name, thesis[name]) if name in thesis else "",
             "where": describe(name).where,
         }
         for name, value in summary["figures"].items()
@@ -101,30 +103,35 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
         return []
     log = recording.log | {"tick_us": recording.control_tick_us}
     events = sorted({round(event["time_s"], 1) for event in summary["events"] if event["time_s"]})
+    later = plots.settled(log)
     drawn = (
-        (plots.joint_positions, "Joint positions", _POSITIONS),
-        (plots.joint_velocities, "Reference velocities", _VELOCITIES),
-        (plots.control_errors, "Control errors", _ERRORS),
-        (plots.task_errors, "Task errors", _TASKS),
-        (plots.active_limits, "Active limits", _LIMITS),
-        (plots.solver_work, "Work of the solver", _SOLVER),
-        (plots.tick_times, "Time of a control tick", _TIMES),
+        (plots.joint_positions, log, "Joint positions", _POSITIONS),
+        (plots.joint_velocities, later, "Reference velocities", _VELOCITIES),
+        (plots.control_errors, later, "Control errors", _ERRORS),
+        (plots.task_errors, later, "Task errors", _TASKS),
+        (plots.active_limits, log, "Active limits", _LIMITS),
+        (plots.solver_work, log, "Work of the solver", _SOLVER),
+        (plots.tick_times, log, "Time of a control tick", _TIMES),
     )
-    return [{"title": title, "text": text, "svg": draw(log, events)} for draw, title, text in drawn]
+    with applied():
+        return [
+            {"title": title, "text": text, "svg": draw(part, events)}
+            for draw, part, title, text in drawn
+        ]
 
 
 _POSITIONS = (
     "The coordinates that move (after Figures 4.25 and 4.26). Dashed: limits; shaded: held "
     "by a limit; upright lines: events. The right arm is left out where it mirrors the left."
 )
-_VELOCITIES = "What the hierarchy asks of each coordinate (Figure 4.26 a)."
+_VELOCITIES = (
+    "What the hierarchy asks of each coordinate, from the second phase on (Figure 4.26 a)."
+)
 _ERRORS = (
     "Reference minus measured position (Figure 4.26 b); it jumps where a limit is taken or left. "
-    "Dashed: the thesis' 0.4 degrees."
+    "The thesis reports 0.4 degrees, 7 mrad, at most."
 )
-_TASKS = (
-    "The error of each level, in decreasing priority: what has to give way stands on the right."
-)
+_TASKS = "The error of each level of the commanded motion, in decreasing priority."
 _LIMITS = "Which position limit holds which coordinate, and when."
 _SOLVER = "Level factorizations and working-set changes of each solve; the least is one a level."
 _TIMES = "Sensing to servo without physics, on the machine above."

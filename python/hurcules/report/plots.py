@@ -25,12 +25,11 @@ Array = NDArray[np.float64]
 Log = dict[str, Array]  # see hurcules.recording.CHANNELS
 
 MOVES = 0.02  # [rad] a coordinate that moves less is left out of the plots of joints
-TRACKING_TARGET = 7.0e-3  # [rad] 0.4 degrees, thesis Figs. A.3-A.4
 
 
 def joint_positions(log: Log, events: Sequence[float]) -> str:
     """Each coordinate that moves, with its limits; shaded while a limit holds it."""
-    names = moving(log)
+    names = moving(log) or coordinates(log)[:4]
     figure, plots = grid(math.ceil(len(names) / 4), 4, 1.9)
     for plot, name in zip(plots, names, strict=False):
         plot.plot(*thin(log["time"], log[f"q/{name}"]), color=INK)
@@ -59,7 +58,7 @@ def control_errors(log: Log, events: Sequence[float]) -> str:
     # the joint of a coordinate has its name, or L before it: both knees are one coordinate
     shown = [j for name in moving(log) for j in joints if j in (name, f"L{name}")]
     series = {name: 1e3 * log[f"joint_error/{name}"] for name in shown}
-    return _lines(log["time"], series, events, "control error [mrad]", 1e3 * TRACKING_TARGET)
+    return _lines(log["time"], series, events, "control error [mrad]")
 
 
 def task_errors(log: Log, events: Sequence[float]) -> str:
@@ -107,20 +106,31 @@ def solver_work(log: Log, events: Sequence[float]) -> str:
 def tick_times(log: Log, events: Sequence[float]) -> str:
     """How long a control tick took: over time, and how often."""
     figure, (series, histogram) = grid(1, 2, 2.0, sharex=False)
-    micros, most = log["tick_us"], 1.3 * float(np.percentile(log["tick_us"], 99.9))
-    series.plot(*thin(log["time"], micros), color=INK, linewidth=0.6)
+    micros = log["tick_us"]
+    # beyond that lie the few ticks in which the system did something else
+    most = 3.0 * float(np.percentile(micros, 99))
+    series.plot(*thin(log["time"], micros), color=GREY, linewidth=0.6)
     series.set_xlabel("time [s]")
     series.set_ylabel("control tick [µs]")
     series.set_ylim(0, most)
     mark(series, events)
     histogram.hist(micros, bins=80, range=(0.0, most), color=GREY)
-    for share, name in ((50, "median"), (99, "p99")):
+    for share, name, height in ((50, "median", 0.9), (99, "p99", 0.7)):
         value = float(np.percentile(micros, share))
         histogram.axvline(value, color=ACCENT, linewidth=1.0)
-        histogram.annotate(f" {name} {value:.0f}", (value, 0.9), xycoords=("data", "axes fraction"))
+        text = f"  {name} {value:.0f} µs"
+        histogram.annotate(text, (value, height), xycoords=("data", "axes fraction"), color=INK)
+    text = f"largest {micros.max():.0f} µs"
+    histogram.annotate(text, (1.0, 0.5), xycoords="axes fraction", ha="right", color=INK)
     histogram.set_xlabel("control tick [µs]")
     histogram.set_ylabel("ticks")
     return svg(figure)
+
+
+def settled(log: Log) -> Log:
+    """The log without its first phase, in which the robot takes its stand, where others follow."""
+    later = log["phase"] > 0
+    return {name: values[later] for name, values in log.items()} if np.any(later) else log
 
 
 def coordinates(log: Log) -> list[str]:
@@ -143,13 +153,11 @@ def _mirrors(log: Log, name: str) -> bool:
     return bool(np.max(np.abs(np.abs(right) - np.abs(left))) < MOVES)
 
 
-def _lines(time: Array, series: Log, events: Sequence[float], label: str, band: float = 0.0) -> str:
-    """Lines by name over the same time, and a dashed band around zero where one is wanted."""
+def _lines(time: Array, series: Log, events: Sequence[float], label: str) -> str:
+    """Lines by name over the same time."""
     figure, plot = axes(2.6)
     for (name, values), colour in zip(series.items(), LINES, strict=False):
         plot.plot(*thin(time, values), color=colour, label=name)
-    for side in (-band, band) if band else ():
-        plot.axhline(side, color=GREY, linewidth=0.9, linestyle=(0, (6, 3)))
     mark(plot, events)
     plot.set_xlabel("time [s]")
     plot.set_ylabel(label)

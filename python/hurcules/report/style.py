@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable
+from contextlib import AbstractContextManager
 from io import BytesIO, StringIO
 from typing import Any
 
@@ -19,6 +20,7 @@ __all__ = [
     "GREY",
     "INK",
     "LINES",
+    "applied",
     "axes",
     "data_address",
     "grid",
@@ -44,6 +46,7 @@ _RC: Any = {
     "axes.spines.right": False,
     "axes.titlesize": 9.5,
     "axes.titlelocation": "left",
+    "axes.axisbelow": True,
     "axes.grid": True,
     "grid.color": FAINT,
     "grid.linewidth": 0.6,
@@ -56,11 +59,15 @@ _RC: Any = {
 }
 
 
+def applied() -> AbstractContextManager[None]:
+    """The look, for as long as the `with` block lasts: figures are made and written inside."""
+    return matplotlib.rc_context(_RC)
+
+
 def grid(rows: int, columns: int, height: float, sharex: bool = True) -> tuple[Figure, list[Axes]]:
     """A picture of rows x columns plots, `height` inches each row, over one time if `sharex`."""
-    with matplotlib.rc_context(_RC):
-        figure = Figure(figsize=(10.0, height * rows), layout="constrained")
-        plots = figure.subplots(rows, columns, sharex=sharex, squeeze=False)
+    figure = Figure(figsize=(10.0, height * rows), layout="constrained")
+    plots = figure.subplots(rows, columns, sharex=sharex, squeeze=False)
     return figure, list(plots.flat)
 
 
@@ -96,8 +103,7 @@ def thin(time: Array, values: Array, buckets: int = 500) -> tuple[Array, Array]:
 def svg(figure: Figure) -> str:
     """The picture as SVG to stand inside a page."""
     text = StringIO()
-    with matplotlib.rc_context(_RC):
-        figure.savefig(text, format="svg", transparent=True, metadata={"Date": None})
+    figure.savefig(text, format="svg", transparent=True, metadata={"Date": None})
     source = text.getvalue()
     return source[source.index("<svg") :]
 

@@ -45,7 +45,7 @@ class Wave final : public Mission {
     hand_.hold(plan);
     moved = 0.0;
   }
-  void move_targets(const ConstVectorRef& command, double dt) override {
+  void move_targets(const Robot&, const ConstVectorRef& command, double dt) override {
     hand_.advance(Vector3(command[0], 0, 0), dt);
     moved += command[0] * dt;
   }
@@ -60,7 +60,7 @@ class MissionTest : public testing::Test {
   MissionTest() { wave_.reset(robot_, robot_); }
   // one tick of 0.1 s; false when the mission is over
   bool tick(const Vector* command = nullptr) {
-    wave_.apply(command ? *command : wave_.operator_command(0.1), 0.1);
+    wave_.apply(robot_, command ? *command : wave_.operator_command(0.1), 0.1);
     time_ += 0.1;
     return wave_.select_phase(robot_, time_);
   }

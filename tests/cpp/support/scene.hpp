@@ -1,0 +1,16 @@
+// The scene of the stretch, compiled once for a test program.
+#pragma once
+
+#include <string>
+
+#include "hurcules/robot/robot.hpp"
+
+namespace hurcules_test {
+
+inline const hurcules::ModelPtr& stretch_scene() {
+  static const hurcules::ModelPtr model =
+      hurcules::load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml");
+  return model;
+}
+
+}  // namespace hurcules_test

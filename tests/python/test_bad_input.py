@@ -1,0 +1,85 @@
+"""Wrong input through the Python face: one clear line each, with what was wanted and what came.
+
+The command line's own lines are in test_cli.py, the solver's and the robot's own cases in theirs.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import rhqp
+
+ONE, NAN = np.ones(1), np.array([np.nan])
+ARM = """<mujoco><worldbody><body><joint name="elbow" range="-1 1"/><geom size="0.1"/>
+<site name="hand"/></body></worldbody></mujoco>"""
+
+
+def robot() -> hurcules.Robot:
+    return hurcules.Robot(mujoco.MjModel.from_xml_string(ARM))
+
+
+def simulation() -> hurcules.Simulation:
+    return hurcules.Simulation("stretch", record=False)
+
+
+def controller(method: str) -> Any:
+    options = hurcules.VelocityControllerOptions(solver=rhqp.SolverOptions(method=method))
+    return hurcules.VelocityController(robot(), options)
+
+
+CASES: dict[str, tuple[Callable[[], Any], str]] = {
+    "shape of A": (lambda: rhqp.Level(np.ones((2, 3)), ONE, ONE), "2"),
+    "NaN in a bound": (lambda: rhqp.Level(np.ones((1, 1)), NAN, ONE), "row 0"),
+    "infinite A": (lambda: rhqp.Level(np.full((1, 1), np.inf), ONE, ONE), "row 0"),
+    "lower above upper": (lambda: rhqp.Bounds(2 * ONE, ONE), "row 0"),
+    "negative rho": (lambda: rhqp.Level(np.ones((1, 1)), ONE, ONE, rho=-1.0), "rho"),
+    "unknowns of a level": (lambda: rhqp.Solver(2).solve([rhqp.Bounds(ONE, ONE)]), "2"),
+    "method of the solver": (lambda: controller("magic"), "magic"),
+    "mission": (lambda: hurcules.Simulation("nowhere"), "'nowhere' does not exist; .* stretch"),
+    "seed": (lambda: hurcules.Simulation(seed=-1), "got -1"),
+    "seed that is no number": (lambda: hurcules.Simulation(seed="x"), "got 'x'"),  # type: ignore[arg-type]
+    "variation": (lambda: hurcules.Simulation(variation=np.nan), "variation"),
+    "scene": (lambda: hurcules.models.load(scene="moon"), "'moon' does not exist; .* flat"),
+    "robot": (lambda: hurcules.models.load("nobody"), "'nobody' does not exist; .* rescue"),
+    "shape of a command": (lambda: simulation().step(1, np.zeros(3)), "11"),
+    "NaN in a command": (lambda: simulation().step(1, np.full(11, np.nan)), "finite"),
+    "ticks": (lambda: simulation().step(-1), "-1"),
+    "state of another run": (lambda: simulation().restore(np.zeros(5)), "state|snapshot"),
+    "frame": (lambda: robot().position("foot"), "'foot'.*hand"),
+    "frame of a task": (lambda: hurcules.PositionTask("t", robot(), "foot"), "'foot'.*hand"),
+    "joint": (lambda: robot().coordinate("knee"), "'knee'.*elbow"),
+    "keyframe": (lambda: robot().set_keyframe("sitting"), "sitting"),
+    "shape of a configuration": (lambda: robot().set_configuration(np.zeros(4)), "4"),
+    "NaN in a configuration": (lambda: robot().set_configuration(NAN), "finite|nan|NaN"),
+    "model that is none": (lambda: hurcules.Robot(3.0), "float"),  # type: ignore[call-overload]
+    "file that is not there": (lambda: hurcules.Robot("/no/such.xml"), "such.xml"),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_wrong_input_gives_one_clear_line(case: str) -> None:
+    call, says = CASES[case]
+    with pytest.raises(hurcules.Error, match=says) as caught:
+        call()
+    assert "\n" not in str(caught.value).strip()
+    assert len(str(caught.value)) < 400
+
+
+def test_broken_mjcf_gives_mujocos_text_and_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "broken.xml"
+    path.write_text("<mujoco><worldbdy/></mujoco>")
+    with pytest.raises(hurcules.Error, match="worldbdy"):
+        hurcules.Robot(path)
+
+
+def test_tasks_are_not_ordered_by_comparison() -> None:
+    arm = robot()
+    a, b = hurcules.PostureTask("a", arm), hurcules.PositionTask("b", arm, "hand")
+    with pytest.raises(TypeError, match=r"Stack\(\[a, b, c\]\)"):
+        assert a < b
+    assert repr(hurcules.Stack([a, b])) == "a < b"

@@ -1,0 +1,111 @@
+"""The environments inside Gymnasium: its checker, registration, vectors, storage, pictures."""
+
+import json
+import os
+import pickle
+import subprocess
+import sys
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from environments import IDS, env, same
+from hurcules_envs.base import HurculesEnv
+
+__all__ = ["env"]
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
+    env = gymnasium.make(name)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env.unwrapped)
+    env.close()
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_the_spec_and_the_environment_can_be_stored(name: str) -> None:
+    env = gymnasium.make(name)
+    assert env.spec is not None
+    again = gymnasium.make(gymnasium.envs.registration.EnvSpec.from_json(env.spec.to_json()))
+    pickled = pickle.loads(pickle.dumps(env.unwrapped))
+    starts = [e.reset(seed=4)[0] for e in (env, again, pickled)]
+    assert same(starts[0], starts[1])
+    assert same(starts[0], starts[2])
+    for e in (env, again, pickled, pickled):  # twice does no harm
+        e.close()
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_the_time_limit_truncates(name: str) -> None:
+    env = gymnasium.make(name, max_episode_steps=3)
+    env.reset(seed=0)
+    ends = [env.step(np.zeros(11, np.float32))[2:4] for _ in range(3)]
+    env.close()
+    assert ends == [(False, False), (False, False), (False, True)]
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_vectors_of_environments_step(name: str) -> None:
+    envs = gymnasium.make_vec(name, num_envs=2, vectorization_mode="sync")
+    observations, _ = envs.reset(seed=7)
+    single = gymnasium.make(name)
+    assert np.array_equal(observations[0], single.reset(seed=7)[0])
+    assert envs.step(envs.action_space.sample())[0].shape == observations.shape
+    single.close()
+    envs.close()
+
+
+def test_pictures_are_drawn(env: HurculesEnv) -> None:
+    drawing = type(env)(render_mode="rgb_array")
+    drawing.reset(seed=0)
+    picture = drawing.render()
+    drawing.close()
+    assert picture is not None
+    assert (picture.shape, picture.dtype) == ((368, 640, 3), np.uint8)
+    assert picture.std() > 10
+
+
+def test_drawing_does_not_disturb_the_run(env: HurculesEnv) -> None:
+    drawing = type(env)(render_mode="rgb_array")
+    for e in (env, drawing):
+        e.reset(seed=0)
+    action = np.full(11, 0.5, np.float32)
+    for _ in range(5):
+        drawing.render()
+        assert same(env.step(action), drawing.step(action))
+    drawing.close()
+
+
+def test_without_a_renderer_the_remedy_is_named() -> None:
+    program = f"""
+import gymnasium, hurcules
+env = gymnasium.make({IDS[0]!r}, render_mode="rgb_array")
+env.reset(seed=0)
+try:
+    env.render()
+except hurcules.Error as error:
+    print(error)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "MUJOCO_GL": "disable"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout.startswith("no usable renderer (")
+    assert "apt-get install" in done.stdout
+
+
+def test_state_and_info_are_plain_numbers(env: HurculesEnv) -> None:
+    _, info = env.reset(seed=0)
+    plain = {
+        key: value.tolist() if isinstance(value, np.ndarray) else value
+        for key, value in info.items()
+    }
+    assert json.loads(json.dumps(plain)) == plain
+    assert env.get_state().dtype == np.float64
