@@ -108,7 +108,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         command = self._checked(action) * self.action_scale
         self.simulation.step(FRAME_SKIP, command)
         terms = self._reward()
-        reward = float(sum(terms[name] for name in self.terms))
+        reward = sum(float(terms[name]) for name in self.terms)
         return self._observe(), reward, bool(self.simulation.finished), False, self._info(terms)
 
     def operator_action(self) -> Action:

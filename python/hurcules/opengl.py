@@ -1,19 +1,22 @@
-"""Chooses MuJoCo's OpenGL. Imports nothing of the package: it must run before MuJoCo is imported.
+"""Chooses MuJoCo's OpenGL. Imports nothing of the package: it should run before MuJoCo is imported.
 
-MuJoCo reads the environment variable MUJOCO_GL at its import and then keeps its choice.
+MuJoCo reads the environment variable MUJOCO_GL at its import and then keeps its choice; where
+somebody imported it before us, `give_mujoco` brings it up to date.
 """
 
 import ctypes
+import importlib
 import os
 import sys
 from collections.abc import MutableMapping
 from pathlib import Path
+from typing import Any
 
-__all__ = ["REMEDY", "choose_backend"]
+__all__ = ["REMEDY", "choose_backend", "give_mujoco"]
 
 REMEDY = (
     "apt-get install libosmesa6 (or libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0), "
-    "or set MUJOCO_GL, before Python starts, to egl, osmesa or glfw: the one that works here"
+    "or set MUJOCO_GL to the one of egl, osmesa, glfw that works on this machine"
 )
 
 # one library of each group must load; without OpenGL beside EGL the import of MuJoCo itself fails
@@ -42,6 +45,20 @@ def choose_backend(environment: MutableMapping[str, str] = os.environ) -> str:
                 environment["MUJOCO_GL"] = backend
                 break
     return environment.get("MUJOCO_GL", "")
+
+
+def give_mujoco(backend: str) -> None:
+    """Lets MuJoCo's renderers use this OpenGL from now on, whatever it chose at its import.
+
+    Args:
+        backend: "egl" or "osmesa"; all else leaves MuJoCo's choice alone.
+
+    Raises:
+        Exception: of many kinds, when the OpenGL is not there.
+    """
+    if backend in _LIBRARIES:
+        chosen: Any = importlib.import_module("mujoco.rendering.classic.gl_context")
+        chosen.GLContext = importlib.import_module(f"mujoco.{backend}").GLContext
 
 
 def _loads(library: str) -> bool:

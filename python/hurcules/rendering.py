@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hurcules._core import Error
-from hurcules.opengl import REMEDY
+from hurcules.opengl import REMEDY, give_mujoco
 
 __all__ = ["RendererError", "make_renderer", "open_renderer", "overview_camera", "pose"]
 
@@ -33,6 +34,7 @@ def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
     buffer = model.vis.global_
     buffer.offwidth, buffer.offheight = max(buffer.offwidth, width), max(buffer.offheight, height)
     try:
+        give_mujoco(os.environ.get("MUJOCO_GL", ""))
         return mujoco.Renderer(model, height, width)
     # each OpenGL fails with an exception of its own: RuntimeError, FatalError, ImportError, ...
     except Exception as error:

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+import hurcules  # noqa: F401  before any test imports MuJoCo: it chooses the OpenGL
+
 ROOT = Path(__file__).resolve().parents[2]
 
 

@@ -81,6 +81,20 @@ def test_drawing_does_not_disturb_the_run(env: HurculesEnv) -> None:
     drawing.close()
 
 
+def test_pictures_are_drawn_where_mujoco_was_imported_first() -> None:
+    program = f"""
+import mujoco, gymnasium
+env = gymnasium.make({IDS[0]!r}, render_mode="rgb_array")
+env.reset(seed=0)
+print(env.render().shape)
+env.close()
+"""
+    named = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
+    words = [sys.executable, "-W", "error", "-c", program]
+    done = subprocess.run(words, env=named, capture_output=True, text=True)
+    assert done.stdout == "(368, 640, 3)\n", done.stderr
+
+
 def test_without_a_renderer_the_remedy_is_named() -> None:
     program = f"""
 import gymnasium, hurcules
