@@ -13,6 +13,7 @@ model = hurcules.models.load("manipulation")
 # the reach, in twelve lines: limits first, then the left hand, then the right, then the posture
 robot = hurcules.Robot(model)
 robot.set_keyframe("ready")
+robot.stand_on("lower_leg_L")
 limits = hurcules.JointLimits("joint", robot)
 left = hurcules.PositionTask("lhpos", robot, "L_tcp")
 right = hurcules.PositionTask("rhpos", robot, "R_tcp")

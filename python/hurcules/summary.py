@@ -69,7 +69,7 @@ def _statistics(values: NDArray[np.float64]) -> dict[str, float | None]:
     if not len(values):
         return {"median": None, "p99": None, "max": None}
     median, p99 = np.percentile(values, (50, 99))
-    return {"median": float(median), "p99": float(p99), "max": float(values.max())}
+    return {"median": float(median), "p99": float(p99), "max": float(np.max(values))}
 
 
 def _processor() -> str:

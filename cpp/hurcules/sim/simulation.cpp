@@ -10,7 +10,8 @@ int Simulation::step(int n, const Vector* command) {
   if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
   const auto channels = static_cast<Index>(mission_->channels().size());
   if (command && !(command->size() == channels && command->allFinite())) {
-    throw Error("a command wants " + std::to_string(channels) + " finite numbers");
+    throw Error("a command wants " + std::to_string(channels) + " finite numbers, got " +
+                std::to_string(command->size()) + (command->allFinite() ? "" : ", not all finite"));
   }
   if (options_.record) log_.reserve(static_cast<std::size_t>(n));
   if (options_.clock) timings_.reserve(static_cast<std::size_t>(n));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hurcules/solver/kernels.hpp"
+#include "hurcules/solver/tolerances.hpp"
 #include "hurcules/solver/workspace.hpp"
 
 namespace hurcules {
@@ -26,6 +27,10 @@ void Solver::Workspace::finish_level(double rho, int k) {
   record.norm = static_cast<int>(held_.size()) - begin_norm_;
   const double residual = optimality_.residual(rows_, chain_, k, x_above_, record, held_);
   solution_.optimality = std::max(solution_.optimality, residual);
+  // steps that went on for ever may have stood still long before, but for rounding: the proof decides
+  if (unsettled_ && residual > tolerance::kProven && solution_.status == SolverStatus::Solved) {
+    solution_.status = SolverStatus::ReducedAccuracy;
+  }
 }
 
 void Solver::Workspace::keep_working_sets() {

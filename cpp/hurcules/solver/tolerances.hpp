@@ -22,6 +22,8 @@ inline constexpr double kMiss = 2e-14;
 inline constexpr double kSettling = 1e-9;
 // ... and when it is no rounding: relative to max |a|^2 max(1, |x|) of the level
 inline constexpr double kNoForce = 1e-12;
+// a level is proven when its optimality residual is below this
+inline constexpr double kProven = 1e-9;
 // the regularisation of the proximal steps of a level with rho = 0, relative to max |a|
 inline constexpr double kProximal = 1e-4;
 // a residual that is rounding and moves nothing, relative to |a| |x| + |b|

@@ -80,6 +80,7 @@ const Solution& Solver::Workspace::solve(const Hierarchy& hierarchy) {
   chain_.build(rows_);
   for (int k = 0; k < rows_.levels(); ++k) {
     begin_held_ = begin_norm_ = static_cast<int>(held_.size());
+    unsettled_ = false;
     const bool ended = !solve_level(hierarchy[k], k);
     if (!x_.allFinite()) {
       x_ = x_above_;
@@ -175,7 +176,7 @@ bool Solver::Workspace::proximal_steps(double epsilon, int k) {
     // the next pass starts from this one's set
     previous_.assign(problem_.distance.active().begin(), problem_.distance.active().end());
   }
-  if (solution_.status == SolverStatus::Solved) solution_.status = SolverStatus::ReducedAccuracy;
+  unsettled_ = true;
   return true;
 }
 

@@ -62,6 +62,7 @@ struct Solver::Workspace {
   std::vector<ActiveSlot> previous_;  // a working set to start from
   std::vector<char> settled_;         // (rows)
   int begin_held_ = 0, begin_norm_ = 0;
+  bool unsettled_ = false;  // the proximal steps of this level still moved at their end
   Index reserved_rows_ = 0;
   std::size_t reserved_levels_ = 0;
 };

@@ -120,7 +120,7 @@ def tick_times(log: Log, events: Sequence[float]) -> str:
         histogram.axvline(value, color=ACCENT, linewidth=1.0)
         text = f"  {name} {value:.0f} µs"
         histogram.annotate(text, (value, height), xycoords=("data", "axes fraction"), color=INK)
-    text = f"largest {micros.max():.0f} µs"
+    text = f"largest {np.max(micros):.0f} µs"
     histogram.annotate(text, (1.0, 0.5), xycoords="axes fraction", ha="right", color=INK)
     histogram.set_xlabel("control tick [µs]")
     histogram.set_ylabel("ticks")
