@@ -17,11 +17,10 @@ robot.stand_on("lower_leg_L")
 limits = hurcules.JointLimits("joint", robot)
 left = hurcules.PositionTask("lhpos", robot, "L_tcp")
 right = hurcules.PositionTask("rhpos", robot, "R_tcp")
-posture = hurcules.PostureTask("posture", robot)
 left.set_target(left.value + np.array([1.5, 0.2, -0.3]))  # out of reach
 right.set_target(right.value + np.array([0.1, 0.0, 0.2]))
 controller = hurcules.VelocityController(robot)
-controller.set_stack(Stack([limits, left, right, posture]))
+controller.set_stack(Stack([limits, left, right, hurcules.PostureTask("posture", robot)]))
 for _ in range(8000):  # 8 s at 1 kHz
     robot.set_configuration(robot.configuration + 1e-3 * controller.compute(robot))
 
