@@ -28,9 +28,9 @@ print(controller.stack)
 for hand in (left, right):
     hand.update(robot)
     print(f"{hand.name}: {1000 * np.linalg.norm(hand.error):6.1f} mm from its target")
-for row in controller.solution.working_set:
-    name = robot.coordinate_names[row.row] if row.level == 0 else f"level {row.level}"
-    print(f"{name} is held at its {row.side.name.lower()} limit")
+for name, side in zip(robot.coordinate_names, controller.active_limits, strict=True):
+    if side:
+        print(f"{name} is held at its {'upper' if side > 0 else 'lower'} limit")
 
 lower, upper = limits.lower, limits.upper
 outside = np.maximum(lower - robot.configuration, robot.configuration - upper).max()
