@@ -1,7 +1,10 @@
-"""The solver beside what PyPI has, on the robot's shape: n = 19, a box, levels 3, 3, 3, 3, 3, 2, 2, rho 0.1.
+"""The solver beside what PyPI has, on the robot's shape.
 
-Peers: one QP after the other (quadprog, the oracle of the tests), and all levels in one weighted QP (daqp), which is
-not the same problem. Every figure is a ratio to ours in the same process; |dx| is the distance to the cascade.
+N = 19, a box, levels 3, 3, 3, 3, 3, 2, 2, rho 0.1.
+
+Peers: one QP after the other (quadprog, the oracle of the tests), and all levels in one weighted QP
+(daqp), which is not the same problem. Every figure is a ratio to ours in the same process; |dx| is
+the distance to the cascade.
 
     python benchmarks/solver_peers.py [--problems 100]
 """
@@ -23,9 +26,8 @@ from rich.table import Table
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "python"))
 
 from hierarchies import box, equality, unit_rows
-from oracle import Oracle, Rows
-
 from hurcules import rhqp
+from oracle import Oracle, Rows
 
 N, ROWS, RHO = 19, (3, 3, 3, 3, 3, 2, 2), 0.1
 
@@ -41,8 +43,10 @@ def problem(rng: np.random.Generator, width: float, reach: float) -> list[Rows]:
 
 
 def ours(levels: list[Rows]) -> list[rhqp.Level]:
+    """The levels as our solver takes them."""
     return [
-        rhqp.Bounds(level.lower, level.upper) if level.bounds
+        rhqp.Bounds(level.lower, level.upper)
+        if level.bounds
         else rhqp.Level(level.A, level.lower, level.upper, level.rho)
         for level in levels
     ]
@@ -59,6 +63,7 @@ def weighted(levels: list[Rows]) -> tuple:
 
 
 def median_us(calls: list[Callable[[], object]]) -> float:
+    """Median time of the calls [us]."""
     times = []
     for call in calls:
         begin = time.perf_counter()
@@ -68,25 +73,47 @@ def median_us(calls: list[Callable[[], object]]) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    """Prints the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--problems", type=int, default=100)
     count = parser.parse_args().problems
-    table = Table("set", "ours cold [us]", "ours warm", "quadprog cascade", "daqp, one weighted QP",
-                  "worst |dx| to cascade", title=f"median of {count} problems; columns 3 to 5 as ratios to ours cold")
+    table = Table(
+        "set",
+        "ours cold [us]",
+        "ours warm",
+        "quadprog cascade",
+        "daqp, one weighted QP",
+        "worst |dx| to cascade",
+        title=f"median of {count} problems; columns 3 to 5 as ratios to ours cold",
+    )
     for name, width, reach in (("no conflict", 5.0, 0.0), ("box conflicts", 0.5, 2.0)):
         rng = np.random.default_rng(1)
         problems = [problem(rng, width, reach) for _ in range(count)]
         levels = [ours(p) for p in problems]
         solvers = [rhqp.Solver(N) for _ in problems]
-        cold = median_us([lambda s=s, p=p: s.solve(p) for s, p in zip(solvers, levels, strict=True)])
-        warm = median_us([lambda s=s, p=p: s.solve(p) for s, p in zip(solvers, levels, strict=True)])
+        cold = median_us(
+            [lambda s=s, p=p: s.solve(p) for s, p in zip(solvers, levels, strict=True)]
+        )
+        warm = median_us(
+            [lambda s=s, p=p: s.solve(p) for s, p in zip(solvers, levels, strict=True)]
+        )
         cascade = median_us([lambda p=p: Oracle(N).solve(p) for p in problems])
         arguments = [weighted(p) for p in problems]
         one = median_us([lambda a=a: daqp.solve(*a) for a in arguments])
-        off = max(float(np.abs(s.solve(p).x - Oracle(N).solve(q)).max())
-                  for s, p, q in zip(solvers, levels, problems, strict=True))
-        table.add_row(name, f"{cold:.1f}", f"{warm / cold:.2f}", f"{cascade / cold:.1f}",
-                      f"{one / cold:.2f}", f"{off:.1e}")
+        off = max(
+            float(np.abs(s.solve(p).x - Oracle(N).solve(q)).max())
+            for s, p, q in zip(solvers, levels, problems, strict=True)
+        )
+        table.add_row(
+            name,
+            f"{cold:.1f}",
+            f"{warm / cold:.2f}",
+            f"{cascade / cold:.1f}",
+            f"{one / cold:.2f}",
+            f"{off:.1e}",
+        )
     Console().print(table)
 
 

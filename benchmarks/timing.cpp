@@ -1,8 +1,10 @@
 // How long a control tick of the stretch takes, as ratios to things measured in the same run.
 //
-//   control tick   sense, kinematics, hierarchy, solve, servo; against its 1 ms period and against the physics
-//   solve          warm, on the hierarchies of the mission; against the bare chain of their equality rows: Householder
-//                  QR of the stacked equality rows with Q formed, the least that any orthogonal method has to do
+//   control tick   sense, kinematics, hierarchy, solve, servo; against its 1 ms period and against
+//   the physics solve          warm, on the hierarchies of the mission; against the bare chain of
+//   their equality rows: Householder
+//                  QR of the stacked equality rows with Q formed, the least that any orthogonal
+//                  method has to do
 //   closed loop    simulated time over the processor time that it took
 //
 // timing [--seconds S]   prints a table; numbers of one machine compare only within one run.
@@ -25,7 +27,9 @@ double wall() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processor() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 struct Quantiles {
   double median = 0.0, p99 = 0.0, max = 0.0;  // [us]
@@ -72,7 +76,8 @@ Samples run(Simulation& simulation, double seconds) {
     if (stage == "physics") samples.physics.assign(series.begin(), series.end());
     if (stage == "solve") samples.solve.assign(series.begin(), series.end());
     if (stage == "physics" || stage == "record" || stage == "time") continue;
-    for (std::size_t i = 0; i < samples.tick.size(); ++i) samples.tick[i] += series[static_cast<Index>(i)];
+    for (std::size_t i = 0; i < samples.tick.size(); ++i)
+      samples.tick[i] += series[static_cast<Index>(i)];
   }
   return samples;
 }
@@ -97,7 +102,8 @@ void compare_with_chain(const std::vector<Hierarchy>& hierarchies, Index unknown
 }
 
 void print(const char* what, const Quantiles& q, const char* ratio_to, double ratio) {
-  std::printf("%-34s %9.2f %9.2f %9.2f   %8.3f x %s\n", what, q.median, q.p99, q.max, ratio, ratio_to);
+  std::printf("%-34s %9.2f %9.2f %9.2f   %8.3f x %s\n", what, q.median, q.p99, q.max, ratio,
+              ratio_to);
 }
 
 }  // namespace
@@ -113,7 +119,8 @@ int main(int argc, char** argv) {
   Simulation simulation(load_model(HURCULES_MODELS "/scenes/stretch.xml"), "stretch", options);
   const Samples samples = run(simulation, seconds);
   std::vector<double> solve, chain;
-  compare_with_chain(samples.hierarchies, simulation.controller().solution().x.size(), solve, chain);
+  compare_with_chain(samples.hierarchies, simulation.controller().solution().x.size(), solve,
+                     chain);
 
   const Quantiles tick = quantiles(samples.tick), physics = quantiles(samples.physics);
   const Quantiles warm = quantiles(solve), bare = quantiles(chain);

@@ -5,6 +5,7 @@ An environment adds what its mission is about: the reward, and the text with its
 
 from __future__ import annotations
 
+import reprlib
 from abc import abstractmethod
 from typing import Any, ClassVar
 
@@ -103,7 +104,8 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
             (never; the time limit is Gymnasium's), info.
 
         Raises:
-            hurcules.Error: the action has another shape or holds NaN or infinity.
+            hurcules.Error: the action is no array of numbers, has another shape or holds NaN or
+                infinity.
         """
         command = self._checked(action) * self.action_scale
         self.simulation.step(FRAME_SKIP, command)
@@ -124,11 +126,15 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         """Goes back to a state from `get_state`: the same actions then give the same bits.
 
         Raises:
-            hurcules.Error: it belongs to another environment.
+            hurcules.Error: it is no state, or belongs to another environment.
         """
-        own = len(self._memory())
-        self._remember(np.asarray(state)[:own])
-        self.simulation.restore(np.asarray(state)[own:])
+        values = _numbers("state", state)
+        memory = self._memory()
+        if values.ndim != 1 or len(values) <= len(memory):
+            wanted = len(memory) + len(self.simulation.state())
+            raise hurcules.Error(f"state: wanted shape ({wanted},), got {values.shape}")
+        self.simulation.restore(values[len(memory) :])
+        self._remember(values[: len(memory)])
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (368, 640, 3) in render mode "rgb_array", else None.
@@ -172,13 +178,14 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         return self._copy
 
     def _checked(self, action: Action) -> Array:
-        values = np.asarray(action, dtype=np.float64)
+        values = _numbers("action", action)
         if values.shape != self.action_space.shape:
             raise hurcules.Error(
                 f"action: wanted shape {self.action_space.shape}, got {values.shape}"
             )
         if not np.isfinite(values).all():
-            raise hurcules.Error(f"action: wanted finite numbers, got {values}")
+            bad = int(np.argmin(np.isfinite(values)))
+            raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
         return values
 
     def _observe(self) -> Observation:
@@ -194,7 +201,22 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
             "solver_status": int(solver["status"]),  # number of rhqp.Status, 0 is Solved
             "solver_factorizations": int(solver["factorizations"]),
             "solver_changes": int(solver["changes"]),
+            "solver_iterations": 1 + int(solver["changes"]),
             "level_errors": np.array(simulation.level_errors()),
             "limit_excess": float(worst["position_rad"]),
+            "limit_excess_velocity": float(worst["velocity"]),
+            "limit_excess_torque": float(worst["torque"]),
             "time": float(simulation.time),
         }
+
+
+def _numbers(what: str, values: object) -> Array:
+    """Any array of numbers as float64."""
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "fiub":
+            return array.astype(np.float64)
+    except (TypeError, ValueError):  # ragged lists and the like
+        pass
+    came = " ".join(reprlib.repr(values).split())
+    raise hurcules.Error(f"{what}: wanted an array of numbers, got {came}")

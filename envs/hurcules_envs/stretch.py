@@ -71,6 +71,21 @@ class StretchEnv(HurculesEnv):
     | effort   | -0.2 a second at full torque of all motors (mean square of the share) |
     | fall     | -10 once, when the robot falls or the run fails                     |
 
+    Info, the same keys from `reset` on, besides `reward_TERM`:
+
+    | key                   | unit     | what it is                                            |
+    |-----------------------|----------|-------------------------------------------------------|
+    | is_success            | bool     | the mission is done with small errors                 |
+    | solver_status         | 1        | number of rhqp.Status of the last tick, 0 is Solved   |
+    | solver_factorizations | 1        | of levels, in the last tick                           |
+    | solver_changes        | 1        | of the working set, in the last tick                  |
+    | solver_iterations     | 1        | 1 + solver_changes                                    |
+    | level_errors          | m or rad | measured error of each level                          |
+    | limit_excess          | rad      | worst over any position limit, in the physics         |
+    | limit_excess_velocity | rad/s    | worst over any velocity limit, in the physics         |
+    | limit_excess_torque   | N m      | worst over any torque limit, in the physics           |
+    | time                  | s        | since the start                                       |
+
     Start: keyframe `stretch`; the seed moves the casualty by up to 3 cm and 0.05 rad and each joint
     by up to 2 mrad, times `variation`.
 

@@ -122,26 +122,38 @@ void keep(std::vector<py::object>& kept, py::handle object) {
   kept.push_back(py::reinterpret_borrow<py::object>(object));
 }
 
+std::string type_of(py::handle object) {
+  return py::str(py::type::handle_of(object).attr("__name__"));
+}
+
+Task* task_of(py::handle item) {
+  require(py::isinstance<Task>(item), "a level wants tasks, a " + type_of(item) + " came");
+  return item.cast<Task*>();
+}
+
 HeldLevel make_level(const std::string& name, const py::iterable& tasks, double rho) {
   std::vector<Task*> pointers;
   std::vector<py::object> kept;
   for (const py::handle task : tasks) {
-    pointers.push_back(task.cast<Task*>());
+    pointers.push_back(task_of(task));
     keep(kept, task);
   }
   return {StackLevel(name, std::move(pointers), rho), std::move(kept)};
 }
 
-// a task, a level, or a list of tasks
-StackLevel level_of(py::handle item, std::vector<py::object>& kept) {
+StackLevel one_level(py::handle item, std::vector<py::object>& kept) {
   keep(kept, item);
   if (py::isinstance<HeldLevel>(item)) return item.cast<const HeldLevel&>().level;
-  if (py::isinstance<Task>(item)) return {item.cast<Task&>()};
-  if (!py::isinstance<py::iterable>(item)) {
-    throw py::type_error("a stack wants tasks, StackLevels and lists of tasks");
+  return {*task_of(item)};
+}
+
+// a task, a level, or a list of both
+StackLevel level_of(py::handle item, std::vector<py::object>& kept) {
+  if (!py::isinstance<py::list>(item) && !py::isinstance<py::tuple>(item)) {
+    return one_level(item, kept);
   }
   std::vector<StackLevel> parts;
-  for (const py::handle part : item) parts.push_back(level_of(part, kept));
+  for (const py::handle part : item) parts.push_back(one_level(part, kept));
   require(!parts.empty(), "a level of a stack wants at least one task, an empty list came");
   StackLevel level = parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) level = level + parts[i];
@@ -152,6 +164,7 @@ HeldStack make_stack(const py::iterable& levels) {
   std::vector<StackLevel> made;
   std::vector<py::object> kept;
   for (const py::handle item : levels) made.push_back(level_of(item, kept));
+  require(!made.empty(), "a stack wants at least one level, none came");
   return {Stack(std::move(made)), std::move(kept)};
 }
 
@@ -197,7 +210,15 @@ void bind_controller(py::module_& module) {
   const auto set_stack = [](VelocityController& self, const HeldStack& stack) {
     self.set_stack(stack.stack);
   };
+  const auto compute = [](VelocityController& self, const Robot& robot) {
+    require(!self.stack().levels().empty(), "a controller wants a stack before it computes");
+    py::gil_scoped_release release;
+    return Vector(self.compute(robot));
+  };
   const auto integrate = [](const VelocityController& self, const ConstVectorRef& q) {
+    require(q.size() == self.velocity().size() && q.allFinite(),
+            "integrate wants " + std::to_string(self.velocity().size()) + " finite numbers, got " +
+                std::to_string(q.size()) + (q.allFinite() ? "" : ", not all finite"));
     Vector next = q;
     self.integrate(next);
     return next;
@@ -206,8 +227,7 @@ void bind_controller(py::module_& module) {
   py::class_<VelocityController>(module, "VelocityController", kController)
       .def(py::init<const Robot&, Options>(), "robot"_a, "options"_a = defaults)
       .def("set_stack", set_stack, "stack"_a, py::keep_alive<1, 2>(), kSetStack)
-      .def("compute", &VelocityController::compute, "robot"_a, copy, kCompute,
-           py::call_guard<py::gil_scoped_release>())
+      .def("compute", compute, "robot"_a, kCompute)
       .def("integrate", integrate, "q"_a, kIntegrate)
       .def("reset", &VelocityController::reset, "At rest, cold.")
       .def("state", &state<VelocityController>, kState)
@@ -259,6 +279,8 @@ void bind_pid(py::module_& module) {
   const auto compute = [](JointPid& self, const Vector& position, const Vector& velocity) {
     require(position.size() == self.size() && velocity.size() == self.size(),
             "position and velocity want " + std::to_string(self.size()) + " numbers each");
+    require(position.allFinite() && velocity.allFinite(),
+            "position and velocity want finite numbers");
     return Vector(self.compute({position, velocity}));
   };
   const auto copy = py::return_value_policy::copy;

@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "arrays.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/solver/solver.hpp"
 
@@ -11,6 +12,8 @@ using namespace pybind11::literals;
 void bind_solver(py::module_& module);
 
 using namespace hurcules;
+using hurcules_bindings::matrix_of;
+using hurcules_bindings::vector_of;
 
 namespace {
 
@@ -24,18 +27,21 @@ Args:
 Raises:
   Error: wrong shapes, NaN, lower > upper, rho < 0.
 )";
-constexpr const char* kBoundsDoc = R"(Simple bounds lower <= x <= upper as a level of its own, never regularised.
+constexpr const char* kBoundsDoc =
+    R"(Simple bounds lower <= x <= upper as a level of its own, never regularised.
 
 Args:
   lower, upper: (n,) float64. +-inf or a magnitude >= 1e20 means no side.
 )";
-constexpr const char* kSolverDoc = R"(Solves hierarchies over n unknowns; keeps its working sets between solves.
+constexpr const char* kSolverDoc =
+    R"(Solves hierarchies over n unknowns; keeps its working sets between solves.
 
 Args:
   n: number of unknowns.
   options: SolverOptions.
 )";
-constexpr const char* kSolveDoc = R"(Solves the levels in decreasing priority. Releases the interpreter lock.
+constexpr const char* kSolveDoc =
+    R"(Solves the levels in decreasing priority. Releases the interpreter lock.
 
 Args:
   levels: sequence of Level (and Bounds).
@@ -46,7 +52,8 @@ Returns:
 Raises:
   Error: shapes that do not fit n unknowns or each other.
 )";
-constexpr const char* kMultipliersDoc = R"(multipliers[k][j] (m_j): multipliers of level j's rows in the optimality of level k, j <= k.
+constexpr const char* kMultipliersDoc =
+    R"(multipliers[k][j] (m_j): multipliers of level j's rows in the optimality of level k, j <= k.
 
 multipliers[k][k] are the violations of level k. [T 3.4.116])";
 
@@ -55,24 +62,43 @@ struct Answer : Solution {
   std::vector<std::vector<Vector>> multipliers;
 };
 
-Level make_level(const ConstMatrixRef& A, const ConstVectorRef& lower, const ConstVectorRef& upper,
-                 double rho) {
-  Level level{.A = A, .lower = lower, .upper = upper, .rho = rho};
-  check({level}, A.cols());
+Level make_level(const py::object& A, const py::object& lower, const py::object& upper,
+                 const py::object& rho) {
+  require(py::isinstance<py::float_>(rho) || py::isinstance<py::int_>(rho) ||
+              py::hasattr(rho, "__float__"),
+          "rho wants a number >= 0, got " + std::string(py::repr(rho)));
+  Level level{.A = matrix_of(A, "A", "(m, n)"),
+              .lower = vector_of(lower, "lower", "(m,)"),
+              .upper = vector_of(upper, "upper", "(m,)"),
+              .rho = py::float_(rho)};
+  check(level, level.A.cols(), "level");
   return level;
 }
 
-Level make_checked_bounds(const ConstVectorRef& lower, const ConstVectorRef& upper) {
-  Level level = make_bounds(lower, upper);
-  check({level}, lower.size());
+Level make_checked_bounds(const py::object& lower, const py::object& upper) {
+  Level level = make_bounds(vector_of(lower, "lower", "(n,)"), vector_of(upper, "upper", "(n,)"));
+  check(level, level.rows(), "bounds");
   return level;
 }
 
-Answer solve(Solver& solver, const Hierarchy& levels) {
-  check(levels, solver.unknowns());
+Hierarchy hierarchy_of(const py::object& levels) {
+  require(py::isinstance<py::sequence>(levels),
+          "solve wants a list of Level and Bounds, got " + std::string(py::repr(levels)));
+  Hierarchy hierarchy;
+  for (const py::handle item : levels) {
+    require(py::isinstance<Level>(item), "level " + std::to_string(hierarchy.size()) +
+                                             " wants to be a Level or Bounds, got " +
+                                             std::string(py::repr(item)));
+    hierarchy.push_back(item.cast<const Level&>());
+  }
+  return hierarchy;
+}
+
+Answer solve(Solver& solver, const py::object& levels) {
+  const Hierarchy hierarchy = hierarchy_of(levels);
+  check(hierarchy, solver.unknowns());
   py::gil_scoped_release release;
-  Answer answer{solver.solve(levels), solver.multipliers()};
-  return answer;
+  return {solver.solve(hierarchy), solver.multipliers()};
 }
 
 void bind_level(py::module_& module) {
@@ -107,7 +133,8 @@ void bind_solution(py::module_& module) {
       .def_readonly("held_by", &ActiveRow::held_by, "level that pushes against it")
       .def_readonly("multiplier", &ActiveRow::multiplier, ">= 0, of that level's problem")
       .def("__repr__", [](const ActiveRow& self) {
-        return "ActiveRow(level=" + std::to_string(self.level) + ", row=" + std::to_string(self.row) +
+        return "ActiveRow(level=" + std::to_string(self.level) +
+               ", row=" + std::to_string(self.row) +
                (self.side == Side::Upper ? ", Upper" : ", Lower") +
                ", held_by=" + std::to_string(self.held_by) + ")";
       });

@@ -1,4 +1,5 @@
-// hurcules._core: the C++ library as a Python module. One bind_ROOM.cpp a room; this file calls them from the ground up.
+// hurcules._core: the C++ library as a Python module. One bind_ROOM.cpp a room; this file calls
+// them from the ground up.
 #include <mujoco/mujoco.h>
 #include <pybind11/pybind11.h>
 
@@ -18,7 +19,8 @@ namespace {
 
 constexpr const char* kDoc = "Compiled part of hurcules; use it through the package hurcules.";
 
-// the loader picks libmujoco by its full version, so this fails only where somebody replaced the file
+// the loader picks libmujoco by its full version, so this fails only where somebody replaced the
+// file
 void check_mujoco() {
   if (mj_version() == mjVERSION_HEADER) return;
   throw py::import_error("hurcules was built with MuJoCo " + std::to_string(mjVERSION_HEADER) +

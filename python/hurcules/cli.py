@@ -34,6 +34,12 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
+def _folder(text: str) -> Path:
+    if not text.strip():  # Path("") would be the folder one stands in
+        raise typer.BadParameter(f"wanted the name of a folder, got {text!r}")
+    return Path(text)
+
+
 @app.callback()
 def _options(
     version: Annotated[
@@ -48,7 +54,13 @@ def run_mission(
     mission: Annotated[str, typer.Argument(help="One of `hurcules list`.")] = "stretch",
     seed: Annotated[int, typer.Option(help="Draws what differs between runs.")] = 0,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the results.", show_default="out/MISSION")
+        Path | None,
+        typer.Option(
+            parser=_folder,
+            metavar="PATH",
+            help="Folder for the results.",
+            show_default="out/MISSION",
+        ),
     ] = None,
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this time [s].", show_default="to the end")
@@ -138,7 +150,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Error as error:
         return _complain(str(error), USAGE)
     except (KeyboardInterrupt, typer.Abort):
-        return _complain("interrupted before anything was recorded", INTERRUPTED)
+        return _complain("interrupted", INTERRUPTED)
 
 
 def _complain(text: str, code: int) -> int:

@@ -44,7 +44,7 @@ class Recording:
     timings: dict[str, Array] = field(default_factory=dict)  # [s] by stage, (ticks,); see STAGES
     frames: list[Frame] = field(default_factory=list)
     wall_seconds: float = 0.0  # spent in the simulation alone
-    interrupted: bool = False  # by Ctrl-C
+    interrupted: bool = False  # stopped before its end
 
     @property
     def control_tick_us(self) -> Array:
@@ -63,28 +63,30 @@ def record(
     ticks: int | None,
     ticks_per_frame: int,
     progress: Callable[[float], None],
+    stopped: Callable[[], bool],
 ) -> Recording:
-    """Steps to the end of the mission. Ctrl-C ends it early: what was recorded is kept.
+    """Steps to the end of the mission, or until it is stopped: what was recorded is kept.
 
     Args:
         simulation: made with record=True and timed=True.
         ticks: stop after this many at the latest; None lets the mission end.
         ticks_per_frame: between two frames of the film.
         progress: called at each frame with the speed, simulated over real time.
+        stopped: whether to end early, asked before each frame.
     """
     recording = Recording()
     moments = [_moment(simulation)]
     done = 0
-    try:
-        while not simulation.finished and (ticks is None or done < ticks):
-            wanted = ticks_per_frame if ticks is None else min(ticks_per_frame, ticks - done)
-            started = perf_counter()
-            done += simulation.step(wanted)
-            recording.wall_seconds += perf_counter() - started
-            moments.append(_moment(simulation))
-            progress(simulation.time / recording.wall_seconds)
-    except KeyboardInterrupt:
-        recording.interrupted = True
+    while not simulation.finished and (ticks is None or done < ticks):
+        if stopped():
+            recording.interrupted = True
+            break
+        wanted = ticks_per_frame if ticks is None else min(ticks_per_frame, ticks - done)
+        started = perf_counter()
+        done += simulation.step(wanted)
+        recording.wall_seconds += perf_counter() - started
+        moments.append(_moment(simulation))
+        progress(simulation.time / recording.wall_seconds)
     recording.log, recording.timings = simulation.log(), simulation.timings()
     recording.log.pop("tick_us", None)
     recording.frames = [

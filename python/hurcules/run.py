@@ -16,6 +16,7 @@ from rich.table import Table
 from hurcules import report
 from hurcules._core import Error
 from hurcules.figures import describe, readable
+from hurcules.interrupts import Interrupts
 from hurcules.output import Output
 from hurcules.recording import Recording, record
 from hurcules.rendering import RendererError
@@ -46,7 +47,7 @@ class RunOptions:
 def run(options: RunOptions, console: Console) -> int:
     """Runs a mission and writes its results.
 
-    Ctrl-C ends the part at work; what was recorded is saved, and said.
+    Ctrl-C ends the simulation or the film; what was recorded is saved all the same, and said.
 
     Args:
         options: what to run and where to write.
@@ -61,17 +62,20 @@ def run(options: RunOptions, console: Console) -> int:
     """
     simulation = Simulation(options.mission, options.seed, method=options.method, timed=True)
     ticks = _ticks(options.seconds, simulation.dt)
-    output = Output(options.out, FILES)
-    recording = _simulate(simulation, ticks, console)
-    summary = summarize(simulation, recording, options.seed, options.method)
-    try:
-        interrupted = _save(options, simulation, recording, summary, output, console)
-    except KeyboardInterrupt:
-        interrupted = True
-    if interrupted:
-        console.print(f"interrupted at {simulation.time:.3f} s; {output.told()}", style="bold")
-        return INTERRUPTED
-    _tell(summary, output, console)
+    with Interrupts() as interrupts:
+        output = Output(options.out, FILES)
+        recording = _simulate(simulation, ticks, console, interrupts)
+        if not recording.simulated_seconds:
+            console.print("interrupted before anything was recorded", style="bold")
+            return INTERRUPTED
+        summary = summarize(simulation, recording, options.seed, options.method)
+        _save(options, simulation, recording, summary, output, console, interrupts)
+        if interrupts.noted:
+            when = "at" if recording.interrupted else "after the simulation had ended at"
+            said = f"interrupted {when} {simulation.time:.3f} s; {output.told()}"
+            console.print(said, style="bold", highlight=False, soft_wrap=True)
+            return INTERRUPTED
+        _tell(summary, output, console)
     return DONE if simulation.success or not simulation.finished else FAILED
 
 
@@ -83,7 +87,9 @@ def _ticks(seconds: float | None, dt: float) -> int | None:
     return round(seconds / dt)
 
 
-def _simulate(simulation: Simulation, ticks: int | None, console: Console) -> Recording:
+def _simulate(
+    simulation: Simulation, ticks: int | None, console: Console, interrupts: Interrupts
+) -> Recording:
     with _progress(console) as bar:
         total = ticks * simulation.dt if ticks else None
         task = bar.add_task(f"simulate {simulation.mission}", total=total, note="")
@@ -92,7 +98,13 @@ def _simulate(simulation: Simulation, ticks: int | None, console: Console) -> Re
             note = f"{simulation.time:5.1f} s   {speed:4.1f} x real time   {simulation.phase}"
             bar.update(task, completed=simulation.time, note=note)
 
-        recording = record(simulation, ticks, round(SPEED / FPS / simulation.dt), show)
+        recording = record(
+            simulation,
+            ticks,
+            round(SPEED / FPS / simulation.dt),
+            show,
+            stopped=lambda: interrupts.noted,
+        )
         bar.update(task, total=simulation.time or 1.0)
     return recording
 
@@ -104,21 +116,20 @@ def _save(
     summary: dict[str, Any],
     output: Output,
     console: Console,
-) -> bool:
-    """Writes everything, what matters most first. Returns whether Ctrl-C cut it short."""
+    interrupts: Interrupts,
+) -> None:
+    """Writes everything, what matters most first; only the film can be cut short."""
     output.write_arrays("log.npz", recording.log)
     output.write_arrays("timing.npz", recording.timings)
     output.write_json("summary.json", summary)
     video: Path | str = "not asked for (--no-video)"
     snapshots: list[Snapshot] = []
-    interrupted = recording.interrupted
-    if interrupted:
+    if interrupts.noted:
         video = "the run was interrupted"
     elif options.video:
         try:
             with Painter(simulation.model) as painter:
-                interrupted = _film(painter, recording, output, console)
-                video = output.saved[-1]
+                video = _film(painter, recording, output, console, interrupts)
                 snapshots = _snapshots(painter, recording, summary)
         except RendererError as missing:
             video = str(missing)
@@ -126,28 +137,31 @@ def _save(
     output.write(
         "report.html", lambda path: report.write(path, summary, recording, snapshots, video)
     )
-    return interrupted
 
 
-def _film(painter: Painter, recording: Recording, output: Output, console: Console) -> bool:
-    """Returns whether Ctrl-C cut the film short."""
-    done = 0
+def _film(
+    painter: Painter,
+    recording: Recording,
+    output: Output,
+    console: Console,
+    interrupts: Interrupts,
+) -> Path:
+    """Films until Ctrl-C at the longest; returns the file."""
     with _progress(console) as bar:
         task = bar.add_task("film", total=len(recording.frames), note="")
 
         def shoot(path: Path) -> None:
-            nonlocal done
-            done = film(
+            film(
                 painter,
                 path,
                 recording.frames,
                 fps=FPS,
                 note=f"{SPEED}x speed",
                 progress=lambda n: bar.update(task, completed=n, note=f"{n} pictures"),
+                stopped=lambda: interrupts.noted,
             )
 
-        output.write("video.mp4", shoot)
-    return done < len(recording.frames)
+        return output.write("video.mp4", shoot)
 
 
 def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) -> list[Snapshot]:

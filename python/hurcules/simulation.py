@@ -6,6 +6,8 @@ long as it is not `simulation.finished`.
 
 from __future__ import annotations
 
+import math
+
 import mujoco
 import numpy as np
 
@@ -52,12 +54,9 @@ class Simulation(_core.Simulation):
         if mission not in _core.missions():
             known = ", ".join(_core.missions())
             raise Error(f"mission '{mission}' does not exist; there are: {known}")
-        whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
-        if not whole or not 0 <= seed < 2**64:
-            raise Error(f"seed: wanted a whole number from 0 to 2**64 - 1, got {seed!r}")
         options = _core.SimulationOptions(
-            seed=int(seed),
-            variation=float(variation),
+            seed=_seed(seed),
+            variation=_variation(variation),
             method=method,
             record=record,
             timed=timed,
@@ -66,3 +65,28 @@ class Simulation(_core.Simulation):
         self.model = models.load(mission=mission)
         self.data = mujoco.MjData(self.model)
         super().__init__(self.model, self.data, mission, options)
+
+    def reset(self, seed: int) -> None:
+        """Back to the start of the mission.
+
+        Args:
+            seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
+
+        Raises:
+            Error: another seed.
+        """
+        super().reset(_seed(seed))
+
+
+def _seed(value: object) -> int:
+    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not whole or not 0 <= (seed := int(value)) < 2**64:  # type: ignore[call-overload]
+        raise Error(f"seed: wanted a whole number from 0 to 2**64 - 1, got {value!r}")
+    return seed
+
+
+def _variation(value: object) -> float:
+    number = isinstance(value, int | float | np.integer | np.floating)
+    if not number or isinstance(value, bool) or not 0 <= (variation := float(value)) < math.inf:  # type: ignore[arg-type]
+        raise Error(f"variation: wanted a number >= 0, got {value!r}")
+    return variation

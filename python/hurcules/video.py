@@ -110,8 +110,9 @@ def film(
     fps: int,
     note: str,
     progress: Callable[[int], None],
+    stopped: Callable[[], bool],
 ) -> int:
-    """Writes an H.264 film. Ctrl-C ends it early: what was drawn is kept.
+    """Writes an H.264 film, of all frames or until it is stopped, and of one at least.
 
     Args:
         painter: draws the frames.
@@ -120,9 +121,10 @@ def film(
         fps: [1/s] pictures a second.
         note: stands in the caption of each frame.
         progress: called after each frame with the number drawn.
+        stopped: whether to end early, asked after each frame.
 
     Returns:
-        The number of frames in the film, less than asked for only after Ctrl-C.
+        The number of frames in the film, less than asked for only when stopped.
 
     Raises:
         OSError: the file cannot be written.
@@ -142,8 +144,8 @@ def film(
             writer.append_data(painter.frame(frame, note))
             done += 1
             progress(done)
-    except KeyboardInterrupt:
-        pass
+            if stopped():
+                break
     finally:
         writer.close()
     return done

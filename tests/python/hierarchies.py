@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+
 from oracle import Rows
 
 Generator = np.random.Generator
@@ -116,7 +117,9 @@ def degenerate(rng: Generator) -> tuple[int, list[Rows]]:
             level.upper = np.append(level.upper, level.upper[i])
         elif what == 2 and len(levels) > 1:
             level.A[i] = -levels[0].A[0]
-    levels.insert(int(rng.integers(len(levels) + 1)), Rows(np.zeros((0, n)), np.zeros(0), np.zeros(0)))
+    levels.insert(
+        int(rng.integers(len(levels) + 1)), Rows(np.zeros((0, n)), np.zeros(0), np.zeros(0))
+    )
     return n, levels
 
 
@@ -128,7 +131,9 @@ def whole_numbers(rng: Generator) -> tuple[int, list[Rows]]:
         m = int(rng.integers(1, 4))
         lower = rng.integers(-2, 3, m).astype(float)
         upper = lower + rng.integers(0, 3, m)
-        levels.append(Rows(rng.integers(-2, 3, (m, n)).astype(float), lower, upper, regularisation(rng)))
+        levels.append(
+            Rows(rng.integers(-2, 3, (m, n)).astype(float), lower, upper, regularisation(rng))
+        )
     return n, levels
 
 

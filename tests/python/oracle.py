@@ -1,13 +1,15 @@
 """Independent oracle: each level of a hierarchy handed to a trusted QP solver (quadprog).
 
-Level k, from the solution x of the levels above, with Z an orthonormal basis of the free directions (by SVD):
+Level k, from the solution x of the levels above, with Z an orthonormal basis of the free directions
+(by SVD):
 
     min 1/2 |violation of the level's rows at x + Z t|^2 + 1/2 rho^2 |t|^2
     s.t. no inequality row above gets worse
 
-Own inequality rows get a slack variable each, so that the QP is strictly convex for rho > 0. For rho = 0 the level is
-solved by proximal steps, and then the smallest step that keeps what the level settled is a second QP. Nothing here
-is shared with the C++ solver: no chain, no working set, no tolerance.
+Own inequality rows get a slack variable each, so that the QP is strictly convex for rho > 0. For
+rho = 0 the level is solved by proximal steps, and then the smallest step that keeps what the level
+settled is a second QP. Nothing here is shared with the C++ solver: no chain, no working set, no
+tolerance.
 """
 
 from __future__ import annotations
@@ -37,11 +39,15 @@ class Rows:
 
     @property
     def equal(self) -> np.ndarray:
+        """Which rows are equalities, (m,)."""
         return self.lower == self.upper
 
 
 def null_space(A: np.ndarray, Z: np.ndarray) -> np.ndarray:
-    """Directions of Z (n, o) that the rows of A leave free; a row counts by its direction, not its length."""
+    """Directions of Z (n, o) that the rows of A leave free; a row counts by its direct.
+
+    Ion, not its length.
+    """
     if A.shape[0] == 0 or Z.shape[1] == 0:
         return Z
     norm = np.linalg.norm(A, axis=1, keepdims=True)
@@ -57,8 +63,10 @@ def one_sided(A: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> tuple[np.n
     return C, np.concatenate([lower[has_lower], -upper[has_upper]])
 
 
-def quadratic(H: np.ndarray, g: np.ndarray, C: np.ndarray, d: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """min 1/2 y'H y - g'y  s.t. C y >= d; the minimiser and the multipliers."""
+def quadratic(
+    H: np.ndarray, g: np.ndarray, C: np.ndarray, d: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Min 1/2 y'H y - g'y  s.t. C y >= d; the minimiser and the multipliers."""
     size = np.linalg.norm(C, axis=1)
     keep = size > 1e-11
     C, d, size = C[keep], d[keep], size[keep]
@@ -85,6 +93,7 @@ class Oracle:
         self.n = n
 
     def solve(self, levels: list[Rows]) -> np.ndarray:
+        """The optimum of the levels in decreasing priority, (n,)."""
         x, Z = np.zeros(self.n), np.eye(self.n)
         above = (np.zeros((0, self.n)), np.zeros(0), np.zeros(0))
         for level in levels:
@@ -92,8 +101,10 @@ class Oracle:
             Z = null_space(level.A[level.equal], Z)
             free = ~level.equal
             above = tuple(
-                np.concatenate([a, b]) for a, b in
-                zip(above, (level.A[free], level.lower[free], level.upper[free]), strict=True)
+                np.concatenate([a, b])
+                for a, b in zip(
+                    above, (level.A[free], level.lower[free], level.upper[free]), strict=True
+                )
             )
         return x
 
@@ -107,9 +118,16 @@ class Oracle:
             return x + Z @ t
         return self._unregularized(level, x, Z, limits)
 
-    def _regularized(self, level: Rows, rho: float, x: np.ndarray, centre: np.ndarray, Z: np.ndarray,
-                     limits: tuple) -> tuple[np.ndarray, np.ndarray]:
-        """y = (t, slack): min 1/2|A_eq(x + Z t) - b|^2 + 1/2|slack|^2 + 1/2 rho^2|t - centre|^2."""
+    def _regularized(
+        self,
+        level: Rows,
+        rho: float,
+        x: np.ndarray,
+        centre: np.ndarray,
+        Z: np.ndarray,
+        limits: tuple,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Y = (t, slack): min 1/2|A_eq(x + Z t) - b|^2 + 1/2|slack|^2 + 1/2 rho^2|t - centre|^2."""
         equal, free = level.equal, ~level.equal
         E, F = level.A[equal] @ Z, level.A[free] @ Z
         o, m = Z.shape[1], F.shape[0]
@@ -122,11 +140,15 @@ class Oracle:
         at = A @ x
         C1, d1 = one_sided(np.hstack([A @ Z, np.zeros((A.shape[0], m))]), lower - at, upper - at)
         at = level.A[free] @ x
-        C2, d2 = one_sided(np.hstack([F, np.eye(m)]), level.lower[free] - at, level.upper[free] - at)
+        C2, d2 = one_sided(
+            np.hstack([F, np.eye(m)]), level.lower[free] - at, level.upper[free] - at
+        )
         y, multipliers = quadratic(H, g, np.vstack([C1, C2]), np.concatenate([d1, d2]))
         return y[:o], multipliers[: C1.shape[0]]
 
-    def _unregularized(self, level: Rows, x: np.ndarray, Z: np.ndarray, limits: tuple) -> np.ndarray:
+    def _unregularized(
+        self, level: Rows, x: np.ndarray, Z: np.ndarray, limits: tuple
+    ) -> np.ndarray:
         size = max(1e-12, float(np.abs(level.A).max()))
         t = np.zeros(Z.shape[1])
         for _ in range(60):
@@ -155,7 +177,9 @@ class Oracle:
 
 
 def equality_rows_only(n: int, levels: list[Rows]) -> np.ndarray:
-    """The recursion of the thesis for equality rows: x_k = x_{k-1} + Y S/(S^2 + rho^2) W' (y - J x_{k-1}).
+    """The recursion of the thesis for equality rows.
+
+    X_k = x_{k-1} + Y S/(S^2 + rho^2) W' (y - J x_{k-1}).
 
     Equation (3.3.38) with the filter of (3.3.39), on the rows projected on the free directions.
     """

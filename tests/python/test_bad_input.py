@@ -33,28 +33,34 @@ def controller(method: str) -> Any:
 
 
 CASES: dict[str, tuple[Callable[[], Any], str]] = {
-    "shape of A": (lambda: rhqp.Level(np.ones((2, 3)), ONE, ONE), "2"),
+    "shape of A": (lambda: rhqp.Level(np.ones((2, 3)), ONE, ONE), r"A .*\(1, 3\).* \(2, 3\)"),
     "NaN in a bound": (lambda: rhqp.Level(np.ones((1, 1)), NAN, ONE), "row 0"),
     "infinite A": (lambda: rhqp.Level(np.full((1, 1), np.inf), ONE, ONE), "row 0"),
     "lower above upper": (lambda: rhqp.Bounds(2 * ONE, ONE), "row 0"),
     "negative rho": (lambda: rhqp.Level(np.ones((1, 1)), ONE, ONE, rho=-1.0), "rho"),
-    "unknowns of a level": (lambda: rhqp.Solver(2).solve([rhqp.Bounds(ONE, ONE)]), "2"),
+    "unknowns of a level": (
+        lambda: rhqp.Solver(2).solve([rhqp.Bounds(ONE, ONE)]),
+        r"length 2 .* 1$",
+    ),
     "method of the solver": (lambda: controller("magic"), "magic"),
     "mission": (lambda: hurcules.Simulation("nowhere"), "'nowhere' does not exist; .* stretch"),
     "seed": (lambda: hurcules.Simulation(seed=-1), "got -1"),
     "seed that is no number": (lambda: hurcules.Simulation(seed="x"), "got 'x'"),  # type: ignore[arg-type]
-    "variation": (lambda: hurcules.Simulation(variation=np.nan), "variation"),
+    "seed with a fraction": (lambda: simulation().reset(1.5), "whole number .* got 1.5"),  # type: ignore[arg-type]
+    "negative seed of a reset": (lambda: simulation().reset(-1), "whole number .* got -1"),
+    "variation": (lambda: hurcules.Simulation(variation=np.nan), "variation: .*>= 0, got nan"),
+    "variation that is no number": (lambda: hurcules.Simulation(variation="x"), ">= 0, got 'x'"),  # type: ignore[arg-type]
     "scene": (lambda: hurcules.models.load(scene="moon"), "'moon' does not exist; .* flat"),
     "robot": (lambda: hurcules.models.load("nobody"), "'nobody' does not exist; .* rescue"),
-    "shape of a command": (lambda: simulation().step(1, np.zeros(3)), "11"),
+    "shape of a command": (lambda: simulation().step(1, np.zeros(3)), r"\b11\b.* 3$"),
     "NaN in a command": (lambda: simulation().step(1, np.full(11, np.nan)), "finite"),
-    "ticks": (lambda: simulation().step(-1), "-1"),
+    "ticks": (lambda: simulation().step(-1), "ticks >= 0, got -1"),
     "state of another run": (lambda: simulation().restore(np.zeros(5)), "state|snapshot"),
     "frame": (lambda: robot().position("foot"), "'foot'.*hand"),
     "frame of a task": (lambda: hurcules.PositionTask("t", robot(), "foot"), "'foot'.*hand"),
     "joint": (lambda: robot().coordinate("knee"), "'knee'.*elbow"),
     "keyframe": (lambda: robot().set_keyframe("sitting"), "sitting"),
-    "shape of a configuration": (lambda: robot().set_configuration(np.zeros(4)), "4"),
+    "shape of a configuration": (lambda: robot().set_configuration(np.zeros(4)), r"\b1\b.*\b4\b"),
     "NaN in a configuration": (lambda: robot().set_configuration(NAN), "finite|nan|NaN"),
     "model that is none": (lambda: hurcules.Robot(3.0), "float"),  # type: ignore[call-overload]
     "file that is not there": (lambda: hurcules.Robot("/no/such.xml"), "such.xml"),
@@ -66,7 +72,7 @@ def test_wrong_input_gives_one_clear_line(case: str) -> None:
     call, says = CASES[case]
     with pytest.raises(hurcules.Error, match=says) as caught:
         call()
-    assert "\n" not in str(caught.value).strip()
+    assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 400
 
 

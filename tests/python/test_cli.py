@@ -77,6 +77,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "--seed", "-1"], "seed: wanted a whole number from 0 to 2**64 - 1, got -1"),
         (["run", "--seed", "x"], "--seed"),
         (["run", "--seed", str(2**64)], "seed: wanted a whole number"),
+        (["run", "--out", ""], "'--out': wanted the name of a folder, got ''"),
         (["run", "--seconds", "x"], "--seconds"),
         (["run", "--seconds", "0"], "--seconds: wanted a time of 0.001 s or more, got 0.0"),
         (["run", "--seconds", "nan"], "--seconds: wanted"),

@@ -21,6 +21,11 @@ def test_the_terms_of_the_reward_sum_to_it(env: HurculesEnv) -> None:
         assert reward == sum(info[f"reward_{term}"] for term in env.terms)
 
 
+def described(key: str, text: str) -> bool:
+    """Whether a table in the text has a row for this key of info."""
+    return f"| {key.removeprefix('reward_')} " in text
+
+
 def test_info_has_the_same_keys_and_shapes_from_reset_on(env: HurculesEnv) -> None:
     def shapes(info: dict[str, Any]) -> dict[str, tuple[type, tuple[int, ...]]]:
         return {key: (type(value), np.shape(value)) for key, value in info.items()}
@@ -29,7 +34,11 @@ def test_info_has_the_same_keys_and_shapes_from_reset_on(env: HurculesEnv) -> No
     wanted = shapes(first[1])
     assert [shapes(step[4]) for step in later] == [wanted] * 5
     assert {"is_success", "solver_status", "solver_factorizations", "solver_changes"} <= set(wanted)
-    assert {"level_errors", "limit_excess", "time"} <= set(wanted)
+    assert {"solver_iterations", "level_errors", "time"} <= set(wanted)
+    assert {"limit_excess", "limit_excess_velocity", "limit_excess_torque"} <= set(wanted)
+    assert type(env).__doc__ is not None
+    assert [key for key in wanted if not described(key, str(type(env).__doc__))] == []
+    assert all(info["solver_iterations"] == 1 + info["solver_changes"] for *_, info in later)
 
 
 def test_two_environments_with_one_seed_agree_bit_for_bit(env: HurculesEnv) -> None:
@@ -65,8 +74,18 @@ def test_a_state_goes_over_to_another_environment(env: HurculesEnv) -> None:
 
 
 def test_a_state_of_another_size_is_refused(env: HurculesEnv) -> None:
+    before = env.get_state()
     with pytest.raises(hurcules.Error):
-        env.set_state(env.get_state()[:-1])
+        env.set_state(before[:-1])
+    assert same(before, env.get_state())
+
+
+@pytest.mark.parametrize("wrong", [[], None, "state", 1.0, [[1.0, 2.0]], ["a", "b"], [1.0, []]])
+def test_what_is_no_state_is_refused(env: HurculesEnv, wrong: Any) -> None:
+    before = env.get_state()
+    with pytest.raises(hurcules.Error, match=r"state: wanted .*, got "):
+        env.set_state(wrong)
+    assert same(before, env.get_state())
 
 
 def test_what_is_returned_is_never_written_again(env: HurculesEnv) -> None:
@@ -122,13 +141,20 @@ def test_an_action_of_another_shape_is_refused(env: HurculesEnv, wrong: Any) -> 
         env.step(wrong)
 
 
+@pytest.mark.parametrize("wrong", ["x", {}, None, [0.0, [1.0]], ["0"] * 11, [1j] * 11])
+def test_an_action_that_is_no_numbers_is_refused(env: HurculesEnv, wrong: Any) -> None:
+    env.reset(seed=0)
+    with pytest.raises(hurcules.Error, match="action: wanted an array of numbers, got "):
+        env.step(wrong)
+
+
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
 def test_an_action_that_is_not_finite_is_refused(env: HurculesEnv, wrong: float) -> None:
     env.reset(seed=0)
     before = env.get_state()
     action = np.zeros(env.action_space.shape, np.float32)
     action[4] = wrong
-    with pytest.raises(hurcules.Error, match="action: wanted finite numbers"):
+    with pytest.raises(hurcules.Error, match=f"wanted finite numbers, got {wrong} at index 4"):
         env.step(action)
     assert same(before, env.get_state())
 

@@ -134,7 +134,10 @@ def expected_joints(name, key):
 def touching(model, data):
     """Pairs of geoms in contact."""
     mujoco.mj_fwdPosition(model, data)
-    names = lambda c: tuple(sorted(model.geom(int(g)).name for g in c.geom))
+
+    def names(c):
+        return tuple(sorted(model.geom(int(g)).name for g in c.geom))
+
     return {names(c) for c in data.contact[: data.ncon]}
 
 
@@ -243,17 +246,19 @@ def test_the_right_side_mirrors_the_left(robot):
     _, model, data = robot
     place(model, data, "ready")
     mirror = np.diag([1, -1, 1])
-    other = lambda n: re.sub("^L", "R", n).replace("leg_L", "leg_R")
+
+    def other(n):
+        return re.sub("^L", "R", n).replace("leg_L", "leg_R")
+
     left = [n for n in (model.body(i).name for i in range(model.nbody)) if other(n) != n]
     assert len(left) >= 9
     for n in left:
         a, b = data.body(n), data.body(other(n))
         assert b.xipos == pytest.approx(mirror @ a.xipos, abs=1e-9), n
-        tensor = (
-            lambda d, k: d.ximat.reshape(3, 3)
-            @ np.diag(model.body(k).inertia)
-            @ d.ximat.reshape(3, 3).T
-        )
+
+        def tensor(d, k):
+            return d.ximat.reshape(3, 3) @ np.diag(model.body(k).inertia) @ d.ximat.reshape(3, 3).T
+
         assert tensor(b, other(n)) == pytest.approx(mirror @ tensor(a, n) @ mirror, abs=1e-9), n
         for mine, its in zip(geoms_of(model, n), geoms_of(model, other(n)), strict=True):
             mesh = model.geom_type[mine] == mujoco.mjtGeom.mjGEOM_MESH
@@ -399,9 +404,12 @@ def test_bed_and_battery_stop_the_trunk_behind_the_hip_range(robot):  # [F A4]
     name, model, data = robot
     place(model, data, "ready")
     trunk = {"waist", "waist_top", "torso"}
-    free = lambda: not any(
-        set(p) & trunk and set(p) & {"transfer_bed", "battery"} for p in touching(model, data)
-    )
+
+    def free():
+        return not any(
+            set(p) & trunk and set(p) & {"transfer_bed", "battery"} for p in touching(model, data)
+        )
+
     margin = {"rescue": 0.06, "manipulation": 0.16}[name]  # met at 1.09 (bed) and 1.54 (battery)
     for angle, expected in ((HIP_RANGE[name][1], True), (HIP_RANGE[name][1] + margin, False)):
         data.joint("HIP").qpos[0] = angle

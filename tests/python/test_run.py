@@ -196,8 +196,8 @@ def test_ctrl_c_in_the_film_keeps_the_pictures_that_were_drawn(
     drawn = runs.Painter.frame
 
     def interrupting(painter: runs.Painter, frame: Any, note: str = "") -> Any:
-        if frame.time > 0.4:
-            raise KeyboardInterrupt
+        if frame.time > 0.35:
+            signal.raise_signal(signal.SIGINT)
         return drawn(painter, frame, note)
 
     monkeypatch.setattr(runs.Painter, "frame", interrupting)
@@ -206,6 +206,46 @@ def test_ctrl_c_in_the_film_keeps_the_pictures_that_were_drawn(
     assert "report.html" in said(console)
     with imageio.get_reader(tmp_path / "video.mp4") as reader:
         assert reader.count_frames() == 5  # at 0, 0.1, ... 0.4 s
+
+
+@pytest.mark.parametrize("number", [1, 2])  # log.npz, timing.npz
+def test_ctrl_c_while_saving_lets_everything_be_saved(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, number: int
+) -> None:
+    save, begun = np.savez_compressed, []
+
+    def interrupting(file: Any, **arrays: Any) -> None:
+        begun.append(file.name)
+        if len(begun) == number:  # Ctrl-C comes when the file is open
+            signal.raise_signal(signal.SIGINT)
+        save(file, **arrays)
+
+    monkeypatch.setattr(np, "savez_compressed", interrupting)
+    before, console = signal.getsignal(signal.SIGINT), quiet()
+    assert run(RunOptions(out=tmp_path, seconds=0.2), console) == 130
+    assert signal.getsignal(signal.SIGINT) is before
+    files = ["log.npz", "timing.npz", "summary.json", "report.html"]
+    told = f"interrupted after the simulation had ended at 0.200 s; saved in {tmp_path}: "
+    assert told + ", ".join(files) in said(console)
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(files)
+    assert len(np.load(tmp_path / "log.npz")["time"]) == 200
+    assert json.loads((tmp_path / "summary.json").read_text())["simulated_seconds"] == 0.2
+
+
+def test_ctrl_c_between_the_simulation_and_saving_saves(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    summarize = runs.summarize
+
+    def interrupting(*arguments: Any) -> dict[str, Any]:
+        signal.raise_signal(signal.SIGINT)
+        return summarize(*arguments)
+
+    monkeypatch.setattr(runs, "summarize", interrupting)
+    console = quiet()
+    assert run(RunOptions(out=tmp_path, seconds=0.2), console) == 130
+    assert "before anything was recorded" not in said(console)
+    assert (tmp_path / "summary.json").exists()
 
 
 def test_a_full_disk_gives_one_line_that_says_what_was_saved(tmp_path: Path) -> None:

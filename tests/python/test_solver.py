@@ -1,18 +1,20 @@
-"""hurcules.rhqp from Python: the face, properties of the definition, and what bad input is answered with.
+"""hurcules.rhqp from Python.
 
-Strategy: properties on seeded problems and answers that a hand can compute. Not tested here: agreement with an
-independent solver (test_solver_oracle.py) and allocation (C++ tests).
+The face, properties of the definition, and what bad input is answered with.
+
+Strategy: properties on seeded problems and answers that a hand can compute. Not tested here:
+agreement with an independent solver (test_solver_oracle.py) and allocation (C++ tests).
 """
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hierarchies import CLASSES
-from test_solver_oracle import difference, to_levels
 
 import hurcules
+from hierarchies import CLASSES
 from hurcules import rhqp
+from test_solver_oracle import difference, to_levels
 
 
 def problem(seed: int, name: str = "box_conflict") -> tuple[int, list]:
@@ -26,7 +28,9 @@ def test_solution_carries_what_the_interface_promises() -> None:
     assert [v.shape for v in solution.violations] == [level.lower.shape for level in levels]
     for level, violation in zip(levels, solution.violations, strict=True):
         value = level.A @ solution.x
-        np.testing.assert_allclose(violation, value - np.clip(value, level.lower, level.upper), atol=1e-12)
+        np.testing.assert_allclose(
+            violation, value - np.clip(value, level.lower, level.upper), atol=1e-12
+        )
     assert solution.factorizations >= len(levels)
     for active in solution.working_set:
         level = levels[active.level]
@@ -94,7 +98,10 @@ def test_one_factorization_a_level_when_warm_and_unchanged(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["degenerate", "whole_numbers"])
 def test_one_factorization_mostly_where_held_rows_depend_on_each_other(name: str) -> None:
-    """With rho = 0 and limits that depend exactly on each other the known set may be refused: 4.5 % and 1 % of 400."""
+    """With rho = 0 and limits that depend exactly on each other the known set may be refused.
+
+    4.5 % and 1 % of 400.
+    """
     assert len(takes_more_than_one_factorization(name, 200)) <= 0.06 * 200
 
 
@@ -159,16 +166,51 @@ def test_iteration_limit_is_a_status_with_a_feasible_point() -> None:
     [
         (lambda: rhqp.Level(np.eye(2), np.zeros(3), np.zeros(3)), "A must be (3, 2)"),
         (lambda: rhqp.Level(np.eye(2), np.zeros(2), np.zeros(3)), "one length, got 2 and 3"),
-        (lambda: rhqp.Level(np.eye(2), np.ones(2), np.zeros(2)), "row 0: lower must not exceed upper"),
+        (
+            lambda: rhqp.Level(np.eye(2), np.ones(2), np.zeros(2)),
+            "row 0: lower must not exceed upper",
+        ),
         (lambda: rhqp.Level(np.eye(2) * np.nan, np.zeros(2), np.ones(2)), "A must be finite"),
         (lambda: rhqp.Level(np.eye(2), np.array([0, np.nan]), np.ones(2)), "row 1: a bound is NaN"),
-        (lambda: rhqp.Level(np.eye(2), np.zeros(2), np.ones(2), rho=-1.0), "rho must be finite and >= 0"),
+        (
+            lambda: rhqp.Level(np.eye(2), np.zeros(2), np.ones(2), rho=-1.0),
+            "rho must be finite and >= 0",
+        ),
         (lambda: rhqp.Bounds(np.ones(2), np.zeros(2)), "lower must not exceed upper"),
+        (
+            lambda: rhqp.Level(np.ones(2), np.zeros(2), np.ones(2)),
+            "shape (m, n), (2,) of float64 came",
+        ),
+        (
+            lambda: rhqp.Level(np.eye(2), 0.0, np.ones(2)),
+            "lower wants real numbers of shape (m,), () of",
+        ),
+        (lambda: rhqp.Level(np.eye(2) * 1j, np.zeros(2), np.ones(2)), "(2, 2) of complex128 came"),
+        (
+            lambda: rhqp.Level([[1, 2], [3]], np.zeros(2), np.ones(2)),
+            "A wants real numbers of shape (m, n)",
+        ),
+        (
+            lambda: rhqp.Level(np.eye(2), np.zeros(2), np.ones(2), rho="x"),
+            "rho wants a number >= 0, got 'x'",
+        ),
+        (lambda: rhqp.Solver(2).solve(None), "solve wants a list of Level and Bounds, got None"),
+        (lambda: rhqp.Solver(2).solve([1]), "level 0 wants to be a Level or Bounds, got 1"),
+        (lambda: rhqp.Solver(10**9), "takes up to 10000 unknowns, got 1000000000"),
         (lambda: rhqp.Solver(0), "at least one unknown"),
-        (lambda: rhqp.Solver(2, rhqp.SolverOptions(method="magic")), "'magic' does not exist; there are: lexicographic"),
+        (
+            lambda: rhqp.Solver(2, rhqp.SolverOptions(method="magic")),
+            "'magic' does not exist; there are: lexicographic",
+        ),
         (lambda: rhqp.Solver(2, rhqp.SolverOptions(max_changes=0)), "max_changes must be positive"),
-        (lambda: rhqp.Solver(3).solve([rhqp.Level(np.eye(2), np.zeros(2), np.ones(2))]), "level 0: A must be (2, 3)"),
-        (lambda: rhqp.Solver(3).solve([rhqp.Bounds(np.zeros(2), np.ones(2))]), "bounds must have length 3"),
+        (
+            lambda: rhqp.Solver(3).solve([rhqp.Level(np.eye(2), np.zeros(2), np.ones(2))]),
+            "level 0: A must be (2, 3)",
+        ),
+        (
+            lambda: rhqp.Solver(3).solve([rhqp.Bounds(np.zeros(2), np.ones(2))]),
+            "bounds must have length 3",
+        ),
     ],
 )
 def test_bad_input_says_what_was_wanted_and_what_came(make, text: str) -> None:

@@ -1,8 +1,9 @@
 """The solver against an independent oracle on thousands of seeded problems (solver.md section 1).
 
-Strategy: each level is handed to quadprog (oracle.py), which shares nothing with the C++ solver; x must agree to 1e-6
-of its size. Every problem is cold; warm starts are compared with cold ones in test_solver.py. Not tested here: speed.
-HURCULES_PROBLEMS sets the number of problems a class (bulk runs are this test with a larger count).
+Strategy: each level is handed to quadprog (oracle.py), which shares nothing with the C++ solver; x
+must agree to 1e-6 of its size. Every problem is cold; warm starts are compared with cold ones in
+test_solver.py. Not tested here: speed. HURCULES_PROBLEMS sets the number of problems a class (bulk
+runs are this test with a larger count).
 """
 
 from __future__ import annotations
@@ -12,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hierarchies import CLASSES
-from oracle import Oracle, Rows, equality_rows_only
 
+from hierarchies import CLASSES
 from hurcules import rhqp
+from oracle import Oracle, Rows, equality_rows_only
 
 PROBLEMS = int(os.environ.get("HURCULES_PROBLEMS", "750"))
 AGREES = 1e-6
@@ -23,7 +24,8 @@ AGREES = 1e-6
 
 def to_levels(levels: list[Rows]) -> list[rhqp.Level]:
     return [
-        rhqp.Bounds(level.lower, level.upper) if level.bounds
+        rhqp.Bounds(level.lower, level.upper)
+        if level.bounds
         else rhqp.Level(level.A, level.lower, level.upper, level.rho)
         for level in levels
     ]
@@ -66,7 +68,10 @@ def test_the_oracle_tells_right_from_wrong() -> None:
 
 
 def test_the_oracle_agrees_with_the_recursion_for_equalities() -> None:
-    """Equality rows only: the closed recursion (3.3.36)-(3.3.39) by SVD, a second oracle for the first."""
+    """Equality rows only.
+
+    The closed recursion (3.3.36)-(3.3.39) by SVD, a second oracle for the first.
+    """
     for seed in range(100):
         n, levels = CLASSES["no_conflict"](np.random.default_rng([seed, 3]))
         levels = [level for level in levels if not level.bounds]

@@ -1,5 +1,8 @@
 #include "hurcules/base/state.hpp"
 
+#include <cmath>
+#include <string>
+
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -13,9 +16,23 @@ void StateWriter::put_bits(unsigned long long word) {
   put(static_cast<double>(word & 0xffffffffULL));
 }
 
-double StateReader::get() {
+double StateReader::get_any() {
   require(next_ < in_.size(), "the snapshot ends early: it belongs to another model or mission");
   return in_[next_++];
+}
+
+double StateReader::get() {
+  const double value = get_any();
+  require(!std::isnan(value), "a snapshot has NaN where a number is wanted");
+  return value;
+}
+
+Index StateReader::get_count(Index most) {
+  const double value = get();
+  require(value >= 0.0 && value <= static_cast<double>(most) && value == std::floor(value),
+          "a snapshot has " + std::to_string(value) + " where a whole number up to " +
+              std::to_string(most) + " is wanted");
+  return static_cast<Index>(value);
 }
 
 void StateReader::get(VectorRef values) {
@@ -23,8 +40,9 @@ void StateReader::get(VectorRef values) {
 }
 
 unsigned long long StateReader::get_bits() {
-  const auto high = static_cast<unsigned long long>(get());
-  return (high << 32) | static_cast<unsigned long long>(get());
+  constexpr Index kHalf = 0xffffffff;
+  const auto high = static_cast<unsigned long long>(get_count(kHalf));
+  return (high << 32) | static_cast<unsigned long long>(get_count(kHalf));
 }
 
 }  // namespace hurcules

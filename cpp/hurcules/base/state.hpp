@@ -7,7 +7,8 @@
 
 namespace hurcules {
 
-// Each object with a memory between ticks has save(StateWriter&) and restore(StateReader&), in the same order.
+// Each object with a memory between ticks has save(StateWriter&) and restore(StateReader&), in the
+// same order.
 class StateWriter {
  public:
   explicit StateWriter(std::vector<double>& out) : out_(out) {}
@@ -23,8 +24,10 @@ class StateWriter {
 class StateReader {
  public:
   explicit StateReader(const std::vector<double>& in) : in_(in) {}
-  // throws Error when the snapshot is too short for what is asked
-  [[nodiscard]] double get();
+  // each throws Error when the snapshot is too short for what is asked, or holds no such number
+  [[nodiscard]] double get();                 // not NaN
+  [[nodiscard]] double get_any();             // NaN too: a figure that has not happened
+  [[nodiscard]] Index get_count(Index most);  // a whole number from 0 to most
   void get(VectorRef values);
   [[nodiscard]] unsigned long long get_bits();
   [[nodiscard]] bool at_end() const { return next_ == in_.size(); }

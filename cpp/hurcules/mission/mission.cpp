@@ -54,10 +54,10 @@ void Mission::save(StateWriter& writer) const {
 }
 
 void Mission::restore(StateReader& reader) {
-  phase_ = std::min(static_cast<std::size_t>(reader.get()), phases_.size() - 1);
+  phase_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(phases_.size()) - 1));
   phase_start_ = reader.get();
   reader.get(command_);
-  for (Figure& figure : figures_) figure.value = reader.get();
+  for (Figure& figure : figures_) figure.value = reader.get_any();
   for (Task* task : tasks_) task->restore(reader);
   restore_memory(reader);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <mutex>
+#include <sstream>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/robot.hpp"
@@ -52,8 +53,16 @@ class VirtualFiles {
 
 using ErrorText = std::array<char, 2000>;
 
+// MuJoCo writes its complaints over several lines
+std::string in_one_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string line, word;
+  while (words >> word) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 ModelPtr owned(mjModel* model, const std::string& what, const std::string& complaint) {
-  if (!model) throw Error(what + " cannot be loaded: " + complaint);
+  if (!model) throw Error(what + " cannot be loaded: " + in_one_line(complaint));
   return {model, [](const mjModel* m) { mj_deleteModel(const_cast<mjModel*>(m)); }};
 }
 

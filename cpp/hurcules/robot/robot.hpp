@@ -87,8 +87,9 @@ class Robot {
 
   // The body that stays where it is when the coordinates move; By default
   // that is the root of its tree. A robot with folding legs stands on
-  // those that lie on the ground: then its root, and all above, moves with the knees, and Jacobians,
-  // drifts and inertia count that. Throws Error for a body of another tree, or one without free root.
+  // those that lie on the ground: then its root, and all above, moves with the knees, and
+  // Jacobians, drifts and inertia count that. Throws Error for a body of another tree, or one
+  // without free root.
   void stand_on(const std::string& body);
 
   // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it
@@ -142,16 +143,16 @@ class Robot {
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
-  int tree_ = 0;            // body at the root of the tree that holds the first coordinate
-  int support_ = -1;        // body that stands, -1 for the root
-  int root_qpos_ = -1, root_dof_ = -1;       // of its tree's free joint
-  Vector3 p_WS_ = Vector3::Zero();           // [m] where the support stands
+  int tree_ = 0;      // body at the root of the tree that holds the first coordinate
+  int support_ = -1;  // body that stands, -1 for the root
+  int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
+  Vector3 p_WS_ = Vector3::Zero();      // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
   Eigen::Matrix<double, 6, Eigen::Dynamic> root_motion_;  // qvel of the root by coordinate, (6, n)
-  bool moving_ = false;     // some coordinate has a velocity: only then is there a drift
-  mutable Matrix full_;     // scratch for Jacobians, (3, nv)
-  mutable Matrix turn_;     // the same, for those of the support
-  mutable Matrix inertia_;  // scratch for the mass matrix, (nv, nv)
+  bool moving_ = false;      // some coordinate has a velocity: only then is there a drift
+  mutable Matrix full_;      // scratch for Jacobians, (3, nv)
+  mutable Matrix turn_;      // the same, for those of the support
+  mutable Matrix inertia_;   // scratch for the mass matrix, (nv, nv)
   mutable Vector momentum_;  // (nv)
 };
 

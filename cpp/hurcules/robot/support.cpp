@@ -1,6 +1,7 @@
 // A robot that stands on one of its bodies: its free root moves so that this body does not.
 //
-//   qvel of the root = root_motion v,   root_motion = -(twist of the support by the coordinates, seen at the root)
+//   qvel of the root = root_motion v,   root_motion = -(twist of the support by the coordinates,
+//   seen at the root)
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
@@ -16,9 +17,11 @@ void Robot::stand_on(const std::string& body) {
   require(frame.type == mjOBJ_BODY, "a robot stands on a body; '" + body + "' is none");
   const int root = m.body_rootid[frame.id];
   const int joint = m.body_jntnum[root] > 0 ? m.body_jntadr[root] : -1;
-  require(size() > 0 && root == tree_, "'" + body + "' belongs to another tree than the coordinates");
+  require(size() > 0 && root == tree_,
+          "'" + body + "' belongs to another tree than the coordinates");
   require(joint >= 0 && m.jnt_type[joint] == mjJNT_FREE,
-          "a robot stands on a body of a tree with a free joint; '" + body + "' is bolted to the world");
+          "a robot stands on a body of a tree with a free joint; '" + body +
+              "' is bolted to the world");
   support_ = frame.id;
   root_qpos_ = m.jnt_qposadr[joint];
   root_dof_ = m.jnt_dofadr[joint];

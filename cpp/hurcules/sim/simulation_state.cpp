@@ -7,6 +7,12 @@
 
 namespace hurcules {
 
+namespace {
+
+constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
+
+}  // namespace
+
 void Simulation::reset(std::uint64_t seed) {
   options_.seed = seed;
   ticks_ = 0;
@@ -79,7 +85,7 @@ void Simulation::restore(const std::vector<double>& values) {
   const std::vector<double> before = state();
   try {
     read(values);
-  } catch (const Error&) {
+  } catch (...) {
     read(before);  // a snapshot that does not fit changes nothing
     throw;
   }
@@ -87,8 +93,8 @@ void Simulation::restore(const std::vector<double>& values) {
 
 void Simulation::read(const std::vector<double>& values) {
   StateReader reader(values);
-  ticks_ = static_cast<std::int64_t>(reader.get());
-  ending_ = static_cast<Ending>(static_cast<int>(reader.get()));
+  ticks_ = reader.get_count(kMostTicks);
+  ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::SolverFailed)));
   ending_time_ = reader.get();
   physics_.restore(reader);
   mission_->restore(reader);

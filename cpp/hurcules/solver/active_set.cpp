@@ -12,7 +12,8 @@ namespace hurcules {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// a row that moves by less than this part of |m| |p| does not move, nor does a point by less than this part of |z|
+// a row that moves by less than this part of |m| |p| does not move, nor does a point by less than
+// this part of |z|
 constexpr double kStill = 1e-14;
 // `ignored`: for the whole level, or until the next row is dropped
 constexpr char kIgnoredForNow = 2;
@@ -31,7 +32,8 @@ int LeastDistance::first_blocking(double& step, Side& side) const {
     const double speed = kernels::dot(dimension_, row(c), p);
     const double norm = std::sqrt(kernels::dot(dimension_, row(c), row(c)));
     if (std::abs(speed) <= kStill * norm * length) continue;
-    const double room = (speed > 0.0 ? upper[c] : lower[c]) - kernels::dot(dimension_, row(c), from_.data());
+    const double room =
+        (speed > 0.0 ? upper[c] : lower[c]) - kernels::dot(dimension_, row(c), from_.data());
     if (std::isinf(room)) continue;
     const double way = std::max(0.0, room / speed);
     const double relative = std::abs(speed) / norm;
@@ -78,7 +80,8 @@ void LeastDistance::drop_negative(int& changes) {
   }
 }
 
-// Raises the multiplier of a broken row until it holds, dropping the rows whose multipliers vanish on the way.
+// Raises the multiplier of a broken row until it holds, dropping the rows whose multipliers vanish
+// on the way.
 bool LeastDistance::raise(int candidate, Side side, int& changes, int changes_left) {
   const double sign = static_cast<double>(side);
   double raised = 0.0;
@@ -124,7 +127,8 @@ bool LeastDistance::solve_dual(int& changes, int changes_left, bool& raised) {
   double slack = 1.0;
   int next_raise = static_cast<int>(2 * dimension_) + 30;
   while (changes - before < changes_left) {
-    // the ladder: a tolerance that grows tenfold, so that rounding cannot keep two rows swapping for ever
+    // the ladder: a tolerance that grows tenfold, so that rounding cannot keep two rows swapping
+    // for ever
     if (changes - before > next_raise) {
       slack *= 10.0;
       next_raise += static_cast<int>(dimension_) / 2 + 1;

@@ -8,6 +8,13 @@
 
 namespace hurcules {
 
+namespace {
+
+// more rows than a solver of kMostUnknowns can hold are no snapshot of one
+constexpr Index kMostKept = 1'000'000;
+
+}  // namespace
+
 const Solution& Solver::Workspace::refuse() {
   solution_.status = SolverStatus::InvalidInput;
   solution_.x.setZero();
@@ -27,7 +34,8 @@ void Solver::Workspace::finish_level(double rho, int k) {
   record.norm = static_cast<int>(held_.size()) - begin_norm_;
   const double residual = optimality_.residual(rows_, chain_, k, x_above_, record, held_);
   solution_.optimality = std::max(solution_.optimality, residual);
-  // steps that went on for ever may have stood still long before, but for rounding: the proof decides
+  // steps that went on for ever may have stood still long before, but for rounding: the proof
+  // decides
   if (unsettled_ && residual > tolerance::kProven && solution_.status == SolverStatus::Solved) {
     solution_.status = SolverStatus::ReducedAccuracy;
   }
@@ -74,7 +82,8 @@ std::vector<std::vector<Vector>> Solver::Workspace::multipliers() const {
   std::vector<std::vector<Vector>> result(solution_.final_levels);
   for (int k = 0; k < solution_.final_levels; ++k) {
     const LevelRecord& record = records_[k];
-    for (int j = 0; j <= k; ++j) result[k].push_back(Vector::Zero(rows_.begin(j + 1) - rows_.begin(j)));
+    for (int j = 0; j <= k; ++j)
+      result[k].push_back(Vector::Zero(rows_.begin(j + 1) - rows_.begin(j)));
     for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
       result[k][k][rows_[i].row] = rows_.violation(i, rows_.dot(i, record.x));
     }
@@ -89,7 +98,8 @@ std::vector<std::vector<Vector>> Solver::Workspace::multipliers() const {
     Vector mu(rank);
     for (Index j = rank - 1; j >= 0; --j) {
       double sum = -kernels::dot(unknowns_, chain_.direction(j), record.gradient.data());
-      for (Index l = j + 1; l < rank; ++l) sum -= chain_.coordinates(chain_.pivot_row(l))[j] * mu[l];
+      for (Index l = j + 1; l < rank; ++l)
+        sum -= chain_.coordinates(chain_.pivot_row(l))[j] * mu[l];
       mu[j] = sum / chain_.coordinates(chain_.pivot_row(j))[j];
       const Row& row = rows_[chain_.pivot_row(j)];
       result[k][row.level][row.row] = mu[j];
@@ -111,12 +121,12 @@ void Solver::Workspace::save(StateWriter& writer) const {
 
 void Solver::Workspace::restore(StateReader& reader) {
   rows_.restore_pattern(reader);
-  kept_.resize(static_cast<std::size_t>(reader.get()));
+  kept_.resize(static_cast<std::size_t>(reader.get_count(kMostKept)));
   for (KeptRow& kept : kept_) {
-    kept.held_by = static_cast<int>(reader.get());
-    kept.row = static_cast<int>(reader.get());
+    kept.held_by = static_cast<int>(reader.get_count(kMostKept));
+    kept.row = static_cast<int>(reader.get_count(kMostKept));
     kept.side = reader.get() < 0.0 ? Side::Lower : Side::Upper;
-    kept.role = static_cast<Role>(static_cast<int>(reader.get()));
+    kept.role = static_cast<Role>(reader.get_count(static_cast<Index>(Role::Idle)));
   }
 }
 

@@ -87,7 +87,8 @@ void Chain::complete(const RowTable& rows) {
 
 void Chain::remove_first(Index r, Vector& y) const {
   for (Index j = 0; j < r; ++j) {
-    kernels::axpy(y.size(), -kernels::dot(y.size(), direction(j), y.data()), direction(j), y.data());
+    kernels::axpy(y.size(), -kernels::dot(y.size(), direction(j), y.data()), direction(j),
+                  y.data());
   }
 }
 

@@ -1,8 +1,9 @@
 // The orthogonal chain: one basis of R^n that serves every level.
 //
-// The equality rows of all levels, in order, are made orthonormal (Gram-Schmidt with reorthogonalisation):
-// rank(k) directions q_0 .. span the equality rows of levels 0..k, and the directions after them are the
-// Z_k that level k leaves to the levels below [T 2.2.15, 3.3.34]. It depends on no working set.
+// The equality rows of all levels, in order, are made orthonormal (Gram-Schmidt with
+// reorthogonalisation): rank(k) directions q_0 .. span the equality rows of levels 0..k, and the
+// directions after them are the Z_k that level k leaves to the levels below [T 2.2.15, 3.3.34]. It
+// depends on no working set.
 #pragma once
 
 #include <vector>

@@ -9,41 +9,40 @@ namespace hurcules {
 
 namespace {
 
-std::string place(std::size_t level, Index row) {
-  return "level " + std::to_string(level) + ", row " + std::to_string(row);
+std::string place(const std::string& level, Index row) {
+  return level + ", row " + std::to_string(row);
 }
 
-void check_shape(const Level& level, std::size_t k, Index unknowns) {
-  const std::string where = "level " + std::to_string(k);
+void check_shape(const Level& level, const std::string& where, Index unknowns) {
   require(level.lower.size() == level.upper.size(),
-          where + ": lower and upper must have one length, got " + std::to_string(level.lower.size()) +
-              " and " + std::to_string(level.upper.size()));
+          where + ": lower and upper must have one length, got " +
+              std::to_string(level.lower.size()) + " and " + std::to_string(level.upper.size()));
   if (level.bounds) {
-    require(level.rows() == unknowns, where + ": bounds must have length " + std::to_string(unknowns) +
-                                          " (the unknowns), got " + std::to_string(level.rows()));
-    require(level.rho == 0.0, where + ": bounds are never regularised, got rho = " +
-                                  std::to_string(level.rho));
+    require(level.rows() == unknowns, where + ": bounds must have length " +
+                                          std::to_string(unknowns) + " (the unknowns), got " +
+                                          std::to_string(level.rows()));
+    require(level.rho == 0.0,
+            where + ": bounds are never regularised, got rho = " + std::to_string(level.rho));
     return;
   }
   require(level.A.rows() == level.rows() && (level.rows() == 0 || level.A.cols() == unknowns),
           where + ": A must be (" + std::to_string(level.rows()) + ", " + std::to_string(unknowns) +
-              ") to match its bounds and the unknowns, got (" + std::to_string(level.A.rows()) + ", " +
-              std::to_string(level.A.cols()) + ")");
+              ") to match its bounds and the unknowns, got (" + std::to_string(level.A.rows()) +
+              ", " + std::to_string(level.A.cols()) + ")");
 }
 
-void check_numbers(const Level& level, std::size_t k) {
+void check_numbers(const Level& level, const std::string& where) {
   require(std::isfinite(level.rho) && level.rho >= 0.0,
-          "level " + std::to_string(k) + ": rho must be finite and >= 0, got " +
-              std::to_string(level.rho));
+          where + ": rho must be finite and >= 0, got " + std::to_string(level.rho));
   for (Index i = 0; i < level.rows(); ++i) {
     require(!std::isnan(level.lower[i]) && !std::isnan(level.upper[i]),
-            place(k, i) + ": a bound is NaN");
+            place(where, i) + ": a bound is NaN");
     require(level.lower[i] <= level.upper[i],
-            place(k, i) + ": lower must not exceed upper, got " + std::to_string(level.lower[i]) +
-                " > " + std::to_string(level.upper[i]));
+            place(where, i) + ": lower must not exceed upper, got " +
+                std::to_string(level.lower[i]) + " > " + std::to_string(level.upper[i]));
     require(level.lower[i] < kInfinity && level.upper[i] > -kInfinity,
-            place(k, i) + ": no x can meet a lower bound of +inf or an upper bound of -inf");
-    require(level.bounds || level.A.row(i).allFinite(), place(k, i) + ": A must be finite");
+            place(where, i) + ": no x can meet a lower bound of +inf or an upper bound of -inf");
+    require(level.bounds || level.A.row(i).allFinite(), place(where, i) + ": A must be finite");
   }
 }
 
@@ -55,9 +54,13 @@ Level make_bounds(const ConstVectorRef& lower, const ConstVectorRef& upper) {
 
 void check(const Hierarchy& hierarchy, Index unknowns) {
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
-    check_shape(hierarchy[k], k, unknowns);
-    check_numbers(hierarchy[k], k);
+    check(hierarchy[k], unknowns, "level " + std::to_string(k));
   }
+}
+
+void check(const Level& level, Index unknowns, const std::string& name) {
+  check_shape(level, name, unknowns);
+  check_numbers(level, name);
 }
 
 }  // namespace hurcules

@@ -14,6 +14,8 @@ inline double dot(Index n, const double* a, const double* b) {
 }
 
 // y += s x over n entries
-inline void axpy(Index n, double s, const double* x, double* y) { Map(y, n) += s * ConstMap(x, n); }
+inline void axpy(Index n, double s, const double* x, double* y) {
+  Map(y, n) += s * ConstMap(x, n);
+}
 
 }  // namespace hurcules::kernels

@@ -2,8 +2,8 @@
 //
 //     min 1/2 |z - target|^2   subject to   lower <= M z <= upper
 //
-// solved with a working set W of rows held at one side. The rows of W have their own orthogonal factor M_W = F V
-// (F lower triangular, V orthonormal rows), so that
+// solved with a working set W of rows held at one side. The rows of W have their own orthogonal
+// factor M_W = F V (F lower triangular, V orthonormal rows), so that
 //     z = target + V' (u - V target),  F u = limits of W,       multipliers = F^-T (V target - u).
 #pragma once
 
@@ -16,10 +16,10 @@ namespace hurcules {
 
 // A place in the working set, as opposed to the number of a row.
 struct ActiveSlot {
-  int candidate = 0;         // row of M
+  int candidate = 0;  // row of M
   Side side = Side::Upper;
-  bool fixed = false;        // an equality of this problem: never dropped
-  double multiplier = 0.0;   // >= 0 unless fixed, for  side * M z <= side * limit
+  bool fixed = false;       // an equality of this problem: never dropped
+  double multiplier = 0.0;  // >= 0 unless fixed, for  side * M z <= side * limit
 };
 
 class LeastDistance {
@@ -33,11 +33,11 @@ class LeastDistance {
   [[nodiscard]] double* row(Index c) { return M_.row(c).data(); }
   [[nodiscard]] const double* row(Index c) const { return M_.row(c).data(); }
 
-  Vector target;     // z0 (dimension)
-  Vector z;          // (dimension)
-  Vector lower;      // (candidates), -inf when absent
-  Vector upper;      // (candidates)
-  Vector tolerance;  // (candidates), what counts as broken
+  Vector target;              // z0 (dimension)
+  Vector z;                   // (dimension)
+  Vector lower;               // (candidates), -inf when absent
+  Vector upper;               // (candidates)
+  Vector tolerance;           // (candidates), what counts as broken
   std::vector<char> ignored;  // (candidates), rows without a part here
 
   // Adds a row at a side. False, and nothing is changed, when it depends on the rows that are held.
@@ -54,7 +54,8 @@ class LeastDistance {
   void solve_on_active();
   // moves z by the least amount that changes each held row by its entry of `change` (slots)
   void correct(Vector& change);
-  // r with M_W' r nearest to side * row of the candidate; returns the squared norm of what W does not explain
+  // r with M_W' r nearest to side * row of the candidate; returns the squared norm of what W does
+  // not explain
   double explain(int candidate, Side side, Vector& r);
   // index of the most negative multiplier that may be dropped, or -1
   [[nodiscard]] int most_negative() const;
@@ -66,9 +67,11 @@ class LeastDistance {
   }
   void set_multiplier(Index slot, double value) { active_[slot].multiplier = value; }
 
-  // Primal active set from the feasible z: ends at the minimiser, or when `changes_left` is used up (false).
+  // Primal active set from the feasible z: ends at the minimiser, or when `changes_left` is used up
+  // (false).
   bool solve_primal(int& changes, int changes_left);
-  // Dual active set (Goldfarb-Idnani) from any working set; `raised` tells that the tolerance had to grow to end.
+  // Dual active set (Goldfarb-Idnani) from any working set; `raised` tells that the tolerance had
+  // to grow to end.
   bool solve_dual(int& changes, int changes_left, bool& raised);
 
  private:
@@ -79,8 +82,8 @@ class LeastDistance {
   bool raise(int candidate, Side side, int& changes, int changes_left);
 
   Index candidates_ = 0, dimension_ = 0;
-  Matrix M_;                        // (candidates, dimension)
-  Matrix F_, V_;                    // (slots, slots) lower triangular, (slots, dimension)
+  Matrix M_;      // (candidates, dimension)
+  Matrix F_, V_;  // (slots, slots) lower triangular, (slots, dimension)
   Vector u_, direction_, from_, work_, r_;
   std::vector<ActiveSlot> active_;
   std::vector<char> held_;

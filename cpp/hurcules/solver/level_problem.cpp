@@ -10,7 +10,8 @@ namespace hurcules {
 
 namespace {
 
-// Householder reflections that make the first `columns` columns of a (rows, columns + 1) block triangular
+// Householder reflections that make the first `columns` columns of a (rows, columns + 1) block
+// triangular
 void triangularize(Matrix& block, Index rows, Index columns) {
   for (Index j = 0; j < columns; ++j) {
     double norm2 = 0.0;
@@ -172,8 +173,7 @@ void LevelProblem::fill(const RowTable& rows, const Chain& chain, double rho,
   distance.target.head(slack).setZero();
   distance.target.head(own_) = c_.head(own_) / rho;
   distance.z.head(slack).setZero();
-  const double target_scale =
-      own_ ? distance.target.head(own_).lpNorm<Eigen::Infinity>() : 0.0;
+  const double target_scale = own_ ? distance.target.head(own_).lpNorm<Eigen::Infinity>() : 0.0;
   for (Index c = 0; c < distance.candidates(); ++c) {
     const int i = candidate_row_[c];
     fill_row(rows, chain, i, c, rho);

@@ -10,7 +10,9 @@ namespace {
 // forces below this part of |a|^2 |x| are not told from rounding
 constexpr double kLeastForce = 1e-3;
 
-double limit_of(const Row& row, Side side) { return side == Side::Upper ? row.upper : row.lower; }
+double limit_of(const Row& row, Side side) {
+  return side == Side::Upper ? row.upper : row.lower;
+}
 
 // what a row above may reach: its limit, or where it stood when that was worse
 double allowed(const RowTable& rows, int i, Side side, int k, const Vector& x_above) {
@@ -22,7 +24,9 @@ double allowed(const RowTable& rows, int i, Side side, int k, const Vector& x_ab
 
 }  // namespace
 
-void Optimality::reserve(Index unknowns) { work_.resize(unknowns); }
+void Optimality::reserve(Index unknowns) {
+  work_.resize(unknowns);
+}
 
 double Optimality::residual(const RowTable& rows, const Chain& chain, int k, const Vector& x_above,
                             LevelRecord& record, const std::vector<HeldRow>& held) {
@@ -48,7 +52,8 @@ double Optimality::residual(const RowTable& rows, const Chain& chain, int k, con
   // stationarity on the free directions
   work_ = g;
   chain.remove_first(chain.rank_before(k), work_);
-  // what is left against the forces that balance; a level that is met has none, only the rounding of its rows
+  // what is left against the forces that balance; a level that is met has none, only the rounding
+  // of its rows
   const double least = kLeastForce * norm * norm * x_scale;
   if (scale > 0.0) worst = work_.norm() / std::max(scale, least);
   // signs and complementarity
@@ -56,7 +61,8 @@ double Optimality::residual(const RowTable& rows, const Chain& chain, int k, con
     if (largest > 0.0) worst = std::max(worst, -held[h].multiplier / largest);
     const Row& row = rows[held[h].row];
     if (row.level == k || row.norm == 0.0) continue;
-    const double gap = rows.dot(held[h].row, x) - allowed(rows, held[h].row, held[h].side, k, x_above);
+    const double gap =
+        rows.dot(held[h].row, x) - allowed(rows, held[h].row, held[h].side, k, x_above);
     const double weight = largest > 0.0 ? std::min(1.0, held[h].multiplier / largest) : 0.0;
     worst = std::max(worst, weight * std::abs(gap) / (row.norm * x_scale));
   }
@@ -75,12 +81,14 @@ double Optimality::broken(const RowTable& rows, int k, const Vector& x_above,
     const double now = rows.dot(i, x), before = rows.dot(i, x_above);
     const double lower = row.equality ? before : std::min(row.lower, before);
     const double upper = row.equality ? before : std::max(row.upper, before);
-    worst = std::max({worst, (now - upper) / (row.norm * x_scale), (lower - now) / (row.norm * x_scale)});
+    worst = std::max(
+        {worst, (now - upper) / (row.norm * x_scale), (lower - now) / (row.norm * x_scale)});
   }
   return worst;
 }
 
-// rho = 0: among all minimisers the step is the smallest, t + sum nu side a = 0 on what the level left free
+// rho = 0: among all minimisers the step is the smallest, t + sum nu side a = 0 on what the level
+// left free
 double Optimality::norm_residual(const RowTable& rows, const Chain& chain, int k,
                                  const Vector& x_above, const LevelRecord& record,
                                  const std::vector<HeldRow>& held) {

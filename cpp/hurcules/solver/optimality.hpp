@@ -1,8 +1,12 @@
-// The proof of an answer: how far each level is from its optimality conditions, evaluated on the original rows.
+// The proof of an answer: how far each level is from its optimality conditions, evaluated on the
+// original rows.
 //
-// With x_k the solution after level k, v the violations of its own rows, mu >= 0 the multipliers of held rows:
-//     g = rho^2 (x_k - x_{k-1}) + sum v_i a_i + sum mu_w side_w a_w   must vanish on the free directions
-// and rows above must not have got worse, mu >= 0, and a row with mu > 0 must stand at its limit [T 3.4.100-113].
+// With x_k the solution after level k, v the violations of its own rows, mu >= 0 the multipliers of
+// held rows:
+//     g = rho^2 (x_k - x_{k-1}) + sum v_i a_i + sum mu_w side_w a_w   must vanish on the free
+//     directions
+// and rows above must not have got worse, mu >= 0, and a row with mu > 0 must stand at its limit
+// [T 3.4.100-113].
 #pragma once
 
 #include <vector>
@@ -16,10 +20,11 @@ namespace hurcules {
 // what a solved level leaves behind
 struct LevelRecord {
   double rho = 0.0;
-  Vector x;                        // (n), after this level
-  Vector gradient;                 // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
-  int first_held = 0, held = 0;    // its rows in the list of held rows
-  int first_norm = 0, norm = 0;    // rows that hold only the smallest step (rho = 0)
+  Vector x;  // (n), after this level
+  Vector
+      gradient;  // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
+  int first_held = 0, held = 0;  // its rows in the list of held rows
+  int first_norm = 0, norm = 0;  // rows that hold only the smallest step (rho = 0)
 };
 
 // What a held row does for its level. Only rho = 0 knows other roles than Violation.

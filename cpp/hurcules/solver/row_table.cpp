@@ -9,6 +9,7 @@ namespace hurcules {
 
 namespace {
 
+constexpr Index kMostRows = 1'000'000;  // in a snapshot
 constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
 enum Pattern : char { kEquality, kInequality, kBoundEquality, kBoundInequality, kEndOfLevel };
@@ -81,8 +82,8 @@ void RowTable::save_pattern(StateWriter& writer) const {
 }
 
 void RowTable::restore_pattern(StateReader& reader) {
-  pattern_.resize(static_cast<std::size_t>(reader.get()));
-  for (char& kind : pattern_) kind = static_cast<char>(reader.get());
+  pattern_.resize(static_cast<std::size_t>(reader.get_count(kMostRows)));
+  for (char& kind : pattern_) kind = static_cast<char>(reader.get_count(kEndOfLevel));
 }
 
 double RowTable::violation(int i, double value) const {

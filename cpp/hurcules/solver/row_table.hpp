@@ -10,12 +10,13 @@ namespace hurcules {
 
 struct Row {
   int level = 0;
-  int row = 0;                // its place in the level
-  bool equality = false;      // lower == upper
-  double lower = 0.0;         // -inf when absent
-  double upper = 0.0;         // +inf when absent
-  double norm = 0.0;          // |a|
-  const double* a = nullptr;  // n entries, or null for a simple bound: a is the unit vector of `row`
+  int row = 0;            // its place in the level
+  bool equality = false;  // lower == upper
+  double lower = 0.0;     // -inf when absent
+  double upper = 0.0;     // +inf when absent
+  double norm = 0.0;      // |a|
+  const double* a =
+      nullptr;  // n entries, or null for a simple bound: a is the unit vector of `row`
 };
 
 class RowTable {
@@ -37,8 +38,8 @@ class RowTable {
   // true when levels, row kinds and bounds stand as in the table read before
   [[nodiscard]] bool same_pattern() const { return same_pattern_; }
 
-  [[nodiscard]] double dot(int i, const Vector& x) const;               // a_i . x
-  void add_to(int i, double scale, Vector& y) const;                    // y += scale a_i
+  [[nodiscard]] double dot(int i, const Vector& x) const;  // a_i . x
+  void add_to(int i, double scale, Vector& y) const;       // y += scale a_i
   // the pattern, so that a restored solver knows whether its working sets still fit
   void save_pattern(StateWriter& writer) const;
   void restore_pattern(StateReader& reader);

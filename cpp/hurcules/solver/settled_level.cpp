@@ -80,7 +80,8 @@ bool SettledLevel::holds(const RowTable& rows, const LevelProblem& level, int k,
     const double beyond = rows.dot(i, x) - table_[r].upper;
     if (rows[i].equality) continue;
     const bool own = r >= table_.begin(kOwn) && r < table_.begin(kSmallest);
-    if (own ? static_cast<double>(side_[r]) * beyond <= allowed(i) : std::abs(beyond) > allowed(i)) {
+    if (own ? static_cast<double>(side_[r]) * beyond <= allowed(i)
+            : std::abs(beyond) > allowed(i)) {
       return false;
     }
   }
@@ -90,14 +91,15 @@ bool SettledLevel::holds(const RowTable& rows, const LevelProblem& level, int k,
     const double value = rows.dot(i, x);
     if (value <= level.upper(i) + allowed(i) && value >= level.lower(i) - allowed(i)) continue;
     bool violated = false;
-    for (int r = table_.begin(kOwn); r < table_.begin(kSmallest); ++r) violated |= original_[r] == i;
+    for (int r = table_.begin(kOwn); r < table_.begin(kSmallest); ++r)
+      violated |= original_[r] == i;
     if (!violated) return false;
   }
   return true;
 }
 
-bool SettledLevel::keep(const RowTable& rows, const LevelProblem& level, const Vector& x, Group group,
-                        std::vector<HeldRow>& held) const {
+bool SettledLevel::keep(const RowTable& rows, const LevelProblem& level, const Vector& x,
+                        Group group, std::vector<HeldRow>& held) const {
   double largest = 0.0;
   for (int r = table_.begin(group); r < table_.begin(group + 1); ++r) {
     largest = std::max(largest, std::abs(multiplier_[r]));
@@ -108,13 +110,14 @@ bool SettledLevel::keep(const RowTable& rows, const LevelProblem& level, const V
     const double least =
         group == kLimits ? level.least_settling(largest) : -tolerance::kNegative * largest;
     if (push < least) return false;
-    held.push_back({original_[r], side_[r], push,
-                    group == kLimits ? Role::Violation : Role::SmallestStep});
+    held.push_back(
+        {original_[r], side_[r], push, group == kLimits ? Role::Violation : Role::SmallestStep});
   }
   if (group != kLimits) return true;
   for (int r = table_.begin(kOwn); r < table_.begin(kSmallest); ++r) {
     const int i = original_[r];
-    if (!rows[i].equality) held.push_back({i, side_[r], std::abs(rows.violation(i, rows.dot(i, x)))});
+    if (!rows[i].equality)
+      held.push_back({i, side_[r], std::abs(rows.violation(i, rows.dot(i, x)))});
   }
   return true;
 }

@@ -1,8 +1,10 @@
-// A level with rho = 0 whose working set is known from the last solve: one chain instead of proximal steps.
+// A level with rho = 0 whose working set is known from the last solve: one chain instead of
+// proximal steps.
 //
-// The rows in the order  equality rows above | held limits | own equality and violated rows | rows that hold the
-// smallest step  are four levels of equality rows without regularisation, so the same chain solves them. The answer
-// counts only if it proves itself: limits hold, multipliers are positive, violated rows are violated.
+// The rows in the order  equality rows above | held limits | own equality and violated rows | rows
+// that hold the smallest step  are four levels of equality rows without regularisation, so the same
+// chain solves them. The answer counts only if it proves itself: limits hold, multipliers are
+// positive, violated rows are violated.
 #pragma once
 
 #include <vector>
@@ -25,10 +27,11 @@ struct KeptRow {
 class SettledLevel {
  public:
   void reserve(Index unknowns, Index rows);
-  // True when the kept rows of level k are still the right ones; then x is the answer and `held` has its rows
-  // (those of the smallest step from begin_norm on).
+  // True when the kept rows of level k are still the right ones; then x is the answer and `held`
+  // has its rows (those of the smallest step from begin_norm on).
   bool solve(const RowTable& rows, const LevelProblem& level, int k, const Vector& x_above,
-             const std::vector<KeptRow>& kept, Vector& x, std::vector<HeldRow>& held, int& begin_norm);
+             const std::vector<KeptRow>& kept, Vector& x, std::vector<HeldRow>& held,
+             int& begin_norm);
 
  private:
   enum Group { kAbove, kLimits, kOwn, kSmallest, kGroups };
@@ -46,9 +49,9 @@ class SettledLevel {
   RowTable table_;
   Chain chain_;
   LevelProblem problem_;
-  std::vector<int> original_;   // row of the hierarchy behind each row of the table
+  std::vector<int> original_;  // row of the hierarchy behind each row of the table
   std::vector<Side> side_;
-  Vector force_, multiplier_;   // (n), (rows)
+  Vector force_, multiplier_;  // (n), (rows)
 };
 
 }  // namespace hurcules

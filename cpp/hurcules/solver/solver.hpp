@@ -14,7 +14,8 @@ namespace hurcules {
 enum class SolverStatus {
   Solved,           // every level optimal, to the tolerances of NOTATION.md
   ReducedAccuracy,  // solved, with a tolerance that had to be raised to end
-  IterationLimit,   // max_changes met: x is feasible for all levels above, final_levels says which are optimal
+  IterationLimit,   // max_changes met: x is feasible for all levels above, final_levels says which
+                    // are optimal
   LostPrecision,    // numbers beyond double arithmetic: x is that of the levels above final_levels
   InvalidInput,     // NaN, lower > upper or a wrong shape: x is zero, nothing was solved
 };
@@ -24,31 +25,32 @@ enum class Side { Lower = -1, Upper = 1 };
 
 // A row that holds x back at the end of a solve.
 struct ActiveRow {
-  int level = 0;    // level that the row belongs to
-  int row = 0;      // its row there
+  int level = 0;  // level that the row belongs to
+  int row = 0;    // its row there
   Side side = Side::Upper;
-  int held_by = 0;  // level that pushes against it
+  int held_by = 0;          // level that pushes against it
   double multiplier = 0.0;  // >= 0, of that level's problem; 0: holds only the smallest step
 };
 
 struct SolverOptions {
   std::string method = "lexicographic";  // solver.md §4
-  int max_changes = 10000;               // working-set changes a solve, after which it ends with IterationLimit
+  int max_changes = 10000;  // working-set changes a solve, after which it ends with IterationLimit
 };
 
 struct Solution {
-  Vector x;                              // (n)
+  Vector x;  // (n)
   SolverStatus status = SolverStatus::Solved;
-  std::vector<Vector> violations;        // a level (m): A x - clip(A x, lower, upper)
-  std::vector<ActiveRow> working_set;    // by level that pushes
-  int factorizations = 0;                // at least one a non-empty level
-  int changes = 0;                       // working-set changes
-  int final_levels = 0;                  // levels known to be optimal
-  double optimality = 0.0;               // worst relative residual of the optimality conditions of all levels
+  std::vector<Vector> violations;      // a level (m): A x - clip(A x, lower, upper)
+  std::vector<ActiveRow> working_set;  // by level that pushes
+  int factorizations = 0;              // at least one a non-empty level
+  int changes = 0;                     // working-set changes
+  int final_levels = 0;                // levels known to be optimal
+  double optimality = 0.0;  // worst relative residual of the optimality conditions of all levels
 };
 
-// Keeps its working sets between solves: the next solve starts warm where the pattern of levels is the same.
-// A solve allocates nothing once a problem of its size was solved or reserved; it never throws and always ends.
+// Keeps its working sets between solves: the next solve starts warm where the pattern of levels is
+// the same. A solve allocates nothing once a problem of its size was solved or reserved; it never
+// throws and always ends.
 class Solver {
  public:
   explicit Solver(Index unknowns, SolverOptions options = {});
@@ -63,7 +65,7 @@ class Solver {
   [[nodiscard]] const Solution& solution() const;
   [[nodiscard]] Index unknowns() const;
   [[nodiscard]] const SolverOptions& options() const;
-  // multipliers[k][j] (m_j) of the rows of level j in the optimality of level k, j <= k  [T 3.4.116]
+  // multipliers[k][j] (m_j) of the rows of level j in the optimality of level k, j <= k [T 3.4.116]
   [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const;
   // forgets the working sets: the next solve is cold
   void reset();

@@ -1,5 +1,6 @@
-// Every threshold of the solver, in one place. Each was varied alone over orders of magnitude without a wrong
-// answer (solver-algorithm §4); all are relative to the scale that stands beside them.
+// Every threshold of the solver, in one place. Each was varied alone over orders of magnitude
+// without a wrong answer (solver-algorithm §4); all are relative to the scale that stands beside
+// them.
 #pragma once
 
 namespace hurcules::tolerance {
@@ -18,7 +19,8 @@ inline constexpr double kNegative = 1e-11;
 inline constexpr double kDependent = 1e-10;
 // an active row misses its limit and is worth a correction, relative to max(1, |x|)
 inline constexpr double kMiss = 2e-14;
-// a limit settles the violation of a level with rho = 0 when its multiplier is above this part of the largest
+// a limit settles the violation of a level with rho = 0 when its multiplier is above this part of
+// the largest
 inline constexpr double kSettling = 1e-9;
 // ... and when it is no rounding: relative to max |a|^2 max(1, |x|) of the level
 inline constexpr double kNoForce = 1e-12;

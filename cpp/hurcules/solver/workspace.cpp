@@ -10,6 +10,8 @@ namespace hurcules {
 
 namespace {
 
+// a square of them is kept: 800 MB
+constexpr Index kMostUnknowns = 10'000;
 // proximal steps of a level with rho = 0; one to four are usual
 constexpr int kMaxProximalSteps = 40;
 
@@ -24,6 +26,8 @@ Index count_rows(const Hierarchy& hierarchy) {
 Solver::Workspace::Workspace(Index unknowns, SolverOptions options)
     : unknowns_(unknowns), options_(std::move(options)) {
   require(unknowns > 0, "a solver needs at least one unknown, got " + std::to_string(unknowns));
+  require(unknowns <= kMostUnknowns, "a dense solver takes up to " + std::to_string(kMostUnknowns) +
+                                         " unknowns, got " + std::to_string(unknowns));
   require(options_.max_changes > 0,
           "max_changes must be positive, got " + std::to_string(options_.max_changes));
   require(options_.method == "lexicographic",
@@ -65,7 +69,9 @@ void Solver::Workspace::reserve(const Hierarchy& hierarchy) {
   }
 }
 
-void Solver::Workspace::reset() { kept_.clear(); }
+void Solver::Workspace::reset() {
+  kept_.clear();
+}
 
 const Solution& Solver::Workspace::solve(const Hierarchy& hierarchy) {
   if (!fits(hierarchy)) reserve(hierarchy);
@@ -144,7 +150,8 @@ bool Solver::Workspace::solve_unregularized(int k) {
     x_ = x_above_;
     return true;
   }
-  if (has_kept(k) && settled_level_.solve(rows_, problem_, k, x_above_, kept_, x_, held_, begin_norm_)) {
+  if (has_kept(k) &&
+      settled_level_.solve(rows_, problem_, k, x_above_, kept_, x_, held_, begin_norm_)) {
     return true;
   }
   chain_.complete(rows_);
@@ -170,7 +177,8 @@ bool Solver::Workspace::proximal_steps(double epsilon, int k) {
     const double moved = (x_ - centre_).lpNorm<Eigen::Infinity>();
     const double scale = std::max(1.0, x_.lpNorm<Eigen::Infinity>());
     centre_ = x_;
-    if (moved < 1e-11 * scale || (pass > 0 && moved < 1e-8 * scale && moved > 0.5 * last)) return true;
+    if (moved < 1e-11 * scale || (pass > 0 && moved < 1e-8 * scale && moved > 0.5 * last))
+      return true;
     if (!std::isfinite(moved)) return false;
     last = moved;
     // the next pass starts from this one's set
@@ -203,7 +211,8 @@ bool Solver::Workspace::smallest_step() {
 }
 
 bool Solver::Workspace::has_kept(int k) const {
-  return std::any_of(kept_.begin(), kept_.end(), [k](const KeptRow& kept) { return kept.held_by == k; });
+  return std::any_of(kept_.begin(), kept_.end(),
+                     [k](const KeptRow& kept) { return kept.held_by == k; });
 }
 
 void Solver::Workspace::collect_kept(int k) {
@@ -221,7 +230,8 @@ bool Solver::Workspace::find_working_set() {
   if (!previous_.empty()) {
     distance.clear();
     for (const ActiveSlot& slot : previous_) {
-      if (!std::isinf(distance.limit(slot.candidate, slot.side)) && !distance.ignored[slot.candidate]) {
+      if (!std::isinf(distance.limit(slot.candidate, slot.side)) &&
+          !distance.ignored[slot.candidate]) {
         distance.add(slot.candidate, slot.side);
       }
     }

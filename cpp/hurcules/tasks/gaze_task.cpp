@@ -52,6 +52,7 @@ void GazeTask::hold(const Robot& robot) {
 
 void GazeTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
+  require_time(dt);
   velocity_des_ = velocity;
   const Vector3 seen = orientation_.transpose() * (target_ - position_);
   const double yaw = std::atan2(seen.y(), seen.x()) + velocity[0] * dt;

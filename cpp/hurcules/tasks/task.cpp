@@ -1,5 +1,7 @@
 #include "hurcules/tasks/task.hpp"
 
+#include <cmath>
+
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -49,6 +51,11 @@ void Task::require_robot(const Robot& robot) const {
     throw Error("task '" + name_ + "' was made for another robot: " +
                 std::to_string(identity_.coordinates) + " coordinates are wanted, " +
                 std::to_string(robot.size()) + " came, or the models differ");
+}
+
+void Task::require_time(double dt) const {
+  if (!std::isfinite(dt))
+    throw Error("dt of task '" + name_ + "' wants a finite time, got " + std::to_string(dt));
 }
 
 void Task::require_rows(const ConstVectorRef& values, const char* what) const {

@@ -56,6 +56,7 @@ class Task {
   void require_robot(const Robot& robot) const;
   // throws Error unless `values` are one finite number a row
   void require_rows(const ConstVectorRef& values, const char* what) const;
+  void require_time(double dt) const;  // Error unless finite
 
   std::string name_;
   Vector error_, drift_, velocity_des_, lower_, upper_;

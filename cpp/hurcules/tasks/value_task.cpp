@@ -27,6 +27,7 @@ void ValueTask::hold(const Robot& robot) {
 
 void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
+  require_time(dt);
   velocity_des_ = velocity;
   target_ += velocity * dt;
 }

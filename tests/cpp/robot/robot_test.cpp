@@ -118,22 +118,18 @@ TEST_P(RobotFrame, QuestionsAllocateNothing) {
   EXPECT_TRUE(std::isfinite(sum));
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEveryKind, RobotFrame,
-                         testing::Values(Case{kArm, "tip"}, Case{kArm, "hand"}, Case{kArm, "eye"},
-                                         Case{kArm, "forearm"}, Case{kArm, "goal"},
-                                         Case{kTwin, "hand_l"}, Case{kTwin, "head"},
-                                         Case{kTwin, "eye"}, Case{kTwin, "toe_r"},
-                                         Case{kTwin, "base_site"}, Case{kTwin, "ball"},
-                                         Case{kTwin, "hand_l", "leg_l"},
-                                         Case{kTwin, "toe_r", "leg_l"},
-                                         Case{kTwin, "eye", "leg_r"}, Case{kTwin, "ball", "leg_l"},
-                                         Case{kTwin, "hand_l", "base"}),
-                         [](const auto& test) {
-                           return std::string(test.param.model == kArm ? "Arm_" : "Twin_") +
-                                  test.param.frame +
-                                  (test.param.support ? std::string("_on_") + test.param.support
-                                                      : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    OfEveryKind, RobotFrame,
+    testing::Values(Case{kArm, "tip"}, Case{kArm, "hand"}, Case{kArm, "eye"}, Case{kArm, "forearm"},
+                    Case{kArm, "goal"}, Case{kTwin, "hand_l"}, Case{kTwin, "head"},
+                    Case{kTwin, "eye"}, Case{kTwin, "toe_r"}, Case{kTwin, "base_site"},
+                    Case{kTwin, "ball"}, Case{kTwin, "hand_l", "leg_l"},
+                    Case{kTwin, "toe_r", "leg_l"}, Case{kTwin, "eye", "leg_r"},
+                    Case{kTwin, "ball", "leg_l"}, Case{kTwin, "hand_l", "base"}),
+    [](const auto& test) {
+      return std::string(test.param.model == kArm ? "Arm_" : "Twin_") + test.param.frame +
+             (test.param.support ? std::string("_on_") + test.param.support : "");
+    });
 
 TEST(Robot, TheSupportStaysAndEverythingElseMoves) {
   Robot robot(load_model_text(kTwin));
@@ -171,8 +167,10 @@ TEST(Robot, StandingInertiaIsThatOfTheMotionItMakes) {
     robot.rotation_jacobian(frame, Jr);
     const Vector3 arm = Eigen::Map<const Vector3>(data->xipos + 3 * body) - robot.position(frame);
     const Matrix Jc = Jp - skew(arm) * Jr;
-    const Matrix3 R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data->ximat + 9 * body);
-    const Matrix3 I = R * Eigen::Map<const Vector3>(m.body_inertia + 3 * body).asDiagonal() * R.transpose();
+    const Matrix3 R =
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data->ximat + 9 * body);
+    const Matrix3 I =
+        R * Eigen::Map<const Vector3>(m.body_inertia + 3 * body).asDiagonal() * R.transpose();
     wanted += m.body_mass[body] * Jc.transpose() * Jc + Jr.transpose() * I * Jr;
   }
   mj_deleteData(data);

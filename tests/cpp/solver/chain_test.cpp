@@ -1,4 +1,5 @@
-// Strategy: the defining properties of the basis on random rows, with rank deficiency by construction. [T 2.2.15-23]
+// Strategy: the defining properties of the basis on random rows, with rank deficiency by
+// construction. [T 2.2.15-23]
 #include "hurcules/solver/chain.hpp"
 
 #include <gtest/gtest.h>

@@ -30,7 +30,8 @@ TEST(Hierarchy, AcceptsWhatIsRight) {
 TEST(Hierarchy, NamesLevelAndRowOfAWrongNumber) {
   Level level = good();
   level.lower[1] = 2.0;
-  EXPECT_NE(complaint(level).find("level 1, row 1: lower must not exceed upper"), std::string::npos);
+  EXPECT_NE(complaint(level).find("level 1, row 1: lower must not exceed upper"),
+            std::string::npos);
   level = good();
   level.upper[0] = std::nan("");
   EXPECT_NE(complaint(level).find("level 1, row 0: a bound is NaN"), std::string::npos);
@@ -47,7 +48,8 @@ TEST(Hierarchy, NamesWantedAndGivenShapes) {
   level.A = Matrix::Ones(2, 4);
   EXPECT_NE(complaint(level).find("A must be (2, 3)"), std::string::npos);
   EXPECT_NE(complaint(level).find("got (2, 4)"), std::string::npos);
-  EXPECT_NE(complaint(make_bounds(Vector::Zero(2), Vector::Ones(2))).find("length 3"), std::string::npos);
+  EXPECT_NE(complaint(make_bounds(Vector::Zero(2), Vector::Ones(2))).find("length 3"),
+            std::string::npos);
 }
 
 TEST(Hierarchy, RefusesANegativeOrInfiniteRegularisation) {

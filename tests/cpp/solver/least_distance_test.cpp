@@ -1,5 +1,6 @@
-// Strategy: the optimality conditions of thousands of seeded problems, half of them with whole numbers and limits
-// through one vertex (ties, zero steps, dependent rows). Not tested here: where the problems come from (chain, levels).
+// Strategy: the optimality conditions of thousands of seeded problems, half of them with whole
+// numbers and limits through one vertex (ties, zero steps, dependent rows). Not tested here: where
+// the problems come from (chain, levels).
 #include "hurcules/solver/least_distance.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +69,8 @@ TEST(LeastDistance, DualEndsAtTheMinimiserFromAnyWorkingSet) {
   for (unsigned seed = 0; seed < 5000; ++seed) {
     Problem problem;
     fill(problem, seed);
-    for (int c = 0; c < problem.rows; c += 2) problem.distance.add(c, c % 4 ? Side::Lower : Side::Upper);
+    for (int c = 0; c < problem.rows; c += 2)
+      problem.distance.add(c, c % 4 ? Side::Lower : Side::Upper);
     int changes = 0;
     bool raised = false;
     ASSERT_TRUE(problem.distance.solve_dual(changes, 1000, raised)) << "seed " << seed;

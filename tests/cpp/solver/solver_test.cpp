@@ -1,5 +1,6 @@
-// Strategy: answers that a hand can compute, then properties of the definition (solver.md §1) on seeded random
-// hierarchies: priority, warm equals cold, proof, end, no allocation, same bits. The independent oracle is in Python.
+// Strategy: answers that a hand can compute, then properties of the definition (solver.md §1) on
+// seeded random hierarchies: priority, warm equals cold, proof, end, no allocation, same bits. The
+// independent oracle is in Python.
 #include "hurcules/solver/solver.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,9 @@ Level rows(Matrix A, Vector lower, Vector upper, double rho = 0.0) {
   return {.A = std::move(A), .lower = std::move(lower), .upper = std::move(upper), .rho = rho};
 }
 
-Level equal(Matrix A, Vector target, double rho = 0.0) { return rows(std::move(A), target, target, rho); }
+Level equal(Matrix A, Vector target, double rho = 0.0) {
+  return rows(std::move(A), target, target, rho);
+}
 
 Vector vector(std::initializer_list<double> values) {
   Vector v(values.size());
@@ -57,8 +60,8 @@ TEST(Solver, ReleasesALimitThatIsNotNeeded) {
 TEST(Solver, LimitsAreExactNotOnePercentShort) {
   // solver.md §3 item 4: a regularised limit would stop at 0.990
   Solver solver(1);
-  const Solution& solution =
-      solver.solve({make_bounds(vector({-1.0}), vector({1.0})), equal(Matrix{{1.0}}, vector({5.0}), 0.1)});
+  const Solution& solution = solver.solve(
+      {make_bounds(vector({-1.0}), vector({1.0})), equal(Matrix{{1.0}}, vector({5.0}), 0.1)});
   EXPECT_DOUBLE_EQ(solution.x[0], 1.0);
   ASSERT_EQ(solution.working_set.size(), 1u);
   EXPECT_EQ(solution.working_set[0].held_by, 1);
@@ -67,8 +70,9 @@ TEST(Solver, LimitsAreExactNotOnePercentShort) {
 
 TEST(Solver, AnInfeasibleLevelIsOnlyAViolation) {
   Solver solver(1);
-  const Solution& solution = solver.solve({rows(Matrix{{1.0}, {1.0}}, vector({1.0, -3.0}), vector({2.0, -2.0})),
-                                           equal(Matrix{{1.0}}, vector({9.0}))});
+  const Solution& solution =
+      solver.solve({rows(Matrix{{1.0}, {1.0}}, vector({1.0, -3.0}), vector({2.0, -2.0})),
+                    equal(Matrix{{1.0}}, vector({9.0}))});
   EXPECT_EQ(solution.status, SolverStatus::Solved);
   EXPECT_NEAR(solution.x[0], -0.5, 1e-9);  // halfway between 1 and -2
   EXPECT_NEAR(solution.violations[0][0], -1.5, 1e-9);
@@ -76,7 +80,8 @@ TEST(Solver, AnInfeasibleLevelIsOnlyAViolation) {
 }
 
 TEST(Solver, AnImprovementByALowerLevelIsKept) {
-  // level 0 (regularised) stops short of 1; level 1 pushes the same way and may bring it there, never past worse
+  // level 0 (regularised) stops short of 1; level 1 pushes the same way and may bring it there,
+  // never past worse
   Solver solver(1);
   const double inf = std::numeric_limits<double>::infinity();
   const Solution& solution = solver.solve({rows(Matrix{{1.0}}, vector({1.0}), vector({inf}), 0.5),
@@ -95,7 +100,8 @@ TEST(Solver, LowerLevelsNeverHarmHigherOnes) {
     for (std::size_t k = 0; k < levels.size(); ++k) {
       for (Index i = 0; i < levels[k].rows(); ++i) {
         const bool equality = levels[k].lower[i] == levels[k].upper[i];
-        const double now = std::abs(whole.violations[k][i]), before = std::abs(part.violations[k][i]);
+        const double now = std::abs(whole.violations[k][i]),
+                     before = std::abs(part.violations[k][i]);
         EXPECT_LE(now, before + 1e-9) << "seed " << seed << " level " << k << " row " << i;
         if (equality) {
           EXPECT_NEAR(now, before, 1e-9) << "seed " << seed << " level " << k;
@@ -108,7 +114,8 @@ TEST(Solver, LowerLevelsNeverHarmHigherOnes) {
 TEST(Solver, EveryAnswerProvesItself) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     Solver solver(12);
-    const Solution& solution = solver.solve(RandomHierarchy(seed).conflicting(12, seed % 2 ? 0.1 : 0.0));
+    const Solution& solution =
+        solver.solve(RandomHierarchy(seed).conflicting(12, seed % 2 ? 0.1 : 0.0));
     EXPECT_EQ(solution.status, SolverStatus::Solved) << "seed " << seed;
     EXPECT_EQ(solution.final_levels, 11);
     EXPECT_LT(solution.optimality, 1e-9) << "seed " << seed;
@@ -235,14 +242,16 @@ TEST(Solver, HugeNumbersEndWithAFiniteAnswer) {
 TEST(Solver, EmptyProblemsStayAtZero) {
   Solver solver(3);
   EXPECT_EQ(solver.solve({}).x, Vector::Zero(3));
-  const Solution& solution = solver.solve({equal(Matrix(0, 3), Vector(0)), equal(Matrix::Zero(2, 3), Vector::Ones(2))});
+  const Solution& solution =
+      solver.solve({equal(Matrix(0, 3), Vector(0)), equal(Matrix::Zero(2, 3), Vector::Ones(2))});
   EXPECT_EQ(solution.x, Vector::Zero(3));
   EXPECT_EQ(solution.violations[1], -Vector::Ones(2));
   EXPECT_EQ(solution.factorizations, 1);
 }
 
 TEST(Solver, MultipliersBalanceEachLevel) {
-  // rho^2 (x_k - x_{k-1}) + sum over levels j <= k of A_j' mu_kj = 0 for the whole gradient  [T 3.4.100-116]
+  // rho^2 (x_k - x_{k-1}) + sum over levels j <= k of A_j' mu_kj = 0 for the whole gradient
+  // [T 3.4.100-116]
   const Hierarchy levels = {equal(Matrix{{1.0, 0.0, 0.0}}, vector({1.0}), 0.1),
                             equal(Matrix{{1.0, 1.0, 0.0}}, vector({3.0}), 0.1)};
   Solver solver(3), first(3);

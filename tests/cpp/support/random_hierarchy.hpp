@@ -1,4 +1,5 @@
-// Seeded random hierarchies for the C++ tests; the bulk against the oracle is tests/python/test_solver_oracle.py.
+// Seeded random hierarchies for the C++ tests; the bulk against the oracle is
+// tests/python/test_solver_oracle.py.
 #pragma once
 
 #include <random>
