@@ -57,7 +57,7 @@ def run_mission(
         Path | None,
         typer.Option(
             parser=_folder,
-            metavar="PATH",
+            metavar="<path>",
             help="Folder for the results.",
             show_default="out/MISSION",
         ),

@@ -153,12 +153,8 @@ def test_without_a_renderer_the_rest_is_done_and_the_remedy_named(tmp_path: Path
     assert done.returncode == 0, done.stderr
     assert "no video: no usable renderer" in done.stdout
     assert "apt-get install" in done.stdout
-    assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "log.npz",
-        "report.html",
-        "summary.json",
-        "timing.npz",
-    ]
+    names = ["log.npz", "report.html", "summary.json", "timing.npz"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == names
     assert "No film: no usable renderer" in (tmp_path / "report.html").read_text()
 
 
@@ -225,8 +221,8 @@ def test_ctrl_c_while_saving_lets_everything_be_saved(
     assert run(RunOptions(out=tmp_path, seconds=0.2), console) == 130
     assert signal.getsignal(signal.SIGINT) is before
     files = ["log.npz", "timing.npz", "summary.json", "report.html"]
-    told = f"interrupted after the simulation had ended at 0.200 s; saved in {tmp_path}: "
-    assert told + ", ".join(files) in said(console)
+    assert "interrupted after the simulation had ended at 0.200 s; saved in " in said(console)
+    assert f"{tmp_path}: {', '.join(files)}" in said(console)
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(files)
     assert len(np.load(tmp_path / "log.npz")["time"]) == 200
     assert json.loads((tmp_path / "summary.json").read_text())["simulated_seconds"] == 0.2
@@ -235,17 +231,30 @@ def test_ctrl_c_while_saving_lets_everything_be_saved(
 def test_ctrl_c_between_the_simulation_and_saving_saves(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    summarize = runs.summarize
+    summarize, console = runs.summarize, quiet()
 
     def interrupting(*arguments: Any) -> dict[str, Any]:
         signal.raise_signal(signal.SIGINT)
         return summarize(*arguments)
 
     monkeypatch.setattr(runs, "summarize", interrupting)
-    console = quiet()
     assert run(RunOptions(out=tmp_path, seconds=0.2), console) == 130
     assert "before anything was recorded" not in said(console)
     assert (tmp_path / "summary.json").exists()
+
+
+def test_ctrl_c_before_the_first_tick_leaves_no_files(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    class Interrupting(runs.Output):
+        def __init__(self, *arguments: Any) -> None:
+            super().__init__(*arguments)
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(runs, "Output", Interrupting)
+    assert run(RunOptions(out=tmp_path, seconds=0.2), console := quiet()) == 130
+    assert said(console).endswith("interrupted before anything was recorded\n")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_full_disk_gives_one_line_that_says_what_was_saved(tmp_path: Path) -> None:

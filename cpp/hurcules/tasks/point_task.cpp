@@ -12,9 +12,9 @@ PointTask::PointTask(std::string name, const Robot& robot, PointTaskOptions opti
   const std::string came = std::to_string(axes_.rows()) + " x " + std::to_string(axes_.cols());
   require(axes_.cols() == 3 && axes_.rows() >= 1 && axes_.rows() <= 3,
           "axes of task '" + name_ + "' want shape (1 to 3, 3), " + came + " came");
+  require(axes_.allFinite(), "axes of task '" + name_ + "' want finite values");
   require(axes_.rowwise().squaredNorm().minCoeff() > 0.0,
           "axes of task '" + name_ + "' want a direction in each row, one of length 0 came");
-  require(axes_.allFinite(), "axes of task '" + name_ + "' want finite values");
 }
 
 void PointTask::measure(const Robot& robot) {

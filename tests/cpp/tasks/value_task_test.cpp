@@ -57,6 +57,7 @@ TEST_F(ValuesOfTwin, AxesPickDirections) {
   EXPECT_TRUE(contains(make(Matrix::Zero(1, 2)), "(1 to 3, 3), 1 x 2 came"));
   EXPECT_TRUE(contains(make(Matrix::Zero(4, 3)), "4 x 3 came"));
   EXPECT_TRUE(contains(make(Matrix::Constant(1, 3, std::nan(""))), "finite"));
+  EXPECT_TRUE(contains(make(Matrix::Zero(1, 3)), "length 0 came"));
 }
 
 TEST_F(ValuesOfTwin, CenterOfMassOfASymmetricRobotIsInTheMiddle) {
