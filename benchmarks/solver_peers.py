@@ -25,7 +25,7 @@ from rich.table import Table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "python"))
 
-from hierarchies import box, equality, unit_rows
+from hierarchies import box, equality, to_levels, unit_rows
 from hurcules import rhqp
 from oracle import Oracle, Rows
 
@@ -40,16 +40,6 @@ def problem(rng: np.random.Generator, width: float, reach: float) -> list[Rows]:
         A = unit_rows(m, N, rng)
         levels.append(equality(A, A @ x if reach == 0 else rng.uniform(-reach, reach, m), RHO))
     return levels
-
-
-def ours(levels: list[Rows]) -> list[rhqp.Level]:
-    """The levels as our solver takes them."""
-    return [
-        rhqp.Bounds(level.lower, level.upper)
-        if level.bounds
-        else rhqp.Level(level.A, level.lower, level.upper, level.rho)
-        for level in levels
-    ]
 
 
 def weighted(levels: list[Rows]) -> tuple:
@@ -91,7 +81,7 @@ def main() -> None:
     for name, width, reach in (("no conflict", 5.0, 0.0), ("box conflicts", 0.5, 2.0)):
         rng = np.random.default_rng(1)
         problems = [problem(rng, width, reach) for _ in range(count)]
-        levels = [ours(p) for p in problems]
+        levels = [to_levels(p) for p in problems]
         solvers = [rhqp.Solver(N) for _ in problems]
         cold = median_us(
             [lambda s=s, p=p: s.solve(p) for s, p in zip(solvers, levels, strict=True)]

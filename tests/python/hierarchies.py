@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from hurcules import rhqp
 from oracle import Rows
 
 Generator = np.random.Generator
@@ -23,6 +24,16 @@ def equality(A: np.ndarray, target: np.ndarray, rho: float) -> Rows:
 def unit_rows(m: int, n: int, rng: Generator) -> np.ndarray:
     A = rng.standard_normal((m, n))
     return A / np.linalg.norm(A, axis=1, keepdims=True)
+
+
+def to_levels(levels: list[Rows]) -> list[rhqp.Level]:
+    """The levels as our solver takes them."""
+    return [
+        rhqp.Bounds(level.lower, level.upper)
+        if level.bounds
+        else rhqp.Level(level.A, level.lower, level.upper, level.rho)
+        for level in levels
+    ]
 
 
 def sizes(rng: Generator) -> tuple[int, list[int]]:

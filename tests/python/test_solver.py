@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import hurcules
-from hierarchies import CLASSES
+from hierarchies import CLASSES, to_levels
 from hurcules import rhqp
-from test_solver_oracle import difference, to_levels
+from test_solver_oracle import difference
 
 
 def problem(seed: int, name: str = "box_conflict") -> tuple[int, list]:

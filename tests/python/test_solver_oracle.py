@@ -14,21 +14,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hierarchies import CLASSES
+from hierarchies import CLASSES, to_levels
 from hurcules import rhqp
 from oracle import Oracle, Rows, equality_rows_only
 
 PROBLEMS = int(os.environ.get("HURCULES_PROBLEMS", "750"))
 AGREES = 1e-6
-
-
-def to_levels(levels: list[Rows]) -> list[rhqp.Level]:
-    return [
-        rhqp.Bounds(level.lower, level.upper)
-        if level.bounds
-        else rhqp.Level(level.A, level.lower, level.upper, level.rho)
-        for level in levels
-    ]
 
 
 def difference(x: np.ndarray, reference: np.ndarray) -> float:
