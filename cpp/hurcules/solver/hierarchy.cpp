@@ -13,7 +13,7 @@ std::string place(const std::string& level, Index row) {
   return level + ", row " + std::to_string(row);
 }
 
-void check_shape(const Level& level, const std::string& where, Index unknowns) {
+void check_shape(const LevelView& level, const std::string& where, Index unknowns) {
   require(level.lower.size() == level.upper.size(),
           where + ": lower and upper must have one length, got " +
               std::to_string(level.lower.size()) + " and " + std::to_string(level.upper.size()));
@@ -31,7 +31,7 @@ void check_shape(const Level& level, const std::string& where, Index unknowns) {
               ", " + std::to_string(level.A.cols()) + ")");
 }
 
-void check_numbers(const Level& level, const std::string& where) {
+void check_numbers(const LevelView& level, const std::string& where) {
   require(std::isfinite(level.rho) && level.rho >= 0.0,
           where + ": rho must be finite and >= 0, got " + std::to_string(level.rho));
   for (Index i = 0; i < level.rows(); ++i) {
@@ -52,15 +52,33 @@ Level make_bounds(const ConstVectorRef& lower, const ConstVectorRef& upper) {
   return {.A = Matrix(), .lower = lower, .upper = upper, .rho = 0.0, .bounds = true};
 }
 
+LevelView view(const Level& level) {
+  return {.A = {level.A.data(), level.A.rows(), level.A.cols()},
+          .lower = {level.lower.data(), level.lower.size()},
+          .upper = {level.upper.data(), level.upper.size()},
+          .rho = level.rho,
+          .bounds = level.bounds};
+}
+
+void check(HierarchyView hierarchy, Index unknowns) {
+  for (std::size_t k = 0; k < hierarchy.size(); ++k) {
+    check(hierarchy[k], unknowns, "level " + std::to_string(k));
+  }
+}
+
 void check(const Hierarchy& hierarchy, Index unknowns) {
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     check(hierarchy[k], unknowns, "level " + std::to_string(k));
   }
 }
 
-void check(const Level& level, Index unknowns, const std::string& name) {
+void check(const LevelView& level, Index unknowns, const std::string& name) {
   check_shape(level, name, unknowns);
   check_numbers(level, name);
+}
+
+void check(const Level& level, Index unknowns, const std::string& name) {
+  check(view(level), unknowns, name);
 }
 
 }  // namespace hurcules

@@ -7,6 +7,7 @@
 // lower == upper makes a row an equality; a side of magnitude >= kInfinity is absent.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,25 @@ struct Level {
 
 using Hierarchy = std::vector<Level>;
 
+// A level whose numbers belong to somebody else: what a solve reads. They must stay where they are
+// while it runs.
+struct LevelView {
+  Eigen::Map<const Matrix> A{nullptr, 0, 0};  // (m, n); empty for simple bounds
+  Eigen::Map<const Vector> lower{nullptr, 0}, upper{nullptr, 0};  // (m)
+  double rho = 0.0;
+  bool bounds = false;
+
+  [[nodiscard]] Index rows() const { return lower.size(); }
+};
+using HierarchyView = std::span<const LevelView>;
+[[nodiscard]] LevelView view(const Level& level);
+
 // Throws Error naming level and row on: wrong shapes, NaN, infinite A, lower > upper, rho < 0 or
 // not finite.
+void check(HierarchyView hierarchy, Index unknowns);
 void check(const Hierarchy& hierarchy, Index unknowns);
 // the same for one level, called `name` in the text
+void check(const LevelView& level, Index unknowns, const std::string& name);
 void check(const Level& level, Index unknowns, const std::string& name);
 
 }  // namespace hurcules

@@ -28,12 +28,12 @@ void RowTable::clear() {
   begin_.assign(1, 0);
 }
 
-bool RowTable::read(const Hierarchy& hierarchy, Index unknowns) {
+bool RowTable::read(HierarchyView hierarchy, Index unknowns) {
   std::swap(pattern_, old_pattern_);
   pattern_.clear();
   clear();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
-    const Level& level = hierarchy[k];
+    const LevelView& level = hierarchy[k];
     const bool fits = level.bounds ? level.rows() == unknowns
                                    : level.A.rows() == level.rows() &&
                                          (level.rows() == 0 || level.A.cols() == unknowns);
@@ -48,7 +48,7 @@ bool RowTable::read(const Hierarchy& hierarchy, Index unknowns) {
   return true;
 }
 
-bool RowTable::read_row(const Level& level, int k, int i, Index unknowns) {
+bool RowTable::read_row(const LevelView& level, int k, int i, Index unknowns) {
   Row row;
   row.level = k;
   row.row = i;

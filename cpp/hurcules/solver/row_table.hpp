@@ -28,7 +28,7 @@ class RowTable {
   void add(const Row& row) { rows_.push_back(row); }
   void end_level() { begin_.push_back(size()); }
   // reads the rows; false when a number is NaN, a shape is off, or lower > upper
-  [[nodiscard]] bool read(const Hierarchy& hierarchy, Index unknowns);
+  [[nodiscard]] bool read(HierarchyView hierarchy, Index unknowns);
 
   [[nodiscard]] int size() const { return static_cast<int>(rows_.size()); }
   [[nodiscard]] const Row& operator[](int i) const { return rows_[i]; }
@@ -47,7 +47,7 @@ class RowTable {
   [[nodiscard]] double violation(int i, double value) const;
 
  private:
-  [[nodiscard]] bool read_row(const Level& level, int k, int i, Index unknowns);
+  [[nodiscard]] bool read_row(const LevelView& level, int k, int i, Index unknowns);
 
   std::vector<Row> rows_;
   std::vector<int> begin_{0};

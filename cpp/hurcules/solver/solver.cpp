@@ -1,12 +1,16 @@
 #include "hurcules/solver/solver.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "hurcules/base/error.hpp"
-#include "hurcules/solver/workspace.hpp"
+#include "hurcules/solver/method.hpp"
 
 namespace hurcules {
+
+namespace {
+
+// a square of them is kept: 800 MB
+constexpr Index kMostUnknowns = 10'000;
+
+}  // namespace
 
 std::string to_string(SolverStatus status) {
   switch (status) {
@@ -25,37 +29,51 @@ std::string to_string(SolverStatus status) {
 }
 
 Solver::Solver(Index unknowns, SolverOptions options)
-    : workspace_(std::make_unique<Workspace>(unknowns, std::move(options))) {}
+    : unknowns_(unknowns), options_(std::move(options)) {
+  require(unknowns > 0, "a solver needs at least one unknown, got " + std::to_string(unknowns));
+  require(unknowns <= kMostUnknowns, "a dense solver takes up to " + std::to_string(kMostUnknowns) +
+                                         " unknowns, got " + std::to_string(unknowns));
+  require(options_.max_changes > 0,
+          "max_changes must be positive, got " + std::to_string(options_.max_changes));
+  method_ = make_method(unknowns_, options_);
+}
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
 void Solver::reserve(const Hierarchy& hierarchy) {
-  workspace_->reserve(hierarchy);
+  views_.reserve(hierarchy.size());
+  read(hierarchy);
+  method_->reserve(views_);
 }
+
+void Solver::read(const Hierarchy& hierarchy) {
+  views_.clear();
+  for (const Level& level : hierarchy) views_.push_back(view(level));
+}
+
 const Solution& Solver::solve(const Hierarchy& hierarchy) {
-  return workspace_->solve(hierarchy);
+  read(hierarchy);
+  return method_->solve(views_);
+}
+
+const Solution& Solver::solve_views(HierarchyView hierarchy) {
+  return method_->solve(hierarchy);
 }
 const Solution& Solver::solution() const {
-  return workspace_->solution();
-}
-Index Solver::unknowns() const {
-  return workspace_->unknowns();
-}
-const SolverOptions& Solver::options() const {
-  return workspace_->options();
+  return method_->solution();
 }
 std::vector<std::vector<Vector>> Solver::multipliers() const {
-  return workspace_->multipliers();
+  return method_->multipliers();
 }
 void Solver::reset() {
-  workspace_->reset();
+  method_->reset();
 }
 void Solver::save(StateWriter& writer) const {
-  workspace_->save(writer);
+  method_->save(writer);
 }
 void Solver::restore(StateReader& reader) {
-  workspace_->restore(reader);
+  method_->restore(reader);
 }
 
 }  // namespace hurcules

@@ -48,6 +48,8 @@ struct Solution {
   double optimality = 0.0;  // worst relative residual of the optimality conditions of all levels
 };
 
+class Method;
+
 // Keeps its working sets between solves: the next solve starts warm where the pattern of levels is
 // the same. A solve allocates nothing once a problem of its size was solved or reserved; it never
 // throws and always ends.
@@ -62,9 +64,11 @@ class Solver {
   void reserve(const Hierarchy& hierarchy);
   // the reference stays valid until the next solve
   const Solution& solve(const Hierarchy& hierarchy);
+  // the same on numbers that lie elsewhere, without a copy
+  const Solution& solve_views(HierarchyView hierarchy);
   [[nodiscard]] const Solution& solution() const;
-  [[nodiscard]] Index unknowns() const;
-  [[nodiscard]] const SolverOptions& options() const;
+  [[nodiscard]] Index unknowns() const { return unknowns_; }
+  [[nodiscard]] const SolverOptions& options() const { return options_; }
   // multipliers[k][j] (m_j) of the rows of level j in the optimality of level k, j <= k [T 3.4.116]
   [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const;
   // forgets the working sets: the next solve is cold
@@ -75,8 +79,12 @@ class Solver {
   void restore(StateReader& reader);
 
  private:
-  struct Workspace;
-  std::unique_ptr<Workspace> workspace_;
+  void read(const Hierarchy& hierarchy);
+
+  Index unknowns_;
+  SolverOptions options_;
+  std::unique_ptr<Method> method_;
+  std::vector<LevelView> views_;
 };
 
 }  // namespace hurcules

@@ -11,12 +11,14 @@ namespace {
 
 struct Built {
   Hierarchy levels;
+  std::vector<LevelView> views;
   RowTable rows;
   Chain chain;
 };
 
 void build(Built& built, Index unknowns) {
-  ASSERT_TRUE(built.rows.read(built.levels, unknowns));
+  for (const Level& level : built.levels) built.views.push_back(view(level));
+  ASSERT_TRUE(built.rows.read(built.views, unknowns));
   built.chain.reserve(unknowns, built.rows.size() + 1, static_cast<Index>(built.levels.size()));
   built.chain.build(built.rows);
 }
@@ -33,7 +35,7 @@ Hierarchy rank_deficient(unsigned seed) {
 
 TEST(Chain, DirectionsAreOrthonormalAndCompleteTheSpace) {
   for (unsigned seed = 0; seed < 200; ++seed) {
-    Built built{.levels = rank_deficient(seed), .rows = {}, .chain = {}};
+    Built built{.levels = rank_deficient(seed), .views = {}, .rows = {}, .chain = {}};
     build(built, 8);
     built.chain.complete(built.rows);
     Matrix Q(8, 8);
@@ -43,7 +45,7 @@ TEST(Chain, DirectionsAreOrthonormalAndCompleteTheSpace) {
 }
 
 TEST(Chain, RankCountsOnlyNewDirections) {
-  Built built{.levels = rank_deficient(7), .rows = {}, .chain = {}};
+  Built built{.levels = rank_deficient(7), .views = {}, .rows = {}, .chain = {}};
   build(built, 8);
   EXPECT_EQ(built.chain.rank_before(0), 0);
   EXPECT_EQ(built.chain.rank_before(1), 3);
@@ -52,7 +54,7 @@ TEST(Chain, RankCountsOnlyNewDirections) {
 }
 
 TEST(Chain, FreeDirectionsDoNotMoveTheRowsAbove) {
-  Built built{.levels = rank_deficient(3), .rows = {}, .chain = {}};
+  Built built{.levels = rank_deficient(3), .views = {}, .rows = {}, .chain = {}};
   build(built, 8);
   built.chain.complete(built.rows);
   for (Index j = 4; j < 8; ++j) {
@@ -63,7 +65,7 @@ TEST(Chain, FreeDirectionsDoNotMoveTheRowsAbove) {
 }
 
 TEST(Chain, CoordinatesRebuildEveryRow) {
-  Built built{.levels = rank_deficient(5), .rows = {}, .chain = {}};
+  Built built{.levels = rank_deficient(5), .views = {}, .rows = {}, .chain = {}};
   build(built, 8);
   built.chain.complete(built.rows);
   for (int i = 0; i < built.rows.size(); ++i) {

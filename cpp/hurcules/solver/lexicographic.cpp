@@ -1,41 +1,31 @@
-#include "hurcules/solver/workspace.hpp"
+#include "hurcules/solver/lexicographic.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hurcules/base/error.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {
 
 namespace {
 
-// a square of them is kept: 800 MB
-constexpr Index kMostUnknowns = 10'000;
 // proximal steps of a level with rho = 0; one to four are usual
 constexpr int kMaxProximalSteps = 40;
 
-Index count_rows(const Hierarchy& hierarchy) {
+Index count_rows(HierarchyView hierarchy) {
   Index rows = 0;
-  for (const Level& level : hierarchy) rows += level.rows();
+  for (const LevelView& level : hierarchy) rows += level.rows();
   return rows;
 }
 
 }  // namespace
 
-Solver::Workspace::Workspace(Index unknowns, SolverOptions options)
-    : unknowns_(unknowns), options_(std::move(options)) {
-  require(unknowns > 0, "a solver needs at least one unknown, got " + std::to_string(unknowns));
-  require(unknowns <= kMostUnknowns, "a dense solver takes up to " + std::to_string(kMostUnknowns) +
-                                         " unknowns, got " + std::to_string(unknowns));
-  require(options_.max_changes > 0,
-          "max_changes must be positive, got " + std::to_string(options_.max_changes));
-  require(options_.method == "lexicographic",
-          unknown_name("method", options_.method, {"lexicographic"}));
+Lexicographic::Lexicographic(Index unknowns, const SolverOptions& options)
+    : unknowns_(unknowns), options_(options) {
   for (Vector* v : {&x_, &x_above_, &centre_, &solution_.x}) v->setZero(unknowns);
 }
 
-bool Solver::Workspace::fits(const Hierarchy& hierarchy) const {
+bool Lexicographic::fits(HierarchyView hierarchy) const {
   if (hierarchy.size() > reserved_levels_ || count_rows(hierarchy) > reserved_rows_) return false;
   if (solution_.violations.size() != hierarchy.size()) return false;
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
@@ -44,7 +34,7 @@ bool Solver::Workspace::fits(const Hierarchy& hierarchy) const {
   return true;
 }
 
-void Solver::Workspace::reserve(const Hierarchy& hierarchy) {
+void Lexicographic::reserve(HierarchyView hierarchy) {
   reserved_rows_ = std::max(reserved_rows_, count_rows(hierarchy));
   reserved_levels_ = std::max(reserved_levels_, hierarchy.size());
   rows_.reserve(reserved_rows_, reserved_levels_);
@@ -69,11 +59,11 @@ void Solver::Workspace::reserve(const Hierarchy& hierarchy) {
   }
 }
 
-void Solver::Workspace::reset() {
+void Lexicographic::reset() {
   kept_.clear();
 }
 
-const Solution& Solver::Workspace::solve(const Hierarchy& hierarchy) {
+const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   if (!fits(hierarchy)) reserve(hierarchy);
   held_.clear();
   solution_.status = SolverStatus::Solved;
@@ -103,7 +93,7 @@ const Solution& Solver::Workspace::solve(const Hierarchy& hierarchy) {
   return solution_;
 }
 
-bool Solver::Workspace::solve_level(const Level& level, int k) {
+bool Lexicographic::solve_level(const LevelView& level, int k) {
   if (level.rows() == 0) return true;
   ++solution_.factorizations;
   problem_.start(rows_, chain_, k, x_above_);
@@ -112,7 +102,7 @@ bool Solver::Workspace::solve_level(const Level& level, int k) {
   return level.rho > 0.0 ? solve_regularized(level.rho, k) : solve_unregularized(k);
 }
 
-bool Solver::Workspace::solve_first_bounds(int k) {
+bool Lexicographic::solve_first_bounds(int k) {
   for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
     const Row& row = rows_[i];
     double& x = x_[row.row];
@@ -124,7 +114,7 @@ bool Solver::Workspace::solve_first_bounds(int k) {
   return true;
 }
 
-bool Solver::Workspace::solve_regularized(double rho, int k) {
+bool Lexicographic::solve_regularized(double rho, int k) {
   // without limits in the way this is the whole level  [T 3.3.38]
   problem_.solve_free(rows_, chain_, rho, x_above_, x_);
   if (!problem_.breaks(rows_, x_)) return true;
@@ -143,7 +133,7 @@ bool Solver::Workspace::solve_regularized(double rho, int k) {
   return done;
 }
 
-bool Solver::Workspace::solve_unregularized(int k) {
+bool Lexicographic::solve_unregularized(int k) {
   problem_.solve_free(rows_, chain_, 0.0, x_above_, x_);
   if (!problem_.breaks(rows_, x_)) return true;
   if (problem_.own_norm() == 0.0) {
@@ -162,7 +152,7 @@ bool Solver::Workspace::solve_unregularized(int k) {
   return smallest_step();
 }
 
-bool Solver::Workspace::proximal_steps(double epsilon, int k) {
+bool Lexicographic::proximal_steps(double epsilon, int k) {
   collect_kept(k);
   centre_ = x_above_;
   double last = 0.0;
@@ -188,7 +178,7 @@ bool Solver::Workspace::proximal_steps(double epsilon, int k) {
   return true;
 }
 
-bool Solver::Workspace::smallest_step() {
+bool Lexicographic::smallest_step() {
   double largest = 0.0;
   for (std::size_t h = begin_held_; h < held_.size(); ++h) {
     largest = std::max(largest, std::abs(held_[h].multiplier));
@@ -210,12 +200,12 @@ bool Solver::Workspace::smallest_step() {
   return done;
 }
 
-bool Solver::Workspace::has_kept(int k) const {
+bool Lexicographic::has_kept(int k) const {
   return std::any_of(kept_.begin(), kept_.end(),
                      [k](const KeptRow& kept) { return kept.held_by == k; });
 }
 
-void Solver::Workspace::collect_kept(int k) {
+void Lexicographic::collect_kept(int k) {
   previous_.clear();
   for (const KeptRow& kept : kept_) {
     if (kept.held_by != k) continue;
@@ -223,7 +213,7 @@ void Solver::Workspace::collect_kept(int k) {
   }
 }
 
-bool Solver::Workspace::find_working_set() {
+bool Lexicographic::find_working_set() {
   LeastDistance& distance = problem_.distance;
   int& changes = solution_.changes;
   bool raised = false, done = false;
@@ -248,7 +238,7 @@ bool Solver::Workspace::find_working_set() {
   return done;
 }
 
-void Solver::Workspace::keep_held(double scale, Role unfixed) {
+void Lexicographic::keep_held(double scale, Role unfixed) {
   for (const ActiveSlot& slot : problem_.distance.active()) {
     const Role role = slot.fixed ? Role::Idle : unfixed;
     held_.push_back({problem_.table_row(slot.candidate), slot.side, scale * slot.multiplier, role});

@@ -1,34 +1,32 @@
-// The solver's loop over the levels, and all memory that it needs.
+// The default method: the loop over the levels, and all memory that it needs (solver.md §1).
 #pragma once
 
 #include <vector>
 
 #include "hurcules/solver/chain.hpp"
 #include "hurcules/solver/level_problem.hpp"
+#include "hurcules/solver/method.hpp"
 #include "hurcules/solver/optimality.hpp"
 #include "hurcules/solver/row_table.hpp"
 #include "hurcules/solver/settled_level.hpp"
-#include "hurcules/solver/solver.hpp"
 
 namespace hurcules {
 
-struct Solver::Workspace {
+class Lexicographic : public Method {
  public:
-  Workspace(Index unknowns, SolverOptions options);
-  void reserve(const Hierarchy& hierarchy);
-  const Solution& solve(const Hierarchy& hierarchy);
-  [[nodiscard]] const Solution& solution() const { return solution_; }
-  [[nodiscard]] Index unknowns() const { return unknowns_; }
-  [[nodiscard]] const SolverOptions& options() const { return options_; }
-  [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const;
-  void reset();
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  Lexicographic(Index unknowns, const SolverOptions& options);
+  void reserve(HierarchyView hierarchy) override;
+  const Solution& solve(HierarchyView hierarchy) override;
+  [[nodiscard]] const Solution& solution() const override { return solution_; }
+  [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const override;
+  void reset() override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
 
  private:
-  [[nodiscard]] bool fits(const Hierarchy& hierarchy) const;
+  [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
-  bool solve_level(const Level& level, int k);
+  bool solve_level(const LevelView& level, int k);
   bool solve_first_bounds(int k);  // simple bounds with nothing above: every coordinate by itself
   bool solve_regularized(double rho, int k);
   bool solve_unregularized(int k);  // rho = 0: proximal steps, then the smallest step

@@ -4,7 +4,7 @@
 
 #include "hurcules/solver/kernels.hpp"
 #include "hurcules/solver/tolerances.hpp"
-#include "hurcules/solver/workspace.hpp"
+#include "hurcules/solver/lexicographic.hpp"
 
 namespace hurcules {
 
@@ -15,7 +15,7 @@ constexpr Index kMostKept = 1'000'000;
 
 }  // namespace
 
-const Solution& Solver::Workspace::refuse() {
+const Solution& Lexicographic::refuse() {
   solution_.status = SolverStatus::InvalidInput;
   solution_.x.setZero();
   solution_.working_set.clear();
@@ -24,7 +24,7 @@ const Solution& Solver::Workspace::refuse() {
   return solution_;
 }
 
-void Solver::Workspace::finish_level(double rho, int k) {
+void Lexicographic::finish_level(double rho, int k) {
   LevelRecord& record = records_[k];
   record.rho = rho;
   record.x = x_;
@@ -41,7 +41,7 @@ void Solver::Workspace::finish_level(double rho, int k) {
   }
 }
 
-void Solver::Workspace::keep_working_sets() {
+void Lexicographic::keep_working_sets() {
   kept_.clear();
   for (int k = 0; k < solution_.final_levels; ++k) {
     const LevelRecord& record = records_[k];
@@ -58,7 +58,7 @@ void Solver::Workspace::keep_working_sets() {
   }
 }
 
-void Solver::Workspace::fill_solution() {
+void Lexicographic::fill_solution() {
   solution_.x = x_;
   for (int i = 0; i < rows_.size(); ++i) {
     solution_.violations[rows_[i].level][rows_[i].row] = rows_.violation(i, rows_.dot(i, x_));
@@ -78,7 +78,7 @@ void Solver::Workspace::fill_solution() {
   }
 }
 
-std::vector<std::vector<Vector>> Solver::Workspace::multipliers() const {
+std::vector<std::vector<Vector>> Lexicographic::multipliers() const {
   std::vector<std::vector<Vector>> result(solution_.final_levels);
   for (int k = 0; k < solution_.final_levels; ++k) {
     const LevelRecord& record = records_[k];
@@ -108,7 +108,7 @@ std::vector<std::vector<Vector>> Solver::Workspace::multipliers() const {
   return result;
 }
 
-void Solver::Workspace::save(StateWriter& writer) const {
+void Lexicographic::save(StateWriter& writer) const {
   rows_.save_pattern(writer);
   writer.put(static_cast<double>(kept_.size()));
   for (const KeptRow& kept : kept_) {
@@ -119,7 +119,7 @@ void Solver::Workspace::save(StateWriter& writer) const {
   }
 }
 
-void Solver::Workspace::restore(StateReader& reader) {
+void Lexicographic::restore(StateReader& reader) {
   rows_.restore_pattern(reader);
   kept_.resize(static_cast<std::size_t>(reader.get_count(kMostKept)));
   for (KeptRow& kept : kept_) {
