@@ -1,147 +1,141 @@
-// The two ways to the right working set: primal from a feasible point, dual from any set.
+#include "hurcules/solver/active_set.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "hurcules/solver/kernels.hpp"
-#include "hurcules/solver/least_distance.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-// a row that moves by less than this part of |m| |p| does not move, nor does a point by less than
-// this part of |z|
-constexpr double kStill = 1e-14;
-// `ignored`: for the whole level, or until the next row is dropped
-constexpr char kIgnoredForNow = 2;
+constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-// the row that stops a move of `direction_` from `from_` first; ties go to the fastest
-int LeastDistance::first_blocking(double& step, Side& side) const {
-  const double* p = direction_.data();
-  const double length = std::sqrt(kernels::dot(dimension_, p, p));
-  int blocking = -1;
-  if (length <= kStill * std::sqrt(kernels::dot(dimension_, z.data(), z.data()))) return blocking;
-  double fastest = 0.0;
-  for (int c = 0; c < candidates_; ++c) {
-    if (held_[c] || ignored[c]) continue;
-    const double speed = kernels::dot(dimension_, row(c), p);
-    const double norm = std::sqrt(kernels::dot(dimension_, row(c), row(c)));
-    if (std::abs(speed) <= kStill * norm * length) continue;
-    const double room =
-        (speed > 0.0 ? upper[c] : lower[c]) - kernels::dot(dimension_, row(c), from_.data());
-    if (std::isinf(room)) continue;
-    const double way = std::max(0.0, room / speed);
-    const double relative = std::abs(speed) / norm;
-    if (way > step || (way == step && (blocking < 0 || relative <= fastest))) continue;
-    step = way;
-    fastest = relative;
-    side = speed > 0.0 ? Side::Upper : Side::Lower;
-    blocking = c;
-  }
-  return blocking;
+void ActiveSet::reserve(Index unknowns, Index most_rows, Index most_own) {
+  const Index dimension = unknowns + most_own;
+  set_.reserve(most_rows, dimension);
+  for (PaddedVector* v : {&x_, &x_free_, &target_}) v->reserve(padded(unknowns));
+  for (PaddedVector* v : {&y_, &rest_}) v->reserve(padded(dimension));
+  for (PaddedVector* v : {&r_, &change_}) v->reserve(most_rows + dimension + 4);
+  ignored_.reserve(most_rows);
 }
 
-bool LeastDistance::solve_primal(int& changes, int changes_left) {
-  while (changes_left-- > 0) {
-    // where the working set wants to go, and how far it can
-    from_.head(dimension_) = z.head(dimension_);
-    solve_on_active();
-    direction_.head(dimension_) = z.head(dimension_) - from_.head(dimension_);
-    double step = 1.0;
-    Side side = Side::Upper;
-    const int blocking = first_blocking(step, side);
-    if (blocking >= 0 && step < 1.0) {
-      z.head(dimension_) = from_.head(dimension_) + step * direction_.head(dimension_);
-      ++changes;
-      // a row that depends on the set cannot stop a move inside it: rounding
-      if (!add(blocking, side)) ignored[blocking] = kIgnoredForNow;
-      continue;
-    }
-    const int slot = most_negative();
-    if (slot < 0) return true;
-    drop(slot);
-    std::replace(ignored.begin(), ignored.begin() + candidates_, kIgnoredForNow, '\0');
-    ++changes;
-  }
-  return false;
+void ActiveSet::start(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
+                      double rho, const double* centre, double x_scale) {
+  rows_ = &rows;
+  problem_ = &problem;
+  candidates_ = &candidates;
+  problem.solve_free(rho, centre, x_free_.data());
+  relative_ = tolerance::kBroken * x_scale;
+  absolute_ = tolerance::kBrokenTarget * problem.target_size();
+  count_ = rows.candidates(problem.level() + 1);
+  std::copy_n(centre, rows.stride(), x_.data());
+  ignored_.clear();
+  set_.start(rows, problem, candidates, x_free_.data());
 }
 
-void LeastDistance::drop_negative(int& changes) {
-  solve_on_active();
-  for (int slot = most_negative(); slot >= 0; slot = most_negative()) {
-    drop(slot);
-    ++changes;
-    solve_on_active();
-  }
+void ActiveSet::restart(double rho, const double* centre) {
+  restore_ignored();
+  problem_->solve_free(rho, centre, x_free_.data());
+  absolute_ = tolerance::kBrokenTarget * problem_->target_size();
+  std::copy_n(centre, rows_->stride(), x_.data());
+  set_.unfactor();
 }
 
-// Raises the multiplier of a broken row until it holds, dropping the rows whose multipliers vanish
-// on the way.
-bool LeastDistance::raise(int candidate, Side side, int& changes, int changes_left) {
-  const double sign = static_cast<double>(side);
-  double raised = 0.0;
-  while (changes_left-- > 0) {
-    const double left = explain(candidate, side, r_);
-    const double norm2 = kernels::dot(dimension_, row(candidate), row(candidate));
-    const bool dependent = left <= tolerance::kDependent * tolerance::kDependent * norm2;
-    // the step at which the row holds, and the first at which a multiplier vanishes
-    const double broken = sign * (value(candidate) - limit(candidate, side));
-    const double full = dependent ? kNever : std::max(0.0, broken) / left;
-    double partial = kNever;
-    Index vanishing = -1;
-    for (Index i = 0; i < static_cast<Index>(active_.size()); ++i) {
-      if (active_[i].fixed || r_[i] <= 0.0) continue;
-      const double way = std::max(0.0, active_[i].multiplier) / r_[i];
-      if (way < partial) {
-        partial = way;
-        vanishing = i;
-      }
-    }
-    const double step = std::min(full, partial);
-    if (step == kNever) {  // dependent and nothing to swap it for: rounding
-      ignored[candidate] = 1;
-      return true;
-    }
-    for (std::size_t i = 0; i < active_.size(); ++i) active_[i].multiplier -= step * r_[i];
-    raised += step;
-    if (!dependent) z.head(dimension_) -= step * direction_.head(dimension_);
-    ++changes;
-    if (full <= partial) {
-      if (!add(candidate, side)) ignored[candidate] = 1;
-      solve_on_active();
-      return true;
-    }
-    drop(vanishing);
-  }
-  return false;
+void ActiveSet::start_smallest(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
+                               const double* x, const double* x_above, double x_scale) {
+  // x without its step in the directions that are still free
+  for (Index j = 0; j < rows.stride(); ++j) target_[j] = x[j] - x_above[j];
+  problem.project(target_.data(), rest_.data());
+  for (Index j = 0; j < rows.stride(); ++j) rest_[j] = x[j] - rest_[j];
+  start(rows, problem, candidates, 1.0, rest_.data(), x_scale);
+  std::copy_n(x, rows.stride(), x_.data());
+  rows.values(problem.level() + 1, x, candidates.value.data());
 }
 
-bool LeastDistance::solve_dual(int& changes, int changes_left, bool& raised) {
-  const int before = changes;
-  drop_negative(changes);
-  double slack = 1.0;
-  int next_raise = static_cast<int>(2 * dimension_) + 30;
-  while (changes - before < changes_left) {
-    // the ladder: a tolerance that grows tenfold, so that rounding cannot keep two rows swapping
-    // for ever
-    if (changes - before > next_raise) {
-      slack *= 10.0;
-      next_raise += static_cast<int>(dimension_) / 2 + 1;
-      raised = true;
-    }
-    Side side = Side::Upper;
-    const int candidate = most_broken(side, slack);
-    if (candidate < 0) return true;
-    if (!raise(candidate, side, changes, changes_left)) return false;
-    // rounding may leave a multiplier below zero after a swap
-    if (most_negative() >= 0) drop_negative(changes);
+void ActiveSet::fix(int row, Side side) {
+  const Row& r = (*rows_)[row];
+  // the rows that are fixed already may fix it too
+  if (lost(r) || !set_.fix(row, side, candidates_->value[r.candidate])) ignore(r);
+}
+
+void ActiveSet::clear() {
+  restore_ignored();
+  set_.clear();
+}
+
+double ActiveSet::worst_excess(const double* value) const {
+  return kernels::chosen->worst_excess(count_, value, candidates_->limits(*rows_), relative_,
+                                       absolute_);
+}
+
+bool ActiveSet::free_is_feasible() {
+  rows_->values(problem_->level() + 1, x_free_.data(), candidates_->target.data());
+  if (worst_excess(candidates_->target.data()) > 0.0) return false;
+  std::copy_n(x_free_.data(), rows_->stride(), x_.data());
+  return true;
+}
+
+void ActiveSet::evaluate() {
+  problem_->step(y_.data(), x_free_.data(), target_.data());
+  rows_->values(problem_->level() + 1, target_.data(), candidates_->target.data());
+}
+
+void ActiveSet::solve() {
+  set_.solve(y_.data());
+  evaluate();
+}
+
+bool ActiveSet::warm() {
+  set_.factor();
+  solve();
+  if (set_.most_negative() >= 0) return false;
+  if (worst_excess(candidates_->target.data()) > 0.0) return false;
+  std::copy_n(target_.data(), rows_->stride(), x_.data());
+  return true;
+}
+
+bool ActiveSet::lost(const Row& row) const {
+  if (row.norm == 0.0) return true;
+  const double least = tolerance::kLost * row.norm;
+  return !problem_->has_slack(row) && problem_->free_part(row) <= least * least;
+}
+
+void ActiveSet::ignore(const Row& row) {
+  ignored_.push_back(
+      {row.candidate, candidates_->lower(row.candidate), candidates_->upper(row.candidate)});
+  candidates_->set(row.candidate, -kAbsent, kAbsent);
+}
+
+void ActiveSet::restore_ignored() {
+  for (const Ignored& i : ignored_) candidates_->set(i.candidate, i.lower, i.upper);
+  ignored_.clear();
+}
+
+double ActiveSet::largest_miss(double* change) const {
+  double worst = 0.0;
+  for (Index s = 0; s < set_.size(); ++s) {
+    const ActiveSlot& slot = set_.slots()[s];
+    const Row& row = (*rows_)[slot.row];
+    const double slack = problem_->has_slack(row) ? problem_->slack(row, y_.data()) : 0.0;
+    change[s] = slot.limit - (rows_->dot(slot.row, target_.data()) + slack);
+    worst = std::max(worst, std::abs(change[s]));
   }
-  return false;
+  return worst;
+}
+
+void ActiveSet::refine() {
+  double x_size = 1.0;
+  for (Index j = 0; j < rows_->stride(); ++j) x_size = std::max(x_size, std::abs(target_[j]));
+  for (int pass = 0; pass < 2; ++pass) {
+    if (largest_miss(change_.data()) <= tolerance::kMiss * x_size) break;
+    set_.correct(change_.data(), y_.data());
+    problem_->step(y_.data(), x_free_.data(), target_.data());
+  }
+  std::copy_n(target_.data(), rows_->stride(), x_.data());
 }
 
 }  // namespace hurcules

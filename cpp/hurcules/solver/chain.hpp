@@ -1,13 +1,14 @@
-// The orthogonal chain: one basis of R^n that serves every level.
+// One orthonormal basis for all levels: the directions of the equality rows, in their order, then
+// the rest.
 //
-// The equality rows of all levels, in order, are made orthonormal (Gram-Schmidt with
-// reorthogonalisation): rank(k) directions q_0 .. span the equality rows of levels 0..k, and the
-// directions after them are the Z_k that level k leaves to the levels below [T 2.2.15, 3.3.34]. It
-// depends on no working set.
+// Only equality rows take directions away from lower levels, so the basis does not depend on any
+// working set and is computed once a solve: row i = sum_j L(i, j) q_j. The first rank_before(k)
+// directions belong to the levels above k.  [T 2.2.15-23]
 #pragma once
 
 #include <vector>
 
+#include "hurcules/solver/orthogonal_factor.hpp"
 #include "hurcules/solver/row_table.hpp"
 
 namespace hurcules {
@@ -15,33 +16,35 @@ namespace hurcules {
 class Chain {
  public:
   void reserve(Index unknowns, Index rows, Index levels);
-  // directions and ranks out of the equality rows
+  // directions and coordinates of all equality rows
   void build(const RowTable& rows);
-  // fills the basis up to n directions and gives every inequality row its coordinates, once a solve
+  // the remaining directions, and the coordinates of all inequality rows
   void complete(const RowTable& rows);
 
-  [[nodiscard]] Index unknowns() const { return Q_.cols(); }
-  // number of directions that levels 0 .. k-1 have taken
-  [[nodiscard]] Index rank_before(int k) const { return rank_[k]; }
-  [[nodiscard]] const double* direction(Index j) const { return Q_.row(j).data(); }
-  // coordinates of row i: a_i = sum_j coordinates(i)[j] q_j
-  [[nodiscard]] const double* coordinates(int i) const { return L_.row(i).data(); }
-  // the equality row that gave direction j
-  [[nodiscard]] int pivot_row(Index j) const { return pivot_row_[j]; }
-  // removes from y its part along the first r directions
-  void remove_first(Index r, Vector& y) const;
+  [[nodiscard]] Index unknowns() const { return factor_.columns(); }
+  [[nodiscard]] Index stride() const { return factor_.stride(); }
+  [[nodiscard]] Index rank_before(int level) const { return rank_[level]; }
+  // q_j, padded
+  [[nodiscard]] const double* direction(Index j) const { return factor_.direction(j); }
+  // L(i, .) of a row of the table; of an inequality row only once complete
+  [[nodiscard]] const double* coordinates(const Row& row) const {
+    return row.dense < 0 ? transposed_.row(row.row) : factor_.coordinates(row.dense);
+  }
+  [[nodiscard]] const double* equality_coordinates(Index dense) const {
+    return factor_.coordinates(dense);
+  }
+  // dense row that gave direction j
+  [[nodiscard]] Index pivot(Index j) const { return factor_.pivot(j); }
+  // takes the parts along the first r directions out of y (padded)
+  void remove_first(Index r, double* y);
 
  private:
-  // v_ minus its parts along the directions so far; the parts go to l
-  void orthogonalize(double* l);
-  void read_row(const RowTable& rows, int i);
+  void transpose(Index from);
 
-  Matrix Q_;                    // (n, n), directions as rows
-  Matrix L_;                    // (rows, n), coordinates
-  Vector v_, rest_;             // (n)
-  std::vector<Index> rank_;     // (levels + 1)
-  std::vector<int> pivot_row_;  // (n)
-  Index count_ = 0;
+  OrthogonalFactor factor_;
+  PaddedRows transposed_;  // (n, n): row b has coordinate b of every direction
+  PaddedVector norm2_, part_, rest_;
+  std::vector<Index> rank_;
   bool complete_ = false;
 };
 

@@ -1,21 +1,62 @@
-// The two inner loops of the solver, on contiguous memory.
+// The inner loops of the solver on padded rows, compiled for more than one instruction set; the
+// widest that the processor has is chosen when the program starts.
 #pragma once
 
-#include "hurcules/base/types.hpp"
+#include <cstddef>
 
 namespace hurcules::kernels {
 
-using Map = Eigen::Map<Vector>;
-using ConstMap = Eigen::Map<const Vector>;
+using Size = std::ptrdiff_t;
 
-// a . b over n entries
-inline double dot(Index n, const double* a, const double* b) {
-  return ConstMap(a, n).dot(ConstMap(b, n));
-}
+// a candidate that stops a move, and the part of the way at which it does
+struct Blocking {
+  Size candidate = -1;
+  double way = 1.0;
+};
 
-// y += s x over n entries
-inline void axpy(Index n, double s, const double* x, double* y) {
-  Map(y, n) += s * ConstMap(x, n);
-}
+// limits of candidates and their values, by candidate
+struct LimitArrays {
+  const double* lower;
+  const double* upper;
+  const double* norm;
+};
+
+// All lengths `size` are multiples of four. Functions on `count` rows take rows `stride` apart.
+struct Table {
+  const char* name;
+  double (*dot)(Size size, const double* a, const double* b);
+  // y += s x
+  void (*axpy)(Size size, double s, const double* x, double* y);
+  // (a, b) = (c a + s b, c b - s a)
+  void (*rotate)(Size size, double c, double s, double* a, double* b);
+  // out[i] = row i . x
+  void (*dots)(const double* rows, Size count, Size stride, const double* x, double* out);
+  // y += sum_i s[i] row i
+  void (*axpys)(const double* rows, Size count, Size stride, const double* s, double* y);
+  // One step of Gram-Schmidt: coordinates[i * gap] = scale (pivot . row i), and the row loses its
+  // part along the pivot: row i -= scale^2 (pivot . row i) pivot. Takes four rows at a time: up to
+  // three rows behind the last are read and written.
+  void (*eliminate)(const double* pivot, double scale, double* rows, Size count, Size stride,
+                    double* coordinates, Size gap);
+  // the largest  value - upper  or  lower - value,  less relative * norm + absolute
+  double (*worst_excess)(Size size, const double* value, LimitArrays limits, double relative,
+                         double absolute);
+  // The first candidate that a move from `value` to `target` takes beyond its limit by more than
+  // relative * norm + absolute; ties go to the one that moves fastest.
+  Blocking (*first_blocking)(Size size, const double* value, const double* target,
+                             LimitArrays limits, double relative, double absolute);
+  // by how much candidates got worse from `before` to `now`: the largest  now - max(upper, before)
+  // or  min(lower, before) - now,  relative to their norms
+  double (*worsened)(Size size, const double* before, const double* now, LimitArrays limits);
+  // lower = min(asked_lower, value), upper = max(asked_upper, value)
+  void (*widen)(Size size, const double* value, const double* asked_lower,
+                const double* asked_upper, double* lower, double* upper);
+};
+
+// the table in use
+extern const Table* chosen;
+// "baseline" or "avx2"; false when this processor or build lacks it. For tests and measurements:
+// it changes all solvers of the process.
+bool choose(const char* name);
 
 }  // namespace hurcules::kernels

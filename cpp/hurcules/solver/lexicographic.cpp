@@ -18,15 +18,25 @@ Index count_rows(HierarchyView hierarchy) {
   return rows;
 }
 
+Index most_rows(HierarchyView hierarchy) {
+  Index rows = 0;
+  for (const LevelView& level : hierarchy) rows = std::max(rows, level.rows());
+  return rows;
+}
+
 }  // namespace
 
 Lexicographic::Lexicographic(Index unknowns, const SolverOptions& options)
     : unknowns_(unknowns), options_(options) {
-  for (Vector* v : {&x_, &x_above_, &centre_, &solution_.x}) v->setZero(unknowns);
+  solution_.x.setZero(unknowns);
+  for (PaddedVector* v : {&x_, &x_above_, &centre_}) v->reserve(padded(unknowns));
 }
 
 bool Lexicographic::fits(HierarchyView hierarchy) const {
-  if (hierarchy.size() > reserved_levels_ || count_rows(hierarchy) > reserved_rows_) return false;
+  if (hierarchy.size() > reserved_levels_ || count_rows(hierarchy) > reserved_rows_ ||
+      most_rows(hierarchy) > reserved_own_) {
+    return false;
+  }
   if (solution_.violations.size() != hierarchy.size()) return false;
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     if (solution_.violations[k].size() != hierarchy[k].rows()) return false;
@@ -36,23 +46,28 @@ bool Lexicographic::fits(HierarchyView hierarchy) const {
 
 void Lexicographic::reserve(HierarchyView hierarchy) {
   reserved_rows_ = std::max(reserved_rows_, count_rows(hierarchy));
+  reserved_own_ = std::max(reserved_own_, most_rows(hierarchy));
   reserved_levels_ = std::max(reserved_levels_, hierarchy.size());
-  rows_.reserve(reserved_rows_, reserved_levels_);
-  chain_.reserve(unknowns_, reserved_rows_ + 1, reserved_levels_);
-  problem_.reserve(unknowns_, reserved_rows_);
+  const Index levels = static_cast<Index>(reserved_levels_);
+  rows_.reserve(unknowns_, reserved_rows_, levels);
+  chain_.reserve(unknowns_, reserved_rows_, levels);
+  candidates_.reserve(reserved_rows_ + 4 * levels);
+  problem_.reserve(unknowns_, reserved_rows_, reserved_own_);
+  active_set_.reserve(unknowns_, reserved_rows_, reserved_own_);
   settled_level_.reserve(unknowns_, reserved_rows_);
-  optimality_.reserve(unknowns_);
+  optimality_.reserve(unknowns_, reserved_rows_, levels);
   records_.resize(reserved_levels_);
   for (LevelRecord& record : records_) {
-    record.x.resize(unknowns_);
-    record.gradient.resize(unknowns_);
+    record.x.reserve(padded(unknowns_));
+    record.gradient.reserve(padded(unknowns_));
   }
   // every level may hold every row, once for its violation and once for its smallest step
   held_.reserve(2 * reserved_levels_ * reserved_rows_);
   kept_.reserve(2 * reserved_levels_ * reserved_rows_);
-  previous_.reserve(reserved_rows_ + unknowns_);
+  kept_begin_.reserve(reserved_levels_ + 1);
   solution_.working_set.reserve(2 * reserved_levels_ * reserved_rows_);
   settled_.resize(reserved_rows_);
+  listed_.resize(reserved_rows_);
   solution_.violations.resize(hierarchy.size());
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     solution_.violations[k].setZero(hierarchy[k].rows());
@@ -63,43 +78,67 @@ void Lexicographic::reset() {
   kept_.clear();
 }
 
+double Lexicographic::size(const PaddedVector& x) const {
+  double largest = 1.0;
+  for (Index j = 0; j < rows_.stride(); ++j) largest = std::max(largest, std::abs(x[j]));
+  return largest;
+}
+
 const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   if (!fits(hierarchy)) reserve(hierarchy);
   held_.clear();
   solution_.status = SolverStatus::Solved;
   solution_.factorizations = solution_.changes = solution_.final_levels = 0;
   solution_.optimality = 0.0;
-  x_.setZero();
-  x_above_.setZero();
-  if (!rows_.read(hierarchy, unknowns_)) return refuse();
-  if (!rows_.same_pattern()) kept_.clear();
+  if (!rows_.read(hierarchy)) return refuse();
+  count_kept();
+  std::fill_n(x_.data(), rows_.stride(), 0.0);
+  std::fill_n(x_above_.data(), rows_.stride(), 0.0);
   chain_.build(rows_);
+  candidates_.start(rows_);
+  optimality_.start(rows_);
   for (int k = 0; k < rows_.levels(); ++k) {
     begin_held_ = begin_norm_ = static_cast<int>(held_.size());
     unsettled_ = false;
     const bool ended = !solve_level(hierarchy[k], k);
-    if (!x_.allFinite()) {
-      x_ = x_above_;
+    if (!std::isfinite(size(x_))) {
+      take(x_above_.data());
       held_.resize(begin_held_);
       solution_.status = SolverStatus::LostPrecision;
     }
     finish_level(hierarchy[k].rho, k);
     if (ended || solution_.status == SolverStatus::LostPrecision) break;
     ++solution_.final_levels;
-    x_above_ = x_;
+    candidates_.close(rows_, k, x_.data());
+    std::copy_n(x_.data(), rows_.stride(), x_above_.data());
   }
   keep_working_sets();
   fill_solution();
   return solution_;
 }
 
+bool Lexicographic::satisfied(int k) {
+  if (problem_.relative_residual(x_above_.data()) > tolerance::kZeroResidual) return false;
+  for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
+    const Row& row = rows_[i];
+    if (row.equality) continue;
+    const double value = candidates_.value[row.candidate];
+    const double allowed = tolerance::kBroken * x_scale_ * row.norm;
+    if (value > row.upper + allowed || value < row.lower - allowed) return false;
+  }
+  return true;
+}
+
 bool Lexicographic::solve_level(const LevelView& level, int k) {
   if (level.rows() == 0) return true;
   ++solution_.factorizations;
-  problem_.start(rows_, chain_, k, x_above_);
-  if (problem_.satisfied()) return true;
+  x_scale_ = size(x_above_);
+  problem_.start(rows_, chain_, k);
+  candidates_.open(rows_, k, x_above_.data());
+  if (satisfied(k)) return true;
   if (level.bounds && rows_.begin(k) == 0) return solve_first_bounds(k);
-  return level.rho > 0.0 ? solve_regularized(level.rho, k) : solve_unregularized(k);
+  return level.rho > tolerance::kTiny * problem_.own_norm() ? solve_regularized(level.rho, k)
+                                                           : solve_unregularized(level.rho, k);
 }
 
 bool Lexicographic::solve_first_bounds(int k) {
@@ -115,122 +154,132 @@ bool Lexicographic::solve_first_bounds(int k) {
 }
 
 bool Lexicographic::solve_regularized(double rho, int k) {
+  const bool warm = has_kept(k);
+  if (warm) chain_.complete(rows_);
+  active_set_.start(rows_, problem_, candidates_, rho, x_above_.data(), x_scale_);
   // without limits in the way this is the whole level  [T 3.3.38]
-  problem_.solve_free(rows_, chain_, rho, x_above_, x_);
-  if (!problem_.breaks(rows_, x_)) return true;
-  chain_.complete(rows_);
-  problem_.fill(rows_, chain_, rho, x_above_);
-  collect_kept(k);
-  const bool done = find_working_set();
-  if (!done && !problem_.distance.feasible()) {
-    x_ = x_above_;
-    return false;
+  if (!warm && active_set_.free_is_feasible()) {
+    take(active_set_.x());
+    return true;
   }
-  problem_.read_x(chain_, x_);
-  problem_.refine(rows_, chain_, x_);
+  chain_.complete(rows_);
+  const bool done = find_working_set(k, warm);
+  if (done) active_set_.refine();
+  take(active_set_.x());
   keep_held(rho * rho, Role::Violation);
   begin_norm_ = static_cast<int>(held_.size());
   return done;
 }
 
-bool Lexicographic::solve_unregularized(int k) {
-  problem_.solve_free(rows_, chain_, 0.0, x_above_, x_);
-  if (!problem_.breaks(rows_, x_)) return true;
-  if (problem_.own_norm() == 0.0) {
-    x_ = x_above_;
+bool Lexicographic::solve_unregularized(double rho, int k) {
+  active_set_.start(rows_, problem_, candidates_, rho, x_above_.data(), x_scale_);
+  if (!has_kept(k) && active_set_.free_is_feasible()) {
+    take(active_set_.x());
     return true;
   }
-  if (has_kept(k) &&
-      settled_level_.solve(rows_, problem_, k, x_above_, kept_, x_, held_, begin_norm_)) {
-    return true;
-  }
+  if (problem_.own_norm() == 0.0) return true;
   chain_.complete(rows_);
+  if (has_kept(k) && settle_kept(rho, k)) return true;
   const double epsilon = tolerance::kProximal * problem_.own_norm();
-  if (!proximal_steps(epsilon, k)) return false;
+  active_set_.start(rows_, problem_, candidates_, epsilon, x_above_.data(), x_scale_);
+  if (!find_working_set(k, false)) {
+    take(x_above_.data());
+    return false;
+  }
+  if (settle_held(rho, epsilon)) return true;
+  active_set_.refine();
+  if (!proximal_steps(epsilon)) return false;
   keep_held(epsilon * epsilon, Role::Violation);
   begin_norm_ = static_cast<int>(held_.size());
-  return smallest_step();
+  return smallest_step(k);
 }
 
-bool Lexicographic::proximal_steps(double epsilon, int k) {
-  collect_kept(k);
-  centre_ = x_above_;
+bool Lexicographic::settle_kept(double rho, int k) {
+  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_.data());
+  for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
+    const KeptRow& kept = kept_[h];
+    const Index c = rows_[kept.row].candidate;
+    const double limit =
+        kept.side == Side::Upper ? candidates_.upper(c) : candidates_.lower(c);
+    settled_level_.plan(kept.row, kept.side, limit, kept.role);
+  }
+  return settled_level_.solve(rho, x_scale_, x_.data(), held_, begin_norm_);
+}
+
+bool Lexicographic::settle_held(double rho, double epsilon) {
+  double largest = 0.0;
+  const double scale = epsilon * epsilon;
+  for (const ActiveSlot& slot : active_set_.slots()) {
+    largest = std::max(largest, scale * slot.multiplier);
+  }
+  const double least = problem_.least_settling(largest, x_scale_);
+  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_.data());
+  for (const ActiveSlot& slot : active_set_.slots()) {
+    const bool settles = scale * slot.multiplier > least || problem_.has_slack(rows_[slot.row]);
+    settled_level_.plan(slot.row, slot.side, slot.limit,
+                        settles ? Role::Violation : Role::SmallestStep);
+  }
+  ++solution_.factorizations;
+  return settled_level_.solve(rho, x_scale_, x_.data(), held_, begin_norm_);
+}
+
+bool Lexicographic::proximal_steps(double epsilon) {
   double last = 0.0;
+  std::copy_n(x_above_.data(), rows_.stride(), centre_.data());
   for (int pass = 0; pass < kMaxProximalSteps; ++pass) {
-    problem_.fill(rows_, chain_, epsilon, centre_);
-    if (!find_working_set()) {
-      x_ = centre_;
-      return false;
-    }
-    problem_.read_x(chain_, x_);
-    problem_.refine(rows_, chain_, x_);
-    const double moved = (x_ - centre_).lpNorm<Eigen::Infinity>();
-    const double scale = std::max(1.0, x_.lpNorm<Eigen::Infinity>());
-    centre_ = x_;
-    if (moved < 1e-11 * scale || (pass > 0 && moved < 1e-8 * scale && moved > 0.5 * last))
-      return true;
+    take(active_set_.x());
+    double moved = 0.0;
+    for (Index j = 0; j < unknowns_; ++j) moved = std::max(moved, std::abs(x_[j] - centre_[j]));
+    const double scale = size(x_);
+    std::copy_n(x_.data(), rows_.stride(), centre_.data());
     if (!std::isfinite(moved)) return false;
+    if (moved < 1e-11 * scale || (pass > 0 && moved < 1e-8 * scale && moved > 0.5 * last)) {
+      return true;
+    }
     last = moved;
     // the next pass starts from this one's set
-    previous_.assign(problem_.distance.active().begin(), problem_.distance.active().end());
+    active_set_.restart(epsilon, centre_.data());
+    if (!active_set_.warm() && !find_by_dual()) {
+      take(centre_.data());
+      return false;
+    }
+    active_set_.refine();
   }
   unsettled_ = true;
+  take(active_set_.x());
   return true;
 }
 
-bool Lexicographic::smallest_step() {
+bool Lexicographic::smallest_step(int k) {
   double largest = 0.0;
   for (std::size_t h = begin_held_; h < held_.size(); ++h) {
     largest = std::max(largest, std::abs(held_[h].multiplier));
   }
-  const double least = problem_.least_settling(largest);
-  std::fill(settled_.begin(), settled_.end(), 0);
+  const double least = problem_.least_settling(largest, x_scale_);
+  active_set_.clear();
+  problem_.start_smallest(rows_, chain_, k);
+  if (problem_.dimension() == 0) return true;
+  active_set_.start_smallest(rows_, problem_, candidates_, x_.data(), x_above_.data(), x_scale_);
   for (std::size_t h = begin_held_; h < held_.size(); ++h) {
-    settled_[held_[h].row] = held_[h].multiplier > least;
-    if (!settled_[held_[h].row]) held_[h].role = Role::Idle;
+    HeldRow& held = held_[h];
+    if (held.multiplier > least) {
+      active_set_.fix(held.row, held.side);
+    } else {
+      held.role = Role::Idle;
+    }
   }
-  problem_.fill_minimum_norm(rows_, chain_, x_, x_above_, settled_);
-  if (problem_.distance.dimension() == 0) return true;
   ++solution_.factorizations;
-  const int budget = options_.max_changes - solution_.changes;
-  const bool done = problem_.distance.solve_primal(solution_.changes, budget);
-  problem_.read_x(chain_, x_);
-  problem_.refine(rows_, chain_, x_);
+  const bool done = active_set_.primal(solution_.changes, options_.max_changes - solution_.changes);
+  if (done) active_set_.refine();
+  take(active_set_.x());
   keep_held(1.0, Role::SmallestStep);
   return done;
 }
 
-bool Lexicographic::has_kept(int k) const {
-  return std::any_of(kept_.begin(), kept_.end(),
-                     [k](const KeptRow& kept) { return kept.held_by == k; });
-}
-
-void Lexicographic::collect_kept(int k) {
-  previous_.clear();
-  for (const KeptRow& kept : kept_) {
-    if (kept.held_by != k) continue;
-    previous_.push_back({problem_.candidate(kept.row), kept.side, false, 0.0});
-  }
-}
-
-bool Lexicographic::find_working_set() {
-  LeastDistance& distance = problem_.distance;
-  int& changes = solution_.changes;
-  bool raised = false, done = false;
-  if (!previous_.empty()) {
-    distance.clear();
-    for (const ActiveSlot& slot : previous_) {
-      if (!std::isinf(distance.limit(slot.candidate, slot.side)) &&
-          !distance.ignored[slot.candidate]) {
-        distance.add(slot.candidate, slot.side);
-      }
-    }
-  } else {
-    // from the centre, which is feasible and monotone; it hands over where zero steps might cycle
-    const int budget = static_cast<int>(3 * (unknowns_ + distance.candidates()));
-    done = distance.solve_primal(changes, std::min(budget, options_.max_changes - changes));
-  }
-  if (!done) done = distance.solve_dual(changes, options_.max_changes - changes, raised);
+bool Lexicographic::find_by_dual() {
+  bool raised = false;
+  const bool done =
+      active_set_.dual(solution_.changes, options_.max_changes - solution_.changes, raised);
   if (!done) solution_.status = SolverStatus::IterationLimit;
   if (raised && solution_.status == SolverStatus::Solved) {
     solution_.status = SolverStatus::ReducedAccuracy;
@@ -238,10 +287,29 @@ bool Lexicographic::find_working_set() {
   return done;
 }
 
+bool Lexicographic::find_working_set(int k, bool warm) {
+  int& changes = solution_.changes;
+  if (warm) {
+    for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
+      active_set_.plan(kept_[h].row, kept_[h].side);
+    }
+    return active_set_.warm() || find_by_dual();
+  }
+  // from the centre, which is feasible and monotone; it hands over where zero steps might cycle
+  const int budget = static_cast<int>(3 * (unknowns_ + rows_.size()));
+  const int left = options_.max_changes - changes;
+  if (active_set_.primal(changes, std::min(budget, left))) return true;
+  if (budget >= left) {
+    solution_.status = SolverStatus::IterationLimit;
+    return false;
+  }
+  return find_by_dual();
+}
+
 void Lexicographic::keep_held(double scale, Role unfixed) {
-  for (const ActiveSlot& slot : problem_.distance.active()) {
-    const Role role = slot.fixed ? Role::Idle : unfixed;
-    held_.push_back({problem_.table_row(slot.candidate), slot.side, scale * slot.multiplier, role});
+  for (const ActiveSlot& slot : active_set_.slots()) {
+    held_.push_back(
+        {slot.row, slot.side, scale * slot.multiplier, slot.fixed ? Role::Idle : unfixed});
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "hurcules/solver/active_set.hpp"
+#include "hurcules/solver/candidates.hpp"
 #include "hurcules/solver/chain.hpp"
 #include "hurcules/solver/level_problem.hpp"
 #include "hurcules/solver/method.hpp"
@@ -11,6 +13,14 @@
 #include "hurcules/solver/settled_level.hpp"
 
 namespace hurcules {
+
+// A row of the last solve's working sets.
+struct KeptRow {
+  int held_by = 0;
+  int row = 0;  // in the table
+  Side side = Side::Upper;
+  Role role = Role::Violation;
+};
 
 class Lexicographic : public Method {
  public:
@@ -27,41 +37,55 @@ class Lexicographic : public Method {
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
   bool solve_level(const LevelView& level, int k);
-  bool solve_first_bounds(int k);  // simple bounds with nothing above: every coordinate by itself
+  [[nodiscard]] bool satisfied(int k);
+  // simple bounds with nothing above: every coordinate by itself
+  bool solve_first_bounds(int k);
   bool solve_regularized(double rho, int k);
-  bool solve_unregularized(int k);  // rho = 0: proximal steps, then the smallest step
-  bool proximal_steps(double epsilon, int k);
-  bool smallest_step();
-  [[nodiscard]] bool has_kept(int k) const;
-  // the rows that level k held in the last solve, as candidates of this one
-  void collect_kept(int k);
-  // from previous_ when there is one, else from the centre: to the optimal working set
-  bool find_working_set();
+  // rho nothing or next to nothing: the settled level, or proximal steps and the smallest step
+  bool solve_unregularized(double rho, int k);
+  // from the rows of the last solve, or from those that the active set holds now
+  bool settle_kept(double rho, int k);
+  bool settle_held(double rho, double epsilon);
+  bool proximal_steps(double epsilon);
+  bool smallest_step(int k);
+
+  [[nodiscard]] bool has_kept(int k) const { return kept_begin_[k] < kept_begin_[k + 1]; }
+  // to the optimal working set: from the set of the last solve when `warm`, else from the centre
+  bool find_working_set(int k, bool warm);
+  bool find_by_dual();
   // slots -> held rows, multipliers times scale; a fixed slot is Idle
   void keep_held(double scale, Role unfixed);
 
   void finish_level(double rho, int k);
+  // where the kept rows of each level begin; none when they do not fit the present rows
+  void count_kept();
   void keep_working_sets();
   void fill_solution();
   const Solution& refuse();
+  [[nodiscard]] double size(const PaddedVector& x) const;  // max |x|, at least 1
+  void take(const double* x) { std::copy_n(x, rows_.stride(), x_.data()); }
 
   Index unknowns_;
   SolverOptions options_;
   Solution solution_;
   RowTable rows_;
   Chain chain_;
+  Candidates candidates_;
   LevelProblem problem_;
+  ActiveSet active_set_;
   SettledLevel settled_level_;
   Optimality optimality_;
-  Vector x_, x_above_, centre_;
+  PaddedVector x_, x_above_, centre_;
   std::vector<LevelRecord> records_;
   std::vector<HeldRow> held_;
-  std::vector<KeptRow> kept_;         // of the last solve
-  std::vector<ActiveSlot> previous_;  // a working set to start from
-  std::vector<char> settled_;         // (rows)
+  std::vector<KeptRow> kept_;  // of the last solve, by level
+  std::vector<int> kept_begin_;
+  std::vector<char> settled_;  // (rows)
+  std::vector<char> listed_;   // (rows)
+  double x_scale_ = 1.0;       // of x_above_
   int begin_held_ = 0, begin_norm_ = 0;
   bool unsettled_ = false;  // the proximal steps of this level still moved at their end
-  Index reserved_rows_ = 0;
+  Index reserved_rows_ = 0, reserved_own_ = 0;
   std::size_t reserved_levels_ = 0;
 };
 

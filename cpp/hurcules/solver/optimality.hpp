@@ -20,9 +20,9 @@ namespace hurcules {
 // what a solved level leaves behind
 struct LevelRecord {
   double rho = 0.0;
-  Vector x;  // (n), after this level
-  Vector
-      gradient;  // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
+  PaddedVector x;  // (n), after this level
+  // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
+  PaddedVector gradient;
   int first_held = 0, held = 0;  // its rows in the list of held rows
   int first_norm = 0, norm = 0;  // rows that hold only the smallest step (rho = 0)
 };
@@ -44,18 +44,24 @@ struct HeldRow {
 
 class Optimality {
  public:
-  void reserve(Index unknowns);
-  // Worst relative residual of level k; fills record.gradient.
-  double residual(const RowTable& rows, const Chain& chain, int k, const Vector& x_above,
+  void reserve(Index unknowns, Index rows, Index levels);
+  // before the first level
+  void start(const RowTable& rows);
+  // Worst relative residual of level k, levels in their order; fills record.gradient.
+  double residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                   LevelRecord& record, const std::vector<HeldRow>& held);
 
  private:
-  [[nodiscard]] double broken(const RowTable& rows, int k, const Vector& x_above,
-                              const Vector& x) const;
-  double norm_residual(const RowTable& rows, const Chain& chain, int k, const Vector& x_above,
+  double add_own_rows(const RowTable& rows, int k, const double* x, double* g);
+  [[nodiscard]] double worst_held(const RowTable& rows, int k, const LevelRecord& record,
+                                  const std::vector<HeldRow>& held, double x_scale) const;
+  double worsened(const RowTable& rows, int k, const double* x_above, const double* x);
+  double norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                        const LevelRecord& record, const std::vector<HeldRow>& held);
 
-  Vector work_;  // (n)
+  PaddedVector work_;         // (n)
+  PaddedVector violation_;    // (rows)
+  PaddedVector before_, now_;  // values of the candidates after the level above, and after this one
 };
 
 }  // namespace hurcules

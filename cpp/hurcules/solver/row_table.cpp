@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "hurcules/solver/kernels.hpp"
-
 namespace hurcules {
 
 namespace {
@@ -14,65 +12,184 @@ constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
 enum Pattern : char { kEquality, kInequality, kBoundEquality, kBoundInequality, kEndOfLevel };
 
+double lower_of(const LevelView& level, Index i) {
+  return level.lower[i] <= -kInfinity ? -kAbsent : level.lower[i];
+}
+double upper_of(const LevelView& level, Index i) {
+  return level.upper[i] >= kInfinity ? kAbsent : level.upper[i];
+}
+
 }  // namespace
 
-void RowTable::reserve(Index rows, Index levels) {
+void RowTable::reserve(Index unknowns, Index rows, Index levels) {
+  unknowns_ = unknowns;
   rows_.reserve(rows);
-  begin_.reserve(levels + 1);
+  for (auto* v : {&begin_, &equalities_, &inequalities_}) v->reserve(levels + 1);
+  block_level_.reserve(levels);
+  row_of_dense_.reserve(rows);
+  dense_.reserve(rows, unknowns);
+  dense_.shape(unknowns);
+  // padding behind each block of bounds and behind the dense rows
+  const Index candidates = rows + 4 * levels + 8;
+  row_of_candidate_.reserve(candidates);
+  for (PaddedVector* v : {&asked_lower_, &asked_upper_, &norm_}) v->reserve(candidates);
   pattern_.reserve(rows + levels);
   old_pattern_.reserve(rows + levels);
+  arranged_ = false;
 }
 
-void RowTable::clear() {
-  rows_.clear();
-  begin_.assign(1, 0);
-}
-
-bool RowTable::read(HierarchyView hierarchy, Index unknowns) {
-  std::swap(pattern_, old_pattern_);
-  pattern_.clear();
-  clear();
-  for (std::size_t k = 0; k < hierarchy.size(); ++k) {
-    const LevelView& level = hierarchy[k];
-    const bool fits = level.bounds ? level.rows() == unknowns
+bool RowTable::shapes_fit(HierarchyView hierarchy) const {
+  for (const LevelView& level : hierarchy) {
+    const bool fits = level.bounds ? level.rows() == unknowns_
                                    : level.A.rows() == level.rows() &&
-                                         (level.rows() == 0 || level.A.cols() == unknowns);
-    if (!fits || level.upper.size() != level.rows() || !(level.rho >= 0.0)) return false;
-    for (int i = 0; i < level.rows(); ++i) {
-      if (!read_row(level, static_cast<int>(k), i, unknowns)) return false;
+                                         (level.rows() == 0 || level.A.cols() == unknowns_);
+    if (!fits || level.upper.size() != level.rows() || !(level.rho >= 0.0) ||
+        std::isinf(level.rho)) {
+      return false;
     }
-    end_level();
-    pattern_.push_back(kEndOfLevel);
   }
-  same_pattern_ = pattern_ == old_pattern_;
   return true;
 }
 
-bool RowTable::read_row(const LevelView& level, int k, int i, Index unknowns) {
-  Row row;
-  row.level = k;
-  row.row = i;
-  row.lower = level.lower[i] <= -kInfinity ? -kAbsent : level.lower[i];
-  row.upper = level.upper[i] >= kInfinity ? kAbsent : level.upper[i];
-  row.equality = row.lower == row.upper;
-  row.a = level.bounds ? nullptr : level.A.data() + i * unknowns;
-  row.norm = level.bounds ? 1.0 : std::sqrt(kernels::dot(unknowns, row.a, row.a));
-  rows_.push_back(row);
-  pattern_.push_back(row.equality ? (level.bounds ? kBoundEquality : kEquality)
-                                  : (level.bounds ? kBoundInequality : kInequality));
-  return row.lower <= row.upper && row.lower < kAbsent && row.upper > -kAbsent &&
-         std::isfinite(row.norm);
+void RowTable::read_pattern(HierarchyView hierarchy) {
+  std::swap(pattern_, old_pattern_);
+  pattern_.clear();
+  for (const LevelView& level : hierarchy) {
+    const char equality = level.bounds ? kBoundEquality : kEquality;
+    const char inequality = level.bounds ? kBoundInequality : kInequality;
+    for (Index i = 0; i < level.rows(); ++i) {
+      pattern_.push_back(level.lower[i] == level.upper[i] ? equality : inequality);
+    }
+    pattern_.push_back(kEndOfLevel);
+  }
+  same_pattern_ = pattern_ == old_pattern_;
+}
+
+void RowTable::arrange(HierarchyView hierarchy) {
+  rows_.clear();
+  for (auto* v : {&begin_, &equalities_, &inequalities_}) v->assign(1, 0);
+  block_level_.clear();
+  row_of_dense_.clear();
+  row_of_candidate_.clear();
+  const char* kind = pattern_.data();
+  for (int k = 0; k < static_cast<int>(hierarchy.size()); ++k, ++kind) {
+    const LevelView& level = hierarchy[k];
+    int equal = equalities_.back(), unequal = inequalities_.back();
+    const int block = static_cast<int>(block_level_.size() * stride());
+    if (level.bounds) {
+      block_level_.push_back(k);
+      row_of_candidate_.resize(block + stride(), -1);
+    }
+    for (int i = 0; i < level.rows(); ++i, ++kind) {
+      Row row{.level = k, .row = i, .bound = level.bounds, .norm = 1.0};
+      row.equality = *kind == kEquality || *kind == kBoundEquality;
+      if (row.equality) row.dense = equal++;
+      if (!row.equality && !level.bounds) row.dense = unequal++;
+      if (!row.equality && level.bounds) row.candidate = block + i;
+      if (row.candidate >= 0) row_of_candidate_[row.candidate] = size();
+      rows_.push_back(row);
+    }
+    begin_.push_back(size());
+    equalities_.push_back(equal);
+    inequalities_.push_back(unequal);
+  }
+  row_of_dense_.resize(dense());
+  row_of_candidate_.resize(candidates(levels()), -1);
+  for (int i = 0; i < size(); ++i) {
+    Row& row = rows_[i];
+    if (row.dense < 0) continue;
+    if (!row.equality) {
+      row.candidate = first_dense_candidate() + row.dense;
+      row_of_candidate_[row.candidate] = i;
+      row.dense += equalities();
+    }
+    row_of_dense_[row.dense] = i;
+  }
+  const Index count = candidates(levels());
+  std::fill_n(asked_lower_.data(), count, -kAbsent);
+  std::fill_n(asked_upper_.data(), count, kAbsent);
+  std::fill_n(norm_.data(), count, 1.0);
+  dense_.set_zero(dense());
+  // simple bounds that are equalities are rows of the identity
+  for (const Row& row : rows_) {
+    if (row.bound && row.equality) dense_.row(row.dense)[row.row] = 1.0;
+  }
+  arranged_ = true;
+}
+
+bool RowTable::read_numbers(HierarchyView hierarchy) {
+  bool good = true;
+  int i = 0;
+  for (const LevelView& level : hierarchy) {
+    for (Index r = 0; r < level.rows(); ++r, ++i) {
+      Row& row = rows_[i];
+      row.lower = lower_of(level, r);
+      row.upper = upper_of(level, r);
+      good &= row.lower <= row.upper && row.lower < kAbsent && row.upper > -kAbsent;
+      if (!level.bounds) {
+        double* a = dense_.row(row.dense);
+        std::copy_n(level.A.data() + r * unknowns_, unknowns_, a);
+        row.norm = std::sqrt(kernels::chosen->dot(stride(), a, a));
+        good &= std::isfinite(row.norm);
+      }
+      if (row.candidate < 0) continue;
+      asked_lower_[row.candidate] = row.lower;
+      asked_upper_[row.candidate] = row.upper;
+      norm_[row.candidate] = row.norm;
+    }
+  }
+  return good;
+}
+
+bool RowTable::read(HierarchyView hierarchy) {
+  if (!shapes_fit(hierarchy)) {
+    // the table no longer holds what was read before
+    arranged_ = same_pattern_ = false;
+    pattern_.clear();
+    return false;
+  }
+  read_pattern(hierarchy);
+  if (!same_pattern_ || !arranged_) arrange(hierarchy);
+  return read_numbers(hierarchy);
+}
+
+double RowTable::dot(int i, const double* x) const {
+  const Row& row = rows_[i];
+  return row.dense < 0 ? x[row.row] : kernels::chosen->dot(stride(), dense_row(row.dense), x);
+}
+
+void RowTable::add_to(int i, double scale, double* y) const {
+  const Row& row = rows_[i];
+  if (row.dense < 0) {
+    y[row.row] += scale;
+  } else {
+    kernels::chosen->axpy(stride(), scale, dense_row(row.dense), y);
+  }
+}
+
+void RowTable::values(int level, const double* x, double* value) const {
+  for (int b = 0; b < bounds_blocks(); ++b) std::copy_n(x, stride(), value + b * stride());
+  kernels::chosen->dots(dense_row(equalities()), inequalities(level), stride(), x,
+                        value + first_dense_candidate());
+}
+
+double RowTable::violation(int i, double value) const {
+  return value > rows_[i].upper ? value - rows_[i].upper
+                                : (value < rows_[i].lower ? value - rows_[i].lower : 0.0);
 }
 
 double RowTable::dot(int i, const Vector& x) const {
-  return rows_[i].a ? kernels::dot(x.size(), rows_[i].a, x.data()) : x[rows_[i].row];
+  const Row& row = rows_[i];
+  if (row.dense < 0) return x[row.row];
+  return Eigen::Map<const Vector>(dense_row(row.dense), unknowns_).dot(x);
 }
 
 void RowTable::add_to(int i, double scale, Vector& y) const {
-  if (rows_[i].a) {
-    kernels::axpy(y.size(), scale, rows_[i].a, y.data());
+  const Row& row = rows_[i];
+  if (row.dense < 0) {
+    y[row.row] += scale;
   } else {
-    y[rows_[i].row] += scale;
+    y += scale * Eigen::Map<const Vector>(dense_row(row.dense), unknowns_);
   }
 }
 
@@ -84,11 +201,7 @@ void RowTable::save_pattern(StateWriter& writer) const {
 void RowTable::restore_pattern(StateReader& reader) {
   pattern_.resize(static_cast<std::size_t>(reader.get_count(kMostRows)));
   for (char& kind : pattern_) kind = static_cast<char>(reader.get_count(kEndOfLevel));
-}
-
-double RowTable::violation(int i, double value) const {
-  return value > rows_[i].upper ? value - rows_[i].upper
-                                : (value < rows_[i].lower ? value - rows_[i].lower : 0.0);
+  arranged_ = false;
 }
 
 }  // namespace hurcules

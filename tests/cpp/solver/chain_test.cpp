@@ -18,8 +18,12 @@ struct Built {
 
 void build(Built& built, Index unknowns) {
   for (const Level& level : built.levels) built.views.push_back(view(level));
-  ASSERT_TRUE(built.rows.read(built.views, unknowns));
-  built.chain.reserve(unknowns, built.rows.size() + 1, static_cast<Index>(built.levels.size()));
+  const Index levels = static_cast<Index>(built.levels.size());
+  Index rows = 0;
+  for (const Level& level : built.levels) rows += level.rows();
+  built.rows.reserve(unknowns, rows, levels);
+  ASSERT_TRUE(built.rows.read(built.views));
+  built.chain.reserve(unknowns, rows, levels);
   built.chain.build(built.rows);
 }
 
@@ -71,9 +75,11 @@ TEST(Chain, CoordinatesRebuildEveryRow) {
   for (int i = 0; i < built.rows.size(); ++i) {
     Vector a = Vector::Zero(8);
     for (Index j = 0; j < 8; ++j) {
-      a += built.chain.coordinates(i)[j] * Eigen::Map<const Vector>(built.chain.direction(j), 8);
+      a += built.chain.coordinates(built.rows[i])[j] *
+           Eigen::Map<const Vector>(built.chain.direction(j), 8);
     }
-    EXPECT_LT((a - Eigen::Map<const Vector>(built.rows[i].a, 8)).norm(), 1e-13) << "row " << i;
+    const double* row = built.rows.dense_row(built.rows[i].dense);
+    EXPECT_LT((a - Eigen::Map<const Vector>(row, 8)).norm(), 1e-13) << "row " << i;
   }
 }
 

@@ -1,0 +1,79 @@
+// Finds the working set of a level: warm, from the set of the last solve; cold, by a primal active
+// set from the centre; and from any set by a dual active set.
+#pragma once
+
+#include <span>
+
+#include "hurcules/solver/working_set.hpp"
+
+namespace hurcules {
+
+class ActiveSet {
+ public:
+  void reserve(Index unknowns, Index most_rows, Index most_own);
+  // A level around `centre`, where `candidates.value` stands, regularised by rho. `x_scale` is what
+  // rounding in x is relative to.
+  void start(const RowTable& rows, LevelProblem& problem, Candidates& candidates, double rho,
+             const double* centre, double x_scale);
+
+  // the same level around another centre, the present set planned for `warm`
+  void restart(double rho, const double* centre);
+  // The smallest step of a level from x_above, by a problem made with start_smallest: from x, which
+  // is feasible.
+  void start_smallest(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
+                      const double* x, const double* x_above, double x_scale);
+  // holds a row at its present value, for good
+  void fix(int row, Side side);
+  void clear();
+
+  // No limit is in the way of x_free: x() is the answer.
+  [[nodiscard]] bool free_is_feasible();
+  // Plans a row of the last solve's set for `warm`.
+  void plan(int row, Side side) { set_.plan(row, side); }
+  // factors the planned rows at once; true when they are the working set
+  bool warm();
+  // Primal, from the centre, which no limit forbids: feasible all along, monotone. False when
+  // `most_changes` are used up; x() is then the best point so far.
+  bool primal(int& changes, int most_changes);
+  // Dual (Goldfarb-Idnani) from the present set; `raised` tells that the tolerance had to grow.
+  bool dual(int& changes, int most_changes, bool& raised);
+  // brings the held rows onto their limits where rounding left them off
+  void refine();
+
+  [[nodiscard]] const double* x() const { return x_.data(); }
+  [[nodiscard]] const std::vector<ActiveSlot>& slots() const { return set_.slots(); }
+
+ private:
+  // the point of the working set: target x, values, multipliers
+  void solve();
+  void evaluate();
+  [[nodiscard]] double worst_excess(const double* value) const;
+  // holds the own rows that are violated at the centre
+  void hold_violated();
+  // nothing here can move the row
+  [[nodiscard]] bool lost(const Row& row) const;
+  void ignore(const Row& row);
+  void restore_ignored();
+  void drop_negative(int& changes);
+  // the row most broken at the target relative to its tolerance, or -1
+  [[nodiscard]] int most_broken(double slack, Side& side) const;
+  // raises the multiplier of a broken row until it holds; rows whose multipliers vanish leave
+  bool raise(int row, Side side, int& changes, int most_changes);
+  [[nodiscard]] double largest_miss(double* change) const;
+
+  struct Ignored {
+    Index candidate;
+    double lower, upper;
+  };
+
+  const RowTable* rows_ = nullptr;
+  LevelProblem* problem_ = nullptr;
+  Candidates* candidates_ = nullptr;
+  WorkingSet set_;
+  Index count_ = 0;  // of candidates that may count here
+  double relative_ = 0.0, absolute_ = 0.0;  // a limit is broken beyond relative |a| + absolute
+  PaddedVector x_, x_free_, target_, y_, rest_, r_, change_;
+  std::vector<Ignored> ignored_;
+};
+
+}  // namespace hurcules

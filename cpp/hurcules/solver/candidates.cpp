@@ -1,0 +1,54 @@
+#include "hurcules/solver/candidates.hpp"
+
+#include <limits>
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kAbsent = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void Candidates::reserve(Index most) {
+  for (PaddedVector* v : {&value, &target, &lower_, &upper_}) v->reserve(most + 8);
+}
+
+void Candidates::start(const RowTable& rows) {
+  const Index count = rows.candidates(rows.levels());
+  std::fill_n(lower_.data(), count, -kAbsent);
+  std::fill_n(upper_.data(), count, kAbsent);
+}
+
+void Candidates::open(const RowTable& rows, int level, const double* x) {
+  rows.values(level + 1, x, value.data());
+  const auto ask = [&](Index first, Index count) {
+    std::copy_n(rows.asked_lower() + first, count, lower_.data() + first);
+    std::copy_n(rows.asked_upper() + first, count, upper_.data() + first);
+  };
+  for (int b = 0; b < rows.bounds_blocks(); ++b) {
+    if (rows.block_level(b) == level) ask(b * rows.stride(), rows.stride());
+  }
+  const Index first = rows.first_dense_candidate() + rows.inequalities(level);
+  ask(first, rows.inequalities(level + 1) - rows.inequalities(level));
+}
+
+void Candidates::close(const RowTable& rows, int level, const double* x) {
+  rows.values(level + 1, x, value.data());
+  const auto widen = [&](Index first, Index count) {
+    kernels::chosen->widen(count, value.data() + first, rows.asked_lower() + first,
+                           rows.asked_upper() + first, lower_.data() + first,
+                           upper_.data() + first);
+  };
+  for (int b = 0; b < rows.bounds_blocks(); ++b) {
+    if (rows.block_level(b) <= level) widen(b * rows.stride(), rows.stride());
+  }
+  const Index first = rows.first_dense_candidate();
+  widen(first, rows.candidates(level + 1) - first);
+  // what the last four reached of the next level is not open yet
+  for (Index c = first + rows.inequalities(level + 1); c < rows.candidates(level + 1); ++c) {
+    set(c, -kAbsent, kAbsent);
+  }
+}
+
+}  // namespace hurcules

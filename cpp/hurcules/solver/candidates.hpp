@@ -1,0 +1,39 @@
+// What the inequality rows allow at the level that is being solved, by candidate (row_table.hpp).
+//
+// A row of a level above must not get worse than it is: its limits are those asked for, or the
+// value that it has, whichever is wider (solver.md §1). A row that a working set holds is absent
+// here as long as it is held.
+#pragma once
+
+#include "hurcules/solver/row_table.hpp"
+
+namespace hurcules {
+
+class Candidates {
+ public:
+  void reserve(Index most);
+  // before the first level: nothing is limited
+  void start(const RowTable& rows);
+  // the rows of `level` count from here on, as asked for; `x` gives all values
+  void open(const RowTable& rows, int level, const double* x);
+  // the level is solved at `x`: its rows and those above may not get worse
+  void close(const RowTable& rows, int level, const double* x);
+
+  [[nodiscard]] kernels::LimitArrays limits(const RowTable& rows) const {
+    return {lower_.data(), upper_.data(), rows.norms()};
+  }
+  [[nodiscard]] double lower(Index c) const { return lower_[c]; }
+  [[nodiscard]] double upper(Index c) const { return upper_[c]; }
+  void set(Index c, double lower, double upper) {
+    lower_[c] = lower;
+    upper_[c] = upper;
+  }
+
+  PaddedVector value;   // at the point of interest
+  PaddedVector target;  // where a move wants to take them
+
+ private:
+  PaddedVector lower_, upper_;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,198 @@
+// The loops of kernels.hpp for vectors of kWidth doubles. Included by one source per instruction
+// set; everything has internal linkage, so that no code of one set can stand in for another's.
+#pragma once
+
+#include <cstring>
+#include <limits>
+
+#include "hurcules/solver/kernels.hpp"
+
+namespace hurcules::kernels {
+namespace {
+
+using Pack = double __attribute__((vector_size(kWidth * sizeof(double))));
+using Mask = long long __attribute__((vector_size(kWidth * sizeof(double))));
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+inline Pack load(const double* p) {
+  Pack v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store(double* p, Pack v) {
+  std::memcpy(p, &v, sizeof v);
+}
+inline Pack spread(double s) {
+  return Pack{} + s;
+}
+inline double sum(Pack v) {
+  double total = v[0];
+  for (int i = 1; i < kWidth; ++i) total += v[i];
+  return total;
+}
+
+// four sums at once
+inline void sums(Pack a, Pack b, Pack c, Pack d, double* out) {
+#if HURCULES_KERNEL_WIDTH == 4
+  const Pack ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Pack cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  store(out, __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
+#else
+  store(out, __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3));
+  store(out + 2, __builtin_shufflevector(c, d, 0, 2) + __builtin_shufflevector(c, d, 1, 3));
+#endif
+}
+
+double dot(Size size, const double* a, const double* b) {
+  Pack s = {}, t = {};
+  Size j = 0;
+  for (; j + 2 * kWidth <= size; j += 2 * kWidth) {
+    s += load(a + j) * load(b + j);
+    t += load(a + j + kWidth) * load(b + j + kWidth);
+  }
+  if (j < size) s += load(a + j) * load(b + j);
+  return sum(s + t);
+}
+
+void axpy(Size size, double s, const double* x, double* y) {
+  const Pack scale = spread(s);
+  for (Size j = 0; j < size; j += kWidth) store(y + j, load(y + j) + scale * load(x + j));
+}
+
+void rotate(Size size, double c, double s, double* a, double* b) {
+  const Pack cosine = spread(c), sine = spread(s);
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack p = load(a + j), q = load(b + j);
+    store(a + j, cosine * p + sine * q);
+    store(b + j, cosine * q - sine * p);
+  }
+}
+
+inline void four_dots(const double* rows, Size stride, const double* x, double* out) {
+  Pack a = {}, b = {}, c = {}, d = {};
+  for (Size j = 0; j < stride; j += kWidth) {
+    const Pack v = load(x + j);
+    a += v * load(rows + j);
+    b += v * load(rows + stride + j);
+    c += v * load(rows + 2 * stride + j);
+    d += v * load(rows + 3 * stride + j);
+  }
+  sums(a, b, c, d, out);
+}
+
+void dots(const double* rows, Size count, Size stride, const double* x, double* out) {
+  Size i = 0;
+  for (; i + 4 <= count; i += 4) four_dots(rows + i * stride, stride, x, out + i);
+  for (; i < count; ++i) out[i] = dot(stride, rows + i * stride, x);
+}
+
+void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
+  Size i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const double* r = rows + i * stride;
+    const Pack s0 = spread(s[i]), s1 = spread(s[i + 1]), s2 = spread(s[i + 2]), s3 = spread(s[i + 3]);
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack left = s0 * load(r + j) + s1 * load(r + stride + j);
+      const Pack right = s2 * load(r + 2 * stride + j) + s3 * load(r + 3 * stride + j);
+      store(y + j, load(y + j) + (left + right));
+    }
+  }
+  for (; i < count; ++i) axpy(stride, s[i], rows + i * stride, y);
+}
+
+void eliminate(const double* pivot, double scale, double* rows, Size count, Size stride,
+               double* coordinates, Size gap) {
+  for (Size i = 0; i < count; i += 4) {
+    double* r = rows + i * stride;
+    double part[4];
+    four_dots(r, stride, pivot, part);
+    for (int l = 0; l < 4; ++l) part[l] *= scale;
+    for (int l = 0; l < 4; ++l) coordinates[(i + l) * gap] = part[l];
+    const Pack s0 = spread(scale * part[0]), s1 = spread(scale * part[1]),
+               s2 = spread(scale * part[2]), s3 = spread(scale * part[3]);
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack v = load(pivot + j);
+      store(r + j, load(r + j) - s0 * v);
+      store(r + stride + j, load(r + stride + j) - s1 * v);
+      store(r + 2 * stride + j, load(r + 2 * stride + j) - s2 * v);
+      store(r + 3 * stride + j, load(r + 3 * stride + j) - s3 * v);
+    }
+  }
+}
+
+double worst_excess(Size size, const double* value, LimitArrays limits, double relative,
+                    double absolute) {
+  Pack worst = spread(-kInfinite);
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack v = load(value + j);
+    const Pack over = v - load(limits.upper + j), under = load(limits.lower + j) - v;
+    const Pack excess = (over > under ? over : under) - relative * load(limits.norm + j);
+    worst = excess > worst ? excess : worst;
+  }
+  double result = worst[0];
+  for (int l = 1; l < kWidth; ++l) result = worst[l] > result ? worst[l] : result;
+  return result - absolute;
+}
+
+Blocking first_blocking(Size size, const double* value, const double* target, LimitArrays limits,
+                        double relative, double absolute) {
+  Pack best = spread(1.0), best_speed = {}, best_index = spread(-1.0), index = {};
+  for (int l = 0; l < kWidth; ++l) index[l] = l;
+  for (Size j = 0; j < size; j += kWidth, index += kWidth) {
+    const Pack v = load(value + j), goal = load(target + j), norm = load(limits.norm + j);
+    const Pack upper = load(limits.upper + j), lower = load(limits.lower + j);
+    const Pack allowed = relative * norm + absolute;
+    const Mask over = (goal - upper) > allowed, under = (lower - goal) > allowed;
+    const Pack move = goal - v;
+    const Pack room = over ? upper - v : lower - v;
+    Pack way = room / move;
+    way = way > 0.0 ? way : Pack{};
+    // a row that does not move towards the limit that it breaks cannot stop the move
+    const Mask blocks = (over & (move > 0.0)) | (under & (move < 0.0));
+    const Pack speed = (move > 0.0 ? move : -move) / norm;
+    const Mask better = blocks & ((way < best) | ((way == best) & (speed > best_speed)));
+    best = better ? way : best;
+    best_speed = better ? speed : best_speed;
+    best_index = better ? index : best_index;
+  }
+  Blocking first;
+  double fastest = 0.0;
+  for (int l = 0; l < kWidth; ++l) {
+    if (best_index[l] < 0.0) continue;
+    const bool tie = first.candidate >= 0 && best[l] == first.way;
+    if (tie ? best_speed[l] <= fastest : best[l] > first.way) continue;
+    first = {static_cast<Size>(best_index[l]), best[l]};
+    fastest = best_speed[l];
+  }
+  return first;
+}
+
+double worsened(Size size, const double* before, const double* now, LimitArrays limits) {
+  Pack worst = {};
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack was = load(before + j), is = load(now + j);
+    const Pack lower = load(limits.lower + j), upper = load(limits.upper + j);
+    const Pack over = is - (upper > was ? upper : was), under = (lower < was ? lower : was) - is;
+    const Pack excess = (over > under ? over : under) / load(limits.norm + j);
+    worst = excess > worst ? excess : worst;
+  }
+  double result = 0.0;
+  for (int l = 0; l < kWidth; ++l) result = worst[l] > result ? worst[l] : result;
+  return result;
+}
+
+void widen(Size size, const double* value, const double* asked_lower, const double* asked_upper,
+           double* lower, double* upper) {
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack v = load(value + j), low = load(asked_lower + j), high = load(asked_upper + j);
+    store(lower + j, low < v ? low : v);
+    store(upper + j, high > v ? high : v);
+  }
+}
+
+constexpr Table kTable = {kName,     dot,         axpy,         rotate,         dots,
+                          axpys,     eliminate,   worst_excess, first_blocking, worsened, widen};
+
+}  // namespace
+}  // namespace hurcules::kernels

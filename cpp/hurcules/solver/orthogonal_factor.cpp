@@ -1,0 +1,123 @@
+#include "hurcules/solver/orthogonal_factor.hpp"
+
+#include <cmath>
+
+namespace hurcules {
+
+namespace {
+
+// a row of which less than this part is left (squared) has lost digits: clean it
+constexpr double kClean = 1e-2;
+constexpr int kMostCleanings = 3;
+// what is left is noise altogether (squared)
+constexpr double kNothing = 1e-36;
+
+}  // namespace
+
+void OrthogonalFactor::reserve(Index rows, Index columns) {
+  rest_.reserve(rows + 3, columns);
+  Q_.reserve(columns + 1, columns);
+  L_.reserve(rows + 3, columns);
+  part_.reserve(2 * padded(columns) + 4);
+  pivot_.resize(std::max<std::size_t>(pivot_.size(), columns));
+}
+
+void OrthogonalFactor::start(Index rows, Index columns) {
+  rows_ = rows;
+  columns_ = columns;
+  rank_ = 0;
+  for (PaddedRows* r : {&rest_, &Q_, &L_}) r->shape(columns);
+  // what stands behind the last row is read and written four rows at a time
+  L_.set_zero(rows + 3);
+  std::fill_n(rest_.row(rows), 3 * rest_.stride(), 0.0);
+}
+
+double OrthogonalFactor::project(double* v, double* part, double norm2) const {
+  const kernels::Table& kernel = *kernels::chosen;
+  std::fill_n(part, rank_, 0.0);
+  double left = norm2;
+  for (int pass = 0; pass < kMostCleanings && rank_ > 0; ++pass) {
+    kernel.dots(Q_.row(0), rank_, stride(), v, part_.data());
+    for (Index j = 0; j < rank_; ++j) part[j] += part_[j];
+    for (Index j = 0; j < rank_; ++j) part_[j] = -part_[j];
+    kernel.axpys(Q_.row(0), rank_, stride(), part_.data(), v);
+    const double before = left;
+    left = kernel.dot(stride(), v, v);
+    // twice is enough, unless nearly nothing was left
+    if (left >= 0.25 * before || left <= kNothing * norm2) break;
+  }
+  return left;
+}
+
+void OrthogonalFactor::run(Index first, Index end, const double* norm2, double tolerance) {
+  const kernels::Table& kernel = *kernels::chosen;
+  for (Index i = first; i < end && rank_ < columns_; ++i) {
+    double *v = rest_.row(i), *l = L_.row(i);
+    double left = kernel.dot(stride(), v, v);
+    if (left < kClean * norm2[i]) {
+      double* part = part_.data() + padded(columns_);
+      left = project(v, part, left);
+      for (Index j = 0; j < rank_; ++j) l[j] += part[j];
+    }
+    if (!(left > tolerance * tolerance * norm2[i])) continue;
+    const double length = std::sqrt(left), scale = 1.0 / length;
+    l[rank_] = length;
+    double* q = Q_.row(rank_);
+    for (Index j = 0; j < stride(); ++j) q[j] = scale * v[j];
+    kernel.eliminate(v, scale, rest_.row(i + 1), rows_ - i - 1, stride(), L_.row(i + 1) + rank_,
+                     L_.stride());
+    pivot_[rank_++] = i;
+  }
+}
+
+bool OrthogonalFactor::append(double norm2, double tolerance) {
+  if (rank_ == columns_) return false;
+  double *v = rest_.row(rank_), *l = L_.row(rank_), *q = Q_.row(rank_);
+  const double left = project(v, l, norm2);
+  if (!(left > tolerance * tolerance * norm2)) return false;
+  const double length = std::sqrt(left), scale = 1.0 / length;
+  for (Index j = 0; j < stride(); ++j) q[j] = scale * v[j];
+  l[rank_] = length;
+  pivot_[rank_] = rank_;
+  ++rank_;
+  return true;
+}
+
+void OrthogonalFactor::remove(Index slot) {
+  const kernels::Table& kernel = *kernels::chosen;
+  for (Index i = slot; i + 1 < rank_; ++i) {
+    // row i + 1 moves up; a rotation of columns i, i + 1 makes L lower triangular again
+    std::copy_n(L_.row(i + 1), i + 2, L_.row(i));
+    const double a = L_.row(i)[i], b = L_.row(i)[i + 1];
+    const double length = std::sqrt(a * a + b * b), c = a / length, s = b / length;
+    L_.row(i)[i] = length;
+    L_.row(i)[i + 1] = 0.0;
+    for (Index below = i + 2; below < rank_; ++below) {
+      double* l = L_.row(below);
+      const double p = l[i], q = l[i + 1];
+      l[i] = c * p + s * q;
+      l[i + 1] = c * q - s * p;
+    }
+    kernel.rotate(stride(), c, s, Q_.row(i), Q_.row(i + 1));
+  }
+  --rank_;
+}
+
+void OrthogonalFactor::solve(double* b) const {
+  for (Index i = 0; i < rank_; ++i) {
+    const double* l = L_.row(i);
+    double sum = b[i];
+    for (Index j = 0; j < i; ++j) sum -= l[j] * b[j];
+    b[i] = sum / l[i];
+  }
+}
+
+void OrthogonalFactor::solve_transposed(double* b) const {
+  for (Index i = rank_ - 1; i >= 0; --i) {
+    const double* l = L_.row(i);
+    b[i] /= l[i];
+    for (Index j = 0; j < i; ++j) b[j] -= l[j] * b[i];
+  }
+}
+
+}  // namespace hurcules

@@ -1,0 +1,58 @@
+// Orthonormal directions of a list of rows, in their order: rows = L Q, L lower trapezoidal.
+//
+// Built for all rows at once by modified Gram-Schmidt that takes each new direction out of all
+// later rows; a row close to the span of those before is cleaned again until it stays. Rows can
+// then be appended and removed one by one.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/solver/kernels.hpp"
+#include "hurcules/solver/padded.hpp"
+
+namespace hurcules {
+
+class OrthogonalFactor {
+ public:
+  void reserve(Index rows, Index columns);
+
+  // A new list of rows; all of row(i) is then filled by the caller, with zeros behind `columns`.
+  void start(Index rows, Index columns);
+  [[nodiscard]] double* row(Index i) { return rest_.row(i); }
+  // Takes the directions of rows [first, end); later rows get their coordinates only. A row counts
+  // as dependent when less than `tolerance` of its norm is left (norm2: squared norms, by row).
+  void run(Index first, Index end, const double* norm2, double tolerance);
+
+  // Appends the row that the caller put into row(rank()), where every row so far gave a direction.
+  // False, and nothing is changed, when it depends on the others.
+  bool append(double norm2, double tolerance);
+  // removes a row where every row gave a direction
+  void remove(Index slot);
+  // v minus its parts along all directions; the parts; what is left, squared
+  double project(double* v, double* part, double norm2) const;
+  // L g = b and L' m = b, in place, for square L
+  void solve(double* b) const;
+  void solve_transposed(double* b) const;
+
+  [[nodiscard]] Index rank() const { return rank_; }
+  [[nodiscard]] Index columns() const { return columns_; }
+  [[nodiscard]] Index stride() const { return Q_.stride(); }
+  [[nodiscard]] const double* direction(Index j) const { return Q_.row(j); }
+  // coordinates of row i; zero for directions that came after it, unless it was never a pivot
+  [[nodiscard]] const double* coordinates(Index i) const { return L_.row(i); }
+  [[nodiscard]] double* coordinates(Index i) { return L_.row(i); }
+  // the row that gave direction j
+  [[nodiscard]] Index pivot(Index j) const { return pivot_[j]; }
+  // what is left of a row outside the span
+  [[nodiscard]] const double* rest(Index i) const { return rest_.row(i); }
+  // place for one more unit direction, of no row
+  double* push_direction() { return Q_.row(rank_++); }
+
+ private:
+  PaddedRows rest_, Q_, L_;
+  mutable PaddedVector part_;
+  std::vector<Index> pivot_;
+  Index rows_ = 0, columns_ = 0, rank_ = 0;
+};
+
+}  // namespace hurcules
