@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hurcules/solver/tolerances.hpp"
 
@@ -32,8 +33,9 @@ void ActiveSet::start(const RowTable& rows, LevelProblem& problem, Candidates& c
   relative_ = tolerance::kBroken * x_scale;
   absolute_ = tolerance::kBrokenTarget * problem.target_size();
   count_ = rows.candidates(problem.level() + 1);
-  std::copy_n(centre, rows.stride(), x_.data());
+  centre_ = centre;
   ignored_.clear();
+  from_above_ = true;
   set_.start(rows, problem, candidates, x_free_.data());
 }
 
@@ -41,7 +43,6 @@ void ActiveSet::restart(double rho, const double* centre) {
   restore_ignored();
   problem_->solve_free(rho, centre, x_free_.data());
   absolute_ = tolerance::kBrokenTarget * problem_->target_size();
-  std::copy_n(centre, rows_->stride(), x_.data());
   set_.unfactor();
 }
 
@@ -52,7 +53,8 @@ void ActiveSet::start_smallest(const RowTable& rows, LevelProblem& problem, Cand
   problem.project(target_.data(), rest_.data());
   for (Index j = 0; j < rows.stride(); ++j) rest_[j] = x[j] - rest_[j];
   start(rows, problem, candidates, 1.0, rest_.data(), x_scale);
-  std::copy_n(x, rows.stride(), x_.data());
+  centre_ = x;
+  from_above_ = false;
   rows.values(problem.level() + 1, x, candidates.value.data());
 }
 
@@ -75,7 +77,7 @@ double ActiveSet::worst_excess(const double* value) const {
 bool ActiveSet::free_is_feasible() {
   rows_->values(problem_->level() + 1, x_free_.data(), candidates_->target.data());
   if (worst_excess(candidates_->target.data()) > 0.0) return false;
-  std::copy_n(x_free_.data(), rows_->stride(), x_.data());
+  std::swap(candidates_->value, candidates_->target);
   return true;
 }
 
@@ -92,9 +94,9 @@ void ActiveSet::solve() {
 bool ActiveSet::warm() {
   set_.factor();
   solve();
+  set_.find_multipliers();
   if (set_.most_negative() >= 0) return false;
   if (worst_excess(candidates_->target.data()) > 0.0) return false;
-  std::copy_n(target_.data(), rows_->stride(), x_.data());
   return true;
 }
 
@@ -121,21 +123,20 @@ double ActiveSet::largest_miss(double* change) const {
     const ActiveSlot& slot = set_.slots()[s];
     const Row& row = (*rows_)[slot.row];
     const double slack = problem_->has_slack(row) ? problem_->slack(row, y_.data()) : 0.0;
-    change[s] = slot.limit - (rows_->dot(slot.row, target_.data()) + slack);
+    change[s] = slot.limit - (candidates_->target[row.candidate] + slack);
     worst = std::max(worst, std::abs(change[s]));
   }
   return worst;
 }
 
 void ActiveSet::refine() {
-  double x_size = 1.0;
-  for (Index j = 0; j < rows_->stride(); ++j) x_size = std::max(x_size, std::abs(target_[j]));
+  const double x_size = std::max(1.0, kernels::chosen->largest(rows_->stride(), target_.data()));
   for (int pass = 0; pass < 2; ++pass) {
     if (largest_miss(change_.data()) <= tolerance::kMiss * x_size) break;
     set_.correct(change_.data(), y_.data());
-    problem_->step(y_.data(), x_free_.data(), target_.data());
+    evaluate();
   }
-  std::copy_n(target_.data(), rows_->stride(), x_.data());
+  std::swap(candidates_->value, candidates_->target);
 }
 
 }  // namespace hurcules

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "hurcules/solver/budget.hpp"
 #include "hurcules/solver/working_set.hpp"
 
 namespace hurcules {
@@ -11,8 +12,8 @@ namespace hurcules {
 class ActiveSet {
  public:
   void reserve(Index unknowns, Index most_rows, Index most_own);
-  // A level around `centre`, where `candidates.value` stands, regularised by rho. `x_scale` is what
-  // rounding in x is relative to.
+  // A level around `centre`, which is where the levels above ended unless only `warm` follows.
+  // `x_scale` is what rounding in x is relative to.
   void start(const RowTable& rows, LevelProblem& problem, Candidates& candidates, double rho,
              const double* centre, double x_scale);
 
@@ -26,21 +27,25 @@ class ActiveSet {
   void fix(int row, Side side);
   void clear();
 
-  // No limit is in the way of x_free: x() is the answer.
+  // No limit is in the way of x_free: it is the answer, candidates.value its values.
   [[nodiscard]] bool free_is_feasible();
   // Plans a row of the last solve's set for `warm`.
   void plan(int row, Side side) { set_.plan(row, side); }
   // factors the planned rows at once; true when they are the working set
   bool warm();
   // Primal, from the centre, which no limit forbids: feasible all along, monotone. False when
-  // `most_changes` are used up; x() is then the best point so far.
-  bool primal(int& changes, int most_changes);
+  // `most_changes`, or the budget, are used up; x_feasible() is then the best point so far.
+  bool primal(Budget& budget, int most_changes);
   // Dual (Goldfarb-Idnani) from the present set; `raised` tells that the tolerance had to grow.
-  bool dual(int& changes, int most_changes, bool& raised);
-  // brings the held rows onto their limits where rounding left them off
+  // False when the budget is used up.
+  bool dual(Budget& budget, bool& raised);
+  // brings the held rows onto their limits where rounding left them off: x() and candidates.value
   void refine();
 
-  [[nodiscard]] const double* x() const { return x_.data(); }
+  // the optimum without limits; that of the working set; the best point of an interrupted primal
+  [[nodiscard]] const double* x_free() const { return x_free_.data(); }
+  [[nodiscard]] const double* x() const { return target_.data(); }
+  [[nodiscard]] const double* x_feasible() const { return x_.data(); }
   [[nodiscard]] const std::vector<ActiveSlot>& slots() const { return set_.slots(); }
 
  private:
@@ -54,11 +59,11 @@ class ActiveSet {
   [[nodiscard]] bool lost(const Row& row) const;
   void ignore(const Row& row);
   void restore_ignored();
-  void drop_negative(int& changes);
+  bool drop_negative(Budget& budget);
   // the row most broken at the target relative to its tolerance, or -1
   [[nodiscard]] int most_broken(double slack, Side& side) const;
   // raises the multiplier of a broken row until it holds; rows whose multipliers vanish leave
-  bool raise(int row, Side side, int& changes, int most_changes);
+  bool raise(int row, Side side, Budget& budget);
   [[nodiscard]] double largest_miss(double* change) const;
 
   struct Ignored {
@@ -66,11 +71,13 @@ class ActiveSet {
     double lower, upper;
   };
 
+  const double* centre_ = nullptr;
   const RowTable* rows_ = nullptr;
   LevelProblem* problem_ = nullptr;
   Candidates* candidates_ = nullptr;
   WorkingSet set_;
-  Index count_ = 0;  // of candidates that may count here
+  bool from_above_ = true;                  // the primal starts where the levels above ended
+  Index count_ = 0;                         // of candidates that may count here
   double relative_ = 0.0, absolute_ = 0.0;  // a limit is broken beyond relative |a| + absolute
   PaddedVector x_, x_free_, target_, y_, rest_, r_, change_;
   std::vector<Ignored> ignored_;

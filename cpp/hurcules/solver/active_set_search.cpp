@@ -19,17 +19,21 @@ void ActiveSet::hold_violated() {
   for (int i = rows_->begin(level); i < rows_->begin(level + 1); ++i) {
     const Row& row = (*rows_)[i];
     if (row.equality || row.norm == 0.0) continue;
-    const double allowed = relative_ * row.norm + absolute_, value = candidates_->value[row.candidate];
+    const double allowed = relative_ * row.norm + absolute_,
+                 value = candidates_->value[row.candidate];
     if (value > row.upper + allowed) set_.plan(i, Side::Upper);
     if (value < row.lower - allowed) set_.plan(i, Side::Lower);
   }
   set_.factor();
 }
 
-bool ActiveSet::primal(int& changes, int most_changes) {
+bool ActiveSet::primal(Budget& budget, int most_changes) {
+  std::copy_n(centre_, rows_->stride(), x_.data());
+  if (from_above_) std::copy_n(candidates_->above.data(), count_, candidates_->value.data());
   if (problem_->has_slacks()) hold_violated();
   double *value = candidates_->value.data(), *target = candidates_->target.data();
-  while (most_changes-- > 0) {
+  const int end = std::min(budget.most, budget.used + most_changes);
+  while (true) {
     // where the working set wants to go, and how far it can
     solve();
     const kernels::Blocking blocking = kernels::chosen->first_blocking(
@@ -40,32 +44,36 @@ bool ActiveSet::primal(int& changes, int most_changes) {
         ignore((*rows_)[row]);
         continue;
       }
+      if (budget.used >= end) return false;
       const double way = blocking.way;
       for (Index j = 0; j < rows_->stride(); ++j) x_[j] += way * (target_[j] - x_[j]);
       for (Index c = 0; c < count_; ++c) value[c] += way * (target[c] - value[c]);
       const bool up = target[blocking.candidate] > candidates_->upper(blocking.candidate);
-      ++changes;
+      ++budget.used;
       // a row that depends on the set cannot stop a move inside it: rounding
       if (!set_.add(row, up ? Side::Upper : Side::Lower)) ignore((*rows_)[row]);
       continue;
     }
     std::copy_n(target_.data(), rows_->stride(), x_.data());
     std::copy_n(target, count_, value);
+    set_.find_multipliers();
     const Index slot = set_.most_negative();
     if (slot < 0) return true;
+    if (budget.used >= end) return false;
     set_.drop(slot);
     restore_ignored();
-    ++changes;
+    ++budget.used;
   }
-  return false;
 }
 
-void ActiveSet::drop_negative(int& changes) {
+bool ActiveSet::drop_negative(Budget& budget) {
   for (Index slot = set_.most_negative(); slot >= 0; slot = set_.most_negative()) {
+    if (budget.spent()) return false;
     set_.drop(slot);
-    ++changes;
-    set_.solve(y_.data());
+    ++budget.used;
+    set_.find_multipliers();
   }
+  return true;
 }
 
 int ActiveSet::most_broken(double slack, Side& side) const {
@@ -85,12 +93,12 @@ int ActiveSet::most_broken(double slack, Side& side) const {
   return found;
 }
 
-bool ActiveSet::raise(int row, Side side, int& changes, int most_changes) {
+bool ActiveSet::raise(int row, Side side, Budget& budget) {
   const double sign = static_cast<double>(side);
   const Index c = (*rows_)[row].candidate;
   const double limit = side == Side::Upper ? candidates_->upper(c) : candidates_->lower(c);
   double broken = sign * (candidates_->target[c] - limit);
-  while (most_changes-- > 0) {
+  while (!budget.spent()) {
     double norm2 = 0.0;
     const double left = set_.explain(row, side, rest_.data(), r_.data(), norm2);
     const bool dependent = left <= tolerance::kDependent * tolerance::kDependent * norm2;
@@ -113,7 +121,7 @@ bool ActiveSet::raise(int row, Side side, int& changes, int most_changes) {
     }
     for (Index i = 0; i < set_.size(); ++i) slots[i].multiplier -= step * r_[i];
     if (!dependent) broken -= step * left;
-    ++changes;
+    ++budget.used;
     if (full <= partial) {
       if (!set_.add(row, side)) ignore((*rows_)[row]);
       return true;
@@ -123,38 +131,34 @@ bool ActiveSet::raise(int row, Side side, int& changes, int most_changes) {
   return false;
 }
 
-bool ActiveSet::dual(int& changes, int most_changes, bool& raised) {
-  const int before = changes;
-  set_.solve(y_.data());
-  drop_negative(changes);
+bool ActiveSet::dual(Budget& budget, bool& raised) {
+  const int before = budget.used;
+  set_.find_multipliers();
+  if (!drop_negative(budget)) return false;
   double slack = 1.0;
   const int dimension = static_cast<int>(problem_->dimension());
   int next_raise = 2 * dimension + 30;
-  while (changes - before < most_changes) {
+  while (true) {
     // the ladder: a tolerance that grows tenfold, so that rounding cannot keep two rows swapping
     // for ever
-    if (changes - before > next_raise) {
+    if (budget.used - before > next_raise) {
       slack *= 10.0;
       next_raise += dimension / 2 + 1;
       raised = true;
     }
-    evaluate();
+    solve();
     Side side = Side::Upper;
     const int row = most_broken(slack, side);
-    if (row < 0) {
-      std::copy_n(target_.data(), rows_->stride(), x_.data());
-      return true;
-    }
+    if (row < 0) return true;
     if (lost((*rows_)[row])) {
       ignore((*rows_)[row]);
       continue;
     }
-    if (!raise(row, side, changes, most_changes)) return false;
-    set_.solve(y_.data());
+    if (!raise(row, side, budget)) return false;
+    set_.find_multipliers();
     // rounding may leave a multiplier below zero after a swap
-    drop_negative(changes);
+    if (!drop_negative(budget)) return false;
   }
-  return false;
 }
 
 }  // namespace hurcules

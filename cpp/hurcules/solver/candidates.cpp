@@ -1,6 +1,7 @@
 #include "hurcules/solver/candidates.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace hurcules {
 
@@ -11,17 +12,18 @@ constexpr double kAbsent = std::numeric_limits<double>::infinity();
 }  // namespace
 
 void Candidates::reserve(Index most) {
-  for (PaddedVector* v : {&value, &target, &lower_, &upper_}) v->reserve(most + 8);
+  for (PaddedVector* v : {&above, &value, &target, &lower_, &upper_}) v->reserve(most + 8);
 }
 
 void Candidates::start(const RowTable& rows) {
   const Index count = rows.candidates(rows.levels());
   std::fill_n(lower_.data(), count, -kAbsent);
   std::fill_n(upper_.data(), count, kAbsent);
+  for (PaddedVector* v : {&above, &value, &target}) std::fill_n(v->data(), count, 0.0);
 }
 
 void Candidates::open(const RowTable& rows, int level, const double* x) {
-  rows.values(level + 1, x, value.data());
+  rows.own_values(level, x, above.data());
   const auto ask = [&](Index first, Index count) {
     std::copy_n(rows.asked_lower() + first, count, lower_.data() + first);
     std::copy_n(rows.asked_upper() + first, count, upper_.data() + first);
@@ -33,8 +35,7 @@ void Candidates::open(const RowTable& rows, int level, const double* x) {
   ask(first, rows.inequalities(level + 1) - rows.inequalities(level));
 }
 
-void Candidates::close(const RowTable& rows, int level, const double* x) {
-  rows.values(level + 1, x, value.data());
+void Candidates::close(const RowTable& rows, int level) {
   const auto widen = [&](Index first, Index count) {
     kernels::chosen->widen(count, value.data() + first, rows.asked_lower() + first,
                            rows.asked_upper() + first, lower_.data() + first,
@@ -49,6 +50,7 @@ void Candidates::close(const RowTable& rows, int level, const double* x) {
   for (Index c = first + rows.inequalities(level + 1); c < rows.candidates(level + 1); ++c) {
     set(c, -kAbsent, kAbsent);
   }
+  std::swap(above, value);
 }
 
 }  // namespace hurcules

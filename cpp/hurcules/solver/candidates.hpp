@@ -14,10 +14,11 @@ class Candidates {
   void reserve(Index most);
   // before the first level: nothing is limited
   void start(const RowTable& rows);
-  // the rows of `level` count from here on, as asked for; `x` gives all values
+  // the rows of `level` count from here on, as asked for; `x`, where the levels above ended, gives
+  // their values
   void open(const RowTable& rows, int level, const double* x);
-  // the level is solved at `x`: its rows and those above may not get worse
-  void close(const RowTable& rows, int level, const double* x);
+  // the level is solved, with `value` at its answer: its rows and those above may not get worse
+  void close(const RowTable& rows, int level);
 
   [[nodiscard]] kernels::LimitArrays limits(const RowTable& rows) const {
     return {lower_.data(), upper_.data(), rows.norms()};
@@ -29,6 +30,7 @@ class Candidates {
     upper_[c] = upper;
   }
 
+  PaddedVector above;   // values where the levels above ended
   PaddedVector value;   // at the point of interest
   PaddedVector target;  // where a move wants to take them
 

@@ -12,21 +12,17 @@ void Chain::reserve(Index unknowns, Index rows, Index levels) {
   transposed_.reserve(unknowns, unknowns);
   transposed_.shape(unknowns);
   for (PaddedVector* v : {&part_, &rest_}) v->reserve(padded(unknowns) + 4);
-  norm2_.reserve(rows);
   rank_.reserve(levels + 1);
 }
 
 void Chain::build(const RowTable& rows) {
   complete_ = false;
   factor_.start(rows.dense(), rows.unknowns());
-  for (int d = 0; d < rows.dense(); ++d) {
-    std::copy_n(rows.dense_row(d), rows.stride(), factor_.row(d));
-    const double norm = rows[rows.row_of_dense(d)].norm;
-    norm2_[d] = norm * norm;
-  }
+  std::copy_n(rows.dense_row(0), rows.dense() * rows.stride(), factor_.row(0));
   rank_.assign(1, 0);
   for (int k = 0; k < rows.levels(); ++k) {
-    factor_.run(rows.equalities(k), rows.equalities(k + 1), norm2_.data(), tolerance::kRank);
+    factor_.run(rows.equalities(k), rows.equalities(k + 1), rows.dense_norms2(), tolerance::kRank);
+    factor_.clear_unknown(rows.equalities(k), rows.equalities(k + 1));
     rank_.push_back(factor_.rank());
   }
 }

@@ -43,7 +43,7 @@ class Chain {
 
   OrthogonalFactor factor_;
   PaddedRows transposed_;  // (n, n): row b has coordinate b of every direction
-  PaddedVector norm2_, part_, rest_;
+  PaddedVector part_, rest_;
   std::vector<Index> rank_;
   bool complete_ = false;
 };

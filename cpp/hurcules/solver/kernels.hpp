@@ -21,6 +21,18 @@ struct LimitArrays {
   const double* norm;
 };
 
+// Rows on their way to orthonormal directions (orthogonal_factor.hpp).
+struct Directions {
+  double* rest;         // what is left of each row
+  double* Q;            // unit directions so far
+  double* L;            // coordinates of the rows
+  const double* norm2;  // squared norms of the rows
+  Size* pivot;          // row of each direction
+  Size rows, columns, stride;
+  Size rank;     // directions so far
+  double* side;  // b of  L g = b, which becomes g; or null
+};
+
 // All lengths `size` are multiples of four. Functions on `count` rows take rows `stride` apart.
 struct Table {
   const char* name;
@@ -33,11 +45,18 @@ struct Table {
   void (*dots)(const double* rows, Size count, Size stride, const double* x, double* out);
   // y += sum_i s[i] row i
   void (*axpys)(const double* rows, Size count, Size stride, const double* s, double* y);
-  // One step of Gram-Schmidt: coordinates[i * gap] = scale (pivot . row i), and the row loses its
-  // part along the pivot: row i -= scale^2 (pivot . row i) pivot. Takes four rows at a time: up to
-  // three rows behind the last are read and written.
+  // One step of Gram-Schmidt: coordinates[i * stride] = scale (pivot . row i), and the row loses
+  // its part along the pivot: row i -= scale^2 (pivot . row i) pivot. Takes four rows at a time: up
+  // to three rows behind the last are read and written.
   void (*eliminate)(const double* pivot, double scale, double* rows, Size count, Size stride,
-                    double* coordinates, Size gap);
+                    double* coordinates);
+  // Gram-Schmidt over rows [first, end) as long as more than `clean` of the squared norm of the
+  // next row is left and directions are missing: the row at which it stopped
+  Size (*take_directions)(Directions& d, Size first, Size end, double clean);
+  // out[i] = |row i|^2
+  void (*norms2)(const double* rows, Size count, Size stride, double* out);
+  // the largest |x|
+  double (*largest)(Size size, const double* x);
   // the largest  value - upper  or  lower - value,  less relative * norm + absolute
   double (*worst_excess)(Size size, const double* value, LimitArrays limits, double relative,
                          double absolute);

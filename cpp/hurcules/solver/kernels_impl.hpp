@@ -35,9 +35,12 @@ inline double sum(Pack v) {
 // four sums at once
 inline void sums(Pack a, Pack b, Pack c, Pack d, double* out) {
 #if HURCULES_KERNEL_WIDTH == 4
-  const Pack ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Pack cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  store(out, __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
+  const Pack ab =
+      __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Pack cd =
+      __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  store(out,
+        __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
 #else
   store(out, __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3));
   store(out + 2, __builtin_shufflevector(c, d, 0, 2) + __builtin_shufflevector(c, d, 1, 3));
@@ -84,31 +87,47 @@ inline void four_dots(const double* rows, Size stride, const double* x, double* 
 void dots(const double* rows, Size count, Size stride, const double* x, double* out) {
   Size i = 0;
   for (; i + 4 <= count; i += 4) four_dots(rows + i * stride, stride, x, out + i);
-  for (; i < count; ++i) out[i] = dot(stride, rows + i * stride, x);
+  if (i == count) return;
+  double last[4];
+  four_dots(rows + i * stride, stride, x, last);
+  for (Size l = 0; i < count; ++i, ++l) out[i] = last[l];
 }
 
 void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
   Size i = 0;
   for (; i + 4 <= count; i += 4) {
     const double* r = rows + i * stride;
-    const Pack s0 = spread(s[i]), s1 = spread(s[i + 1]), s2 = spread(s[i + 2]), s3 = spread(s[i + 3]);
+    const Pack s0 = spread(s[i]), s1 = spread(s[i + 1]), s2 = spread(s[i + 2]),
+               s3 = spread(s[i + 3]);
     for (Size j = 0; j < stride; j += kWidth) {
       const Pack left = s0 * load(r + j) + s1 * load(r + stride + j);
       const Pack right = s2 * load(r + 2 * stride + j) + s3 * load(r + 3 * stride + j);
       store(y + j, load(y + j) + (left + right));
     }
   }
-  for (; i < count; ++i) axpy(stride, s[i], rows + i * stride, y);
+  for (; i + 2 <= count; i += 2) {
+    const double* r = rows + i * stride;
+    const Pack s0 = spread(s[i]), s1 = spread(s[i + 1]);
+    for (Size j = 0; j < stride; j += kWidth) {
+      store(y + j, load(y + j) + (s0 * load(r + j) + s1 * load(r + stride + j)));
+    }
+  }
+  if (i < count) axpy(stride, s[i], rows + i * stride, y);
 }
 
-void eliminate(const double* pivot, double scale, double* rows, Size count, Size stride,
-               double* coordinates, Size gap) {
+// with_side: side[i] -= part of row i times `value`, too
+template <bool with_side>
+inline void eliminate_rows(const double* pivot, double scale, double* rows, Size count, Size stride,
+                           double* coordinates, double* side, double value) {
   for (Size i = 0; i < count; i += 4) {
     double* r = rows + i * stride;
     double part[4];
     four_dots(r, stride, pivot, part);
     for (int l = 0; l < 4; ++l) part[l] *= scale;
-    for (int l = 0; l < 4; ++l) coordinates[(i + l) * gap] = part[l];
+    for (int l = 0; l < 4; ++l) coordinates[(i + l) * stride] = part[l];
+    if constexpr (with_side) {
+      for (int l = 0; l < 4; ++l) side[i + l] -= value * part[l];
+    }
     const Pack s0 = spread(scale * part[0]), s1 = spread(scale * part[1]),
                s2 = spread(scale * part[2]), s3 = spread(scale * part[3]);
     for (Size j = 0; j < stride; j += kWidth) {
@@ -119,6 +138,68 @@ void eliminate(const double* pivot, double scale, double* rows, Size count, Size
       store(r + 3 * stride + j, load(r + 3 * stride + j) - s3 * v);
     }
   }
+}
+
+void eliminate(const double* pivot, double scale, double* rows, Size count, Size stride,
+               double* coordinates) {
+  eliminate_rows<false>(pivot, scale, rows, count, stride, coordinates, nullptr, 0.0);
+}
+
+Size take_directions(Directions& d, Size first, Size end, double clean) {
+  for (Size i = first; i < end; ++i) {
+    const double* v = d.rest + i * d.stride;
+    const double left = dot(d.stride, v, v);
+    if (d.rank == d.columns || !(left > clean * d.norm2[i])) return i;
+    const double length = __builtin_sqrt(left), scale = 1.0 / length;
+    double* q = d.Q + d.rank * d.stride;
+    double* l = d.L + i * d.stride + d.rank;
+    for (Size j = 0; j < d.stride; j += kWidth) store(q + j, scale * load(v + j));
+    *l = length;
+    d.pivot[d.rank++] = i;
+    double* rows = d.rest + (i + 1) * d.stride;
+    if (d.side) {
+      // the side column is met row by row, as the rows are
+      d.side[i] *= scale;
+      eliminate_rows<true>(v, scale, rows, d.rows - i - 1, d.stride, l + d.stride, d.side + i + 1,
+                           d.side[i]);
+    } else {
+      eliminate(v, scale, rows, d.rows - i - 1, d.stride, l + d.stride);
+    }
+  }
+  return end;
+}
+
+void norms2(const double* rows, Size count, Size stride, double* out) {
+  Size i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const double* r = rows + i * stride;
+    Pack a = {}, b = {}, c = {}, d = {};
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack p = load(r + j), q = load(r + stride + j);
+      const Pack s = load(r + 2 * stride + j), t = load(r + 3 * stride + j);
+      a += p * p;
+      b += q * q;
+      c += s * s;
+      d += t * t;
+    }
+    sums(a, b, c, d, out + i);
+  }
+  for (; i < count; ++i) out[i] = dot(stride, rows + i * stride, rows + i * stride);
+}
+
+// NaN, where there is one
+double largest(Size size, const double* x) {
+  Pack high = {}, low = {}, bad = {};
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack v = load(x + j);
+    bad += v - v;
+    high = v > high ? v : high;
+    low = v < low ? v : low;
+  }
+  high = high > -low ? high : -low;
+  double result = high[0];
+  for (int l = 1; l < kWidth; ++l) result = high[l] > result ? high[l] : result;
+  return result + sum(bad);
 }
 
 double worst_excess(Size size, const double* value, LimitArrays limits, double relative,
@@ -191,8 +272,9 @@ void widen(Size size, const double* value, const double* asked_lower, const doub
   }
 }
 
-constexpr Table kTable = {kName,     dot,         axpy,         rotate,         dots,
-                          axpys,     eliminate,   worst_excess, first_blocking, worsened, widen};
+constexpr Table kTable = {
+    kName,           dot,    axpy,    rotate,       dots,           axpys,    eliminate,
+    take_directions, norms2, largest, worst_excess, first_blocking, worsened, widen};
 
 }  // namespace
 }  // namespace hurcules::kernels

@@ -17,10 +17,13 @@ constexpr double kMostCondition = 100.0;
 }  // namespace
 
 void LevelProblem::reserve(Index unknowns, Index rows, Index most_own) {
-  const Index stacked = std::min(rows, most_own) + std::min(unknowns, most_own);
-  if (R_.rows() < stacked) R_.resize(stacked, std::min(unknowns, most_own) + 1);
+  const Index own = std::min(unknowns, most_own);
+  if (stacked_.rows() < rows + own || stacked_.cols() < own + 1) {
+    stacked_.resize(rows + own, own + 1);
+  }
+  R_.reserve(own * own);
   for (PaddedVector* v : {&inverse_, &c_, &t_}) v->reserve(padded(unknowns) + 4);
-  r_.reserve(rows + 4);
+  for (PaddedVector* v : {&r_, &r_above_}) v->reserve(rows + 4);
 }
 
 void LevelProblem::start(const RowTable& rows, const Chain& chain, int level, Index first,
@@ -32,26 +35,29 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level, In
   own_ = own;
   free_ = chain.unknowns() - first_;
   equalities_ = slacks_ = 0;
+  x_above_ = nullptr;
 }
 
 void LevelProblem::start_smallest(const RowTable& rows, const Chain& chain, int level) {
   start(rows, chain, level, chain.rank_before(level + 1), 0);
 }
 
-void LevelProblem::start(const RowTable& rows, const Chain& chain, int level) {
+void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
+                         const double* x_above) {
   const Index first = chain.rank_before(level);
   start(rows, chain, level, first, chain.rank_before(level + 1) - first);
   equalities_ = rows.equalities(level + 1) - rows.equalities(level);
   slacks_ = rows.begin(level + 1) - rows.begin(level) - equalities_;
   own_norm_ = 0.0;
-  for (int i = rows.begin(level); i < rows.begin(level + 1); ++i) {
+  for (Index i = 0; i < equalities_; ++i) {
+    own_norm_ = std::max(own_norm_, rows.dense_norms()[rows.equalities(level) + i]);
+  }
+  for (int i = rows.begin(level); slacks_ > 0 && i < rows.begin(level + 1); ++i) {
     own_norm_ = std::max(own_norm_, rows[i].norm);
   }
-  largest_ = 0.0;
-  for (Index i = 0; i < equalities_; ++i) {
-    const double* e = chain.equality_coordinates(rows.equalities(level) + i) + first_;
-    for (Index j = 0; j < own_; ++j) largest_ = std::max(largest_, std::abs(e[j]));
-  }
+  find_residual(x_above);
+  std::copy_n(r_.data(), equalities_, r_above_.data());
+  x_above_ = x_above;
 }
 
 double LevelProblem::least_settling(double largest_multiplier, double x_scale) const {
@@ -59,92 +65,110 @@ double LevelProblem::least_settling(double largest_multiplier, double x_scale) c
                   tolerance::kNoForce * own_norm_ * own_norm_ * x_scale);
 }
 
-void LevelProblem::residual(const double* x) {
+void LevelProblem::find_residual(const double* x) {
   const int first = rows_->equalities(level_);
   kernels::chosen->dots(rows_->dense_row(first), equalities_, rows_->stride(), x, r_.data());
-  for (Index i = 0; i < equalities_; ++i) {
-    r_[i] = (*rows_)[rows_->row_of_dense(first + static_cast<int>(i))].lower - r_[i];
-  }
+  for (Index i = 0; i < equalities_; ++i) r_[i] = rows_->targets()[first + i] - r_[i];
 }
 
-double LevelProblem::relative_residual(const double* x) {
-  residual(x);
-  double x_size = 1.0, worst = 0.0;
-  for (Index j = 0; j < rows_->stride(); ++j) x_size = std::max(x_size, std::abs(x[j]));
+bool LevelProblem::equalities_met(double x_scale) const {
   const int first = rows_->equalities(level_);
   for (Index i = 0; i < equalities_; ++i) {
-    const Row& row = (*rows_)[rows_->row_of_dense(first + static_cast<int>(i))];
-    const double scale = row.norm * x_size + std::abs(row.lower);
-    if (r_[i] != 0.0) worst = std::max(worst, std::abs(r_[i]) / scale);
+    const double scale =
+        rows_->dense_norms()[first + i] * x_scale + std::abs(rows_->targets()[first + i]);
+    if (std::abs(r_above_[i]) > tolerance::kZeroResidual * scale) return false;
   }
-  return worst;
+  return true;
+}
+
+double LevelProblem::largest_coordinate() const {
+  double largest = 0.0;
+  for (Index i = 0; i < equalities_; ++i) {
+    const double* e = own_row(i);
+    for (Index j = 0; j < own_; ++j) largest = std::max(largest, std::abs(e[j]));
+  }
+  return largest;
 }
 
 void LevelProblem::factor_by_cholesky() {
-  for (Index j = 0; j < own_; ++j) {
-    c_[j] = 0.0;
-    for (Index l = j; l < own_; ++l) R_(j, l) = j == l ? rho_ * rho_ : 0.0;
-  }
+  double *R = R_.data(), *c = c_.data();
+  const Index q = own_;
+  std::fill_n(R, q * q, 0.0);
+  std::fill_n(c, q, 0.0);
+  for (Index j = 0; j < q; ++j) R[j * q + j] = rho_ * rho_;
   for (Index i = 0; i < equalities_; ++i) {
-    const double* e =
-        chain_->equality_coordinates(rows_->equalities(level_) + i) + first_;
-    for (Index j = 0; j < own_; ++j) {
-      c_[j] += e[j] * r_[i];
-      for (Index l = j; l < own_; ++l) R_(j, l) += e[j] * e[l];
+    const double* e = own_row(i);
+    const double r = r_[i];
+    for (Index j = 0; j < q; ++j) {
+      c[j] += e[j] * r;
+      for (Index l = j; l < q; ++l) R[j * q + l] += e[j] * e[l];
     }
   }
-  for (Index j = 0; j < own_; ++j) {
-    const double root = std::sqrt(R_(j, j));
-    inverse_[j] = 1.0 / root;
-    R_(j, j) = root;
-    for (Index l = j + 1; l < own_; ++l) R_(j, l) *= inverse_[j];
-    for (Index l = j + 1; l < own_; ++l) {
-      for (Index h = l; h < own_; ++h) R_(l, h) -= R_(j, l) * R_(j, h);
-    }
+  for (Index j = 0; j < q; ++j) {
+    double* row = R + j * q;
+    const double root = std::sqrt(row[j]), inverse = 1.0 / root;
+    row[j] = root;
+    inverse_[j] = inverse;
     // R' c = Lk' r, row by row
-    c_[j] *= inverse_[j];
-    for (Index l = j + 1; l < own_; ++l) c_[l] -= R_(j, l) * c_[j];
+    c[j] *= inverse;
+    for (Index l = j + 1; l < q; ++l) {
+      row[l] *= inverse;
+      c[l] -= row[l] * c[j];
+    }
+    for (Index l = j + 1; l < q; ++l) {
+      for (Index h = l; h < q; ++h) R[l * q + h] -= row[l] * row[h];
+    }
   }
 }
 
 void LevelProblem::factor_by_householder() {
   Index count = 0;
   for (; count < equalities_; ++count) {
-    const double* e =
-        chain_->equality_coordinates(rows_->equalities(level_) + count) + first_;
-    for (Index j = 0; j < own_; ++j) R_(count, j) = e[j];
-    R_(count, own_) = r_[count];
+    for (Index j = 0; j < own_; ++j) stacked_(count, j) = own_row(count)[j];
+    stacked_(count, own_) = r_[count];
   }
   if (rho_ > 0.0) {
     for (Index j = 0; j < own_; ++j, ++count) {
-      R_.row(count).head(own_ + 1).setZero();
-      R_(count, j) = rho_;
+      stacked_.row(count).head(own_ + 1).setZero();
+      stacked_(count, j) = rho_;
     }
   }
-  triangularize(R_, count, own_);
+  triangularize(stacked_, count, own_);
   for (Index j = 0; j < own_; ++j) {
-    c_[j] = R_(j, own_);
-    inverse_[j] = 1.0 / R_(j, j);
+    for (Index l = j; l < own_; ++l) R_[j * own_ + l] = stacked_(j, l);
+    c_[j] = stacked_(j, own_);
+    inverse_[j] = 1.0 / stacked_(j, j);
+  }
+}
+
+void LevelProblem::solve_triangular(double scale, const double* b) {
+  const double* R = R_.data();
+  double* t = t_.data();
+  for (Index j = own_ - 1; j >= 0; --j) {
+    double sum = scale * b[j];
+    for (Index l = j + 1; l < own_; ++l) sum -= R[j * own_ + l] * t[l];
+    t[j] = sum * inverse_[j];
   }
 }
 
 void LevelProblem::solve_free(double rho, const double* centre, double* x_free) {
   rho_ = rho;
-  residual(centre);
-  if (rho > 0.0 && largest_ < kMostCondition * rho) {
+  target_size_ = 0.0;
+  std::copy_n(centre, rows_->stride(), x_free);
+  if (own_ == 0) return;
+  if (centre == x_above_) {
+    std::copy_n(r_above_.data(), equalities_, r_.data());
+  } else {
+    find_residual(centre);
+  }
+  if (rho > 0.0 && largest_coordinate() < kMostCondition * rho) {
     factor_by_cholesky();
   } else {
     factor_by_householder();
   }
-  target_size_ = 0.0;
-  for (Index j = own_ - 1; j >= 0; --j) {
-    target_size_ = std::max(target_size_, std::abs(c_[j]));
-    double sum = c_[j];
-    for (Index l = j + 1; l < own_; ++l) sum -= R_(j, l) * t_[l];
-    t_[j] = sum * inverse_[j];
-  }
+  for (Index j = 0; j < own_; ++j) target_size_ = std::max(target_size_, std::abs(c_[j]));
   if (rho > 0.0) target_size_ /= rho;
-  std::copy_n(centre, rows_->stride(), x_free);
+  solve_triangular(1.0, c_.data());
   kernels::chosen->axpys(chain_->direction(first_), own_, rows_->stride(), t_.data(), x_free);
 }
 
@@ -153,19 +177,19 @@ Index LevelProblem::slack_of(const Row& row) const {
   return row.dense - rows_->equalities() - rows_->inequalities(level_);
 }
 
-double LevelProblem::image(const Row& row, double* m) const {
+void LevelProblem::image(const Row& row, double sign, double* m) const {
   const double* e = chain_->coordinates(row) + first_;
-  const Index size = padded(dimension());
+  const double* R = R_.data();
   // rho R^-T e_1
+  const double scale = sign * rho_;
   for (Index j = 0; j < own_; ++j) {
-    double sum = rho_ * e[j];
-    for (Index l = 0; l < j; ++l) sum -= R_(l, j) * m[l];
+    double sum = scale * e[j];
+    for (Index l = 0; l < j; ++l) sum -= R[l * own_ + j] * m[l];
     m[j] = sum * inverse_[j];
   }
-  for (Index j = own_; j < free_; ++j) m[j] = e[j];
-  for (Index j = free_; j < size; ++j) m[j] = 0.0;
-  if (has_slack(row)) m[free_ + slack_of(row)] = rho_;
-  return kernels::chosen->dot(size, m, m);
+  for (Index j = own_; j < free_; ++j) m[j] = sign * e[j];
+  for (Index j = free_; j < padded(dimension()); ++j) m[j] = 0.0;
+  if (has_slack(row)) m[free_ + slack_of(row)] = scale;
 }
 
 double LevelProblem::free_part(const Row& row) const {
@@ -175,23 +199,19 @@ double LevelProblem::free_part(const Row& row) const {
   return sum;
 }
 
+void LevelProblem::step(const double* y, const double* x_free, double* x) {
+  // t_1 = rho R^-1 y_1
+  solve_triangular(rho_, y);
+  std::copy(y + own_, y + free_, t_.data() + own_);
+  std::copy_n(x_free, rows_->stride(), x);
+  kernels::chosen->axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), x);
+}
+
 void LevelProblem::project(const double* v, double* part) {
   const kernels::Table& kernel = *kernels::chosen;
   kernel.dots(chain_->direction(first_), free_, rows_->stride(), v, t_.data());
   std::fill_n(part, rows_->stride(), 0.0);
   kernel.axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), part);
-}
-
-void LevelProblem::step(const double* y, const double* x_free, double* x) {
-  // t_1 = rho R^-1 y_1
-  for (Index j = own_ - 1; j >= 0; --j) {
-    double sum = rho_ * y[j];
-    for (Index l = j + 1; l < own_; ++l) sum -= R_(j, l) * t_[l];
-    t_[j] = sum * inverse_[j];
-  }
-  for (Index j = own_; j < free_; ++j) t_[j] = y[j];
-  std::copy_n(x_free, rows_->stride(), x);
-  kernels::chosen->axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), x);
 }
 
 }  // namespace hurcules

@@ -19,8 +19,8 @@ namespace hurcules {
 class LevelProblem {
  public:
   void reserve(Index unknowns, Index rows, Index most_own);
-  // level k in the free directions of the chain
-  void start(const RowTable& rows, const Chain& chain, int level);
+  // level k in the free directions of the chain, from the answer of the levels above
+  void start(const RowTable& rows, const Chain& chain, int level, const double* x_above);
   // the same for the smallest step once level k has settled its violation: own directions are no
   // longer free, nothing has slack
   void start_smallest(const RowTable& rows, const Chain& chain, int level);
@@ -28,11 +28,10 @@ class LevelProblem {
   void solve_free(double rho, const double* centre, double* x_free);
 
   [[nodiscard]] int level() const { return level_; }
-  [[nodiscard]] Index first() const { return first_; }       // first free direction
-  [[nodiscard]] Index own() const { return own_; }           // own directions
-  [[nodiscard]] Index free() const { return free_; }         // free directions
+  [[nodiscard]] Index first() const { return first_; }               // first free direction
+  [[nodiscard]] Index own() const { return own_; }                   // own directions
+  [[nodiscard]] Index free() const { return free_; }                 // free directions
   [[nodiscard]] Index dimension() const { return free_ + slacks_; }  // of y
-  [[nodiscard]] double rho() const { return rho_; }
   [[nodiscard]] bool has_slacks() const { return slacks_ > 0; }
   [[nodiscard]] bool has_slack(const Row& row) const { return slacks_ > 0 && row.level == level_; }
   // largest part of x_free - centre in units of y: what rounding is relative to
@@ -41,11 +40,11 @@ class LevelProblem {
   [[nodiscard]] double own_norm() const { return own_norm_; }
   // the multiplier below which a limit does not settle the violation of a level with rho = 0
   [[nodiscard]] double least_settling(double largest_multiplier, double x_scale) const;
-  // largest residual of the own equality rows at x relative to |a| |x| + |b|
-  [[nodiscard]] double relative_residual(const double* x);
+  // the own equality rows are met at x_above, to rounding
+  [[nodiscard]] bool equalities_met(double x_scale) const;
 
-  // m of an inequality row, all of dimension() and zeros behind; its squared norm
-  double image(const Row& row, double* m) const;
+  // m of an inequality row times sign, all of dimension() and zeros behind
+  void image(const Row& row, double sign, double* m) const;
   // the part of a row in the free directions, squared
   [[nodiscard]] double free_part(const Row& row) const;
   // x = x_free + what y moves
@@ -58,19 +57,28 @@ class LevelProblem {
   }
 
  private:
-  [[nodiscard]] Index slack_of(const Row& row) const;
   void start(const RowTable& rows, const Chain& chain, int level, Index first, Index own);
-  void residual(const double* x);
+  [[nodiscard]] Index slack_of(const Row& row) const;
+  void find_residual(const double* x);
+  [[nodiscard]] double largest_coordinate() const;
   void factor_by_cholesky();
   void factor_by_householder();
+  // t = R^-1 b
+  void solve_triangular(double scale, const double* b);
+  // coordinates of own equality row i in the own directions
+  [[nodiscard]] const double* own_row(Index i) const {
+    return chain_->equality_coordinates(rows_->equalities(level_) + i) + first_;
+  }
 
   const RowTable* rows_ = nullptr;
   const Chain* chain_ = nullptr;
+  const double* x_above_ = nullptr;
   int level_ = 0;
   Index first_ = 0, own_ = 0, free_ = 0, slacks_ = 0, equalities_ = 0;
-  double rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0, largest_ = 0.0;
-  Matrix R_;  // (own, own) upper triangular; or the stacked block of Householder's way
-  PaddedVector inverse_, c_, t_, r_;  // 1 / diagonal; R^-T Lk' r; coefficients; residual
+  double rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0;
+  PaddedVector R_;                              // (own, own) upper triangular, rows own_ apart
+  Matrix stacked_;                              // Householder's block
+  PaddedVector inverse_, c_, t_, r_, r_above_;  // 1 / diagonal; R^-T Lk' r; coefficients; residuals
 };
 
 }  // namespace hurcules

@@ -1,4 +1,7 @@
 // The default method: the loop over the levels, and all memory that it needs (solver.md §1).
+//
+// A level has up to three ways to its answer, from the quickest to the most careful; the first
+// whose answer proves itself counts.
 #pragma once
 
 #include <vector>
@@ -34,36 +37,48 @@ class Lexicographic : public Method {
   void restore(StateReader& reader) override;
 
  private:
+  enum class Way { Warm, Cold, Careful };
+
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
   bool solve_level(const LevelView& level, int k);
-  [[nodiscard]] bool satisfied(int k);
+  [[nodiscard]] bool satisfied(int k) const;
   // simple bounds with nothing above: every coordinate by itself
-  bool solve_first_bounds(int k);
-  bool solve_regularized(double rho, int k);
-  // rho nothing or next to nothing: the settled level, or proximal steps and the smallest step
-  bool solve_unregularized(double rho, int k);
+  void solve_first_bounds(int k);
+  // without limits in the way
+  bool solve_free(double rho);
+  bool solve(Way way, double rho, int k);
+  bool solve_regularized(Way way, double rho, int k);
+  // rho nothing or small: the settled level; or proximal steps and the smallest step
+  bool solve_settled(Way way, double rho, int k);
+  bool solve_carefully(double rho, int k);
   // from the rows of the last solve, or from those that the active set holds now
   bool settle_kept(double rho, int k);
   bool settle_held(double rho, double epsilon);
   bool proximal_steps(double epsilon);
   bool smallest_step(int k);
 
-  [[nodiscard]] bool has_kept(int k) const { return kept_begin_[k] < kept_begin_[k + 1]; }
-  // to the optimal working set: from the set of the last solve when `warm`, else from the centre
-  bool find_working_set(int k, bool warm);
+  // to the optimal working set: from the set of the last solve, or from the centre
+  bool find_warm(int k);
+  bool find_cold();
   bool find_by_dual();
+  // the answer of the active set, brought onto its limits
+  void take_refined();
   // slots -> held rows, multipliers times scale; a fixed slot is Idle
   void keep_held(double scale, Role unfixed);
+  [[nodiscard]] bool has_kept(int k) const { return kept_begin_[k] < kept_begin_[k + 1]; }
 
-  void finish_level(double rho, int k);
+  // forgets what a way left behind
+  void start_way();
+  // the record of a level, and its proof: the worst residual
+  double prove(double rho, int k);
+  void lose_precision(int k);
   // where the kept rows of each level begin; none when they do not fit the present rows
   void count_kept();
   void keep_working_sets();
   void fill_solution();
   const Solution& refuse();
-  [[nodiscard]] double size(const PaddedVector& x) const;  // max |x|, at least 1
-  void take(const double* x) { std::copy_n(x, rows_.stride(), x_.data()); }
+  void take(const double* x) { std::copy_n(x, rows_.stride(), x_); }
 
   Index unknowns_;
   SolverOptions options_;
@@ -75,16 +90,20 @@ class Lexicographic : public Method {
   ActiveSet active_set_;
   SettledLevel settled_level_;
   Optimality optimality_;
-  PaddedVector x_, x_above_, centre_;
+  Budget budget_;
+  double* x_ = nullptr;              // answer of the level, in its record
+  const double* x_above_ = nullptr;  // answer of the level above, in its record; or zero_
+  PaddedVector zero_, centre_, equality_values_;
   std::vector<LevelRecord> records_;
   std::vector<HeldRow> held_;
   std::vector<KeptRow> kept_;  // of the last solve, by level
   std::vector<int> kept_begin_;
-  std::vector<char> settled_;  // (rows)
-  std::vector<char> listed_;   // (rows)
-  double x_scale_ = 1.0;       // of x_above_
-  int begin_held_ = 0, begin_norm_ = 0;
-  bool unsettled_ = false;  // the proximal steps of this level still moved at their end
+  std::vector<char> listed_;  // (rows)
+  double x_scale_ = 1.0;      // max(1, |x_above_|)
+  std::size_t begin_held_ = 0;
+  int begin_norm_ = 0;
+  bool values_known_ = false;  // candidates_.value belongs to x_
+  bool raised_ = false;        // a tolerance had to grow
   Index reserved_rows_ = 0, reserved_own_ = 0;
   std::size_t reserved_levels_ = 0;
 };

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "hurcules/solver/kernels.hpp"
-#include "hurcules/solver/tolerances.hpp"
 #include "hurcules/solver/lexicographic.hpp"
+#include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {
 
@@ -19,27 +19,25 @@ const Solution& Lexicographic::refuse() {
   solution_.status = SolverStatus::InvalidInput;
   solution_.x.setZero();
   solution_.working_set.clear();
+  solution_.changes = 0;
   for (Vector& violation : solution_.violations) violation.setZero();
   reset();
   return solution_;
 }
 
-void Lexicographic::finish_level(double rho, int k) {
+double Lexicographic::prove(double rho, int k) {
   LevelRecord& record = records_[k];
   record.rho = rho;
-  std::copy_n(x_.data(), rows_.stride(), record.x.data());
-  record.first_held = begin_held_;
-  record.held = begin_norm_ - begin_held_;
+  record.own_norm = problem_.own_norm();
+  record.first_held = static_cast<int>(begin_held_);
+  record.held = begin_norm_ - record.first_held;
   record.first_norm = begin_norm_;
   record.norm = static_cast<int>(held_.size()) - begin_norm_;
-  const double residual =
-      optimality_.residual(rows_, chain_, k, x_above_.data(), record, held_);
-  solution_.optimality = std::max(solution_.optimality, residual);
-  // steps that went on for ever may have stood still long before, but for rounding: the proof
-  // decides
-  if (unsettled_ && residual > tolerance::kProven && solution_.status == SolverStatus::Solved) {
-    solution_.status = SolverStatus::ReducedAccuracy;
-  }
+  if (!values_known_) rows_.values(k + 1, x_, candidates_.value.data());
+  values_known_ = true;
+  x_scale_ = kernels::chosen->largest(rows_.stride(), x_);
+  if (!(x_scale_ > 1.0) && x_scale_ == x_scale_) x_scale_ = 1.0;
+  return optimality_.residual(rows_, chain_, candidates_, k, x_above_, x_scale_, record, held_);
 }
 
 void Lexicographic::count_kept() {
@@ -77,10 +75,19 @@ void Lexicographic::keep_working_sets() {
 }
 
 void Lexicographic::fill_solution() {
-  solution_.x = Eigen::Map<const Vector>(x_.data(), unknowns_);
+  solution_.x = Eigen::Map<const Vector>(x_, unknowns_);
+  solution_.changes = budget_.used;
+  // the last level left the values of all candidates above, unless the solve ended early
+  if (solution_.final_levels < rows_.levels()) {
+    rows_.values(rows_.levels(), x_, candidates_.above.data());
+  }
+  kernels::chosen->dots(rows_.dense_row(0), rows_.equalities(), rows_.stride(), x_,
+                        equality_values_.data());
   for (int i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
-    solution_.violations[row.level][row.row] = rows_.violation(i, rows_.dot(i, x_.data()));
+    const double value =
+        row.equality ? equality_values_[row.dense] : candidates_.above[row.candidate];
+    solution_.violations[row.level][row.row] = rows_.violation(i, value);
   }
   solution_.working_set.clear();
   for (int k = 0; k < solution_.final_levels; ++k) {

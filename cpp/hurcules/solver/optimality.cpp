@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace hurcules {
 
@@ -15,39 +14,29 @@ double norm_of(Index size, const double* v) {
   return std::sqrt(kernels::chosen->dot(size, v, v));
 }
 
-double largest(Index size, const double* v) {
-  double result = 0.0;
-  for (Index j = 0; j < size; ++j) result = std::max(result, std::abs(v[j]));
-  return result;
-}
-
 }  // namespace
 
-void Optimality::reserve(Index unknowns, Index rows, Index levels) {
+void Optimality::reserve(Index unknowns, Index rows) {
   work_.reserve(padded(unknowns));
   violation_.reserve(rows + 4);
-  for (PaddedVector* v : {&before_, &now_}) v->reserve(rows + 4 * levels + 8);
-}
-
-void Optimality::start(const RowTable& rows) {
-  std::fill_n(now_.data(), rows.candidates(rows.levels()), 0.0);
 }
 
 // adds  sum v_i a_i  of the level's own rows to g; returns  sum |v_i| |a_i|
-double Optimality::add_own_rows(const RowTable& rows, int k, const double* x, double* g) {
+double Optimality::add_own_rows(const RowTable& rows, const Candidates& candidates, int k,
+                                const double* x, double* g) {
   const kernels::Table& kernel = *kernels::chosen;
   double scale = 0.0;
   const int first = rows.equalities(k), count = rows.equalities(k + 1) - first;
   kernel.dots(rows.dense_row(first), count, rows.stride(), x, violation_.data());
   for (int i = 0; i < count; ++i) {
-    const Row& row = rows[rows.row_of_dense(first + i)];
-    violation_[i] -= row.upper;
-    scale += std::abs(violation_[i]) * row.norm;
+    violation_[i] -= rows.targets()[first + i];
+    scale += std::abs(violation_[i]) * rows.dense_norms()[first + i];
   }
   kernel.axpys(rows.dense_row(first), count, rows.stride(), violation_.data(), g);
+  if (count == rows.begin(k + 1) - rows.begin(k)) return scale;
   for (int i = rows.begin(k); i < rows.begin(k + 1); ++i) {
     if (rows[i].equality) continue;
-    const double violation = rows.violation(i, now_[rows[i].candidate]);
+    const double violation = rows.violation(i, candidates.value[rows[i].candidate]);
     if (violation == 0.0) continue;
     rows.add_to(i, violation, g);
     scale += std::abs(violation) * rows[i].norm;
@@ -55,17 +44,16 @@ double Optimality::add_own_rows(const RowTable& rows, int k, const double* x, do
   return scale;
 }
 
-double Optimality::residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
-                            LevelRecord& record, const std::vector<HeldRow>& held) {
+double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates& candidates, int k,
+                            const double* x_above, double x_scale, LevelRecord& record,
+                            const std::vector<HeldRow>& held) {
   const double* x = record.x.data();
   double* g = record.gradient.data();
   const Index size = rows.stride();
-  const double rho2 = record.rho * record.rho, x_scale = std::max(1.0, largest(size, x));
-  std::swap(before_, now_);
-  rows.values(k + 1, x, now_.data());
+  const double rho2 = record.rho * record.rho;
   for (Index j = 0; j < size; ++j) g[j] = rho2 * (x[j] - x_above[j]);
   double scale = norm_of(size, g);
-  scale += add_own_rows(rows, k, x, g);
+  scale += add_own_rows(rows, candidates, k, x, g);
   for (int h = record.first_held; h < record.first_held + record.held; ++h) {
     if (rows[held[h].row].level == k) continue;
     rows.add_to(held[h].row, static_cast<double>(held[h].side) * held[h].multiplier, g);
@@ -74,40 +62,40 @@ double Optimality::residual(const RowTable& rows, Chain& chain, int k, const dou
   // stationarity on the free directions
   std::copy_n(g, size, work_.data());
   chain.remove_first(chain.rank_before(k), work_.data());
-  double norm = 0.0, worst = 0.0;
-  for (int i = rows.begin(k); i < rows.begin(k + 1); ++i) norm = std::max(norm, rows[i].norm);
   // what is left against the forces that balance; a level that is met has none, only the rounding
   // of its rows
-  const double least = kLeastForce * norm * norm * x_scale;
-  if (scale > 0.0) worst = norm_of(size, work_.data()) / std::max(scale, least);
-  worst = std::max(worst, worst_held(rows, k, record, held, x_scale));
-  worst = std::max(worst, worsened(rows, k, x_above, x) / x_scale);
+  const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
+  double worst = scale > 0.0 ? norm_of(size, work_.data()) / std::max(scale, least) : 0.0;
+  worst = std::max(worst, worst_held(rows, candidates, k, record, held, x_scale));
+  worst = std::max(worst, worsened(rows, candidates, k, x_above, x) / x_scale);
   return std::max(worst, norm_residual(rows, chain, k, x_above, record, held));
 }
 
 // signs and complementarity
-double Optimality::worst_held(const RowTable& rows, int k, const LevelRecord& record,
-                              const std::vector<HeldRow>& held, double x_scale) const {
+double Optimality::worst_held(const RowTable& rows, const Candidates& candidates, int k,
+                              const LevelRecord& record, const std::vector<HeldRow>& held,
+                              double x_scale) const {
   double push = 0.0, worst = 0.0;
   const int end = record.first_held + record.held;
   for (int h = record.first_held; h < end; ++h) push = std::max(push, std::abs(held[h].multiplier));
   if (push == 0.0) return 0.0;
   for (int h = record.first_held; h < end; ++h) {
-    worst = std::max(worst, -held[h].multiplier / push);
+    const double weight = held[h].multiplier / push;
+    worst = std::max(worst, -weight);
     const Row& row = rows[held[h].row];
     if (row.level == k || row.norm == 0.0) continue;
     // what a row above may reach: its limit, or where it stood when that was worse
-    const double stood = before_[row.candidate], stands = now_[row.candidate];
+    const double stood = candidates.above[row.candidate], stands = candidates.value[row.candidate];
     const double gap = held[h].side == Side::Upper ? stands - std::max(row.upper, stood)
                                                    : stands - std::min(row.lower, stood);
-    const double weight = std::min(1.0, held[h].multiplier / push);
     worst = std::max(worst, weight * std::abs(gap) / (row.norm * x_scale));
   }
   return worst;
 }
 
 // by how much a row above has got worse, relative to |a|
-double Optimality::worsened(const RowTable& rows, int k, const double* x_above, const double* x) {
+double Optimality::worsened(const RowTable& rows, const Candidates& candidates, int k,
+                            const double* x_above, const double* x) {
   const kernels::Table& kernel = *kernels::chosen;
   double worst = 0.0;
   // equality rows may not move at all
@@ -115,23 +103,28 @@ double Optimality::worsened(const RowTable& rows, int k, const double* x_above, 
   kernel.dots(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
               violation_.data());
   for (int d = 0; d < rows.equalities(k); ++d) {
-    const double norm = rows[rows.row_of_dense(d)].norm;
-    if (norm > 0.0) worst = std::max(worst, std::abs(violation_[d]) / norm);
+    const double moved = std::abs(violation_[d]), norm = rows.dense_norms()[d];
+    if (moved > worst * norm) worst = moved / norm;
   }
   const auto check = [&](Index first, Index count) {
     const kernels::LimitArrays limits = {rows.asked_lower() + first, rows.asked_upper() + first,
                                          rows.norms() + first};
-    const double excess =
-        kernel.worsened(count, before_.data() + first, now_.data() + first, limits);
+    const double excess = kernel.worsened(count, candidates.above.data() + first,
+                                          candidates.value.data() + first, limits);
     worst = std::max(worst, excess);
   };
   for (int b = 0; b < rows.bounds_blocks(); ++b) {
     if (rows.block_level(b) < k) check(b * rows.stride(), rows.stride());
   }
-  // own rows behind the last one above, up to the next four, stood where they stand
-  const Index first = rows.first_dense_candidate(), end = first + rows.inequalities(k);
-  for (Index c = end; c < rows.candidates(k); ++c) before_[c] = now_[c];
-  check(first, rows.candidates(k) - first);
+  const Index first = rows.first_dense_candidate(), above = rows.inequalities(k);
+  const Index whole = above / 4 * 4;
+  if (whole > 0) check(first, whole);
+  for (Index c = first + whole; c < first + above; ++c) {
+    const double stood = candidates.above[c], stands = candidates.value[c];
+    const double excess = std::max(stands - std::max(rows.asked_upper()[c], stood),
+                                   std::min(rows.asked_lower()[c], stood) - stands);
+    if (excess > worst * rows.norms()[c]) worst = excess / rows.norms()[c];
+  }
   return worst;
 }
 

@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "hurcules/solver/candidates.hpp"
 #include "hurcules/solver/chain.hpp"
 #include "hurcules/solver/row_table.hpp"
 #include "hurcules/solver/solver.hpp"
@@ -20,7 +21,8 @@ namespace hurcules {
 // what a solved level leaves behind
 struct LevelRecord {
   double rho = 0.0;
-  PaddedVector x;  // (n), after this level
+  double own_norm = 0.0;  // largest |a| of its rows
+  PaddedVector x;         // (n), after this level
   // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
   PaddedVector gradient;
   int first_held = 0, held = 0;  // its rows in the list of held rows
@@ -44,24 +46,26 @@ struct HeldRow {
 
 class Optimality {
  public:
-  void reserve(Index unknowns, Index rows, Index levels);
-  // before the first level
-  void start(const RowTable& rows);
-  // Worst relative residual of level k, levels in their order; fills record.gradient.
-  double residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
-                  LevelRecord& record, const std::vector<HeldRow>& held);
+  void reserve(Index unknowns, Index rows);
+  // Worst relative residual of level k, from x_above and with the values of all candidates there
+  // (above) and at record.x (value); x_scale = max(1, |x|). Fills record.gradient.
+  double residual(const RowTable& rows, Chain& chain, const Candidates& candidates, int k,
+                  const double* x_above, double x_scale, LevelRecord& record,
+                  const std::vector<HeldRow>& held);
 
  private:
-  double add_own_rows(const RowTable& rows, int k, const double* x, double* g);
-  [[nodiscard]] double worst_held(const RowTable& rows, int k, const LevelRecord& record,
-                                  const std::vector<HeldRow>& held, double x_scale) const;
-  double worsened(const RowTable& rows, int k, const double* x_above, const double* x);
+  double add_own_rows(const RowTable& rows, const Candidates& candidates, int k, const double* x,
+                      double* g);
+  [[nodiscard]] double worst_held(const RowTable& rows, const Candidates& candidates, int k,
+                                  const LevelRecord& record, const std::vector<HeldRow>& held,
+                                  double x_scale) const;
+  double worsened(const RowTable& rows, const Candidates& candidates, int k, const double* x_above,
+                  const double* x);
   double norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                        const LevelRecord& record, const std::vector<HeldRow>& held);
 
-  PaddedVector work_;         // (n)
-  PaddedVector violation_;    // (rows)
-  PaddedVector before_, now_;  // values of the candidates after the level above, and after this one
+  PaddedVector work_;       // (n)
+  PaddedVector violation_;  // (rows)
 };
 
 }  // namespace hurcules

@@ -28,7 +28,6 @@ void OrthogonalFactor::start(Index rows, Index columns) {
   rank_ = 0;
   for (PaddedRows* r : {&rest_, &Q_, &L_}) r->shape(columns);
   // what stands behind the last row is read and written four rows at a time
-  L_.set_zero(rows + 3);
   std::fill_n(rest_.row(rows), 3 * rest_.stride(), 0.0);
 }
 
@@ -49,25 +48,54 @@ double OrthogonalFactor::project(double* v, double* part, double norm2) const {
   return left;
 }
 
-void OrthogonalFactor::run(Index first, Index end, const double* norm2, double tolerance) {
-  const kernels::Table& kernel = *kernels::chosen;
-  for (Index i = first; i < end && rank_ < columns_; ++i) {
-    double *v = rest_.row(i), *l = L_.row(i);
-    double left = kernel.dot(stride(), v, v);
-    if (left < kClean * norm2[i]) {
-      double* part = part_.data() + padded(columns_);
-      left = project(v, part, left);
-      for (Index j = 0; j < rank_; ++j) l[j] += part[j];
-    }
-    if (!(left > tolerance * tolerance * norm2[i])) continue;
-    const double length = std::sqrt(left), scale = 1.0 / length;
-    l[rank_] = length;
-    double* q = Q_.row(rank_);
-    for (Index j = 0; j < stride(); ++j) q[j] = scale * v[j];
-    kernel.eliminate(v, scale, rest_.row(i + 1), rows_ - i - 1, stride(), L_.row(i + 1) + rank_,
-                     L_.stride());
-    pivot_[rank_++] = i;
+void OrthogonalFactor::run(Index first, Index end, const double* norm2, double tolerance,
+                           double* side) {
+  kernels::Directions d = {rest_.row(0), Q_.row(0), L_.row(0), norm2, pivot_.data(),
+                           rows_,        columns_,  stride(),  rank_, side};
+  Index i = first;
+  while (true) {
+    i = kernels::chosen->take_directions(d, i, end, kClean);
+    rank_ = d.rank;
+    if (i == end || rank_ == columns_) break;
+    take_cleaned(i, norm2[i], tolerance, side);
+    d.rank = rank_;
+    ++i;
   }
+}
+
+void OrthogonalFactor::clear_unknown(Index first, Index end) {
+  Index known = pivots_before(first);
+  for (Index row = first; row < end; ++row) {
+    if (known < rank_ && pivot_[known] == row) ++known;
+    for (Index j = known; j < rank_; ++j) L_.row(row)[j] = 0.0;
+  }
+}
+
+Index OrthogonalFactor::pivots_before(Index row) const {
+  Index j = rank_;
+  while (j > 0 && pivot_[j - 1] >= row) --j;
+  return j;
+}
+
+void OrthogonalFactor::take_cleaned(Index i, double norm2, double tolerance, double* side) {
+  double *v = rest_.row(i), *l = L_.row(i), *part = part_.data() + padded(columns_);
+  const double left = project(v, part, kernels::chosen->dot(stride(), v, v));
+  for (Index j = 0; j < rank_; ++j) {
+    l[j] += part[j];
+    if (side) side[i] -= part[j] * side[pivot_[j]];
+  }
+  if (!(left > tolerance * tolerance * norm2)) return;
+  const double length = std::sqrt(left), scale = 1.0 / length;
+  l[rank_] = length;
+  double* q = Q_.row(rank_);
+  for (Index j = 0; j < stride(); ++j) q[j] = scale * v[j];
+  kernels::chosen->eliminate(v, scale, rest_.row(i + 1), rows_ - i - 1, stride(),
+                             L_.row(i + 1) + rank_);
+  if (side) {
+    side[i] *= scale;
+    for (Index r = i + 1; r < rows_; ++r) side[r] -= L_.row(r)[rank_] * side[i];
+  }
+  pivot_[rank_++] = i;
 }
 
 bool OrthogonalFactor::append(double norm2, double tolerance) {
@@ -83,7 +111,7 @@ bool OrthogonalFactor::append(double norm2, double tolerance) {
   return true;
 }
 
-void OrthogonalFactor::remove(Index slot) {
+void OrthogonalFactor::remove(Index slot, double* g) {
   const kernels::Table& kernel = *kernels::chosen;
   for (Index i = slot; i + 1 < rank_; ++i) {
     // row i + 1 moves up; a rotation of columns i, i + 1 makes L lower triangular again
@@ -99,6 +127,9 @@ void OrthogonalFactor::remove(Index slot) {
       l[i + 1] = c * q - s * p;
     }
     kernel.rotate(stride(), c, s, Q_.row(i), Q_.row(i + 1));
+    const double p = g[i], q = g[i + 1];
+    g[i] = c * p + s * q;
+    g[i + 1] = c * q - s * p;
   }
   --rank_;
 }

@@ -21,13 +21,17 @@ class OrthogonalFactor {
   [[nodiscard]] double* row(Index i) { return rest_.row(i); }
   // Takes the directions of rows [first, end); later rows get their coordinates only. A row counts
   // as dependent when less than `tolerance` of its norm is left (norm2: squared norms, by row).
-  void run(Index first, Index end, const double* norm2, double tolerance);
+  // `side`: a column b that becomes g of L g = b, when no row depends on others; or null.
+  void run(Index first, Index end, const double* norm2, double tolerance, double* side = nullptr);
+  // Entries of L of directions that came after a row of [first, end) become zero; `run` leaves
+  // them as they are.
+  void clear_unknown(Index first, Index end);
 
   // Appends the row that the caller put into row(rank()), where every row so far gave a direction.
   // False, and nothing is changed, when it depends on the others.
   bool append(double norm2, double tolerance);
-  // removes a row where every row gave a direction
-  void remove(Index slot);
+  // removes a row where every row gave a direction; g of L g = b turns with it
+  void remove(Index slot, double* g);
   // v minus its parts along all directions; the parts; what is left, squared
   double project(double* v, double* part, double norm2) const;
   // L g = b and L' m = b, in place, for square L
@@ -49,9 +53,13 @@ class OrthogonalFactor {
   double* push_direction() { return Q_.row(rank_++); }
 
  private:
+  // a row that lost digits, cleaned first
+  void take_cleaned(Index i, double norm2, double tolerance, double* side);
+  [[nodiscard]] Index pivots_before(Index row) const;
+
   PaddedRows rest_, Q_, L_;
   mutable PaddedVector part_;
-  std::vector<Index> pivot_;
+  std::vector<Index> pivot_;  // kernels::Size is the same type
   Index rows_ = 0, columns_ = 0, rank_ = 0;
 };
 

@@ -33,6 +33,7 @@ void RowTable::reserve(Index unknowns, Index rows, Index levels) {
   const Index candidates = rows + 4 * levels + 8;
   row_of_candidate_.reserve(candidates);
   for (PaddedVector* v : {&asked_lower_, &asked_upper_, &norm_}) v->reserve(candidates);
+  for (PaddedVector* v : {&target_, &dense_norm_, &dense_norm2_}) v->reserve(rows + 4);
   pattern_.reserve(rows + levels);
   old_pattern_.reserve(rows + levels);
   arranged_ = false;
@@ -117,27 +118,39 @@ void RowTable::arrange(HierarchyView hierarchy) {
   arranged_ = true;
 }
 
-bool RowTable::read_numbers(HierarchyView hierarchy) {
+bool RowTable::read_limits(HierarchyView hierarchy) {
   bool good = true;
-  int i = 0;
+  Row* row = rows_.data();
   for (const LevelView& level : hierarchy) {
-    for (Index r = 0; r < level.rows(); ++r, ++i) {
-      Row& row = rows_[i];
-      row.lower = lower_of(level, r);
-      row.upper = upper_of(level, r);
-      good &= row.lower <= row.upper && row.lower < kAbsent && row.upper > -kAbsent;
-      if (!level.bounds) {
-        double* a = dense_.row(row.dense);
-        std::copy_n(level.A.data() + r * unknowns_, unknowns_, a);
-        row.norm = std::sqrt(kernels::chosen->dot(stride(), a, a));
-        good &= std::isfinite(row.norm);
+    for (Index r = 0; r < level.rows(); ++r, ++row) {
+      row->lower = lower_of(level, r);
+      row->upper = upper_of(level, r);
+      good &= level.lower[r] <= level.upper[r] && level.lower[r] < kInfinity &&
+              level.upper[r] > -kInfinity;
+      if (row->equality) {
+        target_[row->dense] = row->lower;
+      } else {
+        asked_lower_[row->candidate] = row->lower;
+        asked_upper_[row->candidate] = row->upper;
       }
-      if (row.candidate < 0) continue;
-      asked_lower_[row.candidate] = row.lower;
-      asked_upper_[row.candidate] = row.upper;
-      norm_[row.candidate] = row.norm;
+      if (!level.bounds) {
+        std::copy_n(level.A.data() + r * unknowns_, unknowns_, dense_.row(row->dense));
+      }
     }
   }
+  return good;
+}
+
+bool RowTable::read_numbers(HierarchyView hierarchy) {
+  bool good = read_limits(hierarchy);
+  kernels::chosen->norms2(dense_row(0), dense(), stride(), dense_norm2_.data());
+  for (int d = 0; d < dense(); ++d) {
+    const double norm = std::sqrt(dense_norm2_[d]);
+    good &= std::isfinite(norm);
+    dense_norm_[d] = rows_[row_of_dense_[d]].norm = norm;
+  }
+  std::copy_n(dense_norm_.data() + equalities(), inequalities(),
+              norm_.data() + first_dense_candidate());
   return good;
 }
 
@@ -169,8 +182,19 @@ void RowTable::add_to(int i, double scale, double* y) const {
 
 void RowTable::values(int level, const double* x, double* value) const {
   for (int b = 0; b < bounds_blocks(); ++b) std::copy_n(x, stride(), value + b * stride());
+  if (inequalities(level) == 0) return;
   kernels::chosen->dots(dense_row(equalities()), inequalities(level), stride(), x,
                         value + first_dense_candidate());
+}
+
+void RowTable::own_values(int level, const double* x, double* value) const {
+  for (int b = 0; b < bounds_blocks(); ++b) {
+    if (block_level(b) == level) std::copy_n(x, stride(), value + b * stride());
+  }
+  const int first = inequalities(level), count = inequalities(level + 1) - first;
+  if (count == 0) return;
+  kernels::chosen->dots(dense_row(equalities() + first), count, stride(), x,
+                        value + first_dense_candidate() + first);
 }
 
 double RowTable::violation(int i, double value) const {

@@ -52,6 +52,10 @@ class RowTable {
   [[nodiscard]] int inequalities() const { return inequalities_.back(); }
   [[nodiscard]] int dense() const { return equalities() + inequalities(); }
   [[nodiscard]] const double* dense_row(int d) const { return dense_.row(d); }
+  // by dense row: the target of an equality, |a| and |a|^2
+  [[nodiscard]] const double* targets() const { return target_.data(); }
+  [[nodiscard]] const double* dense_norms() const { return dense_norm_.data(); }
+  [[nodiscard]] const double* dense_norms2() const { return dense_norm2_.data(); }
   [[nodiscard]] Index stride() const { return dense_.stride(); }
   [[nodiscard]] int row_of_dense(int d) const { return row_of_dense_[d]; }
 
@@ -76,6 +80,7 @@ class RowTable {
   [[nodiscard]] double dot(int i, const double* x) const;        // a_i . x
   void add_to(int i, double scale, double* y) const;             // y += scale a_i
   void values(int level, const double* x, double* value) const;  // of candidates of levels < level
+  void own_values(int level, const double* x, double* value) const;  // of candidates of one level
   // signed distance of a_i . x to [lower, upper]
   [[nodiscard]] double violation(int i, double value) const;
   // the same on Eigen vectors, (n)
@@ -92,6 +97,7 @@ class RowTable {
   // places of all rows in storage and among the candidates, from the pattern
   void arrange(HierarchyView hierarchy);
   [[nodiscard]] bool read_numbers(HierarchyView hierarchy);
+  [[nodiscard]] bool read_limits(HierarchyView hierarchy);
 
   Index unknowns_ = 0;
   std::vector<Row> rows_;
@@ -99,6 +105,7 @@ class RowTable {
   std::vector<int> block_level_, row_of_dense_, row_of_candidate_;
   PaddedRows dense_;
   PaddedVector asked_lower_, asked_upper_, norm_;
+  PaddedVector target_, dense_norm_, dense_norm2_;
   std::vector<char> pattern_, old_pattern_;
   bool same_pattern_ = false, arranged_ = false;
 };

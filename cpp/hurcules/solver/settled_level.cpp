@@ -57,9 +57,9 @@ void SettledLevel::factor() {
   factor_.start(end_[kSmallest], columns);
   for (Index i = 0; i < end_[kSmallest]; ++i) {
     const Row& row = (*rows_)[all_[i].row];
-    const double* e = (row.equality ? chain_->equality_coordinates(row.dense)
-                                    : chain_->coordinates(row)) +
-                      level_->first();
+    const double* e =
+        (row.equality ? chain_->equality_coordinates(row.dense) : chain_->coordinates(row)) +
+        level_->first();
     // an equality row has no part behind its own directions
     const Index known = row.equality ? level_->own() : columns;
     double* r = factor_.row(i);
@@ -69,6 +69,7 @@ void SettledLevel::factor() {
   }
   for (const Group group : {kLimits, kOwn, kSmallest}) {
     factor_.run(begin(group), end_[group], norm2_.data(), tolerance::kRank);
+    factor_.clear_unknown(begin(group), end_[group]);
     rank_[group] = factor_.rank();
   }
 }
@@ -261,8 +262,7 @@ bool SettledLevel::solve(double rho, double x_scale, double* x, std::vector<Held
   if (!holds(x, largest)) return false;
   balance_violation(rho, x);
   const std::size_t before = held.size();
-  const bool proven =
-      rho > 0.0 ? keep_regularized(x, held) : keep(x_scale, x, held, begin_norm);
+  const bool proven = rho > 0.0 ? keep_regularized(x, held) : keep(x_scale, x, held, begin_norm);
   if (rho > 0.0) begin_norm = static_cast<int>(held.size());
   if (!proven) held.resize(before);
   return proven;

@@ -16,7 +16,7 @@ constexpr double kAbsent = std::numeric_limits<double>::infinity();
 void WorkingSet::reserve(Index rows, Index dimension) {
   factor_.reserve(std::min(rows, dimension) + 1, dimension);
   slots_.reserve(rows + 1);
-  for (PaddedVector* v : {&norm2_, &room_, &g_, &work_}) v->reserve(rows + dimension + 4);
+  for (PaddedVector* v : {&norm2_, &g_, &work_}) v->reserve(rows + dimension + 4);
 }
 
 void WorkingSet::start(const RowTable& rows, const LevelProblem& problem, Candidates& candidates,
@@ -26,7 +26,7 @@ void WorkingSet::start(const RowTable& rows, const LevelProblem& problem, Candid
   candidates_ = &candidates;
   x_free_ = x_free;
   slots_.clear();
-  factor_.start(0, problem.dimension());
+  started_ = false;
 }
 
 void WorkingSet::hold(int row, Side side) {
@@ -45,11 +45,13 @@ double WorkingSet::room(const ActiveSlot& slot) const {
 }
 
 double WorkingSet::fill_image(int row, Side side, double* m) const {
-  const double norm2 = problem_->image((*rows_)[row], m);
-  if (side == Side::Lower) {
-    for (Index j = 0; j < problem_->dimension(); ++j) m[j] = -m[j];
-  }
-  return norm2;
+  problem_->image((*rows_)[row], static_cast<double>(side), m);
+  return kernels::chosen->dot(padded(problem_->dimension()), m, m);
+}
+
+void WorkingSet::start_factor(Index rows) {
+  started_ = true;
+  factor_.start(rows, problem_->dimension());
 }
 
 void WorkingSet::plan(int row, Side side) {
@@ -57,30 +59,34 @@ void WorkingSet::plan(int row, Side side) {
   const double limit =
       side == Side::Upper ? candidates_->upper(r.candidate) : candidates_->lower(r.candidate);
   if (std::isinf(limit) || size() == problem_->dimension()) return;
-  const bool lost = problem_->free_part(r) <= tolerance::kLost * tolerance::kLost * r.norm * r.norm;
-  if (r.norm == 0.0 || (lost && !problem_->has_slack(r))) return;
   hold(row, side);
 }
 
 void WorkingSet::factor() {
   const Index count = size();
-  factor_.start(count, problem_->dimension());
+  start_factor(count);
   for (Index i = 0; i < count; ++i) {
-    norm2_[i] = fill_image(slots_[i].row, slots_[i].side, factor_.row(i));
-    room_[i] = room(slots_[i]);
+    problem_->image((*rows_)[slots_[i].row], static_cast<double>(slots_[i].side), factor_.row(i));
+    g_[i] = room(slots_[i]);
   }
-  factor_.run(0, count, norm2_.data(), tolerance::kDependent);
+  if (count == 0) return;
+  kernels::chosen->norms2(factor_.row(0), count, factor_.stride(), norm2_.data());
+  // rows that nothing here can move are left out
+  for (Index i = 0; i < count; ++i) {
+    if (lost(slots_[i].row, norm2_[i])) norm2_[i] = kAbsent;
+  }
+  factor_.run(0, count, norm2_.data(), tolerance::kDependent, g_.data());
   if (factor_.rank() == count) return;
   // some depend on others: one by one, so that slots and directions stay in step
   for (ActiveSlot& slot : slots_) release(slot);
-  factor_.start(0, problem_->dimension());
+  start_factor(0);
   Index kept = 0;
   for (Index i = 0; i < count; ++i) {
     const ActiveSlot slot = slots_[i];
     const double norm2 = fill_image(slot.row, slot.side, factor_.row(factor_.rank()));
-    if (!factor_.append(norm2, tolerance::kDependent)) continue;
+    if (lost(slot.row, norm2) || !factor_.append(norm2, tolerance::kDependent)) continue;
     slots_[kept] = slot;
-    room_[kept++] = room(slot);
+    append_room(kept++);
   }
   slots_.resize(kept);
   for (const ActiveSlot& slot : slots_) {
@@ -88,21 +94,28 @@ void WorkingSet::factor() {
   }
 }
 
+void WorkingSet::append_room(Index slot) {
+  const double* l = factor_.coordinates(slot);
+  double rest = room(slots_[slot]);
+  for (Index j = 0; j < slot; ++j) rest -= l[j] * g_[j];
+  g_[slot] = rest / l[slot];
+}
+
 bool WorkingSet::add(int row, Side side) {
   const Index slot = size();
   if (slot == problem_->dimension()) return false;
+  if (!started_) start_factor(0);
   const double norm2 = fill_image(row, side, factor_.row(slot));
   if (!factor_.append(norm2, tolerance::kDependent)) return false;
   hold(row, side);
-  room_[slot] = room(slots_.back());
+  append_room(slot);
   return true;
 }
 
 void WorkingSet::drop(Index slot) {
   release(slots_[slot]);
-  factor_.remove(slot);
+  factor_.remove(slot, g_.data());
   slots_.erase(slots_.begin() + slot);
-  std::copy(room_.data() + slot + 1, room_.data() + size() + 1, room_.data() + slot);
 }
 
 bool WorkingSet::fix(int row, Side side, double limit) {
@@ -110,34 +123,45 @@ bool WorkingSet::fix(int row, Side side, double limit) {
   ActiveSlot& slot = slots_.back();
   slot.limit = limit;
   slot.fixed = true;
-  room_[size() - 1] = room(slot);
+  append_room(size() - 1);
   return true;
 }
 
 void WorkingSet::unfactor() {
-  factor_.start(0, problem_->dimension());
+  started_ = false;
+}
+
+bool WorkingSet::lost(int row, double norm2) const {
+  const Row& r = (*rows_)[row];
+  const double least = tolerance::kLost * tolerance::kLost * r.norm * r.norm;
+  // an image is never longer than the free part of its row
+  return norm2 == 0.0 ||
+         (norm2 <= least && !problem_->has_slack(r) && problem_->free_part(r) <= least);
 }
 
 void WorkingSet::clear() {
   for (const ActiveSlot& slot : slots_) release(slot);
   slots_.clear();
-  factor_.start(0, problem_->dimension());
+  started_ = false;
 }
 
 void WorkingSet::solve(double* y) {
-  const Index count = size();
-  std::copy_n(room_.data(), count, g_.data());
-  factor_.solve(g_.data());
+  if (!started_) start_factor(0);
   std::fill_n(y, factor_.stride(), 0.0);
-  kernels::chosen->axpys(factor_.direction(0), count, factor_.stride(), g_.data(), y);
-  factor_.solve_transposed(g_.data());
-  for (Index i = 0; i < count; ++i) slots_[i].multiplier = -g_[i];
+  kernels::chosen->axpys(factor_.direction(0), size(), factor_.stride(), g_.data(), y);
 }
 
-void WorkingSet::correct(double* change, double* y) const {
+void WorkingSet::find_multipliers() {
+  for (Index i = 0; i < size(); ++i) work_[i] = -g_[i];
+  factor_.solve_transposed(work_.data());
+  for (Index i = 0; i < size(); ++i) slots_[i].multiplier = work_[i];
+}
+
+void WorkingSet::correct(double* change, double* y) {
   for (Index i = 0; i < size(); ++i) change[i] *= static_cast<double>(slots_[i].side);
   factor_.solve(change);
   kernels::chosen->axpys(factor_.direction(0), size(), factor_.stride(), change, y);
+  for (Index i = 0; i < size(); ++i) g_[i] += change[i];
 }
 
 double WorkingSet::explain(int row, Side side, double* rest, double* r, double& norm2) const {

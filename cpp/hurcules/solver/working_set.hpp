@@ -46,10 +46,11 @@ class WorkingSet {
   // lets all rows go
   void clear();
 
-  // y and the multipliers
+  // y of the held rows
   void solve(double* y);
+  void find_multipliers();
   // moves y by the least amount that changes each held row by its entry of `change` (slots)
-  void correct(double* change, double* y) const;
+  void correct(double* change, double* y);
   // image of the row, signed, less its parts along V -> rest; r with M' r nearest to it; the square
   // of what is left; `norm2` gets the square of the image
   double explain(int row, Side side, double* rest, double* r, double& norm2) const;
@@ -65,6 +66,11 @@ class WorkingSet {
   void release(const ActiveSlot& slot);
   // side * (limit - value at x_free)
   [[nodiscard]] double room(const ActiveSlot& slot) const;
+  // nothing in this problem can move the row
+  [[nodiscard]] bool lost(int row, double norm2) const;
+  void start_factor(Index rows);
+  // g of a row that was just appended
+  void append_room(Index slot);
   double fill_image(int row, Side side, double* m) const;
 
   const RowTable* rows_ = nullptr;
@@ -72,8 +78,9 @@ class WorkingSet {
   Candidates* candidates_ = nullptr;
   const double* x_free_ = nullptr;
   OrthogonalFactor factor_;
+  bool started_ = false;
   std::vector<ActiveSlot> slots_;
-  PaddedVector norm2_, room_, g_, work_;
+  PaddedVector norm2_, g_, work_;
 };
 
 }  // namespace hurcules
