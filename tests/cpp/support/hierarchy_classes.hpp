@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <utility>
 
 #include "support/crowded_limits.hpp"
@@ -199,6 +200,9 @@ struct HierarchyClass {
   Hierarchy (*make)(Draw& draw, double rho);
   int rarity = 1;  // a bulk run makes one of so many of it
 };
+inline std::ostream& operator<<(std::ostream& out, const HierarchyClass& kind) {
+  return out << kind.name;
+}
 
 inline constexpr std::array kHierarchyClasses = {
     HierarchyClass{"no_conflict", no_conflict},
