@@ -9,14 +9,14 @@ ASSERTS ?= OFF
 VENV := .venv
 BIN := $(VENV)/bin
 BUILD := build/make
-SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings tests/cpp benchmarks \
+SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings tests/cpp tests/fuzz benchmarks \
   -name '*.?pp' -o -name CMakeLists.txt -o -name '*.cmake*')
 
 # the names of all sources: newer than the build when one came or went
-$(shell mkdir -p build && find cpp python envs tests/cpp benchmarks -type f -not -name '*.pyc' | sort > build/names.new; \
+$(shell mkdir -p build && find cpp python envs tests/cpp tests/fuzz benchmarks -type f -not -name '*.pyc' | sort > build/names.new; \
   cmp -s build/names.new build/names || mv build/names.new build/names)
 
-.PHONY: demo test ctest pytest sanitize bench setup clean
+.PHONY: demo test ctest pytest sanitize fuzz proof bench setup clean
 
 demo: setup
 	$(BIN)/hurcules run $(MISSION) $(DEMO_ARGS)
@@ -33,6 +33,24 @@ pytest: setup
 # the C++ tests again: debug build, asserts, address and undefined-behaviour sanitizers, Eigen's allocation guard
 sanitize: setup
 	PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)" cmake --workflow --preset dev
+
+# coverage-guided fuzzing of the whole solve; without clang the test fuzz/solver runs seeded inputs alone
+SECONDS ?= 60
+ifneq ($(shell command -v clang++),)
+fuzz: setup
+	export PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)"; cmake --preset fuzz && cmake --build --preset fuzz
+	mkdir -p build/fuzz/corpus
+	build/fuzz/tests/fuzz/solver_fuzz build/fuzz/corpus -max_total_time=$(SECONDS) -max_len=400 -timeout=10 -print_final_stats=1
+else
+fuzz: setup
+	@echo "clang++ with libFuzzer is missing (Debian: clang); seeded inputs instead of coverage-guided ones"
+	$(BUILD)/tests/fuzz/solver_fuzz -runs=200000
+endif
+
+# a million seeded hierarchies at every regularisation
+PROBLEMS ?= 1000000
+proof: setup
+	$(BUILD)/benchmarks/solver_proof --problems $(PROBLEMS)
 
 bench: setup
 	$(BUILD)/benchmarks/timing

@@ -1,0 +1,184 @@
+// Solves seeded hierarchies of every class at every regularisation and counts what is not proven.
+//
+//   solver_proof [--problems N] [--seed S] [--judge E] [--class NAME] [--rho R] [--once]
+//
+// An answer counts as proven when its status is Solved, its numbers are finite, and its optimality
+// residual is at most 1e-9; every E-th problem is judged once more from the definition alone. A
+// failure prints class, rho and seed; --once with --class, --rho and --seed solves that one again
+// and prints it. Ends with 1 when anything failed.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <map>
+#include <string>
+
+#include "hurcules/solver/solver.hpp"
+#include "support/answers_by_level.hpp"
+#include "support/hierarchy_classes.hpp"
+#include "support/hierarchy_text.hpp"
+#include "support/optimality_judge.hpp"
+
+namespace {
+
+using namespace hurcules;
+using namespace hurcules_test;
+
+constexpr double kProven = 1e-9;
+constexpr int kMostPrinted = 5;  // failures of one kind in one class at one rho
+
+struct Request {
+  long problems = 100'000;
+  unsigned long long seed = 0;
+  long judge = 50;
+  std::string only_class;
+  double only_rho = -1.0;
+  bool once = false;
+};
+
+struct Tally {
+  long solved = 0, failed = 0, judged = 0;
+  double worst = 0.0, worst_judged = 0.0;
+  unsigned long long worst_seed = 0;
+  std::map<std::string, long> failures;  // by kind
+};
+
+// same problem for the same seed, whatever else is run
+Hierarchy make(const HierarchyClass& kind, unsigned long long seed, double rho) {
+  Draw draw(seed);
+  return kind.make(draw, rho);
+}
+
+// "" when proven, else the kind of failure
+std::string failure(const Solution& solution) {
+  if (!solution.x.allFinite() || !std::isfinite(solution.optimality)) return "not finite";
+  if (solution.status != SolverStatus::Solved) return to_string(solution.status);
+  return solution.optimality > kProven ? "residual" : "";
+}
+
+Verdict judge(const Hierarchy& levels) {
+  return OptimalityJudge(levels).judge(answers_by_level(levels, unknowns_of(levels)));
+}
+
+void print_failure(const HierarchyClass& kind, double rho, unsigned long long seed,
+                   const std::string& what, double value) {
+  std::printf("FAILED --class %s --rho %g --seed %llu: %s %.1e\n", kind.name, rho, seed,
+              what.c_str(), value);
+}
+
+void count(Tally& tally, const HierarchyClass& kind, double rho, unsigned long long seed,
+           const std::string& what, double value) {
+  ++tally.failed;
+  if (tally.failures[what]++ < kMostPrinted) print_failure(kind, rho, seed, what, value);
+}
+
+Tally run(const HierarchyClass& kind, double rho, long problems, const Request& request) {
+  Tally tally;
+  for (long i = 0; i < problems; ++i) {
+    const unsigned long long seed = request.seed + i;
+    const Hierarchy levels = make(kind, seed, rho);
+    Solver solver(unknowns_of(levels));
+    const Solution& solution = solver.solve(levels);
+    ++tally.solved;
+    if (solution.optimality > tally.worst) {
+      tally.worst = solution.optimality;
+      tally.worst_seed = seed;
+    }
+    const std::string what = failure(solution);
+    if (!what.empty()) count(tally, kind, rho, seed, what, solution.optimality);
+    if (!what.empty() || request.judge == 0 || i % request.judge) continue;
+    const double judged = judge(levels).worst();
+    ++tally.judged;
+    tally.worst_judged = std::max(tally.worst_judged, judged);
+    if (judged > kProven) count(tally, kind, rho, seed, "judged", judged);
+  }
+  return tally;
+}
+
+void print(const char* name, double rho, const Tally& tally) {
+  std::printf("%-16s %7.0e %9ld %7ld %9.1e %20llu %9ld %9.1e", name, rho, tally.solved,
+              tally.failed, tally.worst, tally.worst_seed, tally.judged, tally.worst_judged);
+  for (const auto& [what, number] : tally.failures) std::printf("  %s %ld", what.c_str(), number);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+int solve_once(const Request& request) {
+  for (const HierarchyClass& kind : kHierarchyClasses) {
+    if (kind.name != request.only_class) continue;
+    const Hierarchy levels = make(kind, request.seed, request.only_rho);
+    Solver solver(unknowns_of(levels));
+    const Solution& solution = solver.solve(levels);
+    std::printf("%s// x: %s\n", as_text(levels).c_str(), vector_text(solution.x).c_str());
+    const Verdict verdict = judge(levels);
+    std::printf("// %s, optimality %.2e, changes %d, final levels %d\n",
+                to_string(solution.status).c_str(), solution.optimality, solution.changes,
+                solution.final_levels);
+    std::printf("// judged: feasibility %.1e, stationarity %.1e, smallest step %.1e\n",
+                verdict.feasibility, verdict.stationarity, verdict.smallest);
+    return failure(solution).empty() && verdict.worst() <= kProven ? 0 : 1;
+  }
+  std::fprintf(stderr, "--once wants --class, --rho and --seed\n");
+  return 2;
+}
+
+Request read(int argc, char** argv) {
+  Request request;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--once") {
+      request.once = true;
+      continue;
+    }
+    const char* value = i + 1 < argc ? argv[++i] : "";
+    if (name == "--problems")
+      request.problems = std::atol(value);
+    else if (name == "--seed")
+      request.seed = std::strtoull(value, nullptr, 10);
+    else if (name == "--judge")
+      request.judge = std::atol(value);
+    else if (name == "--class")
+      request.only_class = value;
+    else if (name == "--rho")
+      request.only_rho = std::atof(value);
+    else {
+      std::fprintf(stderr, "unknown option %s\n", name.c_str());
+      std::exit(2);
+    }
+  }
+  return request;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Request request = read(argc, argv);
+  if (request.once) return solve_once(request);
+  double shares = 0.0;
+  for (const HierarchyClass& kind : kHierarchyClasses) {
+    if (request.only_class.empty() || request.only_class == kind.name) shares += 1.0 / kind.rarity;
+  }
+  if (request.only_rho < 0.0) shares *= static_cast<double>(kRegularisations.size());
+  std::printf("%-16s %7s %9s %7s %9s %20s %9s %9s\n", "class", "rho", "problems", "failed", "worst",
+              "its seed", "judged", "worst");
+  const std::clock_t begin = std::clock();
+  Tally total;
+  for (const HierarchyClass& kind : kHierarchyClasses) {
+    if (!request.only_class.empty() && request.only_class != kind.name) continue;
+    const double share = static_cast<double>(request.problems) / shares / kind.rarity;
+    for (const double rho : kRegularisations) {
+      if (request.only_rho >= 0.0 && request.only_rho != rho) continue;
+      const Tally tally = run(kind, rho, static_cast<long>(std::ceil(share)), request);
+      print(kind.name, rho, tally);
+      total.solved += tally.solved;
+      total.failed += tally.failed;
+      total.judged += tally.judged;
+      total.worst = std::max(total.worst, tally.worst);
+      total.worst_judged = std::max(total.worst_judged, tally.worst_judged);
+    }
+  }
+  std::printf("%ld problems, %ld failed, worst residual %.1e; %ld judged, worst %.1e; %.0f s\n",
+              total.solved, total.failed, total.worst, total.judged, total.worst_judged,
+              static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  return total.failed ? 1 : 0;
+}

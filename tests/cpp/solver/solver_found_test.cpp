@@ -1,0 +1,157 @@
+// Inputs that once broke a promise, found by fuzzing (tests/fuzz) and by bulk runs
+// (benchmarks/solver_proof.cpp), shortened. Each is solved cold and warm, and has to be Solved,
+// proven, and optimal by the definition alone.
+#include <gtest/gtest.h>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/solver/solver.hpp"
+#include "support/answers_by_level.hpp"
+#include "support/draw.hpp"
+#include "support/optimality_judge.hpp"
+
+namespace hurcules {
+namespace {
+
+using namespace hurcules_test;
+
+constexpr double kInf = kNoLimit;
+
+void expect_solved(const Hierarchy& levels, Index unknowns) {
+  Solver solver(unknowns);
+  for (const char* start : {"cold", "warm"}) {
+    const Solution& solution = solver.solve(levels);
+    EXPECT_EQ(to_string(solution.status), "solved") << start;
+    EXPECT_LE(solution.optimality, 1e-9) << start;
+  }
+  const Verdict verdict = OptimalityJudge(levels).judge(answers_by_level(levels, unknowns));
+  EXPECT_LE(verdict.feasibility, 1e-9);
+  EXPECT_LE(verdict.stationarity, 1e-9);
+  EXPECT_LE(verdict.smallest, 1e-9);
+}
+
+TEST(SolverFound, ABoundBelowPullsAgainstAOneSidedBoundAbove) {
+  const Hierarchy levels = {
+      make_bounds(Vector{{0.25, 0.5, -kInf}}, Vector{{0.25, 1.5, -0.75}}),
+      make_bounds(Vector{{-0.75, -kInf, -0.5}}, Vector{{-0.75, 1.25, -0.25}})};
+  expect_solved(levels, 3);
+  Solver solver(3);
+  EXPECT_LE((solver.solve(levels).x - Vector{{0.25, 0.5, -0.75}}).norm(), 1e-12);
+}
+
+TEST(SolverFound, ABoundHoldsAgainstTwoViolatedRowsOfOneDirection) {
+  expect_solved({make_bounds(Vector{{-2.0}}, Vector{{2.0}}),
+                 interval(Matrix{{2.0}, {2.0}}, Vector{{-7.0, -7.0}}, Vector{{-7.0, -3.0}}, 0.1)},
+                1);
+  expect_solved({make_bounds(Vector{{-2.0}}, Vector{{2.0}}),
+                 interval(Matrix{{2.0}, {2.0}}, Vector{{-7.0, -3.0}}, Vector{{-7.0, -2.0}}, 0.1)},
+                1);
+}
+
+TEST(SolverFound, ParallelRowsWithTinyRegularisationStayOnTheirLine) {
+  const Matrix a{{-2.0, -2.0, 2.0, 4.0}};
+  Matrix A(3, 4);
+  A << a, a, -0.5 * a;
+  for (const double rho : {1e-1, 1e-3, 1e-5, 1e-8, 1e-9, 0.0}) {
+    const Hierarchy levels = {
+        interval(A, Vector{{6.0, -14.0, -7.0}}, Vector{{6.0, -14.0, -6.0}}, rho)};
+    expect_solved(levels, 4);
+    Solver solver(4);
+    const Vector x = solver.solve(levels).x, along = a.transpose().normalized();
+    EXPECT_LE((x - along.dot(x) * along).norm(), 1e-12) << "rho " << rho;
+  }
+}
+
+TEST(SolverFound, AWeakRowBesideAStrongLimitIsMet) {
+  // 0.001 x1 = 0.001 below nothing, with -2 x1 + 0.001 x2 >= 2 in the same level: both can be met
+  expect_solved({interval(Matrix{{-2.0, 0.001}, {0.001, 0.0}}, Vector{{2.0, 0.001}},
+                          Vector{{kInf, 0.001}}, 0.0)},
+                2);
+  expect_solved({interval(Matrix{{-1000.0, -1.0}, {0.001, 0.001}}, Vector{{0.001, 0.001}},
+                          Vector{{kInf, 0.001}}, 0.0)},
+                2);
+}
+
+TEST(SolverFound, NearlyEqualRowsInALevelOfLimits) {
+  expect_solved(
+      {interval(Matrix{{3.0, 3.0, 3.0, 3.0}, {9.0, 9.0, 9.0, 9.0 + 1e-10}}, Vector{{3.0, 3.0}},
+                Vector{{5.0, 3.5}}, 1e-8),
+       make_bounds(Vector{{0.0, 0.001, 0.001, 0.001}}, Vector{{1.0, 0.001, 0.001, 0.001}})},
+      4);
+}
+
+TEST(SolverFound, TinyRegularisationOnParallelRowsOfDifferentSize) {
+  expect_solved({interval(Matrix{{2.0, 2.0, 2.0}, {0.001, 0.001, 0.001}}, Vector{{-1.5, 0.001}},
+                          Vector{{-0.5, 0.001}}, 1e-8)},
+                3);
+}
+
+TEST(SolverFound, RegularisationLargerThanTheRowsIsProvenToo) {
+  expect_solved({make_bounds(Vector{{1.000000001}}, Vector{{1.000000001 + 1e-14}}),
+                 equality(Matrix{{0.001}, {0.001}, {0.001}}, Vector{{0.001, 0.001, 0.001}}, 1.0)},
+                1);
+}
+
+TEST(SolverFound, AWarmSolveEqualsTheColdOneBesideLockedBounds) {
+  const Hierarchy levels = {interval(Matrix{{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, -1.0}},
+                                     Vector{{-1.0}}, Vector{{-0.999}}, 1.0),
+                            make_bounds(Vector{{0.0, 0.0, -1.0, -2.0, 0.0, 0.0, 1.4375, 0.0}},
+                                        Vector{{0.0, 1.0, -0.999, -2.0, 0.0, 1.0, 2.4375, 0.0}})};
+  expect_solved(levels, 8);
+  Solver solver(8);
+  const Vector cold = solver.solve(levels).x;
+  EXPECT_LE((solver.solve(levels).x - cold).norm(), 1e-9);
+}
+
+TEST(SolverFound, AnInterruptedSolveStaysInsideTheBoundsAbove) {
+  const Matrix row{{-1000.0, -1000.0, 30.0, 0.001, 0.001, 0.001, -1000.0, -1000.0}};
+  const Vector fixed{{3.0, 0.001, 0.001, 0.001, 1.0, 2.0}};
+  Vector lower(8), upper(8);
+  lower << fixed, -kInf, -kInf;
+  upper << fixed, -998.0, -998.0;
+  const Hierarchy limited = {make_bounds(lower, upper),
+                             interval(row, Vector{{-kInf}}, Vector{{-1.0}}, 1e-8)};
+  const Hierarchy boxes = {make_bounds(Vector{{0.0, 0.0, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0}},
+                                       Vector{{0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0}}),
+                           make_bounds(Vector{{0.0, 0.0, 0.0, 1.0, -0.5, 0.5, -0.5, 1.0}},
+                                       Vector{{0.0, 0.0, 0.0, 1.0, -0.5, kInf, -0.5, 2.0}}),
+                           make_bounds(Vector::Zero(8), Vector::Zero(8))};
+  for (const Hierarchy& levels : {limited, boxes}) {
+    for (int limit = 1; limit <= 10; ++limit) {
+      Solver solver(8, {.max_changes = limit});
+      const Solution& solution = solver.solve(levels);
+      EXPECT_LE(solution.violations[0].lpNorm<Eigen::Infinity>(), 1e-9) << "limit " << limit;
+      if (solution.status == SolverStatus::Solved) {
+        EXPECT_EQ(solution.final_levels, static_cast<int>(levels.size()));
+      }
+    }
+  }
+}
+
+TEST(SolverFound, SidesBeyondInfinityAreRefusedBySolveAsByCheck) {
+  const Hierarchy no_upper = {make_bounds(Vector{{1e300}}, Vector{{kInf}})};
+  const Hierarchy at_infinity = {equality(Matrix{{1.0}}, Vector{{-1e20}}, 0.0)};
+  for (const Hierarchy& levels : {no_upper, at_infinity}) {
+    EXPECT_THROW(check(levels, 1), Error);
+    Solver solver(1);
+    EXPECT_EQ(to_string(solver.solve(levels).status), "invalid input");
+  }
+}
+
+TEST(SolverFound, AHugeRowIsNeverSolvedWithoutAProof) {
+  for (const double huge : {1e100, 1e155, 1e200, 1e300}) {
+    for (const double rho : {0.1, 0.0}) {
+      const Hierarchy levels = {make_bounds(Vector{{-1.0, -1.0}}, Vector{{1.0, 1.0}}),
+                                equality(Matrix{{huge, 1.0}}, Vector{{1e19}}, rho),
+                                equality(Matrix{{1.0, huge}}, Vector{{-1.0}}, rho)};
+      Solver solver(2);
+      const Solution& solution = solver.solve(levels);
+      EXPECT_TRUE(solution.x.allFinite()) << huge;
+      if (solution.status == SolverStatus::Solved) {
+        EXPECT_LE(solution.optimality, 1e-9) << huge;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hurcules

@@ -1,0 +1,92 @@
+// Strategy: a small run of benchmarks/solver_proof.cpp. Every class of hierarchies at every
+// regularisation is Solved with a residual of at most 1e-9, and the answer is optimal by a judge
+// that knows the definition (solver.md §1) and nothing of the solver; negative controls show that
+// the judge tells wrong from right. Not tested: agreement with another solver
+// (test_solver_oracle.py).
+#include <gtest/gtest.h>
+
+#include "hurcules/solver/solver.hpp"
+#include "support/answers_by_level.hpp"
+#include "support/each_problem.hpp"
+#include "support/optimality_judge.hpp"
+
+namespace hurcules {
+namespace {
+
+using namespace hurcules_test;
+
+constexpr double kProven = 1e-9;  // "Must show" of the solver: residual relative to its forces
+
+class SolverProof : public EachClass {};
+
+TEST_P(SolverProof, EveryAnswerIsSolvedAndProven) {
+  for (const double rho : kRegularisations) {
+    each_problem(60, {rho}, [](const Hierarchy& levels, Draw&) {
+      Solver solver(unknowns_of(levels));
+      const Solution& solution = solver.solve(levels);
+      EXPECT_EQ(to_string(solution.status), "solved");
+      EXPECT_TRUE(solution.x.allFinite());
+      EXPECT_LE(solution.optimality, kProven);
+      EXPECT_EQ(solution.final_levels, static_cast<int>(levels.size()));
+    });
+  }
+}
+
+TEST_P(SolverProof, EveryAnswerIsOptimalByTheDefinitionAlone) {
+  for (const double rho : kRegularisations) {
+    each_problem(20, {rho}, [](const Hierarchy& levels, Draw&) {
+      const Verdict verdict =
+          OptimalityJudge(levels).judge(answers_by_level(levels, unknowns_of(levels)));
+      EXPECT_LE(verdict.feasibility, kProven);
+      EXPECT_LE(verdict.stationarity, kProven);
+      EXPECT_LE(verdict.smallest, kProven);
+    });
+  }
+}
+
+HURCULES_FOR_EACH_CLASS(SolverProof);
+
+Level one_row(Matrix a, double lower, double upper, double rho) {
+  return interval(std::move(a), Vector::Constant(1, lower), Vector::Constant(1, upper), rho);
+}
+
+// x1 + x2 = 2 with rho = 0 below x1 <= 0.5: (0.5, 1.5)
+const Hierarchy kLimited = {one_row(Matrix{{1.0, 0.0}}, -kNoLimit, 0.5, 0.0),
+                            one_row(Matrix{{1.0, 1.0}}, 2.0, 2.0, 0.0)};
+
+Verdict judge_limited(double x1, double x2) {
+  return OptimalityJudge(kLimited).judge({Vector::Zero(2), Vector{{x1, x2}}});
+}
+
+TEST(OptimalityJudge, AcceptsTheAnswer) {
+  EXPECT_LT(judge_limited(0.5, 1.5).worst(), 1e-14);
+}
+
+TEST(OptimalityJudge, NoticesABrokenLimit) {
+  EXPECT_GT(judge_limited(1.0, 1.0).feasibility, 0.3);
+}
+
+TEST(OptimalityJudge, NoticesAViolationThatCouldBeSmaller) {
+  EXPECT_GT(judge_limited(0.5, 1.4999).stationarity, 1e-5);
+}
+
+TEST(OptimalityJudge, NoticesALimitThatPullsInsteadOfPushing) {
+  // x1 = x2 = 1 is the smallest step below x1 <= 1; holding x1 at a limit of 0.5 needs no push the
+  // other way
+  EXPECT_GT(judge_limited(0.2, 1.8).smallest, 0.1);
+  const Hierarchy levels = {one_row(Matrix{{1.0, 0.0}}, -kNoLimit, 1.5, 0.0),
+                            one_row(Matrix{{1.0, 1.0}}, 2.0, 2.0, 0.0)};
+  EXPECT_GT(OptimalityJudge(levels).judge({Vector::Zero(2), Vector{{1.5, 0.5}}}).smallest, 0.1);
+  EXPECT_LT(OptimalityJudge(levels).judge({Vector::Zero(2), Vector{{1.0, 1.0}}}).worst(), 1e-14);
+}
+
+TEST(OptimalityJudge, NoticesARegularisedLevelThatStopsElsewhere) {
+  const Hierarchy levels = {one_row(Matrix{{1.0, 1.0}}, -1.0, -1.0, 0.1)};
+  // -1 / (2 + rho^2) each  [T 3.3.38]
+  const Vector right = Vector::Constant(2, -1.0 / 2.01);
+  EXPECT_LT(OptimalityJudge(levels).judge({right}).worst(), 1e-13);
+  EXPECT_GT(OptimalityJudge(levels).judge({1.001 * right}).stationarity, 1e-4);
+}
+
+}  // namespace
+}  // namespace hurcules

@@ -1,0 +1,176 @@
+// How far an answer is from the definition of solver.md §1, from the definition alone: it shares no
+// factor, working set, multiplier or tolerance with the solver.
+//
+// x_k is the answer of the levels 0 .. k alone. On the directions that the equality rows above
+// leave free (Gram-Schmidt in long double),
+//     rho^2 (x_k - x_{k-1}) + sum v_i a_i + sum mu_w side_w a_w = 0,   mu >= 0,
+// over the rows above that stand at their limits; mu is found by nonnegative least squares. Where
+// rho is 0 or tiny, the step has to be the smallest of those with the same violations as well:
+//     (x_k - x_{k-1}) + sum over rows that settle (any sign) and rows at their limits (>= 0) = 0.
+// Rounding of the rows themselves is no fault: multipliers mu cost 1e-15 mu, and a row that stands
+// out by sigma from those before it gives a direction that is known to 1e-15 / sigma.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "hurcules/solver/hierarchy.hpp"
+#include "support/nonnegative_least_squares.hpp"
+
+namespace hurcules_test {
+
+struct Verdict {
+  double feasibility = 0.0;   // a row above got worse, relative to |a| max(1, |x|)
+  double stationarity = 0.0;  // relative to sum |v_i||a_i| + rho^2 |t|
+  double smallest = 0.0;      // rho = 0: the step is longer than needed, relative to max(1, |x|)
+  [[nodiscard]] double worst() const { return std::max({feasibility, stationarity, smallest}); }
+};
+
+class OptimalityJudge {
+ public:
+  explicit OptimalityJudge(const hurcules::Hierarchy& levels) : levels_(levels) {}
+
+  // of all levels; x[k] (n) is the answer of levels 0 .. k
+  Verdict judge(const std::vector<hurcules::Vector>& x) {
+    const hurcules::Index n = x.empty() ? 0 : x[0].size();
+    Verdict all;
+    Basis above;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x_above_ = k ? x[k - 1] : hurcules::Vector::Zero(n);
+      x_ = x[k];
+      scale_ = std::max(1.0, x_.lpNorm<Eigen::Infinity>());
+      const Verdict level = judge_level(k, above);
+      all.feasibility = std::max(all.feasibility, level.feasibility);
+      all.stationarity = std::max(all.stationarity, level.stationarity);
+      all.smallest = std::max(all.smallest, level.smallest);
+      for (hurcules::Index i = 0; i < levels_[k].rows(); ++i) {
+        if (equal(k, i)) above.add(row(k, i));
+      }
+    }
+    return all;
+  }
+
+ private:
+  using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+  // an orthonormal basis of the rows taken so far
+  struct Basis {
+    std::vector<LongVector> q;
+    double weakest = 1.0;  // by how much a row stood out from those before it, relative to |a|
+
+    hurcules::Vector remove(const hurcules::Vector& y) const {
+      LongVector rest = y.cast<long double>();
+      for (int pass = 0; pass < 2; ++pass) {
+        for (const LongVector& direction : q) rest -= direction.dot(rest) * direction;
+      }
+      return rest.cast<double>();
+    }
+    void add(const hurcules::Vector& a) {
+      const hurcules::Vector rest = remove(a);
+      if (rest.norm() <= kRank * a.norm()) return;
+      weakest = std::min(weakest, rest.norm() / a.norm());
+      q.push_back(rest.cast<long double>().normalized());
+    }
+  };
+
+  static constexpr double kRank = 1e-10;  // solver.md §1
+  static constexpr double kAtLimit =
+      1e-9;  // a row stands at its limit, relative to |a| max(1, |x|)
+
+  [[nodiscard]] bool equal(std::size_t k, hurcules::Index i) const {
+    return levels_[k].lower[i] == levels_[k].upper[i];
+  }
+  [[nodiscard]] hurcules::Vector row(std::size_t k, hurcules::Index i) const {
+    if (levels_[k].bounds) return hurcules::Vector::Unit(x_.size(), i);
+    return levels_[k].A.row(i).transpose();
+  }
+
+  Verdict judge_level(std::size_t k, const Basis& above) {
+    const hurcules::Level& level = levels_[k];
+    Verdict verdict;
+    Basis settled = above;
+    blocking_.clear();
+    for (std::size_t j = 0; j < k; ++j) {
+      for (hurcules::Index i = 0; i < levels_[j].rows(); ++i) look_above(j, i, verdict);
+    }
+    const hurcules::Vector step = x_ - x_above_;
+    hurcules::Vector force = level.rho * level.rho * step;
+    double forces = force.norm(), largest = 0.0;
+    std::vector<hurcules::Vector> touching;
+    for (hurcules::Index i = 0; i < level.rows(); ++i) {
+      const hurcules::Vector a = row(k, i);
+      const double v = violation(k, i, a);
+      force += v * a;
+      forces += std::abs(v) * a.norm();
+      largest = std::max(largest, a.norm());
+      const double at_limit = kAtLimit * a.norm() * scale_;
+      if (equal(k, i) || std::abs(v) > at_limit) {
+        settled.add(a);
+      } else {
+        look_limits(a, level.lower[i], level.upper[i], touching);
+      }
+    }
+    // less than this is what an error of x by 1e-12 max(1, |x|) makes at 1e-9
+    forces = std::max(forces, 1e-3 * (largest * largest + level.rho * level.rho) * scale_);
+    verdict.stationarity = left_over(above, force, blocking_, forces);
+    if (level.rho <= kTiny * largest) {
+      touching.insert(touching.end(), blocking_.begin(), blocking_.end());
+      verdict.smallest = left_over(settled, step, touching, scale_);
+    }
+    return verdict;
+  }
+
+  // a row of a level above: must not be worse, and may push back where it stands at its limit
+  void look_above(std::size_t j, hurcules::Index i, Verdict& verdict) {
+    const hurcules::Vector a = row(j, i);
+    if (a.norm() == 0.0) return;
+    const double before = a.dot(x_above_), now = a.dot(x_), size = a.norm() * scale_;
+    const double lower = std::min(levels_[j].lower[i], before);
+    const double upper = std::max(levels_[j].upper[i], before);
+    const double worse = equal(j, i) ? std::abs(now - before) : std::max(now - upper, lower - now);
+    verdict.feasibility = std::max(verdict.feasibility, worse / size);
+    if (!equal(j, i)) look_limits(a, lower, upper, blocking_);
+  }
+
+  void look_limits(const hurcules::Vector& a, double lower, double upper,
+                   std::vector<hurcules::Vector>& pushing) const {
+    const double now = a.dot(x_), allowed = kAtLimit * a.norm() * scale_;
+    if (a.norm() == 0.0) return;
+    if (now >= upper - allowed) pushing.push_back(a / a.norm());
+    if (now <= lower + allowed) pushing.push_back(-a / a.norm());
+  }
+
+  [[nodiscard]] double violation(std::size_t k, hurcules::Index i,
+                                 const hurcules::Vector& a) const {
+    const double value = a.dot(x_);
+    return value - std::clamp(value, levels_[k].lower[i], levels_[k].upper[i]);
+  }
+
+  // what of y no nonnegative weights on `pushing` balance outside the basis, relative to `scale`
+  static double left_over(const Basis& basis, const hurcules::Vector& y,
+                          const std::vector<hurcules::Vector>& pushing, double scale) {
+    double weakest = basis.weakest;
+    hurcules::Matrix C(0, y.size());
+    for (const hurcules::Vector& a : pushing) {
+      const hurcules::Vector free = basis.remove(a);
+      if (free.norm() <= kRank) continue;
+      weakest = std::min(weakest, free.norm());
+      C.conservativeResize(C.rows() + 1, y.size());
+      C.row(C.rows() - 1) = free.transpose();
+    }
+    const NonnegativeLeastSquares balance(C, basis.remove(y));
+    const double rounding = kRounding * balance.weights().sum();
+    return balance.residual().norm() / ((scale + rounding) * (1.0 + kRounding / weakest));
+  }
+
+  static constexpr double kRounding = 1e-6;  // 1e-15 counts as 1e-9
+  static constexpr double kTiny = 1e-4;      // rho^2 |t| is lost in the rounding of the violations
+
+  const hurcules::Hierarchy& levels_;
+  hurcules::Vector x_, x_above_;  // (n)
+  double scale_ = 1.0;
+  std::vector<hurcules::Vector> blocking_;  // sides of rows above at their limits, (n) each, norm 1
+};
+
+}  // namespace hurcules_test
