@@ -47,7 +47,9 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
   const Index first = chain.rank_before(level);
   start(rows, chain, level, first, chain.rank_before(level + 1) - first);
   equalities_ = rows.equalities(level + 1) - rows.equalities(level);
-  slacks_ = rows.begin(level + 1) - rows.begin(level) - equalities_;
+  const Index count = rows.begin(level + 1) - rows.begin(level);
+  // a row of a Bounds level has the slack of its place there
+  slacks_ = count == equalities_ ? 0 : rows[rows.begin(level)].bound ? count : count - equalities_;
   own_norm_ = 0.0;
   for (Index i = 0; i < equalities_; ++i) {
     own_norm_ = std::max(own_norm_, rows.dense_norms()[rows.equalities(level) + i]);

@@ -62,6 +62,7 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   held_.reserve(2 * reserved_levels_ * reserved_rows_);
   kept_.reserve(2 * reserved_levels_ * reserved_rows_);
   kept_begin_.reserve(reserved_levels_ + 1);
+  found_.reserve(reserved_rows_);
   solution_.working_set.reserve(2 * reserved_levels_ * reserved_rows_);
   equality_values_.reserve(reserved_rows_ + 4);
   listed_.resize(reserved_rows_);

@@ -27,7 +27,7 @@ bool Lexicographic::solve_regularized(Way way, double rho, int k) {
     take(way == Way::Warm ? x_above_ : active_set_.x_feasible());
     return false;
   }
-  if (way == Way::Careful && settle_held(rho, rho)) return true;
+  if (way == Way::Careful) return settle_held(rho, rho);
   take_refined();
   keep_held(rho * rho, Role::Violation);
   begin_norm_ = static_cast<int>(held_.size());
@@ -64,14 +64,11 @@ bool Lexicographic::solve_carefully(double rho, int k) {
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {
-  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_);
+  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, x_above_);
   for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
-    const KeptRow& kept = kept_[h];
-    const Index c = rows_[kept.row].candidate;
-    const double limit = kept.side == Side::Upper ? candidates_.upper(c) : candidates_.lower(c);
-    settled_level_.plan(kept.row, kept.side, limit, kept.role);
+    settled_level_.hold(kept_[h].row, kept_[h].side, kept_[h].role);
   }
-  return settled_level_.solve(rho, x_scale_, x_, held_, begin_norm_);
+  return settled_level_.solve(rho, x_scale_, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_held(double rho, double epsilon) {
@@ -81,15 +78,16 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
     largest = std::max(largest, scale * slot.multiplier);
   }
   const double least = problem_.least_settling(largest, x_scale_);
-  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_);
+  found_.clear();
   for (const ActiveSlot& slot : active_set_.slots()) {
-    const bool settles =
-        rho > 0.0 || scale * slot.multiplier > least || problem_.has_slack(rows_[slot.row]);
-    settled_level_.plan(slot.row, slot.side, slot.limit,
-                        settles ? Role::Violation : Role::SmallestStep);
+    const bool settles = scale * slot.multiplier > least || problem_.has_slack(rows_[slot.row]);
+    found_.push_back({0, slot.row, slot.side, settles ? Role::Violation : Role::SmallestStep});
   }
   ++solution_.factorizations;
-  return settled_level_.solve(rho, x_scale_, x_, held_, begin_norm_);
+  active_set_.clear();
+  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, active_set_.x());
+  for (const KeptRow& row : found_) settled_level_.hold(row.row, row.side, row.role);
+  return settled_level_.solve(rho, x_scale_, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::proximal_steps(double epsilon) {

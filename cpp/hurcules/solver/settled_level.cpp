@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "hurcules/solver/tolerances.hpp"
-#include "hurcules/solver/triangularize.hpp"
 
 namespace hurcules {
 
@@ -13,259 +12,254 @@ namespace {
 
 constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
+double sign(Side side) {
+  return static_cast<double>(side);
+}
+
 }  // namespace
 
 void SettledLevel::reserve(Index unknowns, Index rows) {
   factor_.reserve(rows, unknowns);
-  for (auto& group : planned_) group.reserve(rows);
+  for (auto& group : group_) group.reserve(rows);
   all_.reserve(rows);
+  ignored_.reserve(rows);
   if (block_.rows() < rows + 2 * unknowns || block_.cols() < unknowns + 1) {
     block_.resize(rows + 2 * unknowns, unknowns + 1);
   }
   norm2_.reserve(rows);
-  for (PaddedVector* v : {&y_, &t_, &force_, &push_}) v->reserve(padded(unknowns) + 4);
+  for (PaddedVector* v : {&y_, &t_, &force_, &push_, &x_, &target_}) {
+    v->reserve(padded(unknowns) + 4);
+  }
 }
 
 void SettledLevel::start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
-                         Candidates& candidates, const double* x_above) {
+                         Candidates& candidates, const double* x_above, const double* x) {
   rows_ = &rows;
   chain_ = &chain;
   level_ = &level;
   candidates_ = &candidates;
   x_above_ = x_above;
-  for (auto& group : planned_) group.clear();
+  std::copy_n(x, rows.stride(), x_.data());
+  rows.values(level.level() + 1, x, candidates.value.data());
+  for (auto& group : group_) group.clear();
+  ignored_.clear();
   for (int d = rows.equalities(level.level()); d < rows.equalities(level.level() + 1); ++d) {
     const int i = rows.row_of_dense(d);
-    planned_[kOwn].push_back({i, Side::Upper, rows[i].upper, 0.0});
+    group_[kOwn].push_back({i, Side::Upper, rows[i].upper, 0.0, 0.0, 0.0, false});
   }
 }
 
-void SettledLevel::plan(int row, Side side, double limit, Role role) {
-  if (std::isinf(limit) || role == Role::Idle) return;
+void SettledLevel::hold(Group group, int row, Side side, bool pinned) {
+  const Index c = (*rows_)[row].candidate;
+  const double lower = candidates_->lower(c), upper = candidates_->upper(c);
+  const double limit = side == Side::Upper ? upper : lower;
+  if (std::isinf(limit)) return;  // no limit there, or held already
+  group_[group].push_back({row, side, limit, lower, upper, 0.0, pinned});
+  candidates_->set(c, -kAbsent, kAbsent);
+}
+
+void SettledLevel::hold(int row, Side side, Role role) {
+  if (role == Role::Idle) return;
   const bool own = (*rows_)[row].level == level_->level();
-  const Group group = role == Role::SmallestStep ? kSmallest : (own ? kOwn : kLimits);
-  planned_[group].push_back({row, side, limit, 0.0});
+  hold(role == Role::SmallestStep ? kSmallest : (own ? kOwn : kLimits), row, side, false);
 }
 
-void SettledLevel::factor() {
-  all_.clear();
-  for (int g = 0; g < kGroups; ++g) {
-    all_.insert(all_.end(), planned_[g].begin(), planned_[g].end());
-    end_[g] = static_cast<Index>(all_.size());
-  }
-  const Index columns = level_->free();
-  factor_.start(end_[kSmallest], columns);
-  for (Index i = 0; i < end_[kSmallest]; ++i) {
-    const Row& row = (*rows_)[all_[i].row];
-    const double* e =
-        (row.equality ? chain_->equality_coordinates(row.dense) : chain_->coordinates(row)) +
-        level_->first();
-    // an equality row has no part behind its own directions
-    const Index known = row.equality ? level_->own() : columns;
-    double* r = factor_.row(i);
-    std::copy_n(e, known, r);
-    std::fill(r + known, r + factor_.stride(), 0.0);
-    norm2_[i] = row.norm * row.norm;
-  }
-  for (const Group group : {kLimits, kOwn, kSmallest}) {
-    factor_.run(begin(group), end_[group], norm2_.data(), tolerance::kRank);
-    factor_.clear_unknown(begin(group), end_[group]);
-    rank_[group] = factor_.rank();
-  }
+void SettledLevel::let_go(Group group, Index i) {
+  const Held& held = group_[group][i];
+  candidates_->set((*rows_)[held.row].candidate, held.lower, held.upper);
+  group_[group].erase(group_[group].begin() + i);
 }
 
-void SettledLevel::meet(Group group) {
-  for (Index j = first(group); j < rank_[group]; ++j) {
-    const Planned& row = all_[factor_.pivot(j)];
-    const double* l = factor_.coordinates(factor_.pivot(j));
-    double rest = row.limit - rows_->dot(row.row, x_above_);
-    for (Index i = 0; i < j; ++i) rest -= l[i] * y_[i];
-    y_[j] = rest / l[j];
-  }
-}
-
-void SettledLevel::least_squares(double rho) {
-  const Index first = this->first(kOwn), columns = rank_[kOwn] - first;
-  Index count = 0;
-  const auto add = [&](double scale, const double* l, double rest) {
-    for (Index j = 0; j < columns; ++j) block_(count, j) = scale * l[first + j];
-    block_(count++, columns) = scale * rest;
-  };
-  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
-    const double* l = factor_.coordinates(i);
-    double rest = all_[i].limit - rows_->dot(all_[i].row, x_above_);
-    for (Index j = 0; j < first; ++j) rest -= l[j] * y_[j];
-    add(1.0, l, rest);
-  }
-  if (rho > 0.0) {
-    for (Index j = 0; j < columns; ++j, ++count) {
-      block_.row(count).head(columns + 1).setZero();
-      block_(count, j) = rho;
-    }
-    // the rows of the last group move with these: their part of the step, L_SS^-1 (rest - L_SO y_O)
-    const Index begin_last = count;
-    for (Index s = rank_[kOwn]; s < rank_[kSmallest]; ++s, ++count) {
-      const Planned& row = all_[factor_.pivot(s)];
-      const double* l = factor_.coordinates(factor_.pivot(s));
-      double rest = row.limit - rows_->dot(row.row, x_above_);
-      for (Index j = 0; j < first; ++j) rest -= l[j] * y_[j];
-      for (Index j = 0; j < columns; ++j) block_(count, j) = rho * l[first + j];
-      block_(count, columns) = rho * rest;
-      for (Index b = rank_[kOwn]; b < s; ++b) {
-        block_.row(count).head(columns + 1) -=
-            l[b] * block_.row(begin_last + b - rank_[kOwn]).head(columns + 1);
-      }
-      block_.row(count).head(columns + 1) /= l[s];
+void SettledLevel::release() {
+  for (const auto* rows : {&group_[kLimits], &group_[kOwn], &group_[kSmallest], &ignored_}) {
+    for (const Held& held : *rows) {
+      const Row& row = (*rows_)[held.row];
+      if (!row.equality) candidates_->set(row.candidate, held.lower, held.upper);
     }
   }
-  triangularize(block_, count, columns);
-  for (Index j = columns - 1; j >= 0; --j) {
-    double sum = block_(j, columns);
-    for (Index l = j + 1; l < columns; ++l) sum -= block_(j, l) * y_[first + l];
-    y_[first + j] = sum / block_(j, j);
+}
+
+double SettledLevel::allowed(int row) const {
+  return relative_ * (*rows_)[row].norm;
+}
+
+double SettledLevel::beyond(const Held& held) const {
+  return sign(held.side) * (candidates_->target[(*rows_)[held.row].candidate] - held.limit);
+}
+
+// own rows that are violated at the start take part whatever the held rows say
+void SettledLevel::hold_violated() {
+  const int level = level_->level();
+  if (!level_->has_slacks()) return;
+  for (int i = rows_->begin(level); i < rows_->begin(level + 1); ++i) {
+    const Row& row = (*rows_)[i];
+    if (row.equality) continue;
+    const double value = candidates_->value[row.candidate];
+    if (value > candidates_->upper(row.candidate) + allowed(i)) hold(kOwn, i, Side::Upper, false);
+    if (value < candidates_->lower(row.candidate) - allowed(i)) hold(kOwn, i, Side::Lower, false);
   }
 }
 
-void SettledLevel::step(double* x) {
-  const kernels::Table& kernel = *kernels::chosen;
-  std::fill_n(t_.data(), padded(level_->free()), 0.0);
-  kernel.axpys(factor_.direction(0), factor_.rank(), factor_.stride(), y_.data(), t_.data());
-  std::copy_n(x_above_, rows_->stride(), x);
-  kernel.axpys(chain_->direction(level_->first()), level_->free(), rows_->stride(), t_.data(), x);
-}
-
-bool SettledLevel::holds(const double* x, double x_scale) {
-  const auto allowed = [&](int i) { return tolerance::kBroken * x_scale * (*rows_)[i].norm; };
-  // held rows stand at their limits, violated rows beyond them
-  for (Index i = 0; i < end_[kSmallest]; ++i) {
-    const Planned& row = all_[i];
-    if ((*rows_)[row.row].equality) continue;
-    const double beyond = rows_->dot(row.row, x) - row.limit;
-    const bool own = i >= begin(kOwn) && i < end_[kOwn];
-    if (own ? static_cast<double>(row.side) * beyond <= allowed(row.row)
-            : std::abs(beyond) > allowed(row.row)) {
-      return false;
-    }
-  }
-  // all others are within theirs
-  rows_->values(level_->level() + 1, x, candidates_->target.data());
-  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
-    const Row& row = (*rows_)[all_[i].row];
-    if (!row.equality) candidates_->set(row.candidate, -kAbsent, kAbsent);
-  }
-  const double excess = kernels::chosen->worst_excess(
-      rows_->candidates(level_->level() + 1), candidates_->target.data(),
-      candidates_->limits(*rows_), tolerance::kBroken * x_scale, 0.0);
-  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
-    const Row& row = (*rows_)[all_[i].row];
-    if (!row.equality) candidates_->set(row.candidate, row.lower, row.upper);
-  }
-  return excess <= 0.0;
-}
-
-void SettledLevel::balance_violation(double rho, const double* x) {
-  // the gradient in the coordinates of the factor
-  std::fill_n(force_.data(), padded(factor_.rank()), 0.0);
-  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
-    const double violation = rows_->violation(all_[i].row, rows_->dot(all_[i].row, x));
-    const double* l = factor_.coordinates(i);
-    for (Index j = 0; j < rank_[kOwn]; ++j) force_[j] += violation * l[j];
-  }
-  for (Index j = 0; j < factor_.rank(); ++j) force_[j] += rho * rho * y_[j];
-  for (Planned& row : all_) row.multiplier = 0.0;
-  const auto balance = [&](Group group) {
-    for (Index j = rank_[group] - 1; j >= first(group); --j) {
-      const double* l = factor_.coordinates(factor_.pivot(j));
-      const double push = -force_[j] / l[j];
-      all_[factor_.pivot(j)].multiplier = push;
-      for (Index i = 0; i < j; ++i) force_[i] += push * l[i];
-    }
-  };
-  if (rho > 0.0) balance(kSmallest);
-  balance(kLimits);
-}
-
-void SettledLevel::balance_step() {
-  for (Index j = 0; j < factor_.rank(); ++j) push_[j] = -y_[j];
-  for (Index j = factor_.rank() - 1; j >= 0; --j) {
-    const double* l = factor_.coordinates(factor_.pivot(j));
-    push_[j] /= l[j];
-    for (Index i = 0; i < j; ++i) push_[i] -= push_[j] * l[i];
-  }
-}
-
-void SettledLevel::keep_own(const double* x, std::vector<HeldRow>& held) const {
-  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
-    const Planned& row = all_[i];
-    if ((*rows_)[row.row].equality) continue;
-    const double violation = rows_->violation(row.row, rows_->dot(row.row, x));
-    held.push_back({row.row, row.side, std::abs(violation), Role::Violation});
-  }
-}
-
-bool SettledLevel::keep_regularized(const double* x, std::vector<HeldRow>& held) const {
-  double largest = 0.0;
-  for (const Planned& row : all_) largest = std::max(largest, std::abs(row.multiplier));
-  for (const Group group : {kLimits, kSmallest}) {
-    for (Index i = begin(group); i < end_[group]; ++i) {
-      const double push = static_cast<double>(all_[i].side) * all_[i].multiplier;
-      if (push < -tolerance::kNegative * largest) return false;
-      held.push_back({all_[i].row, all_[i].side, push, Role::Violation});
-    }
-  }
-  keep_own(x, held);
-  return true;
-}
-
-bool SettledLevel::keep(double x_scale, const double* x, std::vector<HeldRow>& held,
-                        int& begin_norm) {
-  double largest = 0.0;
-  for (const Planned& row : all_) largest = std::max(largest, std::abs(row.multiplier));
-  // a limit that hardly pushes may not settle anything: the long way decides
-  const double least = level_->least_settling(largest, x_scale);
-  for (Index i = begin(kLimits); i < end_[kLimits]; ++i) {
-    const double push = static_cast<double>(all_[i].side) * all_[i].multiplier;
-    if (push < least) return false;
-    held.push_back({all_[i].row, all_[i].side, push, Role::Violation});
-  }
-  keep_own(x, held);
-  begin_norm = static_cast<int>(held.size());
-  // the step against the rows that keep it from being smaller; what is settled may push either way
-  balance_step();
-  double largest_push = 0.0;
-  for (Index j = rank_[kOwn]; j < rank_[kSmallest]; ++j) {
-    largest_push = std::max(largest_push, std::abs(push_[j]));
-  }
-  for (Index j = factor_.rank() - 1; j >= 0; --j) {
-    const Planned& row = all_[factor_.pivot(j)];
-    const bool smallest = j >= rank_[kOwn];
-    const double push = static_cast<double>(row.side) * push_[j];
-    if (smallest && push < -tolerance::kNegative * largest_push) return false;
-    if ((*rows_)[row.row].equality) continue;
-    held.push_back({row.row, row.side, push, smallest ? Role::SmallestStep : Role::Idle});
-  }
-  return true;
-}
-
-bool SettledLevel::solve(double rho, double x_scale, double* x, std::vector<HeldRow>& held,
-                         int& begin_norm) {
+void SettledLevel::answer(double rho) {
+  gather();
   factor();
   meet(kLimits);
   least_squares(rho);
   meet(kSmallest);
-  step(x);
-  double largest = x_scale;
-  for (Index j = 0; j < rows_->stride(); ++j) {
-    if (!std::isfinite(x[j])) return false;
-    largest = std::max(largest, std::abs(x[j]));
+  step();
+  rows_->values(level_->level() + 1, target_.data(), candidates_->target.data());
+}
+
+// a limit of the last group that the rows before it leave broken, or inside
+bool SettledLevel::mend_unmet() {
+  for (Index i = 0; i < static_cast<Index>(group_[kSmallest].size()); ++i) {
+    const Held held = group_[kSmallest][i];
+    const double miss = beyond(held);
+    if (std::abs(miss) <= allowed(held.row)) continue;
+    let_go(kSmallest, i);
+    // it does push against the level, then
+    if (miss > 0.0) {
+      const bool own = (*rows_)[held.row].level == level_->level();
+      hold(own ? kOwn : kLimits, held.row, held.side, true);
+    }
+    return true;
   }
-  if (!holds(x, largest)) return false;
-  balance_violation(rho, x);
-  const std::size_t before = held.size();
-  const bool proven = rho > 0.0 ? keep_regularized(x, held) : keep(x_scale, x, held, begin_norm);
-  if (rho > 0.0) begin_norm = static_cast<int>(held.size());
-  if (!proven) held.resize(before);
-  return proven;
+  return false;
+}
+
+// from x towards the target, until a limit is in the way: it is held then
+bool SettledLevel::advance(Budget& budget) {
+  const Index count = rows_->candidates(level_->level() + 1);
+  double *value = candidates_->value.data(), *target = candidates_->target.data();
+  const kernels::Blocking blocking = kernels::chosen->first_blocking(
+      count, value, target, candidates_->limits(*rows_), relative_, 0.0);
+  const double way = blocking.candidate < 0 ? 1.0 : blocking.way;
+  for (Index j = 0; j < rows_->stride(); ++j) x_[j] += way * (target_[j] - x_[j]);
+  if (blocking.candidate < 0) {
+    std::copy_n(target, count, value);
+    return false;
+  }
+  for (Index c = 0; c < count; ++c) value[c] += way * (target[c] - value[c]);
+  const int i = rows_->row_of_candidate(blocking.candidate);
+  const Row& row = (*rows_)[i];
+  const bool up = target[blocking.candidate] > candidates_->upper(blocking.candidate);
+  const double least = tolerance::kLost * row.norm;
+  if (level_->free_part(row) <= least * least) {
+    // nothing here can move it: rounding
+    ignored_.push_back({i, Side::Upper, 0.0, candidates_->lower(row.candidate),
+                        candidates_->upper(row.candidate), 0.0, false});
+    candidates_->set(row.candidate, -kAbsent, kAbsent);
+    return true;
+  }
+  hold(row.level == level_->level() ? kOwn : kLimits, i, up ? Side::Upper : Side::Lower, false);
+  ++budget.used;
+  return true;
+}
+
+// an own row that is met only holds the step; one that is inside its limits does nothing
+bool SettledLevel::mend_own() {
+  for (Index i = 0; i < static_cast<Index>(group_[kOwn].size()); ++i) {
+    const Held held = group_[kOwn][i];
+    if ((*rows_)[held.row].equality) continue;
+    const double miss = beyond(held), room = allowed(held.row);
+    if (miss > room || (held.pinned && miss >= -room)) continue;
+    let_go(kOwn, i);
+    if (miss >= -room) hold(kSmallest, held.row, held.side, false);
+    return true;
+  }
+  return false;
+}
+
+// limits that hardly push settle nothing, they can only hold the step: they go to the last group
+bool SettledLevel::mend_weak() {
+  double largest = 0.0;
+  for (const Held& held : all_) largest = std::max(largest, std::abs(held.multiplier));
+  const double least = level_->least_settling(largest, x_scale_);
+  bool moved = false;
+  for (Index i = end_[kLimits] - 1; i >= 0; --i) {
+    const Held held = group_[kLimits][i];
+    if (held.pinned || std::abs(all_[i].multiplier) >= least) continue;
+    let_go(kLimits, i);
+    hold(kSmallest, held.row, held.side, false);
+    moved = true;
+  }
+  return moved;
+}
+
+// lets the limit go that pulls most: against the violations first, then against the step
+bool SettledLevel::drop_negative(Budget& budget) {
+  for (const Group group : {kLimits, kSmallest}) {
+    double largest = 0.0;
+    for (Index i = begin(group); i < end_[group]; ++i) {
+      largest = std::max(largest, std::abs(all_[i].multiplier));
+    }
+    double worst = -tolerance::kNegative * largest;
+    Index found = -1;
+    for (Index i = begin(group); i < end_[group]; ++i) {
+      const double push = sign(all_[i].side) * all_[i].multiplier;
+      if (push >= worst) continue;
+      worst = push;
+      found = i - begin(group);
+    }
+    if (found < 0) continue;
+    let_go(group, found);
+    ++budget.used;
+    return true;
+  }
+  return false;
+}
+
+void SettledLevel::keep(double rho, std::vector<HeldRow>& held, int& begin_norm) const {
+  const auto is_limit = [&](const Held& row) { return !(*rows_)[row.row].equality; };
+  for (Index i = 0; i < end_[kLimits]; ++i) {
+    const Held& row = all_[i];
+    held.push_back({row.row, row.side, sign(row.side) * row.multiplier, Role::Violation});
+  }
+  for (Index i = begin(kSmallest); rho > 0.0 && i < end_[kSmallest]; ++i) {
+    const Held& row = all_[i];
+    const double push = rho * rho * sign(row.side) * row.multiplier;
+    held.push_back({row.row, row.side, push, Role::SmallestStep});
+  }
+  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
+    const Held& row = all_[i];
+    if (!is_limit(row)) continue;
+    held.push_back({row.row, row.side, std::max(0.0, beyond(row)), Role::Violation});
+  }
+  begin_norm = static_cast<int>(held.size());
+  // the step against the rows that keep it from being smaller; what is settled may push either way
+  for (Index j = factor_.rank() - 1; j >= 0; --j) {
+    const Held& row = all_[factor_.pivot(j)];
+    if (!is_limit(row)) continue;
+    held.push_back({row.row, row.side, sign(row.side) * push_[j],
+                    j >= rank_[kOwn] && rho == 0.0 ? Role::SmallestStep : Role::Idle});
+  }
+}
+
+bool SettledLevel::solve(double rho, double x_scale, Budget& budget, double* x,
+                         std::vector<HeldRow>& held, int& begin_norm) {
+  x_scale_ = x_scale;
+  relative_ = tolerance::kBroken * x_scale;
+  hold_violated();
+  bool found = false;
+  // every round changes the held rows; a set met twice is rounding, and ends here, too
+  const Index most = 4 * (level_->free() + 8);
+  for (Index round = 0; round < most && !budget.spent(); ++round) {
+    answer(rho);
+    if (!std::isfinite(kernels::chosen->largest(rows_->stride(), target_.data()))) break;
+    if (mend_unmet() || advance(budget) || mend_own()) continue;
+    balance_violation(rho);
+    if (mend_weak()) continue;
+    balance_step();
+    if (drop_negative(budget)) continue;
+    found = true;
+    break;
+  }
+  if (found) {
+    std::copy_n(target_.data(), rows_->stride(), x);
+    keep(rho, held, begin_norm);
+  }
+  release();
+  return found;
 }
 
 }  // namespace hurcules

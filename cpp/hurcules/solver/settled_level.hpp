@@ -1,14 +1,18 @@
-// A level whose regularisation is nothing or next to nothing, when its working set is known: one
-// factorisation instead of proximal steps.
+// A level whose regularisation is nothing, or small against its rows: a primal active set on the
+// level as it is, without the least-distance form that loses digits there.
 //
-// In the free directions the rows in the order  held limits | own equality and violated rows |
-// limits that hold only the smallest step  are met one after the other: the limits exactly, the
-// own rows by least squares, the last with what is left. The answer counts only if it proves
-// itself: all limits hold, multipliers are positive, violated rows are violated.
+// In the free directions the held rows in the order
+//     limits that push against the level | own equality and violated rows | limits that hold only
+//     the smallest step
+// are met one after the other: the limits exactly, the own rows by least squares, the last with
+// what is left. From a feasible point the answer of the held rows is approached until a limit
+// stops it; a row that pulls is let go. Started from a set that is right, this is one
+// factorisation.
 #pragma once
 
 #include <vector>
 
+#include "hurcules/solver/budget.hpp"
 #include "hurcules/solver/candidates.hpp"
 #include "hurcules/solver/chain.hpp"
 #include "hurcules/solver/level_problem.hpp"
@@ -19,36 +23,52 @@ namespace hurcules {
 class SettledLevel {
  public:
   void reserve(Index unknowns, Index rows);
-  // a level from x_above; then its rows are planned
+  // A level from x_above, from the feasible point `x`.
   void start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
-             Candidates& candidates, const double* x_above);
-  void plan(int row, Side side, double limit, Role role);
-  // True when the planned rows are the right ones; then x is the answer and `held` has its rows
-  // (those of the smallest step from begin_norm on).
-  bool solve(double rho, double x_scale, double* x, std::vector<HeldRow>& held, int& begin_norm);
+             Candidates& candidates, const double* x_above, const double* x);
+  // holds a row from the beginning
+  void hold(int row, Side side, Role role);
+  // To the answer x; then `held` has its rows (those of the smallest step from begin_norm on).
+  // False when it does not get there.
+  bool solve(double rho, double x_scale, Budget& budget, double* x, std::vector<HeldRow>& held,
+             int& begin_norm);
 
  private:
   enum Group { kLimits, kOwn, kSmallest, kGroups };
-  struct Planned {
+  struct Held {
     int row;
     Side side;
     double limit;
+    double lower, upper;  // what the row allows when it is let go
     double multiplier;
+    bool pinned;  // it came back from the last group once
   };
 
+  void hold_violated();
+  void hold(Group group, int row, Side side, bool pinned);
+  void let_go(Group group, Index i);
+  void release();
+  void gather();  // groups -> all_
+  // the step that the held rows ask for: target_, its values, multipliers
+  void answer(double rho);
   void factor();
-  // coordinates of the step: limits exactly, own rows by least squares, the rest
   void meet(Group group);
   void least_squares(double rho);
-  void step(double* x);
-  [[nodiscard]] bool holds(const double* x, double x_scale);
-  // multipliers of the limits against the violations, and of all rows against the step
-  void balance_violation(double rho, const double* x);
+  void add_smallest(double rho, Index& count);
+  void step();
+  void balance_violation(double rho);
   void balance_step();
-  [[nodiscard]] bool keep(double x_scale, const double* x, std::vector<HeldRow>& held,
-                          int& begin_norm);
-  [[nodiscard]] bool keep_regularized(const double* x, std::vector<HeldRow>& held) const;
-  void keep_own(const double* x, std::vector<HeldRow>& held) const;
+
+  // Each of these changes the held rows where they are wrong, and says whether it did.
+  bool mend_unmet();
+  bool advance(Budget& budget);
+  bool mend_own();
+  bool mend_weak();
+  bool drop_negative(Budget& budget);
+
+  void keep(double rho, std::vector<HeldRow>& held, int& begin_norm) const;
+  [[nodiscard]] double beyond(const Held& held) const;  // target - limit, outwards
+  [[nodiscard]] double allowed(int row) const;
   [[nodiscard]] Index begin(Group group) const { return group == 0 ? 0 : end_[group - 1]; }
   // directions that a group gave
   [[nodiscard]] Index first(Group group) const { return group == 0 ? 0 : rank_[group - 1]; }
@@ -58,11 +78,12 @@ class SettledLevel {
   const LevelProblem* level_ = nullptr;
   Candidates* candidates_ = nullptr;
   const double* x_above_ = nullptr;
-  std::vector<Planned> planned_[kGroups], all_;
+  double relative_ = 0.0, x_scale_ = 1.0;
+  std::vector<Held> group_[kGroups], all_, ignored_;
   Index end_[kGroups] = {}, rank_[kGroups] = {};
   OrthogonalFactor factor_;
   Matrix block_;
-  PaddedVector norm2_, y_, t_, force_, push_;
+  PaddedVector norm2_, y_, t_, force_, push_, x_, target_;
 };
 
 }  // namespace hurcules

@@ -1,0 +1,141 @@
+// The answer of a set of held rows in a level without regularisation, and its multipliers.
+#include <algorithm>
+#include <cmath>
+
+#include "hurcules/solver/settled_level.hpp"
+#include "hurcules/solver/tolerances.hpp"
+#include "hurcules/solver/triangularize.hpp"
+
+namespace hurcules {
+
+void SettledLevel::gather() {
+  all_.clear();
+  for (int g = 0; g < kGroups; ++g) {
+    all_.insert(all_.end(), group_[g].begin(), group_[g].end());
+    end_[g] = static_cast<Index>(all_.size());
+  }
+}
+
+void SettledLevel::factor() {
+  const Index columns = level_->free();
+  factor_.start(end_[kSmallest], columns);
+  for (Index i = 0; i < end_[kSmallest]; ++i) {
+    const Row& row = (*rows_)[all_[i].row];
+    const double* e =
+        (row.equality ? chain_->equality_coordinates(row.dense) : chain_->coordinates(row)) +
+        level_->first();
+    // an equality row has no part behind its own directions
+    const Index known = row.equality ? level_->own() : columns;
+    double* r = factor_.row(i);
+    std::copy_n(e, known, r);
+    std::fill(r + known, r + factor_.stride(), 0.0);
+    norm2_[i] = row.norm * row.norm;
+  }
+  for (const Group group : {kLimits, kOwn, kSmallest}) {
+    factor_.run(begin(group), end_[group], norm2_.data(), tolerance::kRank);
+    factor_.clear_unknown(begin(group), end_[group]);
+    rank_[group] = factor_.rank();
+  }
+}
+
+void SettledLevel::meet(Group group) {
+  for (Index j = first(group); j < rank_[group]; ++j) {
+    const Held& row = all_[factor_.pivot(j)];
+    const double* l = factor_.coordinates(factor_.pivot(j));
+    double rest = row.limit - rows_->dot(row.row, x_above_);
+    for (Index i = 0; i < j; ++i) rest -= l[i] * y_[i];
+    y_[j] = rest / l[j];
+  }
+}
+
+void SettledLevel::least_squares(double rho) {
+  const Index first = this->first(kOwn), columns = rank_[kOwn] - first;
+  Index count = 0;
+  for (Index i = begin(kOwn); i < end_[kOwn]; ++i, ++count) {
+    const double* l = factor_.coordinates(i);
+    double rest = all_[i].limit - rows_->dot(all_[i].row, x_above_);
+    for (Index j = 0; j < first; ++j) rest -= l[j] * y_[j];
+    for (Index j = 0; j < columns; ++j) block_(count, j) = l[first + j];
+    block_(count, columns) = rest;
+  }
+  if (rho > 0.0) {
+    for (Index j = 0; j < columns; ++j, ++count) {
+      block_.row(count).head(columns + 1).setZero();
+      block_(count, j) = rho;
+    }
+    add_smallest(rho, count);
+  }
+  triangularize(block_, count, columns);
+  for (Index j = columns - 1; j >= 0; --j) {
+    double sum = block_(j, columns);
+    for (Index l = j + 1; l < columns; ++l) sum -= block_(j, l) * y_[first + l];
+    y_[first + j] = sum / block_(j, j);
+  }
+}
+
+// rows of the last group move with the own ones: their part of the step, L_SS^-1 (rest - L_SO y_O)
+void SettledLevel::add_smallest(double rho, Index& count) {
+  const Index first = this->first(kOwn), columns = rank_[kOwn] - first, begin_last = count;
+  for (Index s = rank_[kOwn]; s < rank_[kSmallest]; ++s, ++count) {
+    const Held& row = all_[factor_.pivot(s)];
+    const double* l = factor_.coordinates(factor_.pivot(s));
+    double rest = row.limit - rows_->dot(row.row, x_above_);
+    for (Index j = 0; j < first; ++j) rest -= l[j] * y_[j];
+    for (Index j = 0; j < columns; ++j) block_(count, j) = rho * l[first + j];
+    block_(count, columns) = rho * rest;
+    for (Index b = rank_[kOwn]; b < s; ++b) {
+      block_.row(count).head(columns + 1) -=
+          l[b] * block_.row(begin_last + b - rank_[kOwn]).head(columns + 1);
+    }
+    block_.row(count).head(columns + 1) /= l[s];
+  }
+}
+
+void SettledLevel::step() {
+  const kernels::Table& kernel = *kernels::chosen;
+  std::fill_n(t_.data(), padded(level_->free()), 0.0);
+  kernel.axpys(factor_.direction(0), factor_.rank(), factor_.stride(), y_.data(), t_.data());
+  std::copy_n(x_above_, rows_->stride(), target_.data());
+  kernel.axpys(chain_->direction(level_->first()), level_->free(), rows_->stride(), t_.data(),
+               target_.data());
+}
+
+// multipliers of the limits against the violations (and the regularisation): L' mu = -gradient
+void SettledLevel::balance_violation(double rho) {
+  std::fill_n(force_.data(), padded(factor_.rank()), 0.0);
+  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
+    const Row& row = (*rows_)[all_[i].row];
+    const double violation =
+        row.equality ? rows_->dot(all_[i].row, target_.data()) - row.upper
+                     : rows_->violation(all_[i].row, candidates_->target[row.candidate]);
+    const double* l = factor_.coordinates(i);
+    for (Index j = 0; j < rank_[kOwn]; ++j) force_[j] += violation * l[j];
+  }
+  for (Index j = 0; j < factor_.rank(); ++j) force_[j] += rho * rho * y_[j];
+  for (Held& held : all_) held.multiplier = 0.0;
+  const auto balance = [&](Group group) {
+    for (Index j = rank_[group] - 1; j >= first(group); --j) {
+      const double* l = factor_.coordinates(factor_.pivot(j));
+      const double push = -force_[j] / l[j];
+      all_[factor_.pivot(j)].multiplier = push;
+      for (Index i = 0; i < j; ++i) force_[i] += push * l[i];
+    }
+  };
+  if (rho > 0.0) balance(kSmallest);
+  balance(kLimits);
+}
+
+// multipliers of all held rows against the step, L' nu = -y; those of the last group are theirs
+void SettledLevel::balance_step() {
+  for (Index j = 0; j < factor_.rank(); ++j) push_[j] = -y_[j];
+  for (Index j = factor_.rank() - 1; j >= 0; --j) {
+    const double* l = factor_.coordinates(factor_.pivot(j));
+    push_[j] /= l[j];
+    for (Index i = 0; i < j; ++i) push_[i] -= push_[j] * l[i];
+  }
+  for (Index j = rank_[kOwn]; j < rank_[kSmallest]; ++j) {
+    all_[factor_.pivot(j)].multiplier = push_[j];
+  }
+}
+
+}  // namespace hurcules
