@@ -95,7 +95,7 @@ bool ActiveSet::warm() {
   set_.factor();
   solve();
   set_.find_multipliers();
-  if (set_.most_negative() >= 0) return false;
+  if (set_.most_negative(tolerance::kNegativeWarm) >= 0) return false;
   if (worst_excess(candidates_->target.data()) > 0.0) return false;
   return true;
 }

@@ -57,7 +57,7 @@ bool ActiveSet::primal(Budget& budget, int most_changes) {
     std::copy_n(target_.data(), rows_->stride(), x_.data());
     std::copy_n(target, count_, value);
     set_.find_multipliers();
-    const Index slot = set_.most_negative();
+    const Index slot = set_.most_negative(tolerance::kNegative);
     if (slot < 0) return true;
     if (budget.used >= end) return false;
     set_.drop(slot);
@@ -67,7 +67,8 @@ bool ActiveSet::primal(Budget& budget, int most_changes) {
 }
 
 bool ActiveSet::drop_negative(Budget& budget) {
-  for (Index slot = set_.most_negative(); slot >= 0; slot = set_.most_negative()) {
+  for (Index slot = set_.most_negative(tolerance::kNegative); slot >= 0;
+       slot = set_.most_negative(tolerance::kNegative)) {
     if (budget.spent()) return false;
     set_.drop(slot);
     ++budget.used;

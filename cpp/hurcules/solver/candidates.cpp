@@ -3,6 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "hurcules/solver/tolerances.hpp"
+
 namespace hurcules {
 
 namespace {
@@ -35,11 +37,12 @@ void Candidates::open(const RowTable& rows, int level, const double* x) {
   ask(first, rows.inequalities(level + 1) - rows.inequalities(level));
 }
 
-void Candidates::close(const RowTable& rows, int level) {
+void Candidates::close(const RowTable& rows, int level, double x_scale) {
   const auto widen = [&](Index first, Index count) {
-    kernels::chosen->widen(count, value.data() + first, rows.asked_lower() + first,
-                           rows.asked_upper() + first, lower_.data() + first,
-                           upper_.data() + first);
+    const kernels::LimitArrays asked = {rows.asked_lower() + first, rows.asked_upper() + first,
+                                        rows.norms() + first};
+    kernels::chosen->widen(count, value.data() + first, asked, tolerance::kBroken * x_scale,
+                           lower_.data() + first, upper_.data() + first);
   };
   for (int b = 0; b < rows.bounds_blocks(); ++b) {
     if (rows.block_level(b) <= level) widen(b * rows.stride(), rows.stride());

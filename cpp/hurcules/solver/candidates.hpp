@@ -17,8 +17,9 @@ class Candidates {
   // the rows of `level` count from here on, as asked for; `x`, where the levels above ended, gives
   // their values
   void open(const RowTable& rows, int level, const double* x);
-  // the level is solved, with `value` at its answer: its rows and those above may not get worse
-  void close(const RowTable& rows, int level);
+  // the level is solved, with `value` at its answer: its rows and those above may not get worse.
+  // What is broken by rounding in x (of size x_scale) counts as held.
+  void close(const RowTable& rows, int level, double x_scale);
 
   [[nodiscard]] kernels::LimitArrays limits(const RowTable& rows) const {
     return {lower_.data(), upper_.data(), rows.norms()};

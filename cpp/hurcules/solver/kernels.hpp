@@ -67,9 +67,9 @@ struct Table {
   // by how much candidates got worse from `before` to `now`: the largest  now - max(upper, before)
   // or  min(lower, before) - now,  relative to their norms
   double (*worsened)(Size size, const double* before, const double* now, LimitArrays limits);
-  // lower = min(asked_lower, value), upper = max(asked_upper, value)
-  void (*widen)(Size size, const double* value, const double* asked_lower,
-                const double* asked_upper, double* lower, double* upper);
+  // lower and upper as asked for, or the value where it is beyond by more than relative * norm
+  void (*widen)(Size size, const double* value, LimitArrays asked, double relative, double* lower,
+                double* upper);
 };
 
 // the table in use

@@ -263,12 +263,13 @@ double worsened(Size size, const double* before, const double* now, LimitArrays 
   return result;
 }
 
-void widen(Size size, const double* value, const double* asked_lower, const double* asked_upper,
-           double* lower, double* upper) {
+void widen(Size size, const double* value, LimitArrays asked, double relative, double* lower,
+           double* upper) {
   for (Size j = 0; j < size; j += kWidth) {
-    const Pack v = load(value + j), low = load(asked_lower + j), high = load(asked_upper + j);
-    store(lower + j, low < v ? low : v);
-    store(upper + j, high > v ? high : v);
+    const Pack v = load(value + j), allowed = relative * load(asked.norm + j);
+    const Pack low = load(asked.lower + j), high = load(asked.upper + j);
+    store(lower + j, (low - v) > allowed ? v : low);
+    store(upper + j, (v - high) > allowed ? v : high);
   }
 }
 

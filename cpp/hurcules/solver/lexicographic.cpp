@@ -93,7 +93,7 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
     x_ = records_[k].x.data();
     const bool done = solve_level(hierarchy[k], k);
     active_set_.clear();
-    candidates_.close(rows_, k);
+    candidates_.close(rows_, k, x_scale_);
     if (!done) break;
     ++solution_.final_levels;
     x_above_ = x_;
@@ -135,6 +135,12 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   }
   if (!done) {
     solution_.status = SolverStatus::IterationLimit;
+    // what was reached on the way counts only where it keeps the levels above
+    if (optimality_.worsened(rows_, candidates_, k, x_above_, x_) > tolerance::kBroken * x_scale_) {
+      start_way();
+      take(x_above_);
+      prove(level.rho, k);
+    }
   } else if (residual > tolerance::kProven && solution_.status == SolverStatus::Solved) {
     // the proof decides, whatever the way thought of itself
     solution_.status = SolverStatus::ReducedAccuracy;

@@ -64,11 +64,11 @@ bool Lexicographic::solve_carefully(double rho, int k) {
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {
-  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, x_above_);
+  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, x_above_, x_scale_);
   for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
     settled_level_.hold(kept_[h].row, kept_[h].side, kept_[h].role);
   }
-  return settled_level_.solve(rho, x_scale_, budget_, x_, held_, begin_norm_);
+  return settled_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_held(double rho, double epsilon) {
@@ -85,9 +85,9 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
   }
   ++solution_.factorizations;
   active_set_.clear();
-  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, active_set_.x());
+  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, active_set_.x(), x_scale_);
   for (const KeptRow& row : found_) settled_level_.hold(row.row, row.side, row.role);
-  return settled_level_.solve(rho, x_scale_, budget_, x_, held_, begin_norm_);
+  return settled_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::proximal_steps(double epsilon) {

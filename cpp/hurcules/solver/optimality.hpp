@@ -53,14 +53,16 @@ class Optimality {
                   const double* x_above, double x_scale, LevelRecord& record,
                   const std::vector<HeldRow>& held);
 
+  // by how much rows above level k got worse, relative to |a|
+  double worsened(const RowTable& rows, const Candidates& candidates, int k, const double* x_above,
+                  const double* x);
+
  private:
   double add_own_rows(const RowTable& rows, const Candidates& candidates, int k, const double* x,
                       double* g);
   [[nodiscard]] double worst_held(const RowTable& rows, const Candidates& candidates, int k,
                                   const LevelRecord& record, const std::vector<HeldRow>& held,
                                   double x_scale) const;
-  double worsened(const RowTable& rows, const Candidates& candidates, int k, const double* x_above,
-                  const double* x);
   double norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                        const LevelRecord& record, const std::vector<HeldRow>& held);
 

@@ -143,10 +143,10 @@ void OrthogonalFactor::solve(double* b) const {
   }
 }
 
-void OrthogonalFactor::solve_transposed(double* b) const {
+void OrthogonalFactor::solve_transposed(double* b, double noise) const {
   for (Index i = rank_ - 1; i >= 0; --i) {
     const double* l = L_.row(i);
-    b[i] /= l[i];
+    b[i] = std::abs(b[i]) > noise ? b[i] / l[i] : 0.0;
     for (Index j = 0; j < i; ++j) b[j] -= l[j] * b[i];
   }
 }

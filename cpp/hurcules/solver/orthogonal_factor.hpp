@@ -34,9 +34,10 @@ class OrthogonalFactor {
   void remove(Index slot, double* g);
   // v minus its parts along all directions; the parts; what is left, squared
   double project(double* v, double* part, double norm2) const;
-  // L g = b and L' m = b, in place, for square L
+  // L g = b and L' m = b, in place, for square L. What balances to `noise` or less on the way
+  // counts as nothing: divided by a short row it would not.
   void solve(double* b) const;
-  void solve_transposed(double* b) const;
+  void solve_transposed(double* b, double noise = 0.0) const;
 
   [[nodiscard]] Index rank() const { return rank_; }
   [[nodiscard]] Index columns() const { return columns_; }

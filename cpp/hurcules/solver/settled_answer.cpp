@@ -103,6 +103,7 @@ void SettledLevel::step() {
 // multipliers of the limits against the violations (and the regularisation): L' mu = -gradient
 void SettledLevel::balance_violation(double rho) {
   std::fill_n(force_.data(), padded(factor_.rank()), 0.0);
+  double noise = 0.0;
   for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
     const Row& row = (*rows_)[all_[i].row];
     const double violation =
@@ -110,13 +111,15 @@ void SettledLevel::balance_violation(double rho) {
                      : rows_->violation(all_[i].row, candidates_->target[row.candidate]);
     const double* l = factor_.coordinates(i);
     for (Index j = 0; j < rank_[kOwn]; ++j) force_[j] += violation * l[j];
+    noise += tolerance::kNoise * std::abs(violation) * row.norm;
   }
   for (Index j = 0; j < factor_.rank(); ++j) force_[j] += rho * rho * y_[j];
   for (Held& held : all_) held.multiplier = 0.0;
   const auto balance = [&](Group group) {
     for (Index j = rank_[group] - 1; j >= first(group); --j) {
       const double* l = factor_.coordinates(factor_.pivot(j));
-      const double push = -force_[j] / l[j];
+      // divided by a short row, rounding would not be told from a push
+      const double push = std::abs(force_[j]) > noise ? -force_[j] / l[j] : 0.0;
       all_[factor_.pivot(j)].multiplier = push;
       for (Index i = 0; i < j; ++i) force_[i] += push * l[i];
     }
@@ -127,10 +130,14 @@ void SettledLevel::balance_violation(double rho) {
 
 // multipliers of all held rows against the step, L' nu = -y; those of the last group are theirs
 void SettledLevel::balance_step() {
-  for (Index j = 0; j < factor_.rank(); ++j) push_[j] = -y_[j];
+  double largest = 0.0;
+  for (Index j = 0; j < factor_.rank(); ++j) {
+    push_[j] = -y_[j];
+    largest = std::max(largest, std::abs(y_[j]));
+  }
   for (Index j = factor_.rank() - 1; j >= 0; --j) {
     const double* l = factor_.coordinates(factor_.pivot(j));
-    push_[j] /= l[j];
+    push_[j] = std::abs(push_[j]) > tolerance::kNoise * largest ? push_[j] / l[j] : 0.0;
     for (Index i = 0; i < j; ++i) push_[i] -= push_[j] * l[i];
   }
   for (Index j = rank_[kOwn]; j < rank_[kSmallest]; ++j) {

@@ -33,20 +33,42 @@ void SettledLevel::reserve(Index unknowns, Index rows) {
 }
 
 void SettledLevel::start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
-                         Candidates& candidates, const double* x_above, const double* x) {
+                         Candidates& candidates, const double* x_above, const double* x,
+                         double x_scale) {
   rows_ = &rows;
   chain_ = &chain;
   level_ = &level;
   candidates_ = &candidates;
   x_above_ = x_above;
+  x_scale_ = x_scale;
+  relative_ = tolerance::kBroken * x_scale;
   std::copy_n(x, rows.stride(), x_.data());
   rows.values(level.level() + 1, x, candidates.value.data());
+  if (worst_above(x_scale) > 0.0) {
+    std::copy_n(x_above, rows.stride(), x_.data());
+    rows.values(level.level() + 1, x_above, candidates.value.data());
+  }
   for (auto& group : group_) group.clear();
   ignored_.clear();
   for (int d = rows.equalities(level.level()); d < rows.equalities(level.level() + 1); ++d) {
     const int i = rows.row_of_dense(d);
     group_[kOwn].push_back({i, Side::Upper, rows[i].upper, 0.0, 0.0, 0.0, false});
   }
+}
+
+// by how much `value` breaks rows above, beyond what rounding does
+double SettledLevel::worst_above(double x_scale) const {
+  double worst = 0.0;
+  const int level = level_->level();
+  for (int i = 0; i < rows_->begin(level); ++i) {
+    const Row& row = (*rows_)[i];
+    if (row.equality) continue;
+    const double value = candidates_->value[row.candidate];
+    const double excess = std::max(value - candidates_->upper(row.candidate),
+                                   candidates_->lower(row.candidate) - value);
+    worst = std::max(worst, excess - tolerance::kBroken * x_scale * row.norm);
+  }
+  return worst;
 }
 
 void SettledLevel::hold(Group group, int row, Side side, bool pinned) {
@@ -87,10 +109,11 @@ double SettledLevel::beyond(const Held& held) const {
   return sign(held.side) * (candidates_->target[(*rows_)[held.row].candidate] - held.limit);
 }
 
-// own rows that are violated at the start take part whatever the held rows say
-void SettledLevel::hold_violated() {
+// holds own rows that are violated at x; true when there were any
+bool SettledLevel::hold_violated() {
   const int level = level_->level();
-  if (!level_->has_slacks()) return;
+  const std::size_t before = group_[kOwn].size();
+  if (!level_->has_slacks()) return false;
   for (int i = rows_->begin(level); i < rows_->begin(level + 1); ++i) {
     const Row& row = (*rows_)[i];
     if (row.equality) continue;
@@ -98,6 +121,7 @@ void SettledLevel::hold_violated() {
     if (value > candidates_->upper(row.candidate) + allowed(i)) hold(kOwn, i, Side::Upper, false);
     if (value < candidates_->lower(row.candidate) - allowed(i)) hold(kOwn, i, Side::Lower, false);
   }
+  return group_[kOwn].size() > before;
 }
 
 void SettledLevel::answer(double rho) {
@@ -131,8 +155,12 @@ bool SettledLevel::mend_unmet() {
 bool SettledLevel::advance(Budget& budget) {
   const Index count = rows_->candidates(level_->level() + 1);
   double *value = candidates_->value.data(), *target = candidates_->target.data();
-  const kernels::Blocking blocking = kernels::chosen->first_blocking(
-      count, value, target, candidates_->limits(*rows_), relative_, 0.0);
+  const kernels::LimitArrays limits = candidates_->limits(*rows_);
+  const bool inside = kernels::chosen->worst_excess(count, target, limits, relative_, 0.0) <= 0.0;
+  if (!inside && hold_violated()) return true;
+  const kernels::Blocking blocking =
+      inside ? kernels::Blocking()
+             : kernels::chosen->first_blocking(count, value, target, limits, relative_, 0.0);
   const double way = blocking.candidate < 0 ? 1.0 : blocking.way;
   for (Index j = 0; j < rows_->stride(); ++j) x_[j] += way * (target_[j] - x_[j]);
   if (blocking.candidate < 0) {
@@ -235,11 +263,8 @@ void SettledLevel::keep(double rho, std::vector<HeldRow>& held, int& begin_norm)
   }
 }
 
-bool SettledLevel::solve(double rho, double x_scale, Budget& budget, double* x,
-                         std::vector<HeldRow>& held, int& begin_norm) {
-  x_scale_ = x_scale;
-  relative_ = tolerance::kBroken * x_scale;
-  hold_violated();
+bool SettledLevel::solve(double rho, Budget& budget, double* x, std::vector<HeldRow>& held,
+                         int& begin_norm) {
   bool found = false;
   // every round changes the held rows; a set met twice is rounding, and ends here, too
   const Index most = 4 * (level_->free() + 8);
@@ -254,10 +279,9 @@ bool SettledLevel::solve(double rho, double x_scale, Budget& budget, double* x,
     found = true;
     break;
   }
-  if (found) {
-    std::copy_n(target_.data(), rows_->stride(), x);
-    keep(rho, held, begin_norm);
-  }
+  // interrupted, it is the best point so far
+  std::copy_n(found ? target_.data() : x_.data(), rows_->stride(), x);
+  if (found) keep(rho, held, begin_norm);
   release();
   return found;
 }

@@ -23,15 +23,15 @@ namespace hurcules {
 class SettledLevel {
  public:
   void reserve(Index unknowns, Index rows);
-  // A level from x_above, from the feasible point `x`.
+  // A level from x_above, from the point `x`, or x_above where `x` breaks a row above. x_scale is
+  // what rounding in x is relative to.
   void start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
-             Candidates& candidates, const double* x_above, const double* x);
+             Candidates& candidates, const double* x_above, const double* x, double x_scale);
   // holds a row from the beginning
   void hold(int row, Side side, Role role);
   // To the answer x; then `held` has its rows (those of the smallest step from begin_norm on).
   // False when it does not get there.
-  bool solve(double rho, double x_scale, Budget& budget, double* x, std::vector<HeldRow>& held,
-             int& begin_norm);
+  bool solve(double rho, Budget& budget, double* x, std::vector<HeldRow>& held, int& begin_norm);
 
  private:
   enum Group { kLimits, kOwn, kSmallest, kGroups };
@@ -44,7 +44,8 @@ class SettledLevel {
     bool pinned;  // it came back from the last group once
   };
 
-  void hold_violated();
+  [[nodiscard]] double worst_above(double x_scale) const;
+  bool hold_violated();
   void hold(Group group, int row, Side side, bool pinned);
   void let_go(Group group, Index i);
   void release();

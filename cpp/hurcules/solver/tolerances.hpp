@@ -10,11 +10,15 @@ inline constexpr double kRank = 1e-10;
 // an inequality row has no part in the free directions of a level, relative to |a|
 inline constexpr double kLost = 1e-10;
 // a limit is broken, relative to max(1, |x|) |a| ...
-inline constexpr double kBroken = 1e-12;
+inline constexpr double kBroken = 5e-13;
 // ... plus the rounding of the target, relative to max |z0|
 inline constexpr double kBrokenTarget = 1e-14;
 // a multiplier is negative, relative to the largest
 inline constexpr double kNegative = 1e-11;
+// ... where a set is only checked: what was found within the line above must pass here
+inline constexpr double kNegativeWarm = 1e-10;
+// a sum of forces that is rounding, relative to the largest of them
+inline constexpr double kNoise = 1e-14;
 // a row depends on the working set: what is left of it, relative to its norm in z
 inline constexpr double kDependent = 1e-10;
 // an active row misses its limit and is worth a correction, relative to max(1, |x|)

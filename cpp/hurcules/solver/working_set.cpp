@@ -152,8 +152,12 @@ void WorkingSet::solve(double* y) {
 }
 
 void WorkingSet::find_multipliers() {
-  for (Index i = 0; i < size(); ++i) work_[i] = -g_[i];
-  factor_.solve_transposed(work_.data());
+  double largest = 0.0;
+  for (Index i = 0; i < size(); ++i) {
+    work_[i] = -g_[i];
+    largest = std::max(largest, std::abs(g_[i]));
+  }
+  factor_.solve_transposed(work_.data(), tolerance::kNoise * largest);
   for (Index i = 0; i < size(); ++i) slots_[i].multiplier = work_[i];
 }
 
@@ -171,10 +175,10 @@ double WorkingSet::explain(int row, Side side, double* rest, double* r, double& 
   return left;
 }
 
-Index WorkingSet::most_negative() const {
+Index WorkingSet::most_negative(double tolerance) const {
   double largest = 0.0;
   for (const ActiveSlot& a : slots_) largest = std::max(largest, std::abs(a.multiplier));
-  double worst = -tolerance::kNegative * largest;
+  double worst = -tolerance * largest;
   Index found = -1;
   for (Index i = 0; i < size(); ++i) {
     if (slots_[i].fixed || slots_[i].multiplier >= worst) continue;

@@ -39,8 +39,10 @@ void expect_unbroken(const Hierarchy& levels, int count, const Vector& x, const 
       const bool equality = levels[k].lower[i] == levels[k].upper[i];
       const double upper = equality ? before : std::max(levels[k].upper[i], before);
       const double lower = equality ? before : std::min(levels[k].lower[i], before);
-      EXPECT_LE(now, upper + 1e-12 * size) << "level " << k << ", row " << i;
-      EXPECT_GE(now, lower - 1e-12 * size) << "level " << k << ", row " << i;
+      EXPECT_LE(now, upper + 1e-12 * size)
+          << "level " << k << ", row " << i << ", over by " << (now - upper) / size;
+      EXPECT_GE(now, lower - 1e-12 * size)
+          << "level " << k << ", row " << i << ", under by " << (lower - now) / size;
     }
   }
 }
