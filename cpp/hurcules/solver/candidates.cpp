@@ -1,5 +1,6 @@
 #include "hurcules/solver/candidates.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -19,6 +20,7 @@ void Candidates::reserve(Index most) {
 
 void Candidates::start(const RowTable& rows) {
   const Index count = rows.candidates(rows.levels());
+  widened_ = false;
   std::fill_n(lower_.data(), count, -kAbsent);
   std::fill_n(upper_.data(), count, kAbsent);
   for (PaddedVector* v : {&above, &value, &target}) std::fill_n(v->data(), count, 0.0);
@@ -37,7 +39,27 @@ void Candidates::open(const RowTable& rows, int level, const double* x) {
   ask(first, rows.inequalities(level + 1) - rows.inequalities(level));
 }
 
+bool Candidates::violates(const RowTable& rows, int level, double x_scale) const {
+  if (rows.begin(level + 1) - rows.begin(level) ==
+      rows.equalities(level + 1) - rows.equalities(level)) {
+    return false;
+  }
+  for (int i = rows.begin(level); i < rows.begin(level + 1); ++i) {
+    const Row& row = rows[i];
+    if (row.equality) continue;
+    const double allowed = tolerance::kBroken * x_scale * row.norm;
+    if (std::abs(rows.violation(i, value[row.candidate])) > allowed) return true;
+  }
+  return false;
+}
+
 void Candidates::close(const RowTable& rows, int level, double x_scale) {
+  // as long as every row is within what it was asked for there is nothing to do
+  widened_ = widened_ || violates(rows, level, x_scale);
+  if (!widened_) {
+    std::swap(above, value);
+    return;
+  }
   const auto widen = [&](Index first, Index count) {
     const kernels::LimitArrays asked = {rows.asked_lower() + first, rows.asked_upper() + first,
                                         rows.norms() + first};

@@ -36,7 +36,10 @@ class Candidates {
   PaddedVector target;  // where a move wants to take them
 
  private:
+  [[nodiscard]] bool violates(const RowTable& rows, int level, double x_scale) const;
+
   PaddedVector lower_, upper_;
+  bool widened_ = false;  // some row is beyond what it was asked for
 };
 
 }  // namespace hurcules

@@ -9,7 +9,7 @@ namespace hurcules {
 
 void Chain::reserve(Index unknowns, Index rows, Index levels) {
   factor_.reserve(rows, unknowns);
-  transposed_.reserve(unknowns, unknowns);
+  transposed_.reserve(padded(unknowns), unknowns);
   transposed_.shape(unknowns);
   for (PaddedVector* v : {&part_, &rest_}) v->reserve(padded(unknowns) + 4);
   rank_.reserve(levels + 1);
@@ -32,11 +32,8 @@ void Chain::complete(const RowTable& rows) {
   complete_ = true;
   const kernels::Table& kernel = *kernels::chosen;
   const Index n = unknowns(), first = factor_.rank();
-  // what each unit vector still has outside the span
-  for (Index b = 0; b < n; ++b) rest_[b] = 1.0;
-  for (Index j = 0; j < first; ++j) {
-    for (Index b = 0; b < n; ++b) rest_[b] -= direction(j)[b] * direction(j)[b];
-  }
+  if (first < n) find_rest();
+
   while (factor_.rank() < n) {
     const Index b = std::max_element(rest_.data(), rest_.data() + n) - rest_.data();
     double* q = factor_.row(rows.dense());  // a free row behind all others
@@ -48,18 +45,21 @@ void Chain::complete(const RowTable& rows) {
     for (Index j = 0; j < stride(); ++j) direction[j] = scale * q[j];
     for (Index j = 0; j < n; ++j) rest_[j] -= direction[j] * direction[j];
   }
-  for (int d = rows.equalities(); d < rows.dense(); ++d) {
+  for (int d = rows.equalities(); first < n && d < rows.dense(); ++d) {
     kernel.dots(direction(first), n - first, stride(), factor_.rest(d),
                 factor_.coordinates(d) + first);
   }
-  if (rows.bounds_blocks() > 0) transpose(0);
+  if (rows.bounds_blocks() > 0) {
+    kernel.transpose(direction(0), padded(n), stride(), transposed_.row(0));
+  }
 }
 
-void Chain::transpose(Index from) {
+// what each unit vector still has outside the span, squared
+void Chain::find_rest() {
   const Index n = unknowns();
-  for (Index j = from; j < n; ++j) {
-    const double* q = direction(j);
-    for (Index b = 0; b < n; ++b) transposed_.row(b)[j] = q[b];
+  for (Index b = 0; b < n; ++b) rest_[b] = 1.0;
+  for (Index j = 0; j < factor_.rank(); ++j) {
+    for (Index b = 0; b < n; ++b) rest_[b] -= direction(j)[b] * direction(j)[b];
   }
 }
 

@@ -39,7 +39,7 @@ class Chain {
   void remove_first(Index r, double* y);
 
  private:
-  void transpose(Index from);
+  void find_rest();
 
   OrthogonalFactor factor_;
   PaddedRows transposed_;  // (n, n): row b has coordinate b of every direction

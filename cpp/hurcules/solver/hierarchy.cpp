@@ -43,6 +43,8 @@ void check_numbers(const LevelView& level, const std::string& where) {
     require(level.lower[i] < kInfinity && level.upper[i] > -kInfinity,
             place(where, i) + ": no x can meet a lower bound of +inf or an upper bound of -inf");
     require(level.bounds || level.A.row(i).allFinite(), place(where, i) + ": A must be finite");
+    require(level.bounds || level.A.row(i).squaredNorm() <= kLongestRow * kLongestRow,
+            place(where, i) + ": a row of A must not be longer than 1e100");
   }
 }
 

@@ -34,10 +34,13 @@ struct Level {
 
 using Hierarchy = std::vector<Level>;
 
+// the longest row that a solve takes: beyond, its square would be infinite
+inline constexpr double kLongestRow = 1e100;
+
 // A level whose numbers belong to somebody else: what a solve reads. They must stay where they are
 // while it runs.
 struct LevelView {
-  Eigen::Map<const Matrix> A{nullptr, 0, 0};  // (m, n); empty for simple bounds
+  Eigen::Map<const Matrix> A{nullptr, 0, 0};                      // (m, n); empty for simple bounds
   Eigen::Map<const Vector> lower{nullptr, 0}, upper{nullptr, 0};  // (m)
   double rho = 0.0;
   bool bounds = false;

@@ -50,6 +50,9 @@ struct Table {
   // to three rows behind the last are read and written.
   void (*eliminate)(const double* pivot, double scale, double* rows, Size count, Size stride,
                     double* coordinates);
+  // columns of `count` rows become rows of `out`, as many as rows are long; all `stride` apart,
+  // count and stride multiples of four
+  void (*transpose)(const double* rows, Size count, Size stride, double* out);
   // Gram-Schmidt over rows [first, end) as long as more than `clean` of the squared norm of the
   // next row is left and directions are missing: the row at which it stopped
   Size (*take_directions)(Directions& d, Size first, Size end, double clean);

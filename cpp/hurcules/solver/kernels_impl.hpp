@@ -169,6 +169,34 @@ Size take_directions(Directions& d, Size first, Size end, double clean) {
   return end;
 }
 
+#if HURCULES_KERNEL_WIDTH == 4
+inline void transpose_block(const double* r, Size stride, double* out) {
+  const Pack a = load(r), b = load(r + stride), c = load(r + 2 * stride), d = load(r + 3 * stride);
+  const Pack ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Pack ba = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Pack cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Pack dc = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  store(out, __builtin_shufflevector(ab, cd, 0, 1, 4, 5));
+  store(out + stride, __builtin_shufflevector(ba, dc, 0, 1, 4, 5));
+  store(out + 2 * stride, __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
+  store(out + 3 * stride, __builtin_shufflevector(ba, dc, 2, 3, 6, 7));
+}
+#else
+inline void transpose_block(const double* r, Size stride, double* out) {
+  const Pack a = load(r), b = load(r + stride);
+  store(out, __builtin_shufflevector(a, b, 0, 2));
+  store(out + stride, __builtin_shufflevector(a, b, 1, 3));
+}
+#endif
+
+void transpose(const double* rows, Size count, Size stride, double* out) {
+  for (Size i = 0; i < count; i += kWidth) {
+    for (Size j = 0; j < stride; j += kWidth) {
+      transpose_block(rows + i * stride + j, stride, out + j * stride + i);
+    }
+  }
+}
+
 void norms2(const double* rows, Size count, Size stride, double* out) {
   Size i = 0;
   for (; i + 4 <= count; i += 4) {
@@ -273,9 +301,9 @@ void widen(Size size, const double* value, LimitArrays asked, double relative, d
   }
 }
 
-constexpr Table kTable = {
-    kName,           dot,    axpy,    rotate,       dots,           axpys,    eliminate,
-    take_directions, norms2, largest, worst_excess, first_blocking, worsened, widen};
+constexpr Table kTable = {kName,   dot,          axpy,           rotate,          dots,
+                          axpys,   eliminate,    transpose,      take_directions, norms2,
+                          largest, worst_excess, first_blocking, worsened,        widen};
 
 }  // namespace
 }  // namespace hurcules::kernels

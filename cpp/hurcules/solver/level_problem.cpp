@@ -92,12 +92,15 @@ double LevelProblem::largest_coordinate() const {
   return largest;
 }
 
+// q known to the compiler for the usual sizes; 0: any
+template <int fixed>
 void LevelProblem::factor_by_cholesky() {
   double *R = R_.data(), *c = c_.data();
-  const Index q = own_;
-  std::fill_n(R, q * q, 0.0);
-  std::fill_n(c, q, 0.0);
-  for (Index j = 0; j < q; ++j) R[j * q + j] = rho_ * rho_;
+  const Index q = fixed > 0 ? fixed : own_;
+  for (Index j = 0; j < q; ++j) {
+    for (Index l = j; l < q; ++l) R[j * q + l] = j == l ? rho_ * rho_ : 0.0;
+    c[j] = 0.0;
+  }
   for (Index i = 0; i < equalities_; ++i) {
     const double* e = own_row(i);
     const double r = r_[i];
@@ -164,7 +167,19 @@ void LevelProblem::solve_free(double rho, const double* centre, double* x_free) 
     find_residual(centre);
   }
   if (rho > 0.0 && largest_coordinate() < kMostCondition * rho) {
-    factor_by_cholesky();
+    switch (own_) {
+      case 1:
+        factor_by_cholesky<1>();
+        break;
+      case 2:
+        factor_by_cholesky<2>();
+        break;
+      case 3:
+        factor_by_cholesky<3>();
+        break;
+      default:
+        factor_by_cholesky<0>();
+    }
   } else {
     factor_by_householder();
   }

@@ -61,6 +61,7 @@ class LevelProblem {
   [[nodiscard]] Index slack_of(const Row& row) const;
   void find_residual(const double* x);
   [[nodiscard]] double largest_coordinate() const;
+  template <int fixed>
   void factor_by_cholesky();
   void factor_by_householder();
   // t = R^-1 b

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hurcules/solver/tolerances.hpp"
 
@@ -100,6 +101,7 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   }
   keep_working_sets();
   fill_solution();
+  if (!options_.proof) solution_.optimality = std::numeric_limits<double>::quiet_NaN();
   return solution_;
 }
 
@@ -113,18 +115,19 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   double residual = 0.0;
   if (satisfied(k)) {
     take(x_above_);
-    residual = prove(level.rho, k);
+    residual = prove(Way::Warm, level.rho, k);
   } else if (level.bounds && rows_.begin(k) == 0) {
     solve_first_bounds(k);
-    residual = prove(level.rho, k);
+    residual = prove(Way::Warm, level.rho, k);
   } else if (!has_kept(k) && solve_free(level.rho)) {
-    residual = prove(level.rho, k);
+    residual = prove(Way::Warm, level.rho, k);
   } else {
     for (const Way way : {Way::Warm, Way::Cold, Way::Careful}) {
       if (way == Way::Warm && !has_kept(k)) continue;
       start_way();
       done = solve(way, level.rho, k);
-      residual = prove(level.rho, k);
+      residual = prove(way, level.rho, k);
+      if (!believed(way)) residual = std::max(residual, moved(k));
       if (budget_.spent() || (done && !raised_ && residual <= tolerance::kProven)) break;
     }
   }
@@ -136,16 +139,25 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   if (!done) {
     solution_.status = SolverStatus::IterationLimit;
     // what was reached on the way counts only where it keeps the levels above
-    if (optimality_.worsened(rows_, candidates_, k, x_above_, x_) > tolerance::kBroken * x_scale_) {
+    if (std::max(moved(k), optimality_.worsened(rows_, candidates_, k) / x_scale_) >
+        tolerance::kBroken) {
       start_way();
       take(x_above_);
-      prove(level.rho, k);
+      prove(Way::Careful, level.rho, k);
     }
   } else if (residual > tolerance::kProven && solution_.status == SolverStatus::Solved) {
     // the proof decides, whatever the way thought of itself
     solution_.status = SolverStatus::ReducedAccuracy;
   }
   return done;
+}
+
+bool Lexicographic::believed(Way way) const {
+  return !options_.proof && way != Way::Careful;
+}
+
+double Lexicographic::moved(int k) {
+  return optimality_.moved(rows_, k, x_above_, x_) / x_scale_;
 }
 
 void Lexicographic::start_way() {
@@ -158,7 +170,7 @@ void Lexicographic::start_way() {
 void Lexicographic::lose_precision(int k) {
   start_way();
   take(x_above_);
-  prove(0.0, k);
+  prove(Way::Careful, 0.0, k);
   solution_.status = SolverStatus::LostPrecision;
   x_scale_ = std::max(1.0, kernels::chosen->largest(rows_.stride(), x_));
 }

@@ -71,12 +71,18 @@ class Lexicographic : public Method {
   // forgets what a way left behind
   void start_way();
   // the record of a level, and its proof: the worst residual
-  double prove(double rho, int k);
+  double prove(Way way, double rho, int k);
+  // no proof was asked for, and the way is usually right
+  [[nodiscard]] bool believed(Way way) const;
+  // by how much equality rows above moved, relative to |a| |x|
+  double moved(int k);
   void lose_precision(int k);
   // where the kept rows of each level begin; none when they do not fit the present rows
   void count_kept();
   void keep_working_sets();
+  void keep_roles(const LevelRecord& record, int k);
   void fill_solution();
+  void fill_violations(int k);
   const Solution& refuse();
   void take(const double* x) { std::copy_n(x, rows_.stride(), x_); }
 

@@ -25,7 +25,7 @@ const Solution& Lexicographic::refuse() {
   return solution_;
 }
 
-double Lexicographic::prove(double rho, int k) {
+double Lexicographic::prove(Way way, double rho, int k) {
   LevelRecord& record = records_[k];
   record.rho = rho;
   record.own_norm = problem_.own_norm();
@@ -37,6 +37,7 @@ double Lexicographic::prove(double rho, int k) {
   values_known_ = true;
   x_scale_ = kernels::chosen->largest(rows_.stride(), x_);
   if (!(x_scale_ > 1.0) && x_scale_ == x_scale_) x_scale_ = 1.0;
+  if (believed(way)) return 0.0 * x_scale_;  // NaN where x is
   return optimality_.residual(rows_, chain_, candidates_, k, x_above_, x_scale_, record, held_);
 }
 
@@ -58,18 +59,35 @@ void Lexicographic::count_kept() {
 
 void Lexicographic::keep_working_sets() {
   kept_.clear();
+  solution_.working_set.clear();
   for (int k = 0; k < solution_.final_levels; ++k) {
     const LevelRecord& record = records_[k];
-    const int end = record.first_norm + record.norm;
-    if (record.first_held < end) std::fill(listed_.begin(), listed_.end(), 0);
-    // a row that has a role is not listed again as idle
-    for (const bool idle : {false, true}) {
-      for (int h = record.first_held; h < end; ++h) {
-        const HeldRow& held = held_[h];
-        if (listed_[held.row] || (held.role == Role::Idle) != idle) continue;
-        listed_[held.row] = 1;
-        kept_.push_back({k, held.row, held.side, held.role});
-      }
+    const int end_held = record.first_held + record.held, end = record.first_norm + record.norm;
+    // without a list of the smallest step every row is listed once
+    const bool once = record.norm == 0;
+    if (!once) std::fill(listed_.begin(), listed_.end(), 0);
+    for (int h = record.first_held; h < end; ++h) {
+      const HeldRow& held = held_[h];
+      const Row& row = rows_[held.row];
+      if (!once && listed_[held.row]) continue;
+      listed_[held.row] = 1;
+      solution_.working_set.push_back(
+          {row.level, row.row, held.side, k, h < end_held ? held.multiplier : 0.0});
+      if (once) kept_.push_back({k, held.row, held.side, held.role});
+    }
+    if (!once) keep_roles(record, k);
+  }
+}
+
+// a row that has a role is not listed again as idle
+void Lexicographic::keep_roles(const LevelRecord& record, int k) {
+  std::fill(listed_.begin(), listed_.end(), 0);
+  for (const bool idle : {false, true}) {
+    for (int h = record.first_held; h < record.first_norm + record.norm; ++h) {
+      const HeldRow& held = held_[h];
+      if (listed_[held.row] || (held.role == Role::Idle) != idle) continue;
+      listed_[held.row] = 1;
+      kept_.push_back({k, held.row, held.side, held.role});
     }
   }
 }
@@ -83,25 +101,30 @@ void Lexicographic::fill_solution() {
   }
   kernels::chosen->dots(rows_.dense_row(0), rows_.equalities(), rows_.stride(), x_,
                         equality_values_.data());
-  for (int i = 0; i < rows_.size(); ++i) {
-    const Row& row = rows_[i];
+  for (int k = 0; k < rows_.levels(); ++k) fill_violations(k);
+  if (!options_.proof) return;
+  const double moved =
+      optimality_.moved_since(rows_, solution_.final_levels, equality_values_.data()) / x_scale_;
+  solution_.optimality = std::max(solution_.optimality, moved);
+  if (moved > tolerance::kProven && solution_.status == SolverStatus::Solved) {
+    solution_.status = SolverStatus::ReducedAccuracy;
+  }
+}
+
+void Lexicographic::fill_violations(int k) {
+  double* violations = solution_.violations[k].data();
+  const int first = rows_.begin(k), count = rows_.begin(k + 1) - first;
+  if (rows_.equalities(k + 1) - rows_.equalities(k) == count) {
+    const double* value = equality_values_.data() + rows_.equalities(k);
+    const double* target = rows_.targets() + rows_.equalities(k);
+    for (int i = 0; i < count; ++i) violations[i] = value[i] - target[i];
+    return;
+  }
+  for (int i = 0; i < count; ++i) {
+    const Row& row = rows_[first + i];
     const double value =
         row.equality ? equality_values_[row.dense] : candidates_.above[row.candidate];
-    solution_.violations[row.level][row.row] = rows_.violation(i, value);
-  }
-  solution_.working_set.clear();
-  for (int k = 0; k < solution_.final_levels; ++k) {
-    const LevelRecord& record = records_[k];
-    const int end = record.first_norm + record.norm;
-    if (record.first_held < end) std::fill(listed_.begin(), listed_.end(), 0);
-    for (int h = record.first_held; h < end; ++h) {
-      const HeldRow& held = held_[h];
-      if (listed_[held.row]) continue;
-      listed_[held.row] = 1;
-      const Row& row = rows_[held.row];
-      const double multiplier = h < record.first_norm ? held.multiplier : 0.0;
-      solution_.working_set.push_back({row.level, row.row, held.side, k, multiplier});
-    }
+    violations[i] = rows_.violation(first + i, value);
   }
 }
 

@@ -18,7 +18,7 @@ double norm_of(Index size, const double* v) {
 
 void Optimality::reserve(Index unknowns, Index rows) {
   work_.reserve(padded(unknowns));
-  violation_.reserve(rows + 4);
+  for (PaddedVector* v : {&violation_, &settled_}) v->reserve(rows + 4);
 }
 
 // adds  sum v_i a_i  of the level's own rows to g; returns  sum |v_i| |a_i|
@@ -29,6 +29,7 @@ double Optimality::add_own_rows(const RowTable& rows, const Candidates& candidat
   const int first = rows.equalities(k), count = rows.equalities(k + 1) - first;
   kernel.dots(rows.dense_row(first), count, rows.stride(), x, violation_.data());
   for (int i = 0; i < count; ++i) {
+    settled_[first + i] = violation_[i];
     violation_[i] -= rows.targets()[first + i];
     scale += std::abs(violation_[i]) * rows.dense_norms()[first + i];
   }
@@ -67,7 +68,7 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
   const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
   double worst = scale > 0.0 ? norm_of(size, work_.data()) / std::max(scale, least) : 0.0;
   worst = std::max(worst, worst_held(rows, candidates, k, record, held, x_scale));
-  worst = std::max(worst, worsened(rows, candidates, k, x_above, x) / x_scale);
+  worst = std::max(worst, worsened(rows, candidates, k) / x_scale);
   return std::max(worst, norm_residual(rows, chain, k, x_above, record, held));
 }
 
@@ -93,24 +94,34 @@ double Optimality::worst_held(const RowTable& rows, const Candidates& candidates
   return worst;
 }
 
-// by how much a row above has got worse, relative to |a|
-double Optimality::worsened(const RowTable& rows, const Candidates& candidates, int k,
-                            const double* x_above, const double* x) {
-  const kernels::Table& kernel = *kernels::chosen;
-  double worst = 0.0;
-  // equality rows may not move at all
+double Optimality::moved(const RowTable& rows, int k, const double* x_above, const double* x) {
   for (Index j = 0; j < rows.stride(); ++j) work_[j] = x[j] - x_above[j];
-  kernel.dots(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
-              violation_.data());
+  kernels::chosen->dots(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
+                        violation_.data());
+  double worst = 0.0;
   for (int d = 0; d < rows.equalities(k); ++d) {
-    const double moved = std::abs(violation_[d]), norm = rows.dense_norms()[d];
-    if (moved > worst * norm) worst = moved / norm;
+    const double way = std::abs(violation_[d]), norm = rows.dense_norms()[d];
+    if (way > worst * norm) worst = way / norm;
   }
+  return worst;
+}
+
+double Optimality::moved_since(const RowTable& rows, int levels, const double* value) const {
+  double worst = 0.0;
+  for (int d = 0; d < rows.equalities(levels); ++d) {
+    const double way = std::abs(value[d] - settled_[d]), norm = rows.dense_norms()[d];
+    if (way > worst * norm) worst = way / norm;
+  }
+  return worst;
+}
+
+double Optimality::worsened(const RowTable& rows, const Candidates& candidates, int k) const {
+  double worst = 0.0;
   const auto check = [&](Index first, Index count) {
     const kernels::LimitArrays limits = {rows.asked_lower() + first, rows.asked_upper() + first,
                                          rows.norms() + first};
-    const double excess = kernel.worsened(count, candidates.above.data() + first,
-                                          candidates.value.data() + first, limits);
+    const double excess = kernels::chosen->worsened(count, candidates.above.data() + first,
+                                                    candidates.value.data() + first, limits);
     worst = std::max(worst, excess);
   };
   for (int b = 0; b < rows.bounds_blocks(); ++b) {

@@ -53,9 +53,13 @@ class Optimality {
                   const double* x_above, double x_scale, LevelRecord& record,
                   const std::vector<HeldRow>& held);
 
-  // by how much rows above level k got worse, relative to |a|
-  double worsened(const RowTable& rows, const Candidates& candidates, int k, const double* x_above,
-                  const double* x);
+  // by how much inequality rows above level k got worse, relative to |a|
+  [[nodiscard]] double worsened(const RowTable& rows, const Candidates& candidates, int k) const;
+  // by how much equality rows above level k moved between x_above and x, relative to |a|
+  double moved(const RowTable& rows, int k, const double* x_above, const double* x);
+  // by how much equality rows of levels that were proven moved since, relative to |a|; `value`:
+  // their values now, by dense row
+  [[nodiscard]] double moved_since(const RowTable& rows, int levels, const double* value) const;
 
  private:
   double add_own_rows(const RowTable& rows, const Candidates& candidates, int k, const double* x,
@@ -68,6 +72,7 @@ class Optimality {
 
   PaddedVector work_;       // (n)
   PaddedVector violation_;  // (rows)
+  PaddedVector settled_;    // (equality rows), values when their level was proven
 };
 
 }  // namespace hurcules

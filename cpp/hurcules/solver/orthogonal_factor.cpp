@@ -16,7 +16,7 @@ constexpr double kNothing = 1e-36;
 
 void OrthogonalFactor::reserve(Index rows, Index columns) {
   rest_.reserve(rows + 3, columns);
-  Q_.reserve(columns + 1, columns);
+  Q_.reserve(columns + 3, columns);
   L_.reserve(rows + 3, columns);
   part_.reserve(2 * padded(columns) + 4);
   pivot_.resize(std::max<std::size_t>(pivot_.size(), columns));

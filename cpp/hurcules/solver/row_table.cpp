@@ -146,7 +146,7 @@ bool RowTable::read_numbers(HierarchyView hierarchy) {
   kernels::chosen->norms2(dense_row(0), dense(), stride(), dense_norm2_.data());
   for (int d = 0; d < dense(); ++d) {
     const double norm = std::sqrt(dense_norm2_[d]);
-    good &= std::isfinite(norm);
+    good &= norm <= kLongestRow;
     dense_norm_[d] = rows_[row_of_dense_[d]].norm = norm;
   }
   std::copy_n(dense_norm_.data() + equalities(), inequalities(),
