@@ -101,6 +101,7 @@ class SolverCase {
   void measure_warm() {
     Rounds rounds(problems_.size());
     for (std::size_t i = 0; i < problems_.size(); ++i) {
+      solver_.reset();
       (void)solve(problems_[i]);
       (void)solve(problems_[i]);
       for (int round = 0; round < effort_.rounds; ++round)
