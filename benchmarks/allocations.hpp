@@ -1,5 +1,6 @@
-// Counts every allocation of the program, whoever makes it, by standing in front of the C library's.
-// One file of a program includes it. Under a sanitizer, which stands there itself, nothing counts.
+// Counts every allocation of a program, whoever makes it, by standing in front of the C library's.
+// One file of the program includes it. Under a sanitizer, which stands there itself, nothing
+// counts.
 #pragma once
 
 #include <cerrno>

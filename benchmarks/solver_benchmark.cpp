@@ -39,13 +39,16 @@ void print_json(const Figures& f) {
   std::printf("{\"machine\": \"%s\", \"commit\": \"%s\", \"set\": \"%s\", \"unknowns\": %ld, ",
               processor().c_str(), commit().c_str(), f.set.c_str(),
               static_cast<long>(f.shape.unknowns));
-  std::printf("\"levels\": %zu, \"rho\": %g, ", f.shape.rows.size(), f.rho);
+  std::printf("\"rho\": %g, \"rows\": ", f.rho);
+  for (std::size_t k = 0; k < f.shape.rows.size(); ++k)
+    std::printf("%s%ld", k ? ", " : "[", static_cast<long>(f.shape.rows[k]));
+  std::printf("], ");
   part("chain", f.chain);
   part("cold", f.cold);
   part("warm", f.warm);
   part("tick", f.tick);
-  std::printf("\"changes\": %.2f, \"changed_ticks\": %.4f, \"unsolved\": %d, \"allocations\": %zu}\n",
-              f.changes, f.changed_ticks, f.unsolved, f.allocations);
+  std::printf("\"changes\": %.2f, \"changed_ticks\": %.4f, ", f.changes, f.changed_ticks);
+  std::printf("\"unsolved\": %d, \"allocations\": %zu}\n", f.unsolved, f.allocations);
   std::fflush(stdout);
 }
 
