@@ -11,7 +11,6 @@ taken where the coarser ones moved most.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 
 import numpy as np
 from motions import CONFLICTS, moved, problem, with_rho
@@ -36,7 +35,7 @@ def line(rng: np.random.Generator) -> tuple[list[Rows], list[np.ndarray]]:
 
 
 def steps(
-    peer: Peer, levels: list[Rows], direction: list[np.ndarray], at: np.ndarray
+    peer: Peer, levels: list[Rows], direction: list[np.ndarray], at: list[float]
 ) -> np.ndarray:
     """|dx| of each step between the points of the line; not a number where an answer is missing."""
     answers = [attempt(peer, moved(levels, direction, s))[0] for s in at]
