@@ -1,19 +1,24 @@
-"""Does the answer jump? Worst |dx| / step while the targets move along a line, step by step finer.
+"""Does the answer jump? Worst |dx| / step along paths of hierarchies, step by step finer.
 
 The hierarchies are those of "conflicting levels" (n = 19, a box, rows of lower levels in the span
-of those above). The direction of the line has unit length, so a continuous answer has a slope that
-settles as the step shrinks, and a jump one that grows tenfold with each column. The finer steps are
-taken where the coarser ones moved most.
+of those above). Along a path either the targets move, or all rows turn together against the box,
+by a speed of one. A continuous answer has a slope that settles as the step shrinks, a jump one that
+grows tenfold with each column. Finer steps are taken where the coarser ones moved most.
 
-    python benchmarks/continuity.py [--lines 24] [--length 0.4]
+With targets that move, our answer is continuous by its definition. With rows that turn, no strict
+hierarchy is: where levels hold x at a corner of its limits, a small turn can open or shut the only
+way that a lower level has.
+
+    python benchmarks/continuity.py [--paths 24] [--length 0.4]
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 
 import numpy as np
-from motions import CONFLICTS, moved, problem, with_rho
+from motions import CONFLICTS, N, problem, with_rho
 from peers import Cascade, DaqpHierarchy, Ours, Peer, Weighted, attempt
 from rich.console import Console
 from rich.table import Table
@@ -24,36 +29,39 @@ STEPS = (2e-3, 2e-4, 2e-5, 2e-6)
 WORST = 5  # steps of a line that are taken again in ten finer ones
 
 
-def line(rng: np.random.Generator) -> tuple[list[Rows], list[np.ndarray]]:
-    """Levels, and a direction of unit length in which the targets of all but the box move."""
-    levels = problem(CONFLICTS[2], rng)
-    direction = [
-        np.zeros(len(v.lower)) if v.bounds else rng.normal(size=len(v.lower)) for v in levels
-    ]
+Path = Callable[[float], list[Rows]]
+
+
+def targets_move(rng: np.random.Generator) -> Path:
+    """The targets of all levels but the box move along a direction of unit length."""
+    box, *levels = problem(CONFLICTS[2], rng)
+    direction = [rng.normal(size=len(v.lower)) for v in levels]
     length = np.linalg.norm(np.concatenate(direction))
-    return levels, [d / length for d in direction]
+    along = [(v, d / length) for v, d in zip(levels, direction, strict=True)]
+    return lambda s: [box, *(Rows(v.A, v.lower + s * d, v.upper + s * d) for v, d in along)]
 
 
-def steps(
-    peer: Peer, levels: list[Rows], direction: list[np.ndarray], at: list[float]
-) -> np.ndarray:
-    """|dx| of each step between the points of the line; not a number where an answer is missing."""
-    answers = [attempt(peer, moved(levels, direction, s))[0] for s in at]
-    missing = np.full(len(levels[0].lower), np.nan)
-    x = np.array([missing if a is None else a for a in answers])
-    return np.linalg.norm(np.diff(x, axis=0), axis=1)
+def rows_turn(rng: np.random.Generator) -> Path:
+    """All rows turn together, so that what depends on each other goes on doing so."""
+    box, *levels = problem(CONFLICTS[2], rng)
+    K = rng.normal(size=(N, N))
+    K = (K - K.T) / np.linalg.norm(K - K.T, 2)
+    return lambda s: [box, *(Rows(v.A + s * v.A @ K, v.lower, v.upper) for v in levels)]
 
 
-def slopes(peer: Peer, rho: float, lines: int, length: float) -> tuple[np.ndarray, int]:
-    """Worst slope over all lines for each size of step, and the number of missing steps."""
-    rng = np.random.default_rng(1)
-    worst, missing = np.zeros(len(STEPS)), 0
-    for _ in range(lines):
-        levels, direction = line(rng)
-        levels = with_rho(levels, rho)
+def move(peer: Peer, path: Path, rho: float, s: float, step: float) -> float:
+    """|dx| from s to s + step; not a number where an answer is missing."""
+    before, after = (attempt(peer, with_rho(path(at), rho))[0] for at in (s, s + step))
+    return np.nan if before is None or after is None else float(np.linalg.norm(after - before))
+
+
+def slopes(peer: Peer, rho: float, paths: list[Path], length: float) -> tuple[list[float], int]:
+    """Worst slope over all paths for each size of step, and the number of missing steps."""
+    worst, missing = [0.0] * len(STEPS), 0
+    for path in paths:
         starts = np.arange(0.0, length, STEPS[0])
         for k, step in enumerate(STEPS):
-            moves = np.array([steps(peer, levels, direction, [s, s + step]) for s in starts])[:, 0]
+            moves = np.array([move(peer, path, rho, s, step) for s in starts])
             missing += int(np.isnan(moves).sum())
             moves = np.nan_to_num(moves)
             worst[k] = max(worst[k], moves.max() / step)
@@ -67,10 +75,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
-    parser.add_argument("--lines", type=int, default=24)
+    parser.add_argument("--paths", type=int, default=24)
     parser.add_argument("--length", type=float, default=0.4)
     given = parser.parse_args()
-    table = Table("worst |dx| / step", "rho", *(f"{s:g}" for s in STEPS), "no answer")
+    table = Table("worst |dx| / step", "solver", "rho", *(f"{s:g}" for s in STEPS), "no answer")
     cases: list[tuple[Peer, float]] = [
         (Ours(warm=True), 0.1),
         (Ours(warm=True), 0.0),
@@ -78,9 +86,14 @@ def main() -> None:
         (DaqpHierarchy(), 0.0),
         (Weighted(), 0.0),
     ]
-    for peer, rho in cases:
-        worst, missing = slopes(peer, rho, given.lines, given.length)
-        table.add_row(peer.name, f"{rho:g}", *(f"{slope:.0f}" for slope in worst), f"{missing}")
+    for name, kind in (("targets move", targets_move), ("rows turn", rows_turn)):
+        rng = np.random.default_rng(1)
+        paths = [kind(rng) for _ in range(given.paths)]
+        for peer, rho in cases:
+            worst, missing = slopes(peer, rho, paths, given.length)
+            figures = (f"{slope:.0f}" for slope in worst)
+            table.add_row(name, peer.name, f"{rho:g}", *figures, f"{missing}")
+        table.add_section()
     Console(width=120).print(table)
 
 

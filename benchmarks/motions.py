@@ -63,11 +63,3 @@ def _row(
 def with_rho(levels: list[Rows], rho: float) -> list[Rows]:
     """The same levels, all but bounds regularised so."""
     return [Rows(v.A, v.lower, v.upper, 0.0 if v.bounds else rho, v.bounds) for v in levels]
-
-
-def moved(levels: list[Rows], direction: list[np.ndarray], s: float) -> list[Rows]:
-    """The targets of all levels but bounds moved along a line."""
-    return [
-        Rows(v.A, v.lower + s * d, v.upper + s * d, v.rho, v.bounds)
-        for v, d in zip(levels, direction, strict=True)
-    ]

@@ -62,8 +62,8 @@ def test_our_answers_are_the_exact_ones_among_the_peers(root: Path) -> None:
     assert [row[5].strip() for row in rows] == ["0"] * 4
 
 
-def test_no_answer_is_missing_on_a_line(root: Path) -> None:
+def test_no_answer_is_missing_on_a_path(root: Path) -> None:
     program = root / "benchmarks" / "continuity.py"
-    text = run(sys.executable, program, "--lines", "1", "--length", "0.006")
+    text = run(sys.executable, program, "--paths", "1", "--length", "0.006")
     rows = [line.split("│") for line in text.splitlines() if "hurcules" in line]
-    assert [row[-2].strip() for row in rows] == ["0", "0"]
+    assert [row[-2].strip() for row in rows] == ["0"] * 4
