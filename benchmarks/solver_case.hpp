@@ -28,7 +28,7 @@ struct Figures {
   std::string set;
   Shape shape;
   double rho = 0.0;
-  Quantiles chain, cold, warm, tick;
+  Quantiles chain, floor, cold, warm, tick;
   double changes = 0.0, changed_ticks = 0.0;  // mean of a cold solve; share of ticks
   int unsolved = 0;                           // solves that ended with another status than Solved
   std::size_t allocations = 0;
@@ -48,7 +48,8 @@ class SolverCase {
   Figures measure() {
     solver_.reserve(problems_.front());
     (void)solver_.solve(problems_.front());
-    measure_chain();
+    figures_.chain = measure_yardstick<BareChain>();
+    figures_.floor = measure_yardstick<Floor>();
     measure_cold();
     measure_warm();
     std::vector<double> ticks;
@@ -63,14 +64,17 @@ class SolverCase {
     return {figures_.shape, conflict_, figures_.rho, seed};
   }
 
-  void measure_chain() {
+  // time of the bare chain or of the floor
+  template <typename Yardstick>
+  Quantiles measure_yardstick() {
     Rounds rounds(problems_.size());
-    BareChain chain;
+    Yardstick yardstick;
     for (std::size_t i = 0; i < problems_.size(); ++i) {
-      chain.read(problems_[i], figures_.shape.unknowns);
-      for (int round = 0; round < effort_.rounds; ++round) rounds.time(i, [&] { chain.compute(); });
+      yardstick.read(problems_[i], figures_.shape.unknowns);
+      for (int round = 0; round < effort_.rounds; ++round)
+        rounds.time(i, [&] { yardstick.compute(); });
     }
-    figures_.chain = quantiles(rounds.seconds());
+    return quantiles(rounds.seconds());
   }
 
   const Solution& solve(const Hierarchy& levels) {
