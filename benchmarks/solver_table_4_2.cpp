@@ -11,8 +11,7 @@
 #include <cstring>
 #include <map>
 
-#include "hurcules/base/error.hpp"
-#include "hurcules/solver/solver.hpp"
+#include "hurcules/solver/method.hpp"
 #include "measure.hpp"
 #include "robot_problems.hpp"
 
@@ -62,15 +61,6 @@ Moments measure(const std::string& method, int levels, int solves) {
   return moments(seconds);
 }
 
-bool exists(const std::string& method) {
-  try {
-    const Solver solver(19, {.method = method});
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 void print(const std::string& what, const Row& row) {
   std::printf("%-34s", what.c_str());
   for (const double value : row) std::printf(" %8.4f", value);
@@ -91,8 +81,7 @@ int main(int argc, char** argv) {
   std::printf("[ms]                        levels:");
   for (int levels = kFirst; levels <= kLast; ++levels) std::printf(" %8d", levels);
   std::printf("\n");
-  for (const std::string method : {"lexicographic", "rhqp_thesis", "hqp", "dls_hqp"}) {
-    if (!exists(method)) continue;
+  for (const std::string& method : method_names()) {
     Row means, deviations, medians;
     for (int levels = kFirst; levels <= kLast; ++levels) {
       const Moments moments = measure(method, levels, solves / (kLast - kFirst + 1));
