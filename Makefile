@@ -16,7 +16,7 @@ SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings tests/
 $(shell mkdir -p build && find cpp python envs tests/cpp tests/fuzz benchmarks -type f -not -name '*.pyc' | sort > build/names.new; \
   cmp -s build/names.new build/names || mv build/names.new build/names)
 
-.PHONY: demo test ctest pytest sanitize fuzz proof bench setup clean
+.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions setup clean
 
 demo: setup
 	$(BIN)/hurcules run $(MISSION) $(DEMO_ARGS)
@@ -54,6 +54,11 @@ proof: setup
 
 bench: setup
 	$(BUILD)/benchmarks/timing
+	$(BUILD)/benchmarks/solver_benchmark
+
+# exact, but slow under valgrind (Debian: valgrind)
+bench-instructions: setup
+	$(BIN)/python benchmarks/count_instructions.py
 
 setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
 

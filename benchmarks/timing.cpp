@@ -8,50 +8,23 @@
 //   closed loop    simulated time over the processor time that it took
 //
 // timing [--seconds S]   prints a table; numbers of one machine compare only within one run.
-#include <Eigen/QR>
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <vector>
 
+#include "bare_chain.hpp"
 #include "hurcules/sim/simulation.hpp"
+#include "measure.hpp"
 
 namespace {
 
 using namespace hurcules;
+using namespace hurcules_benchmark;
 
-double wall() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double processor() {
+double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-struct Quantiles {
-  double median = 0.0, p99 = 0.0, max = 0.0;  // [us]
-};
-
-Quantiles quantiles(std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  const auto at = [&](double share) {
-    return 1e6 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
-  };
-  return {at(0.5), at(0.99), at(1.0)};
-}
-
-// the equality rows of all levels, one below the other
-Matrix stacked_equalities(const Hierarchy& levels, Index unknowns) {
-  Matrix stacked(0, unknowns);
-  for (const Level& level : levels) {
-    if (level.bounds) continue;
-    stacked.conservativeResize(stacked.rows() + level.rows(), unknowns);
-    stacked.bottomRows(level.rows()) = level.A;
-  }
-  return stacked;
 }
 
 struct Samples {
@@ -62,12 +35,12 @@ struct Samples {
 
 Samples run(Simulation& simulation, double seconds) {
   Samples samples;
-  const double begin = processor();
+  const double begin = processor_seconds();
   while (!simulation.finished() && simulation.time() < seconds) {
     simulation.step(10);
     samples.hierarchies.push_back(simulation.controller().hierarchy());
   }
-  samples.loop = processor() - begin;
+  samples.loop = processor_seconds() - begin;
   const Recorder& timings = simulation.timings();
   samples.tick.assign(timings.rows(), 0.0);
   for (std::size_t c = 0; c < timings.columns(); ++c) {
@@ -86,18 +59,12 @@ Samples run(Simulation& simulation, double seconds) {
 void compare_with_chain(const std::vector<Hierarchy>& hierarchies, Index unknowns,
                         std::vector<double>& solve, std::vector<double>& chain) {
   Solver solver(unknowns);
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr;
-  Eigen::MatrixXd Q;
+  BareChain bare;
   for (const Hierarchy& levels : hierarchies) {
     (void)solver.solve(levels);
-    double begin = wall();
-    (void)solver.solve(levels);
-    solve.push_back(wall() - begin);
-    const Eigen::MatrixXd transposed = stacked_equalities(levels, unknowns).transpose();
-    begin = wall();
-    qr.compute(transposed);
-    Q = qr.householderQ() * Eigen::MatrixXd::Identity(unknowns, unknowns);
-    chain.push_back(wall() - begin);
+    solve.push_back(seconds_of([&] { (void)solver.solve(levels); }));
+    bare.read(levels, unknowns);
+    chain.push_back(seconds_of([&] { bare.compute(); }));
   }
 }
 

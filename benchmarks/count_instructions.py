@@ -1,0 +1,70 @@
+"""Instructions of one solve, counted by callgrind: exact, so two commits can be compared.
+
+Mean over the problems of a set; with one compiler and one library the counts repeat, whatever else
+the machine does.
+
+    python benchmarks/count_instructions.py [--program PATH] [--problems 20] [--json]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import subprocess
+from itertools import product
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+ROOT = Path(__file__).parent.parent
+PROGRAM = ROOT / "build" / "make" / "benchmarks" / "solver_instructions"
+SETS = ("no conflict", "box conflicts", "conflicting levels", "mixed levels")
+
+
+def instructions(
+    program: Path, unknowns: int, chosen: int, rho: float, warm: bool, problems: int
+) -> int:
+    """Instructions of one solve, mean over the problems."""
+    command = [
+        "valgrind",
+        "--tool=callgrind",
+        "--toggle-collect=measured_solve",
+        "--callgrind-out-file=/dev/null",
+        str(program),
+        *map(str, (unknowns, chosen, rho, int(warm), problems)),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    collected = re.search(r"Collected : (\d+)", done.stderr)
+    if collected is None:
+        raise RuntimeError(done.stderr)
+    return int(collected[1]) // problems
+
+
+def main() -> None:
+    """Prints the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    parser.add_argument("--program", type=Path, default=PROGRAM)
+    parser.add_argument("--problems", type=int, default=20)
+    parser.add_argument("--json", action="store_true")
+    given = parser.parse_args()
+    counts = {
+        f"n {n}, rho {rho}, {'warm' if warm else 'cold'}": [
+            instructions(given.program, n, k, rho, warm, given.problems) for k in range(len(SETS))
+        ]
+        for n, rho, warm in product((19, 38), (0.1, 0.0), (True, False))
+    }
+    if given.json:
+        print(json.dumps({"sets": SETS, "instructions": counts}))
+        return
+    table = Table("instructions of a solve", *SETS)
+    for case, row in counts.items():
+        table.add_row(case, *(f"{count:,}" for count in row))
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,30 @@
+// Solves one set of problems under callgrind: only the solves inside measured_solve() are counted
+// (valgrind --tool=callgrind --toggle-collect=measured_solve), see count_instructions.py.
+//
+// solver_instructions UNKNOWNS SET RHO WARM PROBLEMS   UNKNOWNS 19 or 38, SET 0 to 3, WARM 0 or 1
+#include <cstdlib>
+
+#include "hurcules/solver/solver.hpp"
+#include "robot_problems.hpp"
+
+extern "C" __attribute__((noinline)) void measured_solve(hurcules::Solver& solver,
+                                                         const hurcules::Hierarchy& levels) {
+  (void)solver.solve(levels);
+}
+
+int main(int argc, char** argv) {
+  using namespace hurcules_benchmark;
+  if (argc != 6) return 1;
+  const Shape& shape = std::atoi(argv[1]) == 19 ? kRobot : kTwoRobots;
+  const Conflict conflict = kConflicts[std::atoi(argv[2])];
+  const double rho = std::atof(argv[3]);
+  const bool warm = std::atoi(argv[4]) != 0;
+  Solver solver(shape.unknowns);
+  for (int seed = 1; seed <= std::atoi(argv[5]); ++seed) {
+    const Hierarchy levels = Motion(shape, conflict, rho, static_cast<std::uint64_t>(seed)).at(0.0);
+    (void)solver.solve(levels);
+    if (!warm) solver.reset();
+    measured_solve(solver, levels);
+  }
+  return 0;
+}
