@@ -40,7 +40,8 @@ ifneq ($(shell command -v clang++),)
 fuzz: setup
 	export PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)"; cmake --preset fuzz && cmake --build --preset fuzz
 	mkdir -p build/fuzz/corpus
-	build/fuzz/tests/fuzz/solver_fuzz build/fuzz/corpus -max_total_time=$(SECONDS) -max_len=400 -timeout=10 -print_final_stats=1
+	build/fuzz/tests/fuzz/solver_fuzz build/fuzz/corpus -max_total_time=$(SECONDS) -max_len=400 -timeout=10 \
+	  -artifact_prefix=build/fuzz/ -print_final_stats=1
 else
 fuzz: setup
 	@echo "clang++ with libFuzzer is missing (Debian: clang); seeded inputs instead of coverage-guided ones"

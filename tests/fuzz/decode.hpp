@@ -39,6 +39,8 @@ class Bytes {
 struct Problem {
   Index unknowns = 1;
   Wildness wildness = Wildness::Tame;
+  // has rows so close to dependent that the rank tolerance of 1e-10 is near
+  bool delicate = false;
   Hierarchy levels;
 };
 
@@ -108,8 +110,9 @@ class Decoder {
       level.A.row(i) = rows_[bytes_.next(static_cast<Index>(rows_.size()))].transpose();
       if (kind != 5) level.A.row(i) *= tame();
       if (kind == 7 && problem_.wildness != Wildness::Tame) {
-        level.A(i, bytes_.next(problem_.unknowns)) +=
-            std::pow(10.0, -3.0 - static_cast<double>(bytes_.next(10)));
+        const Index j = bytes_.next(problem_.unknowns), digits = 3 + bytes_.next(10);
+        level.A(i, j) += std::pow(10.0, static_cast<double>(-digits));
+        problem_.delicate |= digits > 7;
       }
     }
     rows_.push_back(level.A.row(i).transpose());

@@ -43,14 +43,14 @@ class Fuzzed {
     const Solution cold = solver.solve(problem_.levels);
     check_always(cold);
     if (problem_.wildness == Wildness::Wild || cold.status == SolverStatus::InvalidInput) return;
-    promise(cold.status == SolverStatus::Solved, "status", cold.optimality);
+    promise(cold.status == SolverStatus::Solved || excused(cold), "status", cold.optimality);
     const Solution warm = solver.solve(problem_.levels);
     check_always(warm);
-    promise(warm.status == SolverStatus::Solved, "warm status", warm.optimality);
+    promise(warm.status == SolverStatus::Solved || excused(warm), "warm status", warm.optimality);
     const double size = std::max(1.0, cold.x.lpNorm<Eigen::Infinity>());
     const double moved = (warm.x - cold.x).lpNorm<Eigen::Infinity>() / size;
     promise(problem_.wildness != Wildness::Tame || moved < 1e-7, "warm differs", moved);
-    check_definition();
+    if (cold.status == SolverStatus::Solved) check_definition();
     check_interrupted();
   }
 
@@ -92,6 +92,10 @@ class Fuzzed {
     }
   }
 
+  [[nodiscard]] bool excused(const Solution& solution) const {
+    return problem_.delicate && solution.status == SolverStatus::ReducedAccuracy;
+  }
+
   void check_definition() {
     const auto x = hurcules_test::answers_by_level(problem_.levels, problem_.unknowns);
     const auto verdict = hurcules_test::OptimalityJudge(problem_.levels).judge(x);
@@ -105,9 +109,9 @@ class Fuzzed {
     Solver solver(problem_.unknowns, {.max_changes = limit});
     const Solution& solution = solver.solve(problem_.levels);
     promise(solution.x.allFinite(), "interrupted, not finite");
-    promise(
-        solution.status == SolverStatus::Solved || solution.status == SolverStatus::IterationLimit,
-        "interrupted status");
+    promise(solution.status == SolverStatus::Solved ||
+                solution.status == SolverStatus::IterationLimit || excused(solution),
+            "interrupted status");
     if (!problem_.levels[0].bounds) return;
     const double size = std::max(1.0, solution.x.lpNorm<Eigen::Infinity>());
     const double broken = solution.violations[0].lpNorm<Eigen::Infinity>() / size;

@@ -28,8 +28,9 @@ double objective(const Level& level, const Vector& x, const Vector& x_above) {
   return 0.5 * sum;
 }
 
-// no row of the levels before `count` is worse at x than at x_above, to 1e-12 |a| max(1, |x|)
-void expect_unbroken(const Hierarchy& levels, int count, const Vector& x, const Vector& x_above) {
+// no row of the levels before `count` is worse at x than at x_above, to `allowed` |a| max(1, |x|)
+void expect_unbroken(const Hierarchy& levels, int count, const Vector& x, const Vector& x_above,
+                     double allowed) {
   const double scale =
       std::max({1.0, x.lpNorm<Eigen::Infinity>(), x_above.lpNorm<Eigen::Infinity>()});
   for (int k = 0; k < count; ++k) {
@@ -39,16 +40,16 @@ void expect_unbroken(const Hierarchy& levels, int count, const Vector& x, const 
       const bool equality = levels[k].lower[i] == levels[k].upper[i];
       const double upper = equality ? before : std::max(levels[k].upper[i], before);
       const double lower = equality ? before : std::min(levels[k].lower[i], before);
-      EXPECT_LE(now, upper + 1e-12 * size)
+      EXPECT_LE(now, upper + allowed * size)
           << "level " << k << ", row " << i << ", over by " << (now - upper) / size;
-      EXPECT_GE(now, lower - 1e-12 * size)
+      EXPECT_GE(now, lower - allowed * size)
           << "level " << k << ", row " << i << ", under by " << (lower - now) / size;
     }
   }
 }
 
 TEST_P(SolverInterruption, AnInterruptedSolveReturnsTheBestPointSoFar) {
-  each_problem(20, {0.1, 1e-3, 0.0}, [](const Hierarchy& levels, Draw&) {
+  each_problem(20, {0.1, 1e-3, 0.0}, [this](const Hierarchy& levels, Draw&) {
     const Index n = unknowns_of(levels);
     const std::vector<Vector> x = answers_by_level(levels, n);
     Solver whole(n);
@@ -65,7 +66,9 @@ TEST_P(SolverInterruption, AnInterruptedSolveReturnsTheBestPointSoFar) {
       EXPECT_LE(solution.changes, limit);
       if (solution.status != SolverStatus::IterationLimit) continue;
       const Vector above = final_levels ? x[final_levels - 1] : Vector::Zero(n);
-      expect_unbroken(levels, final_levels, solution.x, above);
+      // a row that stands out by less than the rank tolerance of 1e-10 is not held (solver.md §1)
+      const double allowed = is({"near_singular"}) ? 2e-10 : 1e-12;
+      expect_unbroken(levels, final_levels, solution.x, above, allowed);
       const double before = objective(levels[final_levels], above, above);
       EXPECT_LE(objective(levels[final_levels], solution.x, above), before * (1 + 1e-9) + 1e-15);
     }
