@@ -29,8 +29,11 @@ class HierarchicalDecomposition {
   void start();  // no level: Z_0 = I
   void add_level(const RowTable& table, std::span<const HeldLimit> held);
 
-  [[nodiscard]] Index rank(Index k) const { return levels_[k].rank; }
   [[nodiscard]] Index free() const { return unknowns_ - used_; }
+  [[nodiscard]] const LevelFactor& level(Index k) const { return levels_[k]; }
+  // Y_k are the rows first(k) .. first(k) + rank - 1 of the basis, Z_p the last free() of it
+  [[nodiscard]] Index first(Index k) const { return levels_[k].first; }
+  [[nodiscard]] const double* direction(Index j) const { return basis_.row(j).data(); }  // (n)
   // x += Y_k (S'S + rho^2 I)^+ S' U' residual  [T 3.3.37-38], [T 3.5.125-126]
   // residual (rows) becomes its unreachable part V V' residual
   void step(Index k, double rho, VectorRef residual, Vector& x);
@@ -41,10 +44,9 @@ class HierarchicalDecomposition {
 
  private:
   struct Level : LevelFactor {
-    Index first = 0;  // Y_k are the rows first .. first + rank - 1 of the basis
+    Index first = 0;
   };
 
-  [[nodiscard]] const double* direction(Index j) const { return basis_.row(j).data(); }
   void extend_basis(Level& level);
 
   FactorKind kind_;
