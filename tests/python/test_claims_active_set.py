@@ -6,6 +6,8 @@ default; "reference" numbers were computed apart from this code, "measured" ones
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -31,7 +33,9 @@ def test_R17_an_infeasible_start_gives_the_same_optimum() -> None:
     of other targets: default 100 of 100 the same answer as cold, rhqp_thesis 0 of 100 (measured).
     """
     limits = rhqp.Level(np.array([[0.6, 0.8], [1.0, 0.0]]), np.full(2, -INF), np.ones(2))
-    first, second = (point([[1.0, 0.0], [0.0, 1.0]], goal, 0.0) for goal in ([0.0, 9.0], [3.0, 0.0]))
+    first, second = (
+        point([[1.0, 0.0], [0.0, 1.0]], goal, 0.0) for goal in ([0.0, 9.0], [3.0, 0.0])
+    )
     for method, wanted in (("lexicographic", [1.0, 0.0]), ("rhqp_thesis", [1.0, 0.5])):
         one = solver(2, method)
         assert [row.row for row in one.solve([limits, first]).working_set if row.level == 0] == [0]
@@ -116,7 +120,7 @@ def test_R22_regularisation_of_a_task_moves_lower_ones() -> None:
         levels = [point([[1.0, 0.0]], [1.0], rho), point([[0.6, 0.8]], [0.0], rho)]
         moved.append(abs(solver(2).solve(levels).violations[1][0]))
     assert moved[0] < 1e-15
-    assert all(a < b for a, b in zip(moved[:-1], moved[1:], strict=True))
+    assert all(a < b for a, b in itertools.pairwise(moved))
     # level 0 stops at 1 / (1 + rho^2), level 1 answers by 0.8^2 / (0.8^2 + rho^2)
     assert moved[3] == pytest.approx(0.6 / 1.01 * 0.01 / 0.65, rel=1e-9)
 
@@ -140,7 +144,7 @@ def test_R23_adaptive_regularisation_costs_nothing_away_from_singularity() -> No
 
 @pytest.mark.parametrize("method", ["rhqp_thesis", "dls_hqp"])
 def test_R24_a_regularised_limit_moves_at_99_percent(method: str) -> None:
-    """B0.9: sigma^2 / (sigma^2 + rho^2) = 0.990 of the limit at rho = 0.1; the default: all of it."""
+    """B0.9: sigma^2 / (sigma^2 + rho^2) = 0.990 of the limit at rho = 0.1; the default: all."""
     goal = point([[1.0]], [5.0], 0.1)
     limit = rhqp.Level(np.array([[1.0]]), np.array([-1.0]), np.array([1.0]), rho=0.1)
     assert solver(1, method).solve([limit, goal]).x[0] == pytest.approx(0.990, abs=1e-3)

@@ -1,9 +1,9 @@
 """Claims E01 to E05: the examples of Chapter 3 with the mobile arm (mobile_arm.py).
 
-The thesis prints neither its starts nor its figures' values: starts and reference numbers come from
-a simulation made apart from this code (same printed inputs, 3.2.10 without its misplaced s_des,
-3.4.117 with every violated row blocking). Equality tasks run on the default and on Algorithm 1, which
-agree there; the range is on Algorithm 1, as printed.
+The thesis prints neither its starts nor its figures' values: starts and reference numbers come
+from a simulation made apart from this code (same printed inputs, 3.2.10 without its misplaced
+s_des, 3.4.117 with every violated row blocking). Equality tasks run on the default and on
+Algorithm 1, which agree there; the range is on Algorithm 1, as printed.
 """
 
 from __future__ import annotations
@@ -98,8 +98,8 @@ def test_E04_a_range_at_the_second_level_is_kept() -> None:
 def test_E05_a_range_that_conflicts_gives_way() -> None:
     """Figures 3.8-3.9, 3.4.122: (|g1|, |g2|) -> (0, 0.5), q2 -> 0; HQP never converges.
 
-    Reference, start (0, 1.2): g2 = 0.03 at 1 s, 0.20 at 2 s, 0.44 at 4 s, 0.4996 at 10 s; all starts
-    end at 0.499-0.500. HQP's speeds are chaotic: reference 60-420, here 23-365.
+    Reference, start (0, 1.2): g2 = 0.03 at 1 s, 0.20 at 2 s, 0.44 at 4 s, 0.4996 at 10 s; all
+    starts end at 0.499-0.500. HQP's speeds are chaotic: reference 60-420, here 23-365.
     """
     for start in RANGES:
         motion = move(point_and_range(2.0, 0.2, 0.5), start, "rhqp_thesis", 10.0)

@@ -72,8 +72,8 @@ def test_R25_velocity_bounds_keep_the_limits() -> None:
 def test_R26_acceleration_bounds_keep_the_limits() -> None:
     """5.6.50-53: q + q' dt + q'' dt^2 / 2 stays within the limits at each step.
 
-    As printed it brakes within one step: from 1.2 rad/s it asks for thousands of rad/s^2 (measured:
-    over 1,000), which no joint has; a form for finite acceleration has to brake earlier.
+    As printed it brakes within one step and asks for up to 39,000 rad/s^2 here (measured), which no
+    joint has; a form for finite acceleration has to brake earlier.
     """
     peak = 0.0
     for seed in range(5):
@@ -88,4 +88,4 @@ def test_R26_acceleration_bounds_keep_the_limits() -> None:
             peak = max(peak, float(np.abs(acceleration).max()))
             assert np.abs(q).max() <= RANGE + 1e-14
         assert np.abs(q).max() > RANGE - 1e-6  # it was tested there
-    assert peak > 1000.0
+    assert 20_000.0 < peak < 60_000.0

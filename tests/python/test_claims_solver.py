@@ -90,8 +90,10 @@ def steps(levels: list[Rows], solution: rhqp.Solution) -> list[np.ndarray]:
         rows = [i for i in range(level.lower.size) if level.equal[i] or (k, i) in held]
         side = [held.get((k, i), rhqp.Side.Upper) for i in rows]
         target = np.array(
-            [level.upper[i] if s == rhqp.Side.Upper else level.lower[i]
-             for i, s in zip(rows, side, strict=True)]
+            [
+                level.upper[i] if s == rhqp.Side.Upper else level.lower[i]
+                for i, s in zip(rows, side, strict=True)
+            ]
         )
         J = level.A[rows]
         U, sigma, Yt = np.linalg.svd(J @ Z)

@@ -125,8 +125,7 @@ bool Cascade::solve_regularized(double rho, int k) {
     if (rows_[i].equality) b[e++] = rows_[i].upper - rows_.dot(i, x_);
   }
   program_.H.setIdentity(o + m, o + m);
-  program_.H.topLeftCorner(o, o) =
-      A.transpose() * A + rho * rho * Matrix::Identity(o, o);
+  program_.H.topLeftCorner(o, o) = A.transpose() * A + rho * rho * Matrix::Identity(o, o);
   program_.g.setZero(o + m);
   program_.g.head(o) = A.transpose() * b + rho * rho * t_;
   limits_ = limits(k);
@@ -182,8 +181,8 @@ std::vector<char> Cascade::settled_rows(int k) const {
     settled[i] = rows_[i].equality || std::abs(rows_.violation(i, rows_.dot(i, x))) >
                                           kViolation * rows_[i].norm * scale_of(x);
   }
-  const double least = std::max(tolerance::kSettling * largest,
-                                tolerance::kNoForce * norm * norm * scale_of(x));
+  const double least =
+      std::max(tolerance::kSettling * largest, tolerance::kNoForce * norm * norm * scale_of(x));
   for (std::size_t c = 0; c < limits_.size(); ++c) {
     if (rows_[limits_[c].row].level < k && answer_.multipliers[c] > least)
       settled[limits_[c].row] = 1;

@@ -57,8 +57,8 @@ class Cascade : public Method {
   SolverOptions options_;
   Solution solution_;
   RowTable rows_;
-  Matrix Z_;              // (n, o)
-  Vector x_, t_;          // x_{k-1}, (o)
+  Matrix Z_;      // (n, o)
+  Vector x_, t_;  // x_{k-1}, (o)
   QuadraticProgram program_;
   QuadraticAnswer answer_;
   std::vector<Limit> limits_;    // a row of the program

@@ -53,8 +53,8 @@ double Cascade::residual(const Record& record, int k, const Vector& x_above) con
     const double now = rows_.dot(i, x_), before = rows_.dot(i, x_above);
     const double upper = row.equality ? before : std::max(row.upper, before);
     const double lower = row.equality ? before : std::min(row.lower, before);
-    worst = std::max({worst, (now - upper) / (row.norm * x_scale),
-                      (lower - now) / (row.norm * x_scale)});
+    worst = std::max(
+        {worst, (now - upper) / (row.norm * x_scale), (lower - now) / (row.norm * x_scale)});
     if (mu != 0.0 && !row.equality) {
       const double gap = std::abs(now - (mu > 0.0 ? upper : lower)) / (row.norm * x_scale);
       worst = std::max(worst, std::min(1.0, std::abs(mu) / largest) * gap);
@@ -79,8 +79,8 @@ void Cascade::fill_solution() {
     for (int i = 0; i < mu.size(); ++i) {
       if (rows_[i].equality || std::abs(mu[i]) <= least) continue;
       solution_.working_set.push_back({rows_[i].level, rows_[i].row,
-                                       mu[i] > 0.0 ? Side::Upper : Side::Lower,
-                                       static_cast<int>(k), std::abs(mu[i])});
+                                       mu[i] > 0.0 ? Side::Upper : Side::Lower, static_cast<int>(k),
+                                       std::abs(mu[i])});
     }
   }
 }
@@ -92,8 +92,9 @@ std::vector<std::vector<Vector>> Cascade::multipliers() const {
     // equality rows above take what is left of the gradient
     const Matrix A = k > 0 ? equality_rows(0, k - 1) : Matrix(0, unknowns_);
     if (A.rows() > 0) {
-      const Vector mu = Eigen::MatrixXd(A.transpose()).completeOrthogonalDecomposition().solve(
-          -records_[k].gradient);
+      const Vector mu = Eigen::MatrixXd(A.transpose())
+                            .completeOrthogonalDecomposition()
+                            .solve(-records_[k].gradient);
       for (int i = 0, e = 0; i < rows_.begin(k); ++i) {
         if (rows_[i].equality) all[i] = mu[e++];
       }

@@ -2,7 +2,8 @@
 //
 //     J_k Z_{k-1} = U_k S_k Y~_k',   Y_k = Z_{k-1} Y~_k,   Z_k = Z_{k-1} Z~_k      [T 3.3.30-34]
 // S_k (rank, rank) is diagonal: singular values, or upper triangular: complete orthogonal
-// decomposition [T 3.5.123-124]. Y_1, Y_2, ..., Z_p are the rows of one orthogonal matrix, the basis.
+// decomposition [T 3.5.123-124]. Y_1, Y_2, ..., Z_p are the rows of one orthogonal matrix, the
+// basis.
 #pragma once
 
 #include <span>

@@ -3,6 +3,8 @@
 namespace hurcules {
 
 DlsHqp::DlsHqp(Index unknowns, const SolverOptions& options)
-    : ModifiedActiveSet(unknowns, options, {.factor = FactorKind::CompleteOrthogonal, .regularization_error = false}) {}
+    : ModifiedActiveSet(unknowns, options,
+                        {.factor = FactorKind::CompleteOrthogonal, .regularization_error = false}) {
+}
 
 }  // namespace hurcules

@@ -17,7 +17,8 @@ constexpr double kTargetRounding = 1e-14;
 // rows of the set that are nearly parallel are met to rounding after so many corrections
 constexpr int kRefinements = 3;
 
-// In z = L'y with H = L L' the program is: the point nearest to z0 = L^-1 g with M z >= d, |M_i| = 1.
+// In z = L'y with H = L L' the program is: the point nearest to z0 = L^-1 g with M z >= d, |M_i|
+// = 1.
 class NearestPoint {
  public:
   NearestPoint(const QuadraticProgram& program, const Eigen::LLT<Eigen::MatrixXd>& llt)
@@ -82,8 +83,8 @@ class NearestPoint {
         direction -= W * r;
       }
       const double slope = direction.squaredNorm();
-      const double full = slope > kDependent * kDependent
-                              ? (d_[p] - M_.col(p).dot(z_)) / slope : kInf;
+      const double full =
+          slope > kDependent * kDependent ? (d_[p] - M_.col(p).dot(z_)) / slope : kInf;
       int first = -1;
       double step = full;
       for (int j = 0; j < r.size(); ++j) {

@@ -3,6 +3,7 @@
 namespace hurcules {
 
 Hqp::Hqp(Index unknowns, const SolverOptions& options)
-    : ModifiedActiveSet(unknowns, options, {.factor = FactorKind::CompleteOrthogonal, .regularized = false}) {}
+    : ModifiedActiveSet(unknowns, options,
+                        {.factor = FactorKind::CompleteOrthogonal, .regularized = false}) {}
 
 }  // namespace hurcules

@@ -7,9 +7,9 @@ namespace hurcules {
 
 namespace {
 
-constexpr int kMaxSweeps = 40;          // six are usual
-constexpr double kOrthogonal = 1e-15;   // cosine of two rows that need no rotation
-constexpr double kNothing = 1e-13;      // a row that is rounding, relative to the largest
+constexpr int kMaxSweeps = 40;         // six are usual
+constexpr double kOrthogonal = 1e-15;  // cosine of two rows that need no rotation
+constexpr double kNothing = 1e-13;     // a row that is rounding, relative to the largest
 
 // the plane rotation that makes rows i and j of B orthogonal, applied to B and to U'
 bool rotate(MatrixRef B, MatrixRef Ut, Index i, Index j) {

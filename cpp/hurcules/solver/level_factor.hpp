@@ -12,8 +12,8 @@ enum class FactorKind { SingularValues, CompleteOrthogonal };
 struct LevelFactor {
   FactorKind kind = FactorKind::SingularValues;
   Index rows = 0, rank = 0;
-  Matrix Ut;  // U' in its upper left (rank, rows); with singular values V' below it
-  Matrix S;   // in its upper left (rank, rank): diagonal, or upper triangular
+  Matrix Ut;                 // U' in its upper left (rank, rows); with singular values V' below it
+  Matrix S;                  // in its upper left (rank, rank): diagonal, or upper triangular
   std::vector<Index> order;  // (rows), while it is factored
 };
 

@@ -1,11 +1,11 @@
 // Algorithm 1 of the thesis: one working set over all levels, changed without step lengths
 // [T alg. 1], [T §3.4.2].
 //
-// Repeat: solve all levels as if the rows held were equalities (primal and multipliers of every pair
-// of levels); add the row that is violated most; if none is, drop the row with the lowest multiplier
-// when it is negative, unless the row was ever strongly active (set S): then, or when there is none,
-// end. Three methods differ in how a level is factored and what the multipliers contain: RhqpThesis,
-// Hqp, DlsHqp. Where it goes wrong: solver.md §3.
+// Repeat: solve all levels as if the rows held were equalities (primal and multipliers of every
+// pair of levels); add the row that is violated most; if none is, drop the row with the lowest
+// multiplier when it is negative, unless the row was ever strongly active (set S): then, or when
+// there is none, end. Three methods differ in how a level is factored and what the multipliers
+// contain: RhqpThesis, Hqp, DlsHqp. Where it goes wrong: solver.md §3.
 #pragma once
 
 #include <span>
@@ -75,19 +75,19 @@ class ModifiedActiveSet : public Method {
   Solution solution_;
   RowTable rows_;
   HierarchicalDecomposition decomposition_;
-  std::vector<double> rho_;         // a level
-  std::vector<char> side_, best_;   // a row: -1, 0, 1; a point: 1
-  std::vector<char> strong_;        // a row: in S
-  std::vector<HeldLimit> held_;     // by level
-  std::vector<int> begin_;          // held_[begin_[k]] is the first of level k
-  Vector x_, gradient_;             // (n)
-  Vector value_;                    // a row: a x
-  Vector violation_, least_;        // a level: norm now; of the best set
-  Vector error_, infeasible_;       // a held row: e_k = v_k + u_k, v_k  [T 3.3.76-80]
-  Vector scale_;                    // a level: size of the numbers in e_k, for rounding
-  Matrix M_;                        // (levels, held rows)  [T 3.4.116]
+  std::vector<double> rho_;        // a level
+  std::vector<char> side_, best_;  // a row: -1, 0, 1; a point: 1
+  std::vector<char> strong_;       // a row: in S
+  std::vector<HeldLimit> held_;    // by level
+  std::vector<int> begin_;         // held_[begin_[k]] is the first of level k
+  Vector x_, gradient_;            // (n)
+  Vector value_;                   // a row: a x
+  Vector violation_, least_;       // a level: norm now; of the best set
+  Vector error_, infeasible_;      // a held row: e_k = v_k + u_k, v_k  [T 3.3.76-80]
+  Vector scale_;                   // a level: size of the numbers in e_k, for rounding
+  Matrix M_;                       // (levels, held rows)  [T 3.4.116]
   Index reserved_rows_ = 0;
-  bool kept_ = false;               // side_ holds the working set of the last solve
+  bool kept_ = false;  // side_ holds the working set of the last solve
 };
 
 }  // namespace hurcules

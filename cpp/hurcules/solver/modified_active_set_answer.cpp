@@ -91,8 +91,8 @@ void ModifiedActiveSet::fill_working_set() {
       const Row& row = rows_[held_[i].row];
       if (row.equality) continue;
       Index pushing;
-      const double multiplier = M_.col(i).segment(row.level, rows_.levels() - row.level)
-                                    .maxCoeff(&pushing);
+      const double multiplier =
+          M_.col(i).segment(row.level, rows_.levels() - row.level).maxCoeff(&pushing);
       if (row.level + pushing != k) continue;
       solution_.working_set.push_back({row.level, row.row,
                                        held_[i].sign > 0.0 ? Side::Upper : Side::Lower, k,
