@@ -47,10 +47,13 @@ Cascade::Cascade(Index unknowns, const SolverOptions& options)
 }
 
 void Cascade::reserve(HierarchyView hierarchy) {
+  Index rows = 0;
   solution_.violations.resize(hierarchy.size());
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     solution_.violations[k].setZero(hierarchy[k].rows());
+    rows += hierarchy[k].rows();
   }
+  rows_.reserve(unknowns_, rows, static_cast<Index>(hierarchy.size()));
 }
 
 const Solution& Cascade::solve(HierarchyView hierarchy) {
@@ -61,7 +64,7 @@ const Solution& Cascade::solve(HierarchyView hierarchy) {
   solution_.x.setZero(unknowns_);
   solution_.working_set.clear();
   records_.clear();
-  if (!rows_.read(hierarchy, unknowns_)) {
+  if (!rows_.read(hierarchy)) {
     solution_.status = SolverStatus::InvalidInput;
     return solution_;
   }

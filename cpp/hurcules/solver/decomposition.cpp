@@ -3,10 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hurcules/solver/kernels.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {
+
+namespace {
+
+using Map = Eigen::Map<Vector>;
+using ConstMap = Eigen::Map<const Vector>;
+
+double dot(Index n, const double* a, const double* b) {
+  return ConstMap(a, n).dot(ConstMap(b, n));
+}
+
+// y += s x
+void axpy(Index n, double s, const double* x, double* y) {
+  Map(y, n) += s * ConstMap(x, n);
+}
+
+}  // namespace
 
 void HierarchicalDecomposition::reserve(Index unknowns, std::span<const Index> rows) {
   unknowns_ = unknowns;
@@ -44,7 +59,9 @@ void HierarchicalDecomposition::add_level(const RowTable& table, std::span<const
     largest = std::max(largest, row.norm);
     for (Index j = 0; j < o; ++j) {
       const double* z = direction(used_ + j);
-      B(i, j) = held[i].sign * (row.a ? kernels::dot(unknowns_, row.a, z) : z[row.row]);
+      const double value =
+          row.dense < 0 ? z[row.row] : dot(unknowns_, table.dense_row(row.dense), z);
+      B(i, j) = held[i].sign * value;
     }
   }
   factor(B, tolerance::kRank * largest, level);  // [T 3.3.29], [T 3.5.123]
@@ -86,7 +103,7 @@ void HierarchicalDecomposition::step(Index k, double rho, VectorRef residual, Ve
   }
   solve_damped(level, rho, s, normal_);
   for (Index i = 0; i < level.rank; ++i) {
-    kernels::axpy(unknowns_, s[i], direction(level.first + i), x.data());
+    axpy(unknowns_, s[i], direction(level.first + i), x.data());
   }
 }
 
@@ -94,7 +111,7 @@ void HierarchicalDecomposition::multipliers(Index k, const Vector& gradient, Vec
   const Level& level = levels_[k];
   auto c = s_.head(level.rank);
   for (Index i = 0; i < level.rank; ++i) {
-    c[i] = kernels::dot(unknowns_, direction(level.first + i), gradient.data());
+    c[i] = dot(unknowns_, direction(level.first + i), gradient.data());
   }
   solve_transposed(level, c);
   mu.setZero();
@@ -107,7 +124,7 @@ void HierarchicalDecomposition::add_projection(Index k, double scale, const Vect
                                                Vector& y) const {
   const Level& level = levels_[k];
   for (Index i = level.first; i < level.first + level.rank; ++i) {
-    kernels::axpy(unknowns_, scale * kernels::dot(unknowns_, direction(i), x.data()), direction(i),
+    axpy(unknowns_, scale * dot(unknowns_, direction(i), x.data()), direction(i),
                   y.data());
   }
 }

@@ -33,7 +33,7 @@ void ModifiedActiveSet::reserve(HierarchyView hierarchy) {
     rows += hierarchy[k].rows();
   }
   reserved_rows_ = rows;
-  rows_.reserve(rows, static_cast<Index>(levels));
+  rows_.reserve(unknowns_, rows, static_cast<Index>(levels));
   decomposition_.reserve(unknowns_, level_rows);
   rho_.resize(levels);
   side_.resize(rows, 0);
@@ -55,7 +55,7 @@ const Solution& ModifiedActiveSet::solve(HierarchyView hierarchy) {
   solution_.status = SolverStatus::Solved;
   solution_.factorizations = solution_.changes = solution_.final_levels = 0;
   solution_.optimality = 0.0;
-  if (!rows_.read(hierarchy, unknowns_)) return refuse();
+  if (!rows_.read(hierarchy)) return refuse();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     rho_[k] = rules_.regularized ? hierarchy[k].rho : 0.0;
   }

@@ -37,7 +37,8 @@ struct Case {
       views.push_back(view(level));
       rows.push_back(level.rows());
     }
-    EXPECT_TRUE(table.read(views, kUnknowns));
+    table.reserve(kUnknowns, 9, 3);
+    EXPECT_TRUE(table.read(views));
     decomposition.reserve(kUnknowns, rows);
     decomposition.start();
     for (int k = 0; k < table.levels(); ++k) add(k);
