@@ -124,8 +124,7 @@ void HierarchicalDecomposition::add_projection(Index k, double scale, const Vect
                                                Vector& y) const {
   const Level& level = levels_[k];
   for (Index i = level.first; i < level.first + level.rank; ++i) {
-    axpy(unknowns_, scale * dot(unknowns_, direction(i), x.data()), direction(i),
-                  y.data());
+    axpy(unknowns_, scale * dot(unknowns_, direction(i), x.data()), direction(i), y.data());
   }
 }
 
