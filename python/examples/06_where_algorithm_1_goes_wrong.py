@@ -36,8 +36,7 @@ for seed in range(60):
     levels = [rhqp.Bounds(np.full(19, -0.5), np.full(19, 0.5))]
     for m in (3, 3, 3, 3, 3, 2, 2):
         J = rng.standard_normal((m, 19))
-        J /= np.linalg.norm(J, axis=1)[:, None]
-        levels.append(equal(J, rng.uniform(-2, 2, m)))
+        levels.append(equal(J / np.linalg.norm(J, axis=1)[:, None], rng.uniform(-2, 2, m)))
     both = [solve(levels, method, 19) for method in METHODS]
     active = [np.sum(np.abs(s.x) > 0.5 - 1e-9) for s in both]
     ends.append([[np.linalg.norm(s.violations[1]) for s in both], active])
