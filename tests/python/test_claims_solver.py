@@ -138,7 +138,7 @@ def test_R13_box_and_tasks() -> None:
     for seed in range(100):
         levels = conflict(seed)
         default = solver(12).solve(to_levels(levels))
-        assert largest(default.violations[:1]) < 1e-13
+        assert largest(default.violations[:1]) < 1e-12  # the tolerance that it promises
         assert default.optimality < 1e-9
         assert all(row.multiplier >= 0 for row in default.working_set)
         thesis = solver(12, "rhqp_thesis").solve(to_levels(levels))
