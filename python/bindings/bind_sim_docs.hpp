@@ -21,7 +21,7 @@ inline constexpr const char* kOptions = R"(Options of a simulation.
 Args:
   seed: of the differences between runs.
   variation: scale of these: casualty +-3 cm and +-0.05 rad, start posture +-2 mrad.
-  method: of the solver, see rhqp.SolverOptions.
+  method: of the solver, one of rhqp.method_names().
   record: keep the time series.
   timed: keep the time of each stage of each tick.
   base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.

@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "hurcules/base/error.hpp"
+#include "hurcules/solver/method.hpp"
 #include "hurcules/solver/solver.hpp"
 
 namespace py = pybind11;
@@ -56,6 +57,15 @@ constexpr const char* kMultipliersDoc =
     R"(multipliers[k][j] (m_j): multipliers of level j's rows in the optimality of level k, j <= k.
 
 multipliers[k][k] are the violations of level k. [T 3.4.116])";
+
+constexpr const char* kMethodNamesDoc = R"(The names that SolverOptions(method=...) takes.
+
+'lexicographic': the default, exact, always ends.
+'rhqp_thesis': Algorithm 1 of the thesis, literally; can end off the optimum or at its iteration limit.
+'hqp': the same active set with every rho = 0.
+'dls_hqp': the same with a damped inverse and multipliers that leave out the regularisation error.
+'cascade': one general QP a level; the same answers as 'lexicographic', slow, for comparison.
+)";
 
 // what Python gets: an answer that does not change with the next solve
 struct Answer : Solution {
@@ -159,14 +169,20 @@ void bind_solver(py::module_& module) {
   bind_level(module);
   bind_solution(module);
   py::class_<SolverOptions>(module, "SolverOptions")
-      .def(py::init([](std::string method, int max_changes) {
-             return SolverOptions{.method = std::move(method), .max_changes = max_changes};
+      .def(py::init([](std::string method, int max_changes, int max_iterations) {
+             return SolverOptions{.method = std::move(method),
+                                  .max_changes = max_changes,
+                                  .max_iterations = max_iterations};
            }),
            py::kw_only(), "method"_a = SolverOptions{}.method,
-           "max_changes"_a = SolverOptions{}.max_changes)
-      .def_readwrite("method", &SolverOptions::method, "'lexicographic'")
+           "max_changes"_a = SolverOptions{}.max_changes,
+           "max_iterations"_a = SolverOptions{}.max_iterations)
+      .def_readwrite("method", &SolverOptions::method, "one of method_names()")
       .def_readwrite("max_changes", &SolverOptions::max_changes,
-                     "working-set changes a solve, after which it ends with IterationLimit");
+                     "working-set changes a solve, after which it ends with IterationLimit")
+      .def_readwrite("max_iterations", &SolverOptions::max_iterations,
+                     "of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp");
+  module.def("method_names", &method_names, kMethodNamesDoc);
   py::class_<Solver>(module, "Solver", kSolverDoc)
       .def(py::init<Index, SolverOptions>(), "n"_a, "options"_a = SolverOptions{})
       .def("solve", &solve, "levels"_a, kSolveDoc)

@@ -102,7 +102,16 @@ class Solution(_Solved):
 class SolverOptions:
     method: str
     max_changes: int
-    def __init__(self, *, method: str = "lexicographic", max_changes: int = 10000) -> None: ...
+    max_iterations: int
+    def __init__(
+        self,
+        *,
+        method: str = "lexicographic",
+        max_changes: int = 10000,
+        max_iterations: int = 100,
+    ) -> None: ...
+
+def method_names() -> list[str]: ...
 
 class Solver:
     def __init__(self, n: int, options: SolverOptions = ...) -> None: ...

@@ -14,6 +14,7 @@ from rich.table import Table
 import hurcules
 from hurcules._core import Error
 from hurcules.output import WriteError
+from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
 
 __all__ = ["main"]
@@ -65,7 +66,9 @@ def run_mission(
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this time [s].", show_default="to the end")
     ] = None,
-    method: Annotated[str, typer.Option(help="How the hierarchy is solved.")] = "lexicographic",
+    method: Annotated[
+        str, typer.Option(help=f"How the hierarchy is solved: {', '.join(method_names())}.")
+    ] = "lexicographic",
     video: Annotated[bool, typer.Option("--video/--no-video", help="Film the run.")] = True,
 ) -> None:
     """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.

@@ -16,6 +16,7 @@ from hurcules._core import (
     Solver,
     SolverOptions,
     Status,
+    method_names,
 )
 
 __all__ = [
@@ -27,4 +28,5 @@ __all__ = [
     "Solver",
     "SolverOptions",
     "Status",
+    "method_names",
 ]

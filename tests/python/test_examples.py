@@ -10,8 +10,9 @@ import pytest
 EXAMPLES = sorted((Path(__file__).parents[2] / "python" / "examples").glob("*.py"))
 
 
-def test_there_are_five_numbered_ones() -> None:
-    assert [path.name[:3] for path in EXAMPLES] == ["01_", "02_", "03_", "04_", "05_"]
+def test_they_are_numbered() -> None:
+    assert len(EXAMPLES) >= 6
+    assert [path.name[:3] for path in EXAMPLES] == [f"{i + 1:02}_" for i in range(len(EXAMPLES))]
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)

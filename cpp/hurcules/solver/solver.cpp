@@ -35,6 +35,8 @@ Solver::Solver(Index unknowns, SolverOptions options)
                                          " unknowns, got " + std::to_string(unknowns));
   require(options_.max_changes > 0,
           "max_changes must be positive, got " + std::to_string(options_.max_changes));
+  require(options_.max_iterations > 0,
+          "max_iterations must be positive, got " + std::to_string(options_.max_iterations));
   method_ = make_method(unknowns_, options_);
 }
 Solver::~Solver() = default;

@@ -13,7 +13,7 @@ namespace hurcules {
 
 enum class SolverStatus {
   Solved,           // every level optimal, to the tolerances of NOTATION.md
-  ReducedAccuracy,  // solved, with a tolerance that had to be raised to end
+  ReducedAccuracy,  // ended, but not all levels are proven: see optimality
   IterationLimit,   // max_changes met: x is feasible for all levels above, final_levels says which
                     // are optimal
   LostPrecision,    // numbers beyond double arithmetic: x is that of the levels above final_levels
@@ -38,6 +38,8 @@ struct SolverOptions {
   // and it is NaN: about a fifth of the time of an easy solve
   bool proof = true;
   int max_changes = 10000;  // working-set changes a solve, after which it ends with IterationLimit
+  // of Algorithm 1 (rhqp_thesis, hqp, dls_hqp), which may cycle; thesis: 12 for dls_hqp
+  int max_iterations = 100;
 };
 
 struct Solution {

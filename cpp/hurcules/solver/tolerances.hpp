@@ -39,4 +39,14 @@ inline constexpr double kTiny = 1e-6;
 // a residual that is rounding and moves nothing, relative to |a| |x| + |b|
 inline constexpr double kZeroResidual = 1e-15;
 
+// Algorithm 1 (ModifiedActiveSet); its rows are met to rounding or not at all.
+// a row is violated, relative to |a| max(1, |x|)
+inline constexpr double kViolated = 1e-10;
+// a multiplier is negative, relative to the largest of its level ...
+inline constexpr double kNegativeMultiplier = 1e-10;
+// ... plus the rounding of a multiplier that is a difference of two numbers, relative to them
+inline constexpr double kDifference = 1e-13;
+// a level is violated less than before, relative to max(1, violation)
+inline constexpr double kLess = 1e-9;
+
 }  // namespace hurcules::tolerance
