@@ -32,7 +32,7 @@ void SettledLevel::factor() {
     norm2_[i] = row.norm * row.norm;
   }
   for (const Group group : {kLimits, kOwn, kSmallest}) {
-    factor_.run(begin(group), end_[group], norm2_.data(), tolerance::kRank);
+    factor_.run(begin(group), end_[group], norm2_.data(), group == kOwn ? tolerance::kOwnRank : tolerance::kRank);
     factor_.clear_unknown(begin(group), end_[group]);
     rank_[group] = factor_.rank();
   }
