@@ -76,7 +76,11 @@ double ActiveSet::worst_excess(const double* value) const {
 
 bool ActiveSet::free_is_feasible() {
   rows_->values(problem_->level() + 1, x_free_.data(), candidates_->target.data());
-  if (worst_excess(candidates_->target.data()) > 0.0) return false;
+  // x_free holds more digits than a target of size |r| / rho: none of its rounding is allowed for
+  if (kernels::chosen->worst_excess(count_, candidates_->target.data(), candidates_->limits(*rows_),
+                                    relative_, 0.0) > 0.0) {
+    return false;
+  }
   std::swap(candidates_->value, candidates_->target);
   return true;
 }

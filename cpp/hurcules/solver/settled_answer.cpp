@@ -32,10 +32,22 @@ void SettledLevel::factor() {
     norm2_[i] = row.norm * row.norm;
   }
   for (const Group group : {kLimits, kOwn, kSmallest}) {
-    factor_.run(begin(group), end_[group], norm2_.data(), tolerance::kRank);
+    factor_.run(begin(group), end_[group], norm2_.data(),
+                group == kOwn ? own_rank() : tolerance::kRank);
     factor_.clear_unknown(begin(group), end_[group]);
     rank_[group] = factor_.rank();
   }
+}
+
+// What is left of an own row outside the held limits is rounding below this. A limit that stands
+// out from those before it by a part of its length carries rounding as many times larger.
+double SettledLevel::own_rank() const {
+  double weakest = 1.0;
+  for (Index j = 0; j < rank_[kLimits]; ++j) {
+    const Index i = factor_.pivot(j);
+    weakest = std::min(weakest, std::abs(factor_.coordinates(i)[j]) / std::sqrt(norm2_[i]));
+  }
+  return std::min(tolerance::kRank, tolerance::kOwnRank / weakest);
 }
 
 void SettledLevel::meet(Group group) {

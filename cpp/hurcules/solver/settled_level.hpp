@@ -53,6 +53,7 @@ class SettledLevel {
   // the step that the held rows ask for: target_, its values, multipliers
   void answer(double rho);
   void factor();
+  [[nodiscard]] double own_rank() const;
   void meet(Group group);
   void least_squares(double rho);
   void add_smallest(double rho, Index& count);

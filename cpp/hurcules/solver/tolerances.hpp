@@ -7,6 +7,9 @@ namespace hurcules::tolerance {
 
 // an equality row depends on the rows before it: what is left of it, relative to |a|
 inline constexpr double kRank = 1e-10;
+// an own row of a settled level depends on the limits that are held: only rounding is left of it,
+// whatever is more takes part in the least squares
+inline constexpr double kOwnRank = 1e-13;
 // an inequality row has no part in the free directions of a level, relative to |a|
 inline constexpr double kLost = 1e-10;
 // a limit is broken, relative to max(1, |x|) |a| ...
