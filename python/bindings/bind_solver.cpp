@@ -187,7 +187,7 @@ void bind_solver(py::module_& module) {
            "max_iterations"_a = SolverOptions{}.max_iterations)
       .def_readwrite("method", &SolverOptions::method, "one of method_names()")
       .def_readwrite("proof", &SolverOptions::proof,
-                     "evaluate Solution.optimality at every solve; NaN without")
+                     "evaluate Solution.optimality at every solve; without, it is NaN")
       .def_readwrite("max_changes", &SolverOptions::max_changes,
                      "working-set changes a solve, after which it ends with IterationLimit")
       .def_readwrite("max_iterations", &SolverOptions::max_iterations,

@@ -4,7 +4,7 @@ An arm of four joints moves its hand as asked, as far as its speed limits allow.
 alone, gradient descent finds the limits: the gradient of each answer in its limits comes from the
 solver (Solution.vjp), exact, not from differences.
 
-Run:  python python/examples/06_differentiate_through_the_solver.py
+Run:  python python/examples/07_differentiate_through_the_solver.py
 """
 
 import sys

@@ -134,12 +134,14 @@ class Solution(_Solved):
 
 class SolverOptions:
     method: str
+    proof: bool
     max_changes: int
     max_iterations: int
     def __init__(
         self,
         *,
         method: str = "lexicographic",
+        proof: bool = True,
         max_changes: int = 10000,
         max_iterations: int = 100,
     ) -> None: ...

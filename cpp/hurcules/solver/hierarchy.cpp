@@ -49,7 +49,7 @@ void check_row(const LevelView& level, const std::string& where, Index i) {
   if (level.bounds) return;
   require(level.A.row(i).allFinite(), place(where, i) + ": A must be finite");
   require(level.A.row(i).squaredNorm() <= kLongestRow * kLongestRow,
-          place(where, i) + ": a row of A is too large, its length must not exceed 1e100");
+          place(where, i) + ": a row of A must not be longer than 1e100");
 }
 
 void check_numbers(const LevelView& level, const std::string& where) {
