@@ -32,6 +32,7 @@ class Lexicographic : public Method {
   const Solution& solve(HierarchyView hierarchy) override;
   [[nodiscard]] const Solution& solution() const override { return solution_; }
   [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const override;
+  [[nodiscard]] std::shared_ptr<const SolvedHierarchy> solved() const override;
   void reset() override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;

@@ -4,6 +4,7 @@
 
 #include "hurcules/solver/kernels.hpp"
 #include "hurcules/solver/lexicographic.hpp"
+#include "hurcules/solver/solved_hierarchy.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {
@@ -128,37 +129,12 @@ void Lexicographic::fill_violations(int k) {
   }
 }
 
+std::shared_ptr<const SolvedHierarchy> Lexicographic::solved() const {
+  return std::make_shared<const SolvedHierarchy>(rows_, records_, held_, solution_);
+}
+
 std::vector<std::vector<Vector>> Lexicographic::multipliers() const {
-  std::vector<std::vector<Vector>> result(solution_.final_levels);
-  for (int k = 0; k < solution_.final_levels; ++k) {
-    const LevelRecord& record = records_[k];
-    for (int j = 0; j <= k; ++j) {
-      result[k].push_back(Vector::Zero(rows_.begin(j + 1) - rows_.begin(j)));
-    }
-    for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
-      result[k][k][rows_[i].row] = rows_.violation(i, rows_.dot(i, record.x.data()));
-    }
-    for (int h = record.first_held; h < record.first_held + record.held; ++h) {
-      const Row& row = rows_[held_[h].row];
-      if (row.level < k) {
-        result[k][row.level][row.row] = static_cast<double>(held_[h].side) * held_[h].multiplier;
-      }
-    }
-    // equality rows above take what the gradient has along their directions: L' mu = -Q g
-    const Index rank = chain_.rank_before(k);
-    Vector mu(rank);
-    for (Index j = rank - 1; j >= 0; --j) {
-      double sum =
-          -kernels::chosen->dot(rows_.stride(), chain_.direction(j), record.gradient.data());
-      for (Index l = j + 1; l < rank; ++l) {
-        sum -= chain_.equality_coordinates(chain_.pivot(l))[j] * mu[l];
-      }
-      mu[j] = sum / chain_.equality_coordinates(chain_.pivot(j))[j];
-      const Row& row = rows_[rows_.row_of_dense(static_cast<int>(chain_.pivot(j)))];
-      result[k][row.level][row.row] = mu[j];
-    }
-  }
-  return result;
+  return hurcules::multipliers(*solved());
 }
 
 void Lexicographic::save(StateWriter& writer) const {

@@ -10,6 +10,8 @@
 
 namespace hurcules {
 
+class SolvedHierarchy;
+
 class Method {
  public:
   Method() = default;
@@ -24,6 +26,8 @@ class Method {
   [[nodiscard]] virtual const Solution& solution() const = 0;
   // multipliers[k][j] (m_j), j <= k  [T 3.4.116]
   [[nodiscard]] virtual std::vector<std::vector<Vector>> multipliers() const = 0;
+  // a copy of the solve that can be differentiated and reported; null where a method has none
+  [[nodiscard]] virtual std::shared_ptr<const SolvedHierarchy> solved() const { return nullptr; }
   virtual void reset() = 0;
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;

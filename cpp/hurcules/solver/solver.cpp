@@ -1,7 +1,9 @@
 #include "hurcules/solver/solver.hpp"
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/solver/level_report.hpp"
 #include "hurcules/solver/method.hpp"
+#include "hurcules/solver/sensitivity.hpp"
 
 namespace hurcules {
 
@@ -67,6 +69,17 @@ const Solution& Solver::solution() const {
 }
 std::vector<std::vector<Vector>> Solver::multipliers() const {
   return method_->multipliers();
+}
+std::shared_ptr<const SolvedHierarchy> Solver::solved() const {
+  return method_->solved();
+}
+Sensitivity Solver::sensitivity() const {
+  return Sensitivity(solved());
+}
+std::vector<LevelReport> Solver::reports() const {
+  const std::shared_ptr<const SolvedHierarchy> copy = solved();
+  require_solved(copy.get());
+  return level_reports(*copy);
 }
 void Solver::reset() {
   method_->reset();

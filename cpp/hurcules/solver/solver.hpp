@@ -55,6 +55,9 @@ struct Solution {
 };
 
 class Method;
+class Sensitivity;
+class SolvedHierarchy;
+struct LevelReport;
 
 // Keeps its working sets between solves: the next solve starts warm where the pattern of levels is
 // the same. A solve allocates nothing once a problem of its size was solved or reserved; it never
@@ -77,6 +80,12 @@ class Solver {
   [[nodiscard]] const SolverOptions& options() const { return options_; }
   // multipliers[k][j] (m_j) of the rows of level j in the optimality of level k, j <= k [T 3.4.116]
   [[nodiscard]] std::vector<std::vector<Vector>> multipliers() const;
+  // What follows is made when asked, from the arrays of the last solve: they must still be there
+  // and unchanged. What comes back owns its numbers.
+  [[nodiscard]] std::shared_ptr<const SolvedHierarchy> solved() const;  // null: the method has none
+  // these throw Error then; sensitivity.hpp, level_report.hpp
+  [[nodiscard]] Sensitivity sensitivity() const;
+  [[nodiscard]] std::vector<LevelReport> reports() const;  // a final level
   // forgets the working sets: the next solve is cold
   void reset();
 
