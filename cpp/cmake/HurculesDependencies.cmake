@@ -1,4 +1,4 @@
-# Eigen and MuJoCo, where pip puts them or where the usual hints point; used by the build and by the installed package.
+# Eigen, threads and MuJoCo, where pip puts them or where the usual hints point; used by the build and by the installed package.
 # Wants HURCULES_MUJOCO_VERSION; looks in HURCULES_HINTS too.
 find_package(Python 3.11 QUIET COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
 
@@ -16,4 +16,5 @@ endfunction()
 hurcules_python_package(cmeel cmeel)
 list(APPEND CMAKE_PREFIX_PATH "${cmeel}.prefix" ${HURCULES_HINTS})
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Threads REQUIRED)
 find_package(MuJoCo ${HURCULES_MUJOCO_VERSION} EXACT REQUIRED)

@@ -31,20 +31,32 @@ void check_shape(const LevelView& level, const std::string& where, Index unknown
               ", " + std::to_string(level.A.cols()) + ")");
 }
 
+// what check_row asks, without a text
+bool is_sound(const LevelView& level, Index i) {
+  return level.lower[i] <= level.upper[i] && level.lower[i] < kInfinity &&
+         level.upper[i] > -kInfinity &&
+         (level.bounds || level.A.row(i).squaredNorm() <= kLongestRow * kLongestRow);
+}
+
+void check_row(const LevelView& level, const std::string& where, Index i) {
+  require(!std::isnan(level.lower[i]) && !std::isnan(level.upper[i]),
+          place(where, i) + ": a bound is NaN");
+  require(level.lower[i] <= level.upper[i],
+          place(where, i) + ": lower must not exceed upper, got " + std::to_string(level.lower[i]) +
+              " > " + std::to_string(level.upper[i]));
+  require(level.lower[i] < kInfinity && level.upper[i] > -kInfinity,
+          place(where, i) + ": no x can meet a lower bound of +inf or an upper bound of -inf");
+  if (level.bounds) return;
+  require(level.A.row(i).allFinite(), place(where, i) + ": A must be finite");
+  require(level.A.row(i).squaredNorm() <= kLongestRow * kLongestRow,
+          place(where, i) + ": a row of A must not be longer than 1e100");
+}
+
 void check_numbers(const LevelView& level, const std::string& where) {
   require(std::isfinite(level.rho) && level.rho >= 0.0,
           where + ": rho must be finite and >= 0, got " + std::to_string(level.rho));
   for (Index i = 0; i < level.rows(); ++i) {
-    require(!std::isnan(level.lower[i]) && !std::isnan(level.upper[i]),
-            place(where, i) + ": a bound is NaN");
-    require(level.lower[i] <= level.upper[i],
-            place(where, i) + ": lower must not exceed upper, got " +
-                std::to_string(level.lower[i]) + " > " + std::to_string(level.upper[i]));
-    require(level.lower[i] < kInfinity && level.upper[i] > -kInfinity,
-            place(where, i) + ": no x can meet a lower bound of +inf or an upper bound of -inf");
-    require(level.bounds || level.A.row(i).allFinite(), place(where, i) + ": A must be finite");
-    require(level.bounds || level.A.row(i).squaredNorm() <= kLongestRow * kLongestRow,
-            place(where, i) + ": a row of A must not be longer than 1e100");
+    if (!is_sound(level, i)) check_row(level, where, i);
   }
 }
 
