@@ -6,6 +6,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/joint_pid.hpp"
 #include "hurcules/control/velocity_controller.hpp"
+#include "solver_levels.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -239,8 +240,12 @@ void bind_controller(py::module_& module) {
                              kActiveLimits)
       .def_property_readonly("solution", &VelocityController::solution, copy,
                              "ControlSolution, of the last compute")
-      .def_property_readonly("hierarchy", &VelocityController::hierarchy, copy,
-                             "list of Level, of the last compute")
+      .def_property_readonly(
+          "hierarchy",
+          [](const VelocityController& self) {
+            return hurcules_bindings::copies_of(self.hierarchy());
+          },
+          "list of Level, of the last compute")
       .def_property_readonly(
           "stack", [](const VelocityController& self) { return self.stack().text(); },
           "'joint < hpos < ...'");

@@ -1,20 +1,26 @@
-#include <pybind11/eigen.h>
+// solver: levels, solver, batches; what a solve answers is in bind_solver_answer.cpp.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include <deque>
+#include <mutex>
+
 #include "hurcules/base/error.hpp"
+#include "hurcules/solver/batch.hpp"
 #include "hurcules/solver/method.hpp"
-#include "hurcules/solver/solver.hpp"
+#include "solver_answer.hpp"
+#include "solver_levels.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
 
 void bind_solver(py::module_& module);
+void bind_solver_answer(py::module_& module);
 
 using namespace hurcules;
-using hurcules_bindings::matrix_of;
-using hurcules_bindings::vector_of;
+using hurcules_bindings::Answer;
+using hurcules_bindings::ArrayLevel;
+using hurcules_bindings::HeldLevels;
 
 namespace {
 
@@ -25,6 +31,9 @@ Args:
   lower, upper: (m,) float64. +-inf or a magnitude >= 1e20 means no side; lower == upper is an equality.
   rho: regularisation coefficient >= 0 (thesis: 0.1). A level of limits wants 0.
 
+Arrays of float64 in C order are held, not copied: what is written into them is seen by the next
+solve. Anything else is copied once.
+
 Raises:
   Error: wrong shapes, NaN, lower > upper, rho < 0.
 )";
@@ -32,7 +41,7 @@ constexpr const char* kBoundsDoc =
     R"(Simple bounds lower <= x <= upper as a level of its own, never regularised.
 
 Args:
-  lower, upper: (n,) float64. +-inf or a magnitude >= 1e20 means no side.
+  lower, upper: (n,) float64. +-inf or a magnitude >= 1e20 means no side. Held as Level holds them.
 )";
 constexpr const char* kSolverDoc =
     R"(Solves hierarchies over n unknowns; keeps its working sets between solves.
@@ -42,7 +51,10 @@ Args:
   options: SolverOptions.
 )";
 constexpr const char* kSolveDoc =
-    R"(Solves the levels in decreasing priority. Releases the interpreter lock.
+    R"(Solves the levels in decreasing priority.
+
+The interpreter lock is released meanwhile: let no other thread write into the arrays. A solver that
+two threads share takes one after the other.
 
 Args:
   levels: sequence of Level (and Bounds).
@@ -51,12 +63,22 @@ Returns:
   Solution. A hard problem is no error: look at status and optimality.
 
 Raises:
-  Error: shapes that do not fit n unknowns or each other.
+  Error: shapes that do not fit n unknowns or each other; NaN, infinite A, lower > upper.
 )";
-constexpr const char* kMultipliersDoc =
-    R"(multipliers[k][j] (m_j): multipliers of level j's rows in the optimality of level k, j <= k.
+constexpr const char* kBatchDoc =
+    R"(Solves many independent hierarchies on threads, without the interpreter lock.
 
-multipliers[k][k] are the violations of level k. [T 3.4.116])";
+Args:
+  problems: sequence of sequences of Level (and Bounds); each may have its own number of unknowns.
+  threads: how many; None: one a processor.
+  options: SolverOptions of all.
+
+Returns:
+  list of Solution, bit for bit those of a new Solver a problem.
+
+Raises:
+  Error: as Solver.solve, with the number of the problem.
+)";
 
 constexpr const char* kMethodNamesDoc = R"(The names that SolverOptions(method=...) takes.
 
@@ -67,125 +89,117 @@ constexpr const char* kMethodNamesDoc = R"(The names that SolverOptions(method=.
 'cascade': one general QP a level; the same answers as 'lexicographic', slow, for comparison.
 )";
 
-// what Python gets: an answer that does not change with the next solve
-struct Answer : Solution {
-  std::vector<std::vector<Vector>> multipliers;
+// a solver that two Python threads may share
+struct SharedSolver {
+  SharedSolver(Index n, SolverOptions options) : solver(n, std::move(options)) {}
+
+  Solver solver;
+  std::mutex mutex;
 };
 
-Level make_level(const py::object& A, const py::object& lower, const py::object& upper,
-                 const py::object& rho) {
-  require(py::isinstance<py::float_>(rho) || py::isinstance<py::int_>(rho) ||
-              py::hasattr(rho, "__float__"),
-          "rho wants a number >= 0, got " + std::string(py::repr(rho)));
-  Level level{.A = matrix_of(A, "A", "(m, n)"),
-              .lower = vector_of(lower, "lower", "(m,)"),
-              .upper = vector_of(upper, "upper", "(m,)"),
-              .rho = py::float_(rho)};
-  check(level, level.A.cols(), "level");
-  return level;
-}
-
-Level make_checked_bounds(const py::object& lower, const py::object& upper) {
-  Level level = make_bounds(vector_of(lower, "lower", "(n,)"), vector_of(upper, "upper", "(n,)"));
-  check(level, level.rows(), "bounds");
-  return level;
-}
-
-Hierarchy hierarchy_of(const py::object& levels) {
-  require(py::isinstance<py::sequence>(levels),
-          "solve wants a list of Level and Bounds, got " + std::string(py::repr(levels)));
-  Hierarchy hierarchy;
-  for (const py::handle item : levels) {
-    require(py::isinstance<Level>(item), "level " + std::to_string(hierarchy.size()) +
-                                             " wants to be a Level or Bounds, got " +
-                                             std::string(py::repr(item)));
-    hierarchy.push_back(item.cast<const Level&>());
+Answer solve(SharedSolver& self, const py::object& levels) {
+  const HeldLevels held(levels);
+  Answer answer;
+  {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(self.mutex);
+    static_cast<void>(self.solver.solve_views(held.views()));
+    answer = Answer(self.solver);
   }
-  return hierarchy;
+  if (answer.solution().status == SolverStatus::InvalidInput) held.refuse(self.solver.unknowns());
+  return answer;
 }
 
-Answer solve(Solver& solver, const py::object& levels) {
-  const Hierarchy hierarchy = hierarchy_of(levels);
-  check(hierarchy, solver.unknowns());
-  py::gil_scoped_release release;
-  return {solver.solve(hierarchy), solver.multipliers()};
+void reset(SharedSolver& self) {
+  const py::gil_scoped_release release;
+  const std::lock_guard lock(self.mutex);
+  self.solver.reset();
+}
+
+int count_of(const py::object& threads) {
+  if (threads.is_none()) return 0;
+  const bool whole = py::isinstance<py::int_>(threads) && !py::isinstance<py::bool_>(threads);
+  require(whole && py::int_(0) < threads && threads < py::int_(10000),
+          "threads wants a whole number from 1 or None, got " + std::string(py::repr(threads)));
+  return threads.cast<int>();
+}
+
+std::vector<Answer> solve_problems(const py::object& problems, const py::object& threads,
+                                   const SolverOptions& options) {
+  const BatchOptions batch{.solver = options, .threads = count_of(threads)};
+  require(py::isinstance<py::sequence>(problems),
+          "solve_batch wants a list of lists of Level, got " + std::string(py::repr(problems)));
+  std::deque<HeldLevels> held;
+  std::vector<BatchProblem> tasks;
+  for (const py::handle problem : py::tuple(problems)) {
+    const std::string name = "problem " + std::to_string(held.size()) + ", ";
+    held.emplace_back(py::reinterpret_borrow<py::object>(problem), name);
+    tasks.push_back({held.back().unknowns(), held.back().views()});
+  }
+  std::vector<Answer> answers(tasks.size());
+  {
+    const py::gil_scoped_release release;
+    solve_batch(tasks, batch,
+                [&answers](std::size_t i, const Solver& solver) { answers[i] = Answer(solver); });
+  }
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (answers[i].solution().status == SolverStatus::InvalidInput)
+      held[i].refuse(tasks[i].unknowns);
+  }
+  return answers;
 }
 
 void bind_level(py::module_& module) {
-  py::class_<Level> level(module, "Level", kLevelDoc);
-  level.def(py::init(&make_level), "A"_a, "lower"_a, "upper"_a, "rho"_a = 0.0)
-      .def_readonly("A", &Level::A, "(m, n); empty for bounds")
-      .def_readonly("lower", &Level::lower, "(m,)")
-      .def_readonly("upper", &Level::upper, "(m,)")
-      .def_readonly("rho", &Level::rho)
-      .def_property_readonly("rows", &Level::rows)
-      .def("__repr__", [](const Level& self) {
-        return (self.bounds ? "Bounds(n=" : "Level(m=") + std::to_string(self.rows()) +
+  py::class_<ArrayLevel>(module, "Level", kLevelDoc)
+      .def(py::init(&hurcules_bindings::make_level), "A"_a, "lower"_a, "upper"_a, "rho"_a = 0.0)
+      .def_property_readonly(
+          "A", [](const ArrayLevel& self) { return self.A; },
+          "(m, n), the array that is solved; empty for bounds")
+      .def_property_readonly(
+          "lower", [](const ArrayLevel& self) { return self.lower; },
+          "(m,), the array that is solved")
+      .def_property_readonly(
+          "upper", [](const ArrayLevel& self) { return self.upper; },
+          "(m,), the array that is solved")
+      .def_readonly("rho", &ArrayLevel::rho)
+      .def_property_readonly("rows", [](const ArrayLevel& self) { return self.lower.size(); })
+      .def("__repr__", [](const ArrayLevel& self) {
+        return (self.bounds ? "Bounds(n=" : "Level(m=") + std::to_string(self.lower.size()) +
                (self.bounds ? ")" : ", rho=" + std::to_string(self.rho) + ")");
       });
-  module.def("Bounds", &make_checked_bounds, "lower"_a, "upper"_a, kBoundsDoc);
-}
-
-void bind_solution(py::module_& module) {
-  py::enum_<SolverStatus>(module, "Status", "How a solve ended.")
-      .value("Solved", SolverStatus::Solved)
-      .value("ReducedAccuracy", SolverStatus::ReducedAccuracy)
-      .value("IterationLimit", SolverStatus::IterationLimit)
-      .value("LostPrecision", SolverStatus::LostPrecision)
-      .value("InvalidInput", SolverStatus::InvalidInput);
-  py::enum_<Side>(module, "Side", "The side at which a row is held.")
-      .value("Lower", Side::Lower)
-      .value("Upper", Side::Upper);
-  py::class_<ActiveRow>(module, "ActiveRow", "A row that holds x back.")
-      .def_readonly("level", &ActiveRow::level, "level that the row belongs to")
-      .def_readonly("row", &ActiveRow::row, "its row there")
-      .def_readonly("side", &ActiveRow::side)
-      .def_readonly("held_by", &ActiveRow::held_by, "level that pushes against it")
-      .def_readonly("multiplier", &ActiveRow::multiplier, ">= 0, of that level's problem")
-      .def("__repr__", [](const ActiveRow& self) {
-        return "ActiveRow(level=" + std::to_string(self.level) +
-               ", row=" + std::to_string(self.row) +
-               (self.side == Side::Upper ? ", Upper" : ", Lower") +
-               ", held_by=" + std::to_string(self.held_by) + ")";
-      });
-  py::class_<Answer>(module, "Solution", "The answer of one solve.")
-      .def_readonly("x", &Answer::x, "(n,)")
-      .def_readonly("status", &Answer::status)
-      .def_readonly("violations", &Answer::violations,
-                    "per level (m,): A x - clip(A x, lower, upper)")
-      .def_readonly("working_set", &Answer::working_set)
-      .def_readonly("factorizations", &Answer::factorizations,
-                    "level factorisations done, at least one a non-empty level")
-      .def_readonly("changes", &Answer::changes, "working-set changes")
-      .def_readonly("final_levels", &Answer::final_levels, "levels known to be optimal")
-      .def_readonly("optimality", &Answer::optimality,
-                    "worst relative residual of the optimality conditions of all levels")
-      .def_readonly("multipliers", &Answer::multipliers, kMultipliersDoc);
+  module.def("Bounds", &hurcules_bindings::make_bounds_level, "lower"_a, "upper"_a, kBoundsDoc);
 }
 
 }  // namespace
 
 void bind_solver(py::module_& module) {
   bind_level(module);
-  bind_solution(module);
+  bind_solver_answer(module);
   py::class_<SolverOptions>(module, "SolverOptions")
-      .def(py::init([](std::string method, int max_changes, int max_iterations) {
+      .def(py::init([](std::string method, bool proof, int max_changes, int max_iterations) {
              return SolverOptions{.method = std::move(method),
+                                  .proof = proof,
                                   .max_changes = max_changes,
                                   .max_iterations = max_iterations};
            }),
-           py::kw_only(), "method"_a = SolverOptions{}.method,
+           py::kw_only(), "method"_a = SolverOptions{}.method, "proof"_a = SolverOptions{}.proof,
            "max_changes"_a = SolverOptions{}.max_changes,
            "max_iterations"_a = SolverOptions{}.max_iterations)
       .def_readwrite("method", &SolverOptions::method, "one of method_names()")
+      .def_readwrite("proof", &SolverOptions::proof,
+                     "evaluate Solution.optimality at every solve; without, it is NaN")
       .def_readwrite("max_changes", &SolverOptions::max_changes,
                      "working-set changes a solve, after which it ends with IterationLimit")
       .def_readwrite("max_iterations", &SolverOptions::max_iterations,
                      "of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp");
   module.def("method_names", &method_names, kMethodNamesDoc);
-  py::class_<Solver>(module, "Solver", kSolverDoc)
+  py::class_<SharedSolver>(module, "Solver", kSolverDoc)
       .def(py::init<Index, SolverOptions>(), "n"_a, "options"_a = SolverOptions{})
       .def("solve", &solve, "levels"_a, kSolveDoc)
-      .def("reset", &Solver::reset, "Forgets the working sets: the next solve is cold.")
-      .def_property_readonly("n", &Solver::unknowns, "number of unknowns");
+      .def("reset", &reset, "Forgets the working sets: the next solve is cold.")
+      .def_property_readonly(
+          "n", [](const SharedSolver& self) { return self.solver.unknowns(); },
+          "number of unknowns");
+  module.def("solve_batch", &solve_problems, "problems"_a, "threads"_a = py::none(),
+             "options"_a = SolverOptions{}, kBatchDoc);
 }

@@ -1,4 +1,4 @@
-"""The compiled part of hurcules. Arrays are float64 and copies; shape and unit beside each."""
+"""The compiled part of hurcules: float64 arrays, all copies but those of Level; shapes beside."""
 
 import os
 from collections.abc import Iterable, Sequence
@@ -95,18 +95,53 @@ class _Solved(_Given):
     @property
     def optimality(self) -> float: ...
 
+class LevelReport(_Given):
+    @property
+    def rho(self) -> float: ...
+    @property
+    def rank(self) -> int: ...
+    @property
+    def singular_values(self) -> _Vector: ...  # (min(equality rows, free directions),)
+    @property
+    def infeasible(self) -> _Vector: ...  # (m,)
+    @property
+    def regularized(self) -> _Vector: ...  # (m,)
+
+class LevelChange:
+    def __init__(
+        self,
+        A: ArrayLike | None = None,
+        lower: ArrayLike | None = None,
+        upper: ArrayLike | None = None,
+        rho: float = 0.0,
+    ) -> None: ...  # (m, n), (m,), (m,)
+    @property
+    def A(self) -> _Matrix | None: ...  # (m, n)
+    @property
+    def lower(self) -> _Vector | None: ...  # (m,)
+    @property
+    def upper(self) -> _Vector | None: ...  # (m,)
+    @property
+    def rho(self) -> float: ...
+
 class Solution(_Solved):
     @property
     def multipliers(self) -> list[list[_Vector]]: ...  # [k][j] (m_j,), j <= k
+    @property
+    def levels(self) -> list[LevelReport]: ...
+    def jvp(self, changes: Sequence[LevelChange | None]) -> _Vector: ...  # (n,)
+    def vjp(self, x_bar: ArrayLike) -> list[LevelChange]: ...  # (n,)
 
 class SolverOptions:
     method: str
+    proof: bool
     max_changes: int
     max_iterations: int
     def __init__(
         self,
         *,
         method: str = "lexicographic",
+        proof: bool = True,
         max_changes: int = 10000,
         max_iterations: int = 100,
     ) -> None: ...
@@ -119,6 +154,12 @@ class Solver:
     def reset(self) -> None: ...
     @property
     def n(self) -> int: ...
+
+def solve_batch(
+    problems: Sequence[Sequence[Level]],
+    threads: int | None = None,
+    options: SolverOptions = ...,
+) -> list[Solution]: ...
 
 # robot
 

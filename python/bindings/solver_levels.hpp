@@ -1,0 +1,58 @@
+// Levels as Python has them: references to numpy arrays, read anew by every solve.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+#include "hurcules/solver/hierarchy.hpp"
+
+namespace hurcules_bindings {
+
+// float64, C-contiguous and aligned: no copy; anything else is converted to that once
+using SharedArray =
+    pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast |
+                                  pybind11::detail::npy_api::NPY_ARRAY_ALIGNED_>;
+
+struct ArrayLevel {
+  SharedArray A;             // (m, n); (0, 0) for simple bounds
+  SharedArray lower, upper;  // (m)
+  double rho = 0.0;
+  bool bounds = false;
+
+  // false when an array was given another number of axes or another layout in place
+  [[nodiscard]] bool is_readable() const;
+  [[nodiscard]] hurcules::LevelView view() const;
+};
+
+[[nodiscard]] ArrayLevel make_level(const pybind11::object& A, const pybind11::object& lower,
+                                    const pybind11::object& upper, const pybind11::object& rho);
+[[nodiscard]] ArrayLevel make_bounds_level(const pybind11::object& lower,
+                                           const pybind11::object& upper);
+// levels of their own numbers
+[[nodiscard]] pybind11::list copies_of(const hurcules::Hierarchy& hierarchy);
+
+// A sequence of levels for the time of a solve: whatever another thread does to the sequence, the
+// arrays stay.
+class HeldLevels {
+ public:
+  // `name` comes before "level 2" in an Error
+  explicit HeldLevels(const pybind11::object& levels, std::string name = "");
+
+  [[nodiscard]] hurcules::HierarchyView views() const { return views_; }
+  // of the first level: the others must fit
+  [[nodiscard]] hurcules::Index unknowns() const;
+  // throws the Error of what the solver refused
+  [[noreturn]] void refuse(hurcules::Index unknowns) const;
+
+ private:
+  [[nodiscard]] std::string name_of(std::size_t level) const;
+
+  std::string name_;
+  pybind11::tuple kept_;
+  std::vector<hurcules::LevelView> views_;
+};
+
+}  // namespace hurcules_bindings
