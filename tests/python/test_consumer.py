@@ -5,9 +5,15 @@ is seen, and builds a program of 15 lines there. Not tested: a prefix moved to a
 """
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import hurcules
 
 CMAKE = """\
 cmake_minimum_required(VERSION 3.24)
@@ -52,20 +58,36 @@ def cmake() -> str:
     return str(own) if own.is_file() else "cmake"
 
 
-def test_a_program_builds_and_runs_against_the_installed_library(
-    build: Path, tmp_path: Path
-) -> None:
-    import hurcules
-
-    prefix, source = tmp_path / "prefix", tmp_path / "source"
+def installed(build: Path, folder: Path, program: str) -> Path:
+    """The program, built against a fresh prefix in the folder."""
+    prefix, source = folder / "prefix", folder / "source"
     run(cmake(), "--install", build, "--prefix", prefix, "--component", "cpp")
     source.mkdir()
     (source / "CMakeLists.txt").write_text(CMAKE.format(version=hurcules.__version__))
-    (source / "consumer.cpp").write_text(PROGRAM)
+    (source / "consumer.cpp").write_text(program)
     run(cmake(), "-S", source, "-B", source / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
     run(cmake(), "--build", source / "build")
-    x0, x1, status = run(source / "build" / "consumer").split()
+    return source / "build" / "consumer"
+
+
+def test_a_program_builds_and_runs_against_the_installed_library(
+    build: Path, tmp_path: Path
+) -> None:
+    x0, x1, status = run(installed(build, tmp_path, PROGRAM)).split()
     assert (round(float(x0), 9), round(float(x1), 9), status) == (1.0, 1.5, "solved")
+
+
+def test_the_program_of_the_readme_runs_and_says_what_its_python_says(
+    build: Path, root: Path, tmp_path: Path
+) -> None:
+    readme = (root / "README.md").read_text(encoding="utf-8")
+    program = re.findall(r"```cpp\n(.*?)```", readme, re.DOTALL)
+    pythons = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    x0, x1, x2, status = run(installed(build, tmp_path, program[0])).split()
+    space: dict[str, Any] = {}
+    exec(next(text for text in pythons if "rhqp" in text), space)
+    np.testing.assert_allclose([float(x0), float(x1), float(x2)], space["solution"].x, atol=1e-5)
+    assert status == space["solution"].status.name.lower() == "solved"
 
 
 def test_headers_are_installed_by_room_and_nothing_else(build: Path, tmp_path: Path) -> None:

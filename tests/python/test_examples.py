@@ -44,3 +44,11 @@ def test_the_two_hand_reach_takes_twelve_lines() -> None:
     block = text.partition("in twelve lines")[2].partition("\n\n")[0]
     lines = [line for line in block.splitlines()[1:] if line.strip()]
     assert 0 < len(lines) <= 12
+
+
+def test_gradients_of_the_torch_example_are_right() -> None:
+    pytest.importorskip("torch", reason="PyTorch is not installed; remedy: pip install torch")
+    done = subprocess.run([sys.executable, EXAMPLES[6]], capture_output=True, text=True)
+    lines = done.stdout.splitlines()
+    assert lines[0] == "gradcheck True", done.stderr
+    assert lines[-1].startswith("step 150") and float(lines[-1].split()[3]) < 1e-5
