@@ -89,11 +89,12 @@ def cases(name: str, rows: str) -> Iterator[tuple]:
             yield seed, rhqp.Solver(n).solve(to_levels(levels)), changes, narrow
 
 
-# share of the problems that must count, rounded down from what 300 a class gave
+# Share of the problems that must count, a tenth or more below what was found: which of the rows
+# that depend on each other are held is the solver's choice, and may be another on both sides.
 COUNTED = {
-    "stand": [0.9, 0.7, 0.8, 0.9, 0.7, 0.8, 0.55],
-    "move": [0.9, 0.6, 0.3, 0.9, 0.4, 0.25, 0.4],  # moving rows by themselves breaks dependence
-    "turn": [0.9, 0.7, 0.8, 0.9, 0.6, 0.7, 0.55],
+    "stand": [0.8, 0.6, 0.7, 0.8, 0.6, 0.7, 0.5],
+    "move": [0.8, 0.5, 0.25, 0.8, 0.35, 0.2, 0.35],  # rows that move alone no longer depend
+    "turn": [0.8, 0.6, 0.7, 0.8, 0.5, 0.6, 0.5],
 }
 
 
