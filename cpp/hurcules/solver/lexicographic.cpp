@@ -53,6 +53,7 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   problem_.reserve(unknowns_, reserved_rows_, reserved_own_);
   active_set_.reserve(unknowns_, reserved_rows_, reserved_own_);
   settled_level_.reserve(unknowns_, reserved_rows_);
+  careful_level_.reserve(unknowns_, reserved_rows_);
   optimality_.reserve(unknowns_, reserved_rows_);
   records_.resize(reserved_levels_);
   for (LevelRecord& record : records_) {

@@ -8,6 +8,7 @@
 
 #include "hurcules/solver/active_set.hpp"
 #include "hurcules/solver/candidates.hpp"
+#include "hurcules/solver/careful_level.hpp"
 #include "hurcules/solver/chain.hpp"
 #include "hurcules/solver/level_problem.hpp"
 #include "hurcules/solver/method.hpp"
@@ -52,12 +53,10 @@ class Lexicographic : public Method {
   bool solve_regularized(Way way, double rho, int k);
   // rho nothing or small: the settled level; or proximal steps and the smallest step
   bool solve_settled(Way way, double rho, int k);
-  bool solve_carefully(double rho, int k);
+  bool solve_carefully(double rho);
   // from the rows of the last solve, or from those that the active set holds now
   bool settle_kept(double rho, int k);
   bool settle_held(double rho, double epsilon);
-  bool proximal_steps(double epsilon);
-  bool smallest_step(int k);
 
   // to the optimal working set: from the set of the last solve, or from the centre
   bool find_warm(int k);
@@ -96,6 +95,7 @@ class Lexicographic : public Method {
   LevelProblem problem_;
   ActiveSet active_set_;
   SettledLevel settled_level_;
+  CarefulLevel careful_level_;
   Optimality optimality_;
   Budget budget_;
   double* x_ = nullptr;              // answer of the level, in its record

@@ -7,15 +7,11 @@
 
 namespace hurcules {
 
-namespace {
-
-// proximal steps of a level with rho = 0; one to four are usual
-constexpr int kMaxProximalSteps = 40;
-
-}  // namespace
+namespace {}  // namespace
 
 bool Lexicographic::solve(Way way, double rho, int k) {
   chain_.complete(rows_);
+  if (way == Way::Careful) return solve_carefully(rho);
   return rho >= tolerance::kSmall * problem_.own_norm() ? solve_regularized(way, rho, k)
                                                         : solve_settled(way, rho, k);
 }
@@ -27,7 +23,6 @@ bool Lexicographic::solve_regularized(Way way, double rho, int k) {
     take(way == Way::Warm ? x_above_ : active_set_.x_feasible());
     return false;
   }
-  if (way == Way::Careful) return settle_held(rho, rho);
   take_refined();
   keep_held(rho * rho, Role::Violation);
   begin_norm_ = static_cast<int>(held_.size());
@@ -40,7 +35,6 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
     take(x_above_);
     return true;
   }
-  if (way == Way::Careful) return solve_carefully(rho, k);
   const double epsilon = std::max(rho, tolerance::kProximal * problem_.own_norm());
   active_set_.start(rows_, problem_, candidates_, epsilon, x_above_, x_scale_);
   if (find_cold()) return settle_held(rho, epsilon);
@@ -48,19 +42,10 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
   return false;
 }
 
-bool Lexicographic::solve_carefully(double rho, int k) {
-  const bool tiny = rho < tolerance::kTiny * problem_.own_norm();
-  const double epsilon = tiny ? tolerance::kProximal * problem_.own_norm() : rho;
-  active_set_.start(rows_, problem_, candidates_, epsilon, x_above_, x_scale_);
-  if (!find_cold()) {
-    take(active_set_.x_feasible());
-    return false;
-  }
-  take_refined();
-  if (tiny && !proximal_steps(epsilon)) return false;
-  keep_held(epsilon * epsilon, Role::Violation);
-  begin_norm_ = static_cast<int>(held_.size());
-  return !tiny || smallest_step(k);
+bool Lexicographic::solve_carefully(double rho) {
+  ++solution_.factorizations;
+  careful_level_.start(rows_, chain_, problem_, x_above_, x_scale_);
+  return careful_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {
@@ -88,58 +73,6 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
   settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, active_set_.x(), x_scale_);
   for (const KeptRow& row : found_) settled_level_.hold(row.row, row.side, row.role);
   return settled_level_.solve(rho, budget_, x_, held_, begin_norm_);
-}
-
-bool Lexicographic::proximal_steps(double epsilon) {
-  double last = 0.0;
-  std::copy_n(x_above_, rows_.stride(), centre_.data());
-  for (int pass = 0; pass < kMaxProximalSteps; ++pass) {
-    double moved = 0.0;
-    for (Index j = 0; j < unknowns_; ++j) moved = std::max(moved, std::abs(x_[j] - centre_[j]));
-    const double scale = std::max(1.0, kernels::chosen->largest(rows_.stride(), x_));
-    std::copy_n(x_, rows_.stride(), centre_.data());
-    if (!std::isfinite(moved)) return true;  // the proof will say so
-    if (moved < 1e-11 * scale || (pass > 0 && moved < 1e-8 * scale && moved > 0.5 * last)) break;
-    last = moved;
-    // the next pass starts from this one's set
-    active_set_.restart(epsilon, centre_.data());
-    if (!active_set_.warm() && !find_by_dual()) {
-      take(centre_.data());
-      return false;
-    }
-    take_refined();
-  }
-  return true;
-}
-
-bool Lexicographic::smallest_step(int k) {
-  double largest = 0.0;
-  for (std::size_t h = begin_held_; h < held_.size(); ++h) {
-    largest = std::max(largest, std::abs(held_[h].multiplier));
-  }
-  const double least = problem_.least_settling(largest, x_scale_);
-  active_set_.clear();
-  problem_.start_smallest(rows_, chain_, k);
-  if (problem_.dimension() == 0) return true;
-  active_set_.start_smallest(rows_, problem_, candidates_, x_, x_above_, x_scale_);
-  for (std::size_t h = begin_held_; h < held_.size(); ++h) {
-    HeldRow& held = held_[h];
-    if (held.multiplier > least) {
-      active_set_.fix(held.row, held.side);
-    } else {
-      held.role = Role::Idle;
-    }
-  }
-  ++solution_.factorizations;
-  const bool done = active_set_.primal(budget_, budget_.left());
-  if (done) {
-    take_refined();
-  } else {
-    take(active_set_.x_feasible());
-    values_known_ = false;
-  }
-  keep_held(1.0, Role::SmallestStep);
-  return done;
 }
 
 bool Lexicographic::find_by_dual() {

@@ -9,6 +9,12 @@ namespace {
 
 // forces below this part of |a|^2 |x| are not told from rounding
 constexpr double kLeastForce = 1e-3;
+// the forces of a level balance to rounding of x and of their sum, relative to their size
+constexpr double kRounding = 1e-14;
+// a limit pulls at the step when it does by more than this part of x ...
+constexpr double kNoPull = 1e-10;
+// ... and no push is smaller
+constexpr double kLeastPush = 1e-300;
 
 double norm_of(Index size, const double* v) {
   return std::sqrt(kernels::chosen->dot(size, v, v));
@@ -18,7 +24,7 @@ double norm_of(Index size, const double* v) {
 
 void Optimality::reserve(Index unknowns, Index rows) {
   work_.reserve(padded(unknowns));
-  for (PaddedVector* v : {&violation_, &settled_}) v->reserve(rows + 4);
+  for (PaddedVector* v : {&violation_, &settled_, &push_}) v->reserve(rows + 4);
 }
 
 // adds  sum v_i a_i  of the level's own rows to g; returns  sum |v_i| |a_i|
@@ -66,10 +72,13 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
   // what is left against the forces that balance; a level that is met has none, only the rounding
   // of its rows
   const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
-  double worst = scale > 0.0 ? norm_of(size, work_.data()) / std::max(scale, least) : 0.0;
+  const double unbalanced = norm_of(size, work_.data());
+  double worst = scale > 0.0 ? unbalanced / std::max(scale, least) : 0.0;
   worst = std::max(worst, worst_held(rows, candidates, k, record, held, x_scale));
   worst = std::max(worst, worsened(rows, candidates, k) / x_scale);
-  return std::max(worst, norm_residual(rows, chain, k, x_above, record, held));
+  const double rounding = kRounding * std::max(scale, record.own_norm * record.own_norm * x_scale);
+  return std::max(worst, norm_residual(rows, chain, k, x_above, record, held,
+                                       std::max(0.0, unbalanced - rounding)));
 }
 
 // signs and complementarity
@@ -139,10 +148,31 @@ double Optimality::worsened(const RowTable& rows, const Candidates& candidates, 
   return worst;
 }
 
+// How often the balance of the violations has to be added to that of the step so that no limit
+// pulls: a limit that pushes against the violations, mu > 0, may pull at the step, nu < 0, as long
+// as nu + often mu >= 0.
+double Optimality::repeats(const RowTable& rows, const LevelRecord& record,
+                           const std::vector<HeldRow>& held) {
+  const int end = record.first_norm + record.norm;
+  for (int h = record.first_norm; h < end; ++h) push_[held[h].row] = 0.0;
+  for (int h = record.first_held; h < record.first_norm; ++h) {
+    push_[held[h].row] = held[h].multiplier;
+  }
+  double often = 0.0;
+  const double none = kNoPull * norm_of(rows.stride(), record.x.data());
+  for (int h = record.first_norm; h < end; ++h) {
+    const double pull = -held[h].multiplier;
+    if (pull * rows[held[h].row].norm <= none) continue;
+    often = std::max(often, pull / std::max(push_[held[h].row], kLeastPush));
+  }
+  return often;
+}
+
 // rho = 0: among all minimisers the step is the smallest, t + sum nu side a = 0 on what the level
 // left free
 double Optimality::norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
-                                 const LevelRecord& record, const std::vector<HeldRow>& held) {
+                                 const LevelRecord& record, const std::vector<HeldRow>& held,
+                                 double unbalanced) {
   if (record.norm == 0) return 0.0;
   const Index size = rows.stride();
   for (Index j = 0; j < size; ++j) work_[j] = record.x[j] - x_above[j];
@@ -153,7 +183,8 @@ double Optimality::norm_residual(const RowTable& rows, Chain& chain, int k, cons
     scale += std::abs(held[h].multiplier) * rows[held[h].row].norm;
   }
   chain.remove_first(chain.rank_before(k + 1), work_.data());
-  return norm_of(size, work_.data()) / scale;
+  const double often = repeats(rows, record, held);
+  return (norm_of(size, work_.data()) + often * unbalanced) / scale;
 }
 
 }  // namespace hurcules

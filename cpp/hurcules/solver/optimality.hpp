@@ -68,8 +68,11 @@ class Optimality {
                                   const LevelRecord& record, const std::vector<HeldRow>& held,
                                   double x_scale) const;
   double norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
-                       const LevelRecord& record, const std::vector<HeldRow>& held);
+                       const LevelRecord& record, const std::vector<HeldRow>& held,
+                       double unbalanced);
+  double repeats(const RowTable& rows, const LevelRecord& record, const std::vector<HeldRow>& held);
 
+  PaddedVector push_;       // (rows) against the violations
   PaddedVector work_;       // (n)
   PaddedVector violation_;  // (rows)
   PaddedVector settled_;    // (equality rows), values when their level was proven

@@ -7,6 +7,7 @@ namespace hurcules {
 
 // makes the first `columns` columns of a block (rows, columns + 1) upper triangular; the last
 // column is a right-hand side
-void triangularize(Matrix& block, Index rows, Index columns);
+template <class Block>
+void triangularize(Block& block, Index rows, Index columns);
 
 }  // namespace hurcules

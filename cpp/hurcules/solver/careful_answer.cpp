@@ -1,0 +1,142 @@
+// The answer of the held rows of a careful level, and its multipliers.
+#include <algorithm>
+#include <cmath>
+
+#include "hurcules/solver/careful_level.hpp"
+#include "hurcules/solver/tolerances.hpp"
+#include "hurcules/solver/triangularize.hpp"
+
+namespace hurcules {
+
+namespace {
+
+using Long = long double;
+
+// a held row that has less than this outside the rows before it is held by them
+constexpr Long kImplied = 1e-12L;
+
+}  // namespace
+
+void CarefulLevel::add_state(State state) {
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    if (lines_[i].state == state) basis_.add(coordinates(i), i, kImplied);
+  }
+}
+
+void CarefulLevel::build_basis(State first) {
+  basis_.start(free_);
+  add_state(first);
+  first_ = basis_.size();
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    if (!counts(lines_[i])) continue;
+    // the coordinates come from directions in double; a weak row magnifies their rounding
+    const Long rounding = tolerance::kOwnRank / basis_.weakest();
+    basis_.add(coordinates(i), i, std::min<Long>(tolerance::kRank, rounding));
+  }
+  if (first != State::Held) add_state(State::Held);
+}
+
+// least squares of the rows that count, in their directions
+void CarefulLevel::fill_block(Long rho) {
+  const Index columns = basis_.size() - first_;
+  Index count = 0;
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    if (!counts(lines_[i])) continue;
+    for (Index j = 0; j < columns; ++j) {
+      block_(count, j) = lines_[i].norm * basis_.dot(first_ + j, coordinates(i));
+    }
+    block_(count++, columns) = -lines_[i].norm * excess(i);
+  }
+  for (Index j = 0; rho > 0.0L && j < columns; ++j, ++count) {
+    block_.row(count).head(columns + 1).setZero();
+    block_(count, j) = rho;
+    block_(count, columns) = -rho * basis_.dot(first_ + j, t_.data());
+  }
+  for (; count < columns; ++count) block_.row(count).head(columns + 1).setZero();
+  triangularize(block_, count, columns);
+}
+
+void CarefulLevel::step_to_violation(Long rho) {
+  std::fill_n(p_.begin(), free_, 0.0L);
+  // regularised, what no row holds goes back to where it came from
+  if (rho > 0.0L) step_to_smallest();
+  const Index columns = basis_.size() - first_;
+  fill_block(rho);
+  for (Index j = columns - 1; j >= 0; --j) {
+    Long sum = block_(j, columns);
+    for (Index l = j + 1; l < columns; ++l) sum -= block_(j, l) * z_[l];
+    z_[j] = sum / block_(j, j);
+    const Long* b = basis_.direction(first_ + j);
+    for (Index c = 0; c < free_; ++c) p_[c] += z_[j] * b[c];
+  }
+}
+
+void CarefulLevel::step_to_smallest() {
+  basis_.remove(t_.data(), p_.data(), z_.data());
+  for (Index c = 0; c < free_; ++c) p_[c] = -p_[c];
+}
+
+Long CarefulLevel::balance_violation(Long rho) {
+  Long forces = 0.0L;
+  std::fill_n(force_.begin(), free_, 0.0L);
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    lines_[i].multiplier = 0.0L;
+    if (!counts(lines_[i])) continue;
+    const Long push = lines_[i].norm * lines_[i].norm * excess(i);
+    forces += std::abs(push);
+    for (Index c = 0; c < free_; ++c) force_[c] += push * coordinates(i)[c];
+  }
+  for (Index c = 0; c < free_; ++c) {
+    force_[c] += rho * rho * t_[c];
+    forces += rho * rho * std::abs(t_[c]);
+  }
+  for (Index j = 0; j < first_; ++j) z_[j] = -basis_.dot(j, force_.data());
+  basis_.solve_transposed(first_, z_.data());
+  for (Index j = 0; j < first_; ++j) lines_[basis_.mark(j)].multiplier = z_[j];
+  return forces;
+}
+
+void CarefulLevel::balance_step() {
+  for (Line& line : lines_) line.pull = 0.0L;
+  for (Index j = 0; j < basis_.size(); ++j) z_[j] = -basis_.dot(j, t_.data());
+  basis_.solve_transposed(basis_.size(), z_.data());
+  for (Index j = 0; j < basis_.size(); ++j) lines_[basis_.mark(j)].pull = z_[j];
+}
+
+void CarefulLevel::write(double* x) {
+  const Index n = rows_->unknowns();
+  std::copy_n(x_above_, rows_->stride(), x);
+  for (Index j = 0; j < n; ++j) {
+    Long sum = x_above_[j];
+    for (Index c = 0; c < free_; ++c) {
+      sum += t_[c] * chain_->direction(level_->first() + c)[j];
+    }
+    x[j] = static_cast<double>(sum);
+  }
+}
+
+void CarefulLevel::keep(bool settled, std::vector<HeldRow>& held, int& begin_norm) const {
+  const auto push = [&](const Line& line, Long multiplier) {
+    return static_cast<double>(static_cast<int>(line.side) * multiplier / line.norm);
+  };
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    const Line& line = lines_[i];
+    if (line.own && line.state == State::Violated) {
+      const double violation = static_cast<double>(std::abs(excess(i)) * line.norm);
+      held.push_back({line.row, line.side, violation, Role::Violation});
+    } else if (!line.own && holds(line) && line.multiplier != 0.0L) {
+      held.push_back(
+          {line.row, line.side, std::max(0.0, push(line, line.multiplier)), Role::Violation});
+    }
+  }
+  begin_norm = static_cast<int>(held.size());
+  for (Index j = 0; j < basis_.size(); ++j) {
+    const Line& line = lines_[basis_.mark(j)];
+    if (line.state == State::Equality) continue;
+    const bool only = settled && line.state == State::Held;
+    held.push_back(
+        {line.row, line.side, push(line, line.pull), only ? Role::SmallestStep : Role::Idle});
+  }
+}
+
+}  // namespace hurcules

@@ -1,0 +1,75 @@
+#include "hurcules/solver/careful_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hurcules {
+
+namespace {
+
+// enough, also for what is left of a nearly dependent row
+constexpr int kCleanings = 3;
+
+}  // namespace
+
+void CarefulBasis::reserve(Index columns, Index rows) {
+  const std::size_t directions = static_cast<std::size_t>(std::min(columns, rows));
+  const std::size_t width = static_cast<std::size_t>(columns);
+  directions_.resize(std::max(directions_.size(), directions * width));
+  parts_.resize(std::max(parts_.size(), directions * width));
+  rest_.resize(std::max(rest_.size(), width));
+  mark_.resize(std::max(mark_.size(), directions));
+}
+
+void CarefulBasis::start(Index columns) {
+  columns_ = columns;
+  size_ = 0;
+  weakest_ = 1.0L;
+}
+
+CarefulBasis::Long CarefulBasis::dot(Index j, const Long* v) const {
+  const Long* b = direction(j);
+  Long sum = 0.0L;
+  for (Index c = 0; c < columns_; ++c) sum += b[c] * v[c];
+  return sum;
+}
+
+CarefulBasis::Long CarefulBasis::remove(const Long* row, Long* rest, Long* parts) const {
+  std::copy_n(row, columns_, rest);
+  std::fill_n(parts, size_, 0.0L);
+  for (int pass = 0; pass < kCleanings && size_ > 0; ++pass) {
+    for (Index j = 0; j < size_; ++j) {
+      const Long part = dot(j, rest);
+      const Long* b = direction(j);
+      for (Index c = 0; c < columns_; ++c) rest[c] -= part * b[c];
+      parts[j] += part;
+    }
+  }
+  Long left = 0.0L;
+  for (Index c = 0; c < columns_; ++c) left += rest[c] * rest[c];
+  return std::sqrt(left);
+}
+
+bool CarefulBasis::add(const Long* row, Index mark, Long least) {
+  if (size_ == columns_ || size_ == static_cast<Index>(mark_.size())) return false;
+  Long* parts = &parts_[size_ * columns_];
+  const Long left = remove(row, rest_.data(), parts);
+  if (!(left > least)) return false;
+  Long* b = &directions_[size_ * columns_];
+  for (Index c = 0; c < columns_; ++c) b[c] = rest_[c] / left;
+  parts[size_] = left;
+  mark_[size_] = mark;
+  weakest_ = std::min(weakest_, left);
+  ++size_;
+  return true;
+}
+
+void CarefulBasis::solve_transposed(Index end, Long* b) const {
+  for (Index i = end - 1; i >= 0; --i) {
+    const Long* l = &parts_[i * columns_];
+    b[i] /= l[i];
+    for (Index j = 0; j < i; ++j) b[j] -= l[j] * b[i];
+  }
+}
+
+}  // namespace hurcules
