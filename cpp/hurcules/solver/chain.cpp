@@ -11,16 +11,23 @@ void Chain::reserve(Index unknowns, Index rows, Index levels) {
   factor_.reserve(rows, unknowns);
   transposed_.reserve(padded(unknowns), unknowns);
   transposed_.shape(unknowns);
-  for (PaddedVector* v : {&part_, &rest_}) v->reserve(padded(unknowns) + 4);
+  for (PaddedVector* v : {&part_, &rest_, &coordinates_}) v->reserve(padded(unknowns) + 4);
   rank_.reserve(levels + 1);
 }
 
 void Chain::build(const RowTable& rows) {
-  complete_ = false;
+  basis_.start_whole();
   factor_.start(rows.dense(), rows.unknowns());
   std::copy_n(rows.dense_row(0), rows.dense() * rows.stride(), factor_.row(0));
-  rank_.assign(1, 0);
-  for (int k = 0; k < rows.levels(); ++k) {
+  directions_ = factor_.direction(0);
+  x_stride_ = rows.stride();
+  build_levels(rows, 0);
+}
+
+void Chain::build_levels(const RowTable& rows, int first) {
+  complete_ = false;
+  rank_.assign(first + 1, 0);
+  for (int k = first; k < rows.levels(); ++k) {
     factor_.run(rows.equalities(k), rows.equalities(k + 1), rows.dense_norms2(), tolerance::kRank);
     factor_.clear_unknown(rows.equalities(k), rows.equalities(k + 1));
     rank_.push_back(factor_.rank());
@@ -45,12 +52,13 @@ void Chain::complete(const RowTable& rows) {
     for (Index j = 0; j < stride(); ++j) direction[j] = scale * q[j];
     for (Index j = 0; j < n; ++j) rest_[j] -= direction[j] * direction[j];
   }
+  if (!basis_.whole()) find_images(first);
   for (int d = rows.equalities(); first < n && d < rows.dense(); ++d) {
-    kernel.dots(direction(first), n - first, stride(), factor_.rest(d),
+    kernel.dots(factor_.direction(first), n - first, stride(), factor_.rest(d),
                 factor_.coordinates(d) + first);
   }
   if (rows.bounds_blocks() > 0) {
-    kernel.transpose(direction(0), padded(n), stride(), transposed_.row(0));
+    kernel.transpose(direction(0), padded(n), x_stride_, transposed_.row(0));
   }
 }
 
@@ -59,15 +67,61 @@ void Chain::find_rest() {
   const Index n = unknowns();
   for (Index b = 0; b < n; ++b) rest_[b] = 1.0;
   for (Index j = 0; j < factor_.rank(); ++j) {
-    for (Index b = 0; b < n; ++b) rest_[b] -= direction(j)[b] * direction(j)[b];
+    const double* q = factor_.direction(j);
+    for (Index b = 0; b < n; ++b) rest_[b] -= q[b] * q[b];
   }
 }
 
 void Chain::remove_first(Index r, double* y) {
   const kernels::Table& kernel = *kernels::chosen;
-  kernel.dots(direction(0), r, stride(), y, part_.data());
+  kernel.dots(direction(0), r, x_stride_, y, part_.data());
   for (Index j = 0; j < r; ++j) part_[j] = -part_[j];
-  kernel.axpys(direction(0), r, stride(), part_.data(), y);
+  if (!basis_.whole()) {
+    basis_.coordinates(y, step_.data());
+    std::fill_n(y, x_stride_, 0.0);
+    basis_.add_step(step_.data(), y);
+  }
+  kernel.axpys(direction(0), r, x_stride_, part_.data(), y);
+}
+
+void Chain::reserve_basis(Index unknowns, Index levels) {
+  basis_.reserve(unknowns, levels);
+  images_.reserve(unknowns, unknowns);
+  step_.reserve(padded(unknowns) + 4);
+}
+
+void Chain::build_behind(const RowTable& rows, int level) {
+  factor_.start(rows.dense(), basis_.size());
+  for (Index d = 0; d < rows.equalities(level + 1); ++d) {
+    std::fill_n(factor_.row(d), factor_.stride(), 0.0);
+  }
+  for (int d = rows.equalities(level + 1); d < rows.dense(); ++d) {
+    basis_.coordinates(rows.dense_row(d), factor_.row(d));
+  }
+  x_stride_ = rows.stride();
+  images_.shape(rows.unknowns());
+  directions_ = images_.row(0);
+  build_levels(rows, level + 1);
+  find_images(0);
+}
+
+void Chain::find_images(Index from) {
+  for (Index j = from; j < factor_.rank(); ++j) {
+    std::fill_n(images_.row(j), x_stride_, 0.0);
+    basis_.add_step(factor_.direction(j), images_.row(j));
+  }
+}
+
+void Chain::add_free_part(Index r, const double* step, double* y) const {
+  const kernels::Table& kernel = *kernels::chosen;
+  const double* whole = step;
+  if (!basis_.whole()) {
+    basis_.step_of(step, step_.data());
+    whole = step_.data();
+  }
+  const Index count = unknowns() - r;
+  kernel.dots(factor_.direction(r), count, stride(), whole, coordinates_.data());
+  kernel.axpys(direction(r), count, x_stride_, coordinates_.data(), y);
 }
 
 }  // namespace hurcules

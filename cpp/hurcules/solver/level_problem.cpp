@@ -225,10 +225,8 @@ void LevelProblem::step(const double* y, const double* x_free, double* x) {
 }
 
 void LevelProblem::project(const double* v, double* part) {
-  const kernels::Table& kernel = *kernels::chosen;
-  kernel.dots(chain_->direction(first_), free_, rows_->stride(), v, t_.data());
   std::fill_n(part, rows_->stride(), 0.0);
-  kernel.axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), part);
+  chain_->add_free_part(first_, v, part);
 }
 
 }  // namespace hurcules

@@ -49,7 +49,7 @@ class LevelProblem {
   [[nodiscard]] double free_part(const Row& row) const;
   // x = x_free + what y moves
   void step(const double* y, const double* x_free, double* x);
-  // part of a vector (padded) in the free directions
+  // part of a step (padded) in the free directions
   void project(const double* v, double* part);
   // rho w of an own inequality row
   [[nodiscard]] double slack(const Row& row, const double* y) const {

@@ -48,7 +48,8 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   reserved_levels_ = std::max(reserved_levels_, hierarchy.size());
   const Index levels = static_cast<Index>(reserved_levels_);
   rows_.reserve(unknowns_, reserved_rows_, levels);
-  chain_.reserve(unknowns_, reserved_rows_, levels);
+  chains_.reserve(unknowns_, reserved_rows_, levels, options_.handover == Handover::Smooth);
+  if (uses_svd()) svd_.reserve(unknowns_, reserved_own_);
   candidates_.reserve(reserved_rows_ + 4 * levels);
   problem_.reserve(unknowns_, reserved_rows_, reserved_own_);
   active_set_.reserve(unknowns_, reserved_rows_, reserved_own_);
@@ -89,15 +90,19 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   count_kept();
   x_above_ = x_ = zero_.data();
   x_scale_ = 1.0;
-  chain_.build(rows_);
+  chains_.start(rows_, hierarchy);
+  chain_ = &chains_.of(0);
   candidates_.start(rows_);
   for (int k = 0; k < rows_.levels(); ++k) {
     x_ = records_[k].x.data();
+    chain_ = &chains_.of(k);
+    if (uses_svd()) svd_.start(rows_, *chain_, k);
     const bool done = solve_level(hierarchy[k], k);
     active_set_.clear();
     candidates_.close(rows_, k, x_scale_);
     if (!done) break;
     ++solution_.final_levels;
+    chains_.close(rows_, svd_, k);
     x_above_ = x_;
   }
   keep_working_sets();
@@ -107,27 +112,28 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
 }
 
 bool Lexicographic::solve_level(const LevelView& level, int k) {
-  problem_.start(rows_, chain_, k, x_above_);
+  problem_.start(rows_, *chain_, k, x_above_);
   candidates_.open(rows_, k, x_above_);
   begin_held_ = held_.size();
   start_way();
   if (level.rows() > 0) ++solution_.factorizations;
+  const double rho = regularization(level.rho, k);
   bool done = true;
   double residual = 0.0;
   if (satisfied(k)) {
     take(x_above_);
-    residual = prove(Way::Warm, level.rho, k);
+    residual = prove(Way::Warm, rho, k);
   } else if (level.bounds && rows_.begin(k) == 0) {
     solve_first_bounds(k);
-    residual = prove(Way::Warm, level.rho, k);
-  } else if (!has_kept(k) && solve_free(level.rho)) {
-    residual = prove(Way::Warm, level.rho, k);
+    residual = prove(Way::Warm, rho, k);
+  } else if (!has_kept(k) && solve_free(rho)) {
+    residual = prove(Way::Warm, rho, k);
   } else {
     for (const Way way : {Way::Warm, Way::Cold, Way::Careful}) {
       if (way == Way::Warm && !has_kept(k)) continue;
       start_way();
-      done = solve(way, level.rho, k);
-      residual = prove(way, level.rho, k);
+      done = solve(way, rho, k);
+      residual = prove(way, rho, k);
       if (!believed(way)) residual = std::max(residual, moved(k));
       if (budget_.spent() || (done && !raised_ && residual <= tolerance::kProven)) break;
     }
@@ -144,7 +150,7 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
         tolerance::kBroken) {
       start_way();
       take(x_above_);
-      prove(Way::Careful, level.rho, k);
+      prove(Way::Careful, rho, k);
     }
   } else if (residual > tolerance::kProven && solution_.status == SolverStatus::Solved) {
     // the proof decides, whatever the way thought of itself
@@ -158,7 +164,7 @@ bool Lexicographic::believed(Way way) const {
 }
 
 double Lexicographic::moved(int k) {
-  return optimality_.moved(rows_, k, x_above_, x_) / x_scale_;
+  return optimality_.moved(rows_, *chain_, k, x_above_, x_) / x_scale_;
 }
 
 void Lexicographic::start_way() {

@@ -9,7 +9,7 @@
 #include "hurcules/solver/active_set.hpp"
 #include "hurcules/solver/candidates.hpp"
 #include "hurcules/solver/careful_level.hpp"
-#include "hurcules/solver/chain.hpp"
+#include "hurcules/solver/chain_segments.hpp"
 #include "hurcules/solver/level_problem.hpp"
 #include "hurcules/solver/method.hpp"
 #include "hurcules/solver/optimality.hpp"
@@ -44,6 +44,13 @@ class Lexicographic : public Method {
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
   bool solve_level(const LevelView& level, int k);
+  // somebody asks for singular values
+  [[nodiscard]] bool uses_svd() const {
+    return options_.handover == Handover::Smooth ||
+           options_.regularization == Regularization::Adaptive;
+  }
+  // rho of level k, constant or adapted to its singular values
+  double regularization(double rho, int k);
   [[nodiscard]] bool satisfied(int k) const;
   // simple bounds with nothing above: every coordinate by itself
   void solve_first_bounds(int k);
@@ -90,7 +97,8 @@ class Lexicographic : public Method {
   SolverOptions options_;
   Solution solution_;
   RowTable rows_;
-  Chain chain_;
+  ChainSegments chains_;
+  LevelSvd svd_;
   Candidates candidates_;
   LevelProblem problem_;
   ActiveSet active_set_;
@@ -98,6 +106,7 @@ class Lexicographic : public Method {
   CarefulLevel careful_level_;
   Optimality optimality_;
   Budget budget_;
+  Chain* chain_ = nullptr;           // of the level
   double* x_ = nullptr;              // answer of the level, in its record
   const double* x_above_ = nullptr;  // answer of the level above, in its record; or zero_
   PaddedVector zero_, centre_, equality_values_;

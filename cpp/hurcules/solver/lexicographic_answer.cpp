@@ -39,7 +39,7 @@ double Lexicographic::prove(Way way, double rho, int k) {
   x_scale_ = kernels::chosen->largest(rows_.stride(), x_);
   if (!(x_scale_ > 1.0) && x_scale_ == x_scale_) x_scale_ = 1.0;
   if (believed(way)) return 0.0 * x_scale_;  // NaN where x is
-  return optimality_.residual(rows_, chain_, candidates_, k, x_above_, x_scale_, record, held_);
+  return optimality_.residual(rows_, *chain_, candidates_, k, x_above_, x_scale_, record, held_);
 }
 
 void Lexicographic::count_kept() {
@@ -105,7 +105,8 @@ void Lexicographic::fill_solution() {
   for (int k = 0; k < rows_.levels(); ++k) fill_violations(k);
   if (!options_.proof) return;
   const double moved =
-      optimality_.moved_since(rows_, solution_.final_levels, equality_values_.data()) / x_scale_;
+      optimality_.moved_since(rows_, *chain_, solution_.final_levels, equality_values_.data()) /
+      x_scale_;
   solution_.optimality = std::max(solution_.optimality, moved);
   if (moved > tolerance::kProven && solution_.status == SolverStatus::Solved) {
     solution_.status = SolverStatus::ReducedAccuracy;
@@ -130,11 +131,21 @@ void Lexicographic::fill_violations(int k) {
 }
 
 std::shared_ptr<const SolvedHierarchy> Lexicographic::solved() const {
+  // which weak directions a level keeps is not part of that copy
+  if (chains_.handed_over()) return nullptr;
   return std::make_shared<const SolvedHierarchy>(rows_, records_, held_, solution_);
 }
 
 std::vector<std::vector<Vector>> Lexicographic::multipliers() const {
-  return hurcules::multipliers(*solved());
+  auto result = hurcules::multipliers(SolvedHierarchy(rows_, records_, held_, solution_));
+  // behind a hand-over it is no rows above that hold x, only combinations of them
+  for (int i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    for (int k = row.level + 1; row.equality && k < solution_.final_levels; ++k) {
+      if (!chains_.of(k).basis().whole()) result[k][row.level][row.row] = 0.0;
+    }
+  }
+  return result;
 }
 
 void Lexicographic::save(StateWriter& writer) const {

@@ -10,7 +10,7 @@ namespace hurcules {
 namespace {}  // namespace
 
 bool Lexicographic::solve(Way way, double rho, int k) {
-  chain_.complete(rows_);
+  chain_->complete(rows_);
   if (way == Way::Careful) return solve_carefully(rho);
   return rho >= tolerance::kSmall * problem_.own_norm() ? solve_regularized(way, rho, k)
                                                         : solve_settled(way, rho, k);
@@ -44,12 +44,12 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
 
 bool Lexicographic::solve_carefully(double rho) {
   ++solution_.factorizations;
-  careful_level_.start(rows_, chain_, problem_, x_above_, x_scale_);
+  careful_level_.start(rows_, *chain_, problem_, x_above_, x_scale_);
   return careful_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {
-  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, x_above_, x_scale_);
+  settled_level_.start(rows_, *chain_, problem_, candidates_, x_above_, x_above_, x_scale_);
   for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
     settled_level_.hold(kept_[h].row, kept_[h].side, kept_[h].role);
   }
@@ -70,7 +70,7 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
   }
   ++solution_.factorizations;
   active_set_.clear();
-  settled_level_.start(rows_, chain_, problem_, candidates_, x_above_, active_set_.x(), x_scale_);
+  settled_level_.start(rows_, *chain_, problem_, candidates_, x_above_, active_set_.x(), x_scale_);
   for (const KeptRow& row : found_) settled_level_.hold(row.row, row.side, row.role);
   return settled_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }

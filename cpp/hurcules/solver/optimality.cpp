@@ -23,7 +23,7 @@ double norm_of(Index size, const double* v) {
 }  // namespace
 
 void Optimality::reserve(Index unknowns, Index rows) {
-  work_.reserve(padded(unknowns));
+  for (PaddedVector* v : {&work_, &step_}) v->reserve(padded(unknowns));
   for (PaddedVector* v : {&violation_, &settled_, &push_}) v->reserve(rows + 4);
 }
 
@@ -67,8 +67,11 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
     scale += std::abs(held[h].multiplier) * rows[held[h].row].norm;
   }
   // stationarity on the free directions
+  const bool whole = chain.basis().whole();
+  for (Index j = 0; !whole && j < size; ++j) g[j] -= rho2 * (x[j] - x_above[j]);
   std::copy_n(g, size, work_.data());
   chain.remove_first(chain.rank_before(k), work_.data());
+  for (Index j = 0; !whole && j < size; ++j) work_[j] += rho2 * (x[j] - x_above[j]);
   // what is left against the forces that balance; a level that is met has none, only the rounding
   // of its rows
   const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
@@ -76,6 +79,7 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
   double worst = scale > 0.0 ? unbalanced / std::max(scale, least) : 0.0;
   worst = std::max(worst, worst_held(rows, candidates, k, record, held, x_scale));
   worst = std::max(worst, worsened(rows, candidates, k) / x_scale);
+  if (!whole) worst = std::max(worst, moved(rows, chain, k, x_above, x) / x_scale);
   const double rounding = kRounding * std::max(scale, record.own_norm * record.own_norm * x_scale);
   return std::max(worst, norm_residual(rows, chain, k, x_above, record, held,
                                        std::max(0.0, unbalanced - rounding)));
@@ -103,23 +107,25 @@ double Optimality::worst_held(const RowTable& rows, const Candidates& candidates
   return worst;
 }
 
-double Optimality::moved(const RowTable& rows, int k, const double* x_above, const double* x) {
+double Optimality::moved(const RowTable& rows, const Chain& chain, int k, const double* x_above,
+                         const double* x) {
   for (Index j = 0; j < rows.stride(); ++j) work_[j] = x[j] - x_above[j];
   kernels::chosen->dots(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
                         violation_.data());
   double worst = 0.0;
   for (int d = 0; d < rows.equalities(k); ++d) {
     const double way = std::abs(violation_[d]), norm = rows.dense_norms()[d];
-    if (way > worst * norm) worst = way / norm;
+    if (way > worst * norm && !chain.handed_over(rows, d)) worst = way / norm;
   }
-  return worst;
+  return std::max(worst, chain.basis().moved(work_.data()));
 }
 
-double Optimality::moved_since(const RowTable& rows, int levels, const double* value) const {
+double Optimality::moved_since(const RowTable& rows, const Chain& last, int levels,
+                               const double* value) const {
   double worst = 0.0;
   for (int d = 0; d < rows.equalities(levels); ++d) {
     const double way = std::abs(value[d] - settled_[d]), norm = rows.dense_norms()[d];
-    if (way > worst * norm) worst = way / norm;
+    if (way > worst * norm && !last.handed_over(rows, d)) worst = way / norm;
   }
   return worst;
 }
@@ -175,7 +181,9 @@ double Optimality::norm_residual(const RowTable& rows, Chain& chain, int k, cons
                                  double unbalanced) {
   if (record.norm == 0) return 0.0;
   const Index size = rows.stride();
-  for (Index j = 0; j < size; ++j) work_[j] = record.x[j] - x_above[j];
+  const bool whole = chain.basis().whole();
+  for (Index j = 0; j < size; ++j) step_[j] = record.x[j] - x_above[j];
+  for (Index j = 0; j < size; ++j) work_[j] = whole ? step_[j] : 0.0;
   // what is left is an error of x, so x is its scale
   double scale = std::max(1.0, norm_of(size, record.x.data()));
   for (int h = record.first_norm; h < record.first_norm + record.norm; ++h) {
@@ -183,6 +191,7 @@ double Optimality::norm_residual(const RowTable& rows, Chain& chain, int k, cons
     scale += std::abs(held[h].multiplier) * rows[held[h].row].norm;
   }
   chain.remove_first(chain.rank_before(k + 1), work_.data());
+  if (!whole) chain.add_free_part(chain.rank_before(k + 1), step_.data(), work_.data());
   const double often = repeats(rows, record, held);
   return (norm_of(size, work_.data()) + often * unbalanced) / scale;
 }

@@ -5,6 +5,9 @@
 // held rows:
 //     g = rho^2 (x_k - x_{k-1}) + sum v_i a_i + sum mu_w side_w a_w   must vanish on the free
 //     directions
+// (behind a hand-over, x = B t', it is rho^2 t' + B'f, f the sums above, that must vanish; measured
+// is B times it, an error of x; and of a level that gave directions back only the combinations of
+// its rows that it keeps may not move: what is proven is the problem with the hand-over)
 // and rows above must not have got worse, mu >= 0, and a row with mu > 0 must stand at its limit
 // [T 3.4.100-113].
 #pragma once
@@ -55,11 +58,14 @@ class Optimality {
 
   // by how much inequality rows above level k got worse, relative to |a|
   [[nodiscard]] double worsened(const RowTable& rows, const Candidates& candidates, int k) const;
-  // by how much equality rows above level k moved between x_above and x, relative to |a|
-  double moved(const RowTable& rows, int k, const double* x_above, const double* x);
-  // by how much equality rows of levels that were proven moved since, relative to |a|; `value`:
-  // their values now, by dense row
-  [[nodiscard]] double moved_since(const RowTable& rows, int levels, const double* value) const;
+  // by how much equality rows above level k (of a level that handed over: what it keeps) moved
+  // between x_above and x, relative to |a|
+  double moved(const RowTable& rows, const Chain& chain, int k, const double* x_above,
+               const double* x);
+  // by how much equality rows of levels that were proven, and did not hand over, moved since,
+  // relative to |a|; `value`: their values now, by dense row; `last`: the last chain
+  [[nodiscard]] double moved_since(const RowTable& rows, const Chain& last, int levels,
+                                   const double* value) const;
 
  private:
   double add_own_rows(const RowTable& rows, const Candidates& candidates, int k, const double* x,
@@ -72,10 +78,10 @@ class Optimality {
                        double unbalanced);
   double repeats(const RowTable& rows, const LevelRecord& record, const std::vector<HeldRow>& held);
 
-  PaddedVector push_;       // (rows) against the violations
-  PaddedVector work_;       // (n)
-  PaddedVector violation_;  // (rows)
-  PaddedVector settled_;    // (equality rows), values when their level was proven
+  PaddedVector push_;         // (rows) against the violations
+  PaddedVector work_, step_;  // (n)
+  PaddedVector violation_;    // (rows)
+  PaddedVector settled_;      // (equality rows), values when their level was proven
 };
 
 }  // namespace hurcules
