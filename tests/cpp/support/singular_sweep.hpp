@@ -13,12 +13,12 @@ namespace hurcules_test {
 class SingularSweep {
  public:
   static constexpr Index kUnknowns = 19;
-  static constexpr double kRho = 0.1;
+  static constexpr double kRho = 0.1, kBox = 1.0;
 
   SingularSweep(bool algorithmic, bool boxed, unsigned seed, double rho = kRho)
       : algorithmic_(algorithmic), boxed_(boxed), seed_(seed) {
     Draw draw(seed);
-    if (boxed) levels_.push_back(box(kUnknowns, 0.5));
+    if (boxed) levels_.push_back(box(kUnknowns, kBox));
     for (const Index m : {3, 3, 3, 3, 3, 2, 2}) {
       levels_.push_back(equality(draw.unit_rows(m, kUnknowns), draw.vector(m), rho));
     }
