@@ -89,6 +89,17 @@ constexpr const char* kMethodNamesDoc = R"(The names that SolverOptions(method=.
 'cascade': one general QP a level; the same answers as 'lexicographic', slow, for comparison.
 )";
 
+constexpr const char* kHandoverDoc =
+    R"('strict': a direction that a level's equality rows see is lost to the levels below, however
+weak its singular value; x jumps where a rank changes. 'smooth': it goes back to them gradually as
+its singular value falls below rho of the level; x is continuous there, the level loses at most
+0.033 of each lower level's residual (unit rows, rho 0.1, no limit in the way). Strict all the same
+where the level or a level below has rho = 0. Of the method 'lexicographic'.)";
+constexpr const char* kRegularizationDoc =
+    R"('constant': rho of each level. 'adaptive': rho sqrt(1 - (sigma / singular_threshold)^2) with the
+smallest singular value sigma of the level's equality rows on the directions left to it, and 0 where
+sigma >= singular_threshold. Of the method 'lexicographic'.)";
+
 // a solver that two Python threads may share
 struct SharedSolver {
   SharedSolver(Index n, SolverOptions options) : solver(n, std::move(options)) {}
@@ -176,22 +187,45 @@ void bind_solver(py::module_& module) {
   bind_level(module);
   bind_solver_answer(module);
   py::class_<SolverOptions>(module, "SolverOptions")
-      .def(py::init([](std::string method, bool proof, int max_changes, int max_iterations) {
+      .def(py::init([](std::string method, bool proof, int max_changes, int max_iterations,
+                       const std::string& handover, const std::string& regularization,
+                       double singular_threshold) {
              return SolverOptions{.method = std::move(method),
                                   .proof = proof,
                                   .max_changes = max_changes,
-                                  .max_iterations = max_iterations};
+                                  .max_iterations = max_iterations,
+                                  .handover = handover_named(handover),
+                                  .regularization = regularization_named(regularization),
+                                  .singular_threshold = singular_threshold};
            }),
            py::kw_only(), "method"_a = SolverOptions{}.method, "proof"_a = SolverOptions{}.proof,
            "max_changes"_a = SolverOptions{}.max_changes,
-           "max_iterations"_a = SolverOptions{}.max_iterations)
+           "max_iterations"_a = SolverOptions{}.max_iterations,
+           "handover"_a = to_string(SolverOptions{}.handover),
+           "regularization"_a = to_string(SolverOptions{}.regularization),
+           "singular_threshold"_a = SolverOptions{}.singular_threshold)
       .def_readwrite("method", &SolverOptions::method, "one of method_names()")
       .def_readwrite("proof", &SolverOptions::proof,
                      "evaluate Solution.optimality at every solve; without, it is NaN")
       .def_readwrite("max_changes", &SolverOptions::max_changes,
                      "working-set changes a solve, after which it ends with IterationLimit")
       .def_readwrite("max_iterations", &SolverOptions::max_iterations,
-                     "of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp");
+                     "of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp")
+      .def_property(
+          "handover", [](const SolverOptions& self) { return to_string(self.handover); },
+          [](SolverOptions& self, const std::string& name) {
+            self.handover = handover_named(name);
+          },
+          kHandoverDoc)
+      .def_property(
+          "regularization",
+          [](const SolverOptions& self) { return to_string(self.regularization); },
+          [](SolverOptions& self, const std::string& name) {
+            self.regularization = regularization_named(name);
+          },
+          kRegularizationDoc)
+      .def_readwrite("singular_threshold", &SolverOptions::singular_threshold,
+                     "> 0, unit of A; below it 'adaptive' regularises");
   module.def("method_names", &method_names, kMethodNamesDoc);
   py::class_<SharedSolver>(module, "Solver", kSolverDoc)
       .def(py::init<Index, SolverOptions>(), "n"_a, "options"_a = SolverOptions{})

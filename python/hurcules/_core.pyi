@@ -137,6 +137,9 @@ class SolverOptions:
     proof: bool
     max_changes: int
     max_iterations: int
+    handover: str  # "strict" or "smooth"
+    regularization: str  # "constant" or "adaptive"
+    singular_threshold: float  # unit of A
     def __init__(
         self,
         *,
@@ -144,6 +147,9 @@ class SolverOptions:
         proof: bool = True,
         max_changes: int = 10000,
         max_iterations: int = 100,
+        handover: str = "strict",
+        regularization: str = "constant",
+        singular_threshold: float = 0.1,
     ) -> None: ...
 
 def method_names() -> list[str]: ...

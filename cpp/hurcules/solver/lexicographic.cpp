@@ -159,6 +159,16 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   return done;
 }
 
+double Lexicographic::regularization(double rho, int k) {
+  const bool constant = options_.regularization == Regularization::Constant ||
+                        rows_.equalities(k) == rows_.equalities(k + 1);
+  if (constant || rho == 0.0) return rho;
+  const double threshold = options_.singular_threshold;
+  if (svd_.regular(threshold)) return 0.0;
+  const double ratio = std::min(1.0, svd_.smallest() / threshold);
+  return rho * std::sqrt((1.0 - ratio) * (1.0 + ratio));
+}
+
 bool Lexicographic::believed(Way way) const {
   return !options_.proof && way != Way::Careful;
 }
