@@ -35,6 +35,10 @@ class SingularSweep {
     levels[singular()].A.row(2) = (std::sqrt(1.0 - s * s) * inside_ + s * outside_).transpose();
     return levels;
   }
+  // the same with another regularisation of all levels but the box
+  [[nodiscard]] SingularSweep with_rho(double rho) const {
+    return SingularSweep(algorithmic_, boxed_, seed_, rho);
+  }
   // the level that loses a direction at s = 0
   [[nodiscard]] std::size_t singular() const { return boxed_ ? 2 : 1; }
   [[nodiscard]] bool boxed() const { return boxed_; }

@@ -30,6 +30,11 @@ class SmoothReference {
     return B_ * normal.llt().solve(M.transpose() * (level.lower - level.A * x_above));
   }
 
+  // the smallest singular value of a level in what is left to it
+  [[nodiscard]] double smallest(const hurcules::Level& level) const {
+    return Eigen::JacobiSVD<Eigen::MatrixXd>(level.A * B_).singularValues().minCoeff();
+  }
+
   // the rows of `level`, all equalities, are through
   void close(const hurcules::Level& level) {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(level.A * B_, Eigen::ComputeFullV);
@@ -51,7 +56,8 @@ class SmoothReference {
   // the largest sigma w there is
   [[nodiscard]] double most_leak(double rho) const {
     double most = 0.0;
-    for (int i = 0; i <= 10000; ++i) most = std::max(most, i * 1e-4 * rho * weight(i * 1e-4 * rho, rho));
+    for (int i = 0; i <= 10000; ++i)
+      most = std::max(most, i * 1e-4 * rho * weight(i * 1e-4 * rho, rho));
     return most;
   }
 
