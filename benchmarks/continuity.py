@@ -2,12 +2,15 @@
 
 The hierarchies are those of "conflicting levels" (n = 19, a box, rows of lower levels in the span
 of those above). Along a path either the targets move, or all rows turn together against the box,
-by a speed of one. A continuous answer has a slope that settles as the step shrinks, a jump one that
+or one row of a level comes to depend on others and leaves them again (those of its own level, a
+kinematic singularity, or of the level above, an algorithmic one; "box conflicts", else
+independent rows), by a speed of one. A continuous answer has a slope that settles as the step shrinks, a jump one that
 grows tenfold with each column. Finer steps are taken where the coarser ones moved most.
 
 With targets that move, our answer is continuous by its definition. With rows that turn, no strict
 hierarchy is: where levels hold x at a corner of its limits, a small turn can open or shut the only
-way that a lower level has.
+way that a lower level has. With a row that comes to depend on others the strict rule jumps where a
+rank changes; smooth hand-over does not, from the regularised levels to the regularised.
 
     python benchmarks/continuity.py [--paths 24] [--length 0.4]
 """
@@ -49,6 +52,37 @@ def rows_turn(rng: np.random.Generator) -> Path:
     return lambda s: [box, *(Rows(v.A + s * v.A @ K, v.lower, v.upper) for v in levels)]
 
 
+def row_weakens(rng: np.random.Generator, above: bool) -> Path:
+    """Row 2 of the second level leaves the span of rows of its own level, or of that above, by s."""
+    levels = problem(CONFLICTS[1], rng)
+    weak = levels[2]
+    source = levels[1].A if above else weak.A[:2]
+    inside = rng.normal(size=len(source)) @ source
+    inside /= np.linalg.norm(inside)
+    outside = rng.normal(size=N)
+    outside -= outside @ inside * inside
+    outside /= np.linalg.norm(outside)
+
+    def at(s: float) -> list[Rows]:
+        # a third of a step beside the dependence itself, so that no grid meets it
+        sigma = s - 0.2 + STEPS[0] / 3
+        A = weak.A.copy()
+        A[2] = np.sqrt(1 - sigma**2) * inside + sigma * outside
+        return [*levels[:2], Rows(A, weak.lower, weak.upper), *levels[3:]]
+
+    return at
+
+
+def row_weakens_in_its_level(rng: np.random.Generator) -> Path:
+    """Kinematic singularity."""
+    return row_weakens(rng, above=False)
+
+
+def row_weakens_on_the_level_above(rng: np.random.Generator) -> Path:
+    """Algorithmic singularity."""
+    return row_weakens(rng, above=True)
+
+
 def move(peer: Peer, path: Path, rho: float, s: float, step: float) -> float:
     """|dx| from s to s + step; not a number where an answer is missing."""
     before, after = (attempt(peer, with_rho(path(at), rho))[0] for at in (s, s + step))
@@ -81,12 +115,18 @@ def main() -> None:
     table = Table("worst |dx| / step", "solver", "rho", *(f"{s:g}" for s in STEPS), "no answer")
     cases: list[tuple[Peer, float]] = [
         (Ours(warm=True), 0.1),
+        (Ours(warm=True, handover="smooth"), 0.1),
         (Ours(warm=True), 0.0),
         (Cascade("quadprog", frozen=True), 0.1),
         (DaqpHierarchy(), 0.0),
         (Weighted(), 0.0),
     ]
-    for name, kind in (("targets move", targets_move), ("rows turn", rows_turn)):
+    for name, kind in (
+        ("targets move", targets_move),
+        ("rows turn", rows_turn),
+        ("row weakens, own level", row_weakens_in_its_level),
+        ("row weakens, level above", row_weakens_on_the_level_above),
+    ):
         rng = np.random.default_rng(1)
         paths = [kind(rng) for _ in range(given.paths)]
         for peer, rho in cases:

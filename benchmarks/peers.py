@@ -44,12 +44,18 @@ def timed(call: Callable[..., object], *arguments: object) -> tuple[object, floa
 
 
 class Ours:
-    """hurcules.rhqp, through its Python binding; warm: working sets of the last solve."""
+    """hurcules.rhqp, through its Python binding.
 
-    def __init__(self, warm: bool = False) -> None:
-        self.name = "hurcules, warm" if warm else "hurcules"
+    Args:
+        warm: working sets of the last solve.
+        handover: "strict" or "smooth".
+    """
+
+    def __init__(self, warm: bool = False, handover: str = "strict") -> None:
+        self.name = "hurcules" + (", warm" if warm else "")
+        self.name += "" if handover == "strict" else f", {handover}"
         self._warm = warm
-        self._solver = rhqp.Solver(N)
+        self._solver = rhqp.Solver(N, rhqp.SolverOptions(handover=handover))
 
     def solve(self, levels: list[Rows]) -> tuple[Array, float]:
         """See Peer."""

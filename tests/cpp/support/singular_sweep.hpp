@@ -3,6 +3,8 @@
 // 2 unit equality rows, rho 0.1, with or without a box on top: solver-algorithm.md §8.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <string>
 
