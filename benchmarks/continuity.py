@@ -3,9 +3,9 @@
 The hierarchies are those of "conflicting levels" (n = 19, a box, rows of lower levels in the span
 of those above). Along a path either the targets move, or all rows turn together against the box,
 or one row of a level comes to depend on others and leaves them again (those of its own level, a
-kinematic singularity, or of the level above, an algorithmic one; "box conflicts", else
-independent rows), by a speed of one. A continuous answer has a slope that settles as the step shrinks, a jump one that
-grows tenfold with each column. Finer steps are taken where the coarser ones moved most.
+kinematic singularity, or of the level above, an algorithmic one; "box conflicts", else independent
+rows), by a speed of one. A continuous answer has a slope that settles as the step shrinks, a jump
+one that grows tenfold with each column. Finer steps are taken where the coarser ones moved most.
 
 With targets that move, our answer is continuous by its definition. With rows that turn, no strict
 hierarchy is: where levels hold x at a corner of its limits, a small turn can open or shut the only
@@ -53,7 +53,7 @@ def rows_turn(rng: np.random.Generator) -> Path:
 
 
 def row_weakens(rng: np.random.Generator, above: bool) -> Path:
-    """Row 2 of the second level leaves the span of rows of its own level, or of that above, by s."""
+    """Row 2 of the second level leaves the span of rows of its own level, or of that above."""
     levels = problem(CONFLICTS[1], rng)
     weak = levels[2]
     source = levels[1].A if above else weak.A[:2]
