@@ -134,8 +134,10 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
       start_way();
       done = solve(way, rho, k);
       residual = prove(way, rho, k);
-      if (!believed(way)) residual = std::max(residual, moved(k));
-      if (budget_.spent() || (done && !raised_ && residual <= tolerance::kProven)) break;
+      const double harm = believed(way) ? 0.0 : harm_above(k);
+      residual = std::max(residual, harm);
+      const bool proven = residual <= tolerance::kProven && harm <= tolerance::kHarm;
+      if (budget_.spent() || (done && !raised_ && proven)) break;
     }
   }
   solution_.optimality = std::max(solution_.optimality, residual);
@@ -146,8 +148,7 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   if (!done) {
     solution_.status = SolverStatus::IterationLimit;
     // what was reached on the way counts only where it keeps the levels above
-    if (std::max(moved(k), optimality_.worsened(rows_, candidates_, k) / x_scale_) >
-        tolerance::kBroken) {
+    if (harm_above(k) > tolerance::kBroken) {
       start_way();
       take(x_above_);
       prove(Way::Careful, rho, k);
@@ -173,8 +174,9 @@ bool Lexicographic::believed(Way way) const {
   return !options_.proof && way != Way::Careful;
 }
 
-double Lexicographic::moved(int k) {
-  return optimality_.moved(rows_, *chain_, k, x_above_, x_) / x_scale_;
+double Lexicographic::harm_above(int k) {
+  const double moved = optimality_.moved(rows_, *chain_, k, x_above_, x_);
+  return std::max(moved, optimality_.worsened(rows_, candidates_, k)) / x_scale_;
 }
 
 void Lexicographic::start_way() {

@@ -81,8 +81,8 @@ class Lexicographic : public Method {
   double prove(Way way, double rho, int k);
   // no proof was asked for, and the way is usually right
   [[nodiscard]] bool believed(Way way) const;
-  // by how much equality rows above moved, relative to |a| |x|
-  double moved(int k);
+  // by how much rows above moved or got worse, relative to |a| |x|
+  double harm_above(int k);
   void lose_precision(int k);
   // where the kept rows of each level begin; none when they do not fit the present rows
   void count_kept();

@@ -23,7 +23,7 @@ inline constexpr double kNegativeWarm = 1e-10;
 // a sum of forces that is rounding, relative to the largest of them
 inline constexpr double kNoise = 1e-14;
 // a row depends on the working set: what is left of it, relative to its norm in z
-inline constexpr double kDependent = 1e-10;
+inline constexpr double kDependent = 1e-12;
 // an active row misses its limit and is worth a correction, relative to max(1, |x|)
 inline constexpr double kMiss = 2e-14;
 // a limit settles the violation of a level with rho = 0 when its multiplier is above this part of
@@ -31,6 +31,8 @@ inline constexpr double kMiss = 2e-14;
 inline constexpr double kSettling = 1e-9;
 // ... and when it is no rounding: relative to max |a|^2 max(1, |x|) of the level
 inline constexpr double kNoForce = 1e-12;
+// how far rows above may get worse before a more careful way is tried, relative to |a| max(1, |x|)
+inline constexpr double kHarm = 2e-12;
 // a level is proven when its optimality residual is below this
 inline constexpr double kProven = 1e-9;
 // the regularisation of the proximal steps of a level with rho = 0, relative to max |a|
