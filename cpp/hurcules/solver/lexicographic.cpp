@@ -28,6 +28,8 @@ Lexicographic::Lexicographic(Index unknowns, const SolverOptions& options)
     : unknowns_(unknowns), options_(options) {
   solution_.x.setZero(unknowns);
   for (PaddedVector* v : {&zero_, &centre_}) v->reserve(padded(unknowns));
+  // a hierarchy without levels is solved, too
+  reserve(HierarchyView());
 }
 
 bool Lexicographic::fits(HierarchyView hierarchy) const {
@@ -45,7 +47,7 @@ bool Lexicographic::fits(HierarchyView hierarchy) const {
 void Lexicographic::reserve(HierarchyView hierarchy) {
   reserved_rows_ = std::max(reserved_rows_, count_rows(hierarchy));
   reserved_own_ = std::max(reserved_own_, most_rows(hierarchy));
-  reserved_levels_ = std::max(reserved_levels_, hierarchy.size());
+  reserved_levels_ = std::max({reserved_levels_, hierarchy.size(), std::size_t{1}});
   const Index levels = static_cast<Index>(reserved_levels_);
   rows_.reserve(unknowns_, reserved_rows_, levels);
   chains_.reserve(unknowns_, reserved_rows_, levels, options_.handover == Handover::Smooth);
