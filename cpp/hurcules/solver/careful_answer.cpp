@@ -12,6 +12,8 @@ namespace {
 
 using Long = long double;
 
+// forces below this part of |a|^2 |x| are not told from rounding
+constexpr Long kLeastForce = 1e-3L;
 // a held row that has less than this outside the rows before it is held by them
 constexpr Long kImplied = 1e-12L;
 
@@ -77,7 +79,9 @@ void CarefulLevel::step_to_smallest() {
 }
 
 Long CarefulLevel::balance_violation(Long rho) {
-  Long forces = 0.0L;
+  // what rounding in the violations makes
+  const Long own = level_->own_norm();
+  Long forces = kLeastForce * own * own * x_scale_;
   std::fill_n(force_.begin(), free_, 0.0L);
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     lines_[i].multiplier = 0.0L;

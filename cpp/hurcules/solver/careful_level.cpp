@@ -15,6 +15,10 @@ using Long = long double;
 constexpr Long kApart = 1e-14L;
 // an own row is violated beyond this part of max(1, |x|)
 constexpr Long kViolated = 1e-17L;
+// ... and where it did not count so far beyond as many times more, so that rounding does not swap
+constexpr Long kEnters = 10.0L;
+// a step that is rounding, relative to max(1, |x|)
+constexpr Long kNoStep = 1e-17L;
 // a multiplier pulls below this part of the forces, or of the step
 constexpr Long kPull = 1e-16L;
 // a limit that pushes by more than this part of the forces stays where the violation is the
@@ -115,6 +119,7 @@ Long CarefulLevel::excess(Index i) const {
 bool CarefulLevel::blocked(State own) {
   Long length = 0.0L, way = 1.0L, speed = 0.0L;
   for (Index j = 0; j < free_; ++j) length = std::max(length, std::abs(p_[j]));
+  if (length <= kNoStep * x_scale_) return false;
   Index found = -1;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     const Line& line = lines_[i];
@@ -138,17 +143,23 @@ bool CarefulLevel::blocked(State own) {
   return true;
 }
 
-// own rows that are inside their limits again do not count
-bool CarefulLevel::leave_violated() {
-  bool left = false;
+// own rows count where they are beyond a limit, on whichever side that is now
+bool CarefulLevel::revise_violated() {
+  bool changed = false;
+  const Long room = kViolated * x_scale_;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     Line& line = lines_[i];
-    if (line.state != State::Violated) continue;
-    if (sign(line.side) * excess(i) >= -kViolated * x_scale_) continue;
-    line.state = State::Inside;
-    left = true;
+    if (!line.own || (line.state != State::Violated && line.state != State::Inside)) continue;
+    const Long now = value(i);
+    const bool counted = line.state == State::Violated;
+    if (counted && sign(line.side) * excess(i) >= -room) continue;
+    const bool over = now > line.upper + kEnters * room, under = now < line.lower - kEnters * room;
+    if (!counted && !over && !under) continue;
+    line.state = over || under ? State::Violated : State::Inside;
+    line.side = under ? Side::Lower : Side::Upper;
+    changed = true;
   }
-  return left;
+  return changed;
 }
 
 bool CarefulLevel::drop_worst(Long Line::*part, Long least) {
@@ -169,7 +180,7 @@ bool CarefulLevel::find_violation(Long rho, Budget& budget) {
   for (Index round = 0; round < most && !budget.spent(); ++round, ++budget.used) {
     build_basis(State::Held);
     step_to_violation(rho);
-    if (blocked(State::Violated) || leave_violated()) continue;
+    if (blocked(State::Violated) || revise_violated()) continue;
     const Long forces = balance_violation(rho);
     if (drop_worst(&Line::multiplier, -kPull * forces)) continue;
     if (rho == 0.0L) settle(forces);

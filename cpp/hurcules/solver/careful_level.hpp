@@ -72,7 +72,7 @@ class CarefulLevel {
   void step_to_smallest();
   // moves along p_ until a row is in the way, which becomes `own` or Held then
   bool blocked(State own);
-  bool leave_violated();
+  bool revise_violated();
   // multipliers of the held rows against the violations; returns the size of the forces
   Long balance_violation(Long rho);
   // of all rows of the basis against the step
