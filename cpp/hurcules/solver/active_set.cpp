@@ -35,33 +35,7 @@ void ActiveSet::start(const RowTable& rows, LevelProblem& problem, Candidates& c
   count_ = rows.candidates(problem.level() + 1);
   centre_ = centre;
   ignored_.clear();
-  from_above_ = true;
   set_.start(rows, problem, candidates, x_free_.data());
-}
-
-void ActiveSet::restart(double rho, const double* centre) {
-  restore_ignored();
-  problem_->solve_free(rho, centre, x_free_.data());
-  absolute_ = tolerance::kBrokenTarget * problem_->target_size();
-  set_.unfactor();
-}
-
-void ActiveSet::start_smallest(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
-                               const double* x, const double* x_above, double x_scale) {
-  // x without its step in the directions that are still free
-  for (Index j = 0; j < rows.stride(); ++j) target_[j] = x[j] - x_above[j];
-  problem.project(target_.data(), rest_.data());
-  for (Index j = 0; j < rows.stride(); ++j) rest_[j] = x[j] - rest_[j];
-  start(rows, problem, candidates, 1.0, rest_.data(), x_scale);
-  centre_ = x;
-  from_above_ = false;
-  rows.values(problem.level() + 1, x, candidates.value.data());
-}
-
-void ActiveSet::fix(int row, Side side) {
-  const Row& r = (*rows_)[row];
-  // the rows that are fixed already may fix it too
-  if (lost(r) || !set_.fix(row, side, candidates_->value[r.candidate])) ignore(r);
 }
 
 void ActiveSet::clear() {

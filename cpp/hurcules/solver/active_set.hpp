@@ -17,14 +17,6 @@ class ActiveSet {
   void start(const RowTable& rows, LevelProblem& problem, Candidates& candidates, double rho,
              const double* centre, double x_scale);
 
-  // the same level around another centre, the present set planned for `warm`
-  void restart(double rho, const double* centre);
-  // The smallest step of a level from x_above, by a problem made with start_smallest: from x, which
-  // is feasible.
-  void start_smallest(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
-                      const double* x, const double* x_above, double x_scale);
-  // holds a row at its present value, for good
-  void fix(int row, Side side);
   void clear();
 
   // No limit is in the way of x_free: it is the answer, candidates.value its values.
@@ -76,7 +68,6 @@ class ActiveSet {
   LevelProblem* problem_ = nullptr;
   Candidates* candidates_ = nullptr;
   WorkingSet set_;
-  bool from_above_ = true;                  // the primal starts where the levels above ended
   Index count_ = 0;                         // of candidates that may count here
   double relative_ = 0.0, absolute_ = 0.0;  // a limit is broken beyond relative |a| + absolute
   PaddedVector x_, x_free_, target_, y_, rest_, r_, change_;

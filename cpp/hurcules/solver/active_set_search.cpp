@@ -29,7 +29,7 @@ void ActiveSet::hold_violated() {
 
 bool ActiveSet::primal(Budget& budget, int most_changes) {
   std::copy_n(centre_, rows_->stride(), x_.data());
-  if (from_above_) std::copy_n(candidates_->above.data(), count_, candidates_->value.data());
+  std::copy_n(candidates_->above.data(), count_, candidates_->value.data());
   if (problem_->has_slacks()) hold_violated();
   double *value = candidates_->value.data(), *target = candidates_->target.data();
   const int end = std::min(budget.most, budget.used + most_changes);
@@ -109,7 +109,7 @@ bool ActiveSet::raise(int row, Side side, Budget& budget) {
     Index vanishing = -1;
     std::vector<ActiveSlot>& slots = set_.slots();
     for (Index i = 0; i < set_.size(); ++i) {
-      if (slots[i].fixed || r_[i] <= 0.0) continue;
+      if (r_[i] <= 0.0) continue;
       const double way = std::max(0.0, slots[i].multiplier) / r_[i];
       if (way >= partial) continue;
       partial = way;

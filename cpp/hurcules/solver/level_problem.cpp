@@ -26,26 +26,14 @@ void LevelProblem::reserve(Index unknowns, Index rows, Index most_own) {
   for (PaddedVector* v : {&r_, &r_above_}) v->reserve(rows + 4);
 }
 
-void LevelProblem::start(const RowTable& rows, const Chain& chain, int level, Index first,
-                         Index own) {
+void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
+                         const double* x_above) {
   rows_ = &rows;
   chain_ = &chain;
   level_ = level;
-  first_ = first;
-  own_ = own;
+  first_ = chain.rank_before(level);
+  own_ = chain.rank_before(level + 1) - first_;
   free_ = chain.unknowns() - first_;
-  equalities_ = slacks_ = 0;
-  x_above_ = nullptr;
-}
-
-void LevelProblem::start_smallest(const RowTable& rows, const Chain& chain, int level) {
-  start(rows, chain, level, chain.rank_before(level + 1), 0);
-}
-
-void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
-                         const double* x_above) {
-  const Index first = chain.rank_before(level);
-  start(rows, chain, level, first, chain.rank_before(level + 1) - first);
   equalities_ = rows.equalities(level + 1) - rows.equalities(level);
   const Index count = rows.begin(level + 1) - rows.begin(level);
   // a row of a Bounds level has the slack of its place there
@@ -222,11 +210,6 @@ void LevelProblem::step(const double* y, const double* x_free, double* x) {
   std::copy(y + own_, y + free_, t_.data() + own_);
   std::copy_n(x_free, rows_->stride(), x);
   kernels::chosen->axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), x);
-}
-
-void LevelProblem::project(const double* v, double* part) {
-  std::fill_n(part, rows_->stride(), 0.0);
-  chain_->add_free_part(first_, v, part);
 }
 
 }  // namespace hurcules

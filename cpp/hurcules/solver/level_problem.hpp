@@ -21,9 +21,6 @@ class LevelProblem {
   void reserve(Index unknowns, Index rows, Index most_own);
   // level k in the free directions of the chain, from the answer of the levels above
   void start(const RowTable& rows, const Chain& chain, int level, const double* x_above);
-  // the same for the smallest step once level k has settled its violation: own directions are no
-  // longer free, nothing has slack
-  void start_smallest(const RowTable& rows, const Chain& chain, int level);
   // the optimum of the own equality rows alone, from the centre
   void solve_free(double rho, const double* centre, double* x_free);
 
@@ -57,7 +54,6 @@ class LevelProblem {
   }
 
  private:
-  void start(const RowTable& rows, const Chain& chain, int level, Index first, Index own);
   [[nodiscard]] Index slack_of(const Row& row) const;
   void find_residual(const double* x);
   [[nodiscard]] double largest_coordinate() const;

@@ -27,7 +27,7 @@ Index most_rows(HierarchyView hierarchy) {
 Lexicographic::Lexicographic(Index unknowns, const SolverOptions& options)
     : unknowns_(unknowns), options_(options) {
   solution_.x.setZero(unknowns);
-  for (PaddedVector* v : {&zero_, &centre_}) v->reserve(padded(unknowns));
+  zero_.reserve(padded(unknowns));
   // a hierarchy without levels is solved, too
   reserve(HierarchyView());
 }

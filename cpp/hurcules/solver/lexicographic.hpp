@@ -71,8 +71,8 @@ class Lexicographic : public Method {
   bool find_by_dual();
   // the answer of the active set, brought onto its limits
   void take_refined();
-  // slots -> held rows, multipliers times scale; a fixed slot is Idle
-  void keep_held(double scale, Role unfixed);
+  // slots -> held rows, multipliers times scale
+  void keep_held(double scale);
   [[nodiscard]] bool has_kept(int k) const { return kept_begin_[k] < kept_begin_[k + 1]; }
 
   // forgets what a way left behind
@@ -109,7 +109,7 @@ class Lexicographic : public Method {
   Chain* chain_ = nullptr;           // of the level
   double* x_ = nullptr;              // answer of the level, in its record
   const double* x_above_ = nullptr;  // answer of the level above, in its record; or zero_
-  PaddedVector zero_, centre_, equality_values_;
+  PaddedVector zero_, equality_values_;
   std::vector<LevelRecord> records_;
   std::vector<HeldRow> held_;
   std::vector<KeptRow> kept_;  // of the last solve, by level

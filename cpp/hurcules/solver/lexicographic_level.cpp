@@ -7,8 +7,6 @@
 
 namespace hurcules {
 
-namespace {}  // namespace
-
 bool Lexicographic::solve(Way way, double rho, int k) {
   chain_->complete(rows_);
   if (way == Way::Careful) return solve_carefully(rho);
@@ -24,7 +22,7 @@ bool Lexicographic::solve_regularized(Way way, double rho, int k) {
     return false;
   }
   take_refined();
-  keep_held(rho * rho, Role::Violation);
+  keep_held(rho * rho);
   begin_norm_ = static_cast<int>(held_.size());
   return true;
 }
@@ -98,10 +96,9 @@ void Lexicographic::take_refined() {
   values_known_ = true;
 }
 
-void Lexicographic::keep_held(double scale, Role unfixed) {
+void Lexicographic::keep_held(double scale) {
   for (const ActiveSlot& slot : active_set_.slots()) {
-    held_.push_back(
-        {slot.row, slot.side, scale * slot.multiplier, slot.fixed ? Role::Idle : unfixed});
+    held_.push_back({slot.row, slot.side, scale * slot.multiplier, Role::Violation});
   }
 }
 

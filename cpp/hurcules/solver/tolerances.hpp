@@ -35,12 +35,11 @@ inline constexpr double kNoForce = 1e-12;
 inline constexpr double kHarm = 2e-12;
 // a level is proven when its optimality residual is below this
 inline constexpr double kProven = 1e-9;
-// the regularisation of the proximal steps of a level with rho = 0, relative to max |a|
+// the regularisation with which the working set of a level with less is first sought, relative to
+// max |a|
 inline constexpr double kProximal = 1e-4;
 // a regularisation so small, relative to max |a|, that the least-distance form loses digits
 inline constexpr double kSmall = 1e-2;
-// a regularisation next to nothing, relative to max |a|: its level is solved like one without
-inline constexpr double kTiny = 1e-6;
 // a residual that is rounding and moves nothing, relative to |a| |x| + |b|
 inline constexpr double kZeroResidual = 1e-15;
 

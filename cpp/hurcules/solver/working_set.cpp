@@ -32,7 +32,7 @@ void WorkingSet::start(const RowTable& rows, const LevelProblem& problem, Candid
 void WorkingSet::hold(int row, Side side) {
   const Index c = (*rows_)[row].candidate;
   const double lower = candidates_->lower(c), upper = candidates_->upper(c);
-  slots_.push_back({row, side, side == Side::Upper ? upper : lower, lower, upper, 0.0, false});
+  slots_.push_back({row, side, side == Side::Upper ? upper : lower, lower, upper, 0.0});
   candidates_->set(c, -kAbsent, kAbsent);
 }
 
@@ -118,19 +118,6 @@ void WorkingSet::drop(Index slot) {
   slots_.erase(slots_.begin() + slot);
 }
 
-bool WorkingSet::fix(int row, Side side, double limit) {
-  if (!add(row, side)) return false;
-  ActiveSlot& slot = slots_.back();
-  slot.limit = limit;
-  slot.fixed = true;
-  append_room(size() - 1);
-  return true;
-}
-
-void WorkingSet::unfactor() {
-  started_ = false;
-}
-
 bool WorkingSet::lost(int row, double norm2) const {
   const Row& r = (*rows_)[row];
   const double least = tolerance::kLost * tolerance::kLost * r.norm * r.norm;
@@ -181,7 +168,7 @@ Index WorkingSet::most_negative(double tolerance) const {
   double worst = -tolerance * largest;
   Index found = -1;
   for (Index i = 0; i < size(); ++i) {
-    if (slots_[i].fixed || slots_[i].multiplier >= worst) continue;
+    if (slots_[i].multiplier >= worst) continue;
     worst = slots_[i].multiplier;
     found = i;
   }

@@ -22,7 +22,6 @@ struct ActiveSlot {
   double limit = 0.0;
   double lower = 0.0, upper = 0.0;  // what the row allows when it is let go
   double multiplier = 0.0;          // >= 0 at the optimum
-  bool fixed = false;               // an equality of this problem: never dropped
 };
 
 class WorkingSet {
@@ -39,10 +38,6 @@ class WorkingSet {
   // Adds a row. False, and nothing is changed, when it depends on the rows that are held.
   bool add(int row, Side side);
   void drop(Index slot);
-  // adds a row at `limit`, never to be dropped
-  bool fix(int row, Side side, double limit);
-  // the held rows are planned again, for `factor` of a problem that changed
-  void unfactor();
   // lets all rows go
   void clear();
 
