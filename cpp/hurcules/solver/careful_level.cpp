@@ -21,6 +21,8 @@ constexpr Long kEnters = 10.0L;
 constexpr Long kNoStep = 1e-17L;
 // a multiplier pulls below this part of the forces, or of the step
 constexpr Long kPull = 1e-16L;
+// ... which grows so many times at most
+constexpr Index kLadder = 16;
 // a limit that pushes by more than this part of the forces stays where the violation is the
 // smallest; the others may not move against it either, but that is found out
 constexpr Long kFixed = 1e-8L;
@@ -175,14 +177,19 @@ bool CarefulLevel::drop_worst(Long Line::*part, Long least) {
   return true;
 }
 
+// Grows tenfold when there were more rounds than rows and directions, so that rounding in a level
+// on the edge of its digits cannot keep two rows swapping; the proof judges what comes of it.
+Long CarefulLevel::pull(Index round) const {
+  return kPull * std::pow(10.0L, static_cast<Long>(round / rounds()));
+}
+
 bool CarefulLevel::find_violation(Long rho, Budget& budget) {
-  const Index most = 20 * (free_ + static_cast<Index>(lines_.size()) + 1);
-  for (Index round = 0; round < most && !budget.spent(); ++round, ++budget.used) {
+  for (Index round = 0; round < kLadder * rounds() && !budget.spent(); ++round, ++budget.used) {
     build_basis(State::Held);
     step_to_violation(rho);
     if (blocked(State::Violated) || revise_violated()) continue;
     const Long forces = balance_violation(rho);
-    if (drop_worst(&Line::multiplier, -kPull * forces)) continue;
+    if (drop_worst(&Line::multiplier, -pull(round) * forces)) continue;
     if (rho == 0.0L) settle(forces);
     return true;
   }
@@ -190,13 +197,12 @@ bool CarefulLevel::find_violation(Long rho, Budget& budget) {
 }
 
 bool CarefulLevel::find_smallest(Budget& budget) {
-  const Index most = 20 * (free_ + static_cast<Index>(lines_.size()) + 1);
-  for (Index round = 0; round < most && !budget.spent(); ++round, ++budget.used) {
+  for (Index round = 0; round < kLadder * rounds() && !budget.spent(); ++round, ++budget.used) {
     build_basis(State::Fixed);
     step_to_smallest();
     if (blocked(State::Held)) continue;
     balance_step();
-    if (!drop_worst(&Line::pull, -kPull * x_scale_)) return true;
+    if (!drop_worst(&Line::pull, -pull(round) * x_scale_)) return true;
   }
   return false;
 }

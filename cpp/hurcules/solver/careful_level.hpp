@@ -77,6 +77,8 @@ class CarefulLevel {
   Long balance_violation(Long rho);
   // of all rows of the basis against the step
   void balance_step();
+  [[nodiscard]] Long pull(Index round) const;
+  [[nodiscard]] Index rounds() const { return 2 * (free_ + static_cast<Index>(lines_.size()) + 1); }
   // lets the held row go that pulls most, by what `part` says
   bool drop_worst(Long Line::*part, Long least);
   // what may not change any more once the violation is the smallest
