@@ -214,6 +214,18 @@ def test_wrong_changes_say_what_was_wanted() -> None:
         solution.vjp([1.0])
 
 
+@pytest.mark.parametrize("method", [m for m in rhqp.method_names() if m != "lexicographic"])
+def test_other_methods_say_that_they_have_no_derivative(method: str) -> None:
+    b = np.array([1.0])
+    level = rhqp.Level(np.array([[1.0, 0.0]]), b, b, 0.1)
+    solution = rhqp.Solver(2, rhqp.SolverOptions(method=method)).solve([level])
+    assert len(solution.multipliers) == 1
+    with pytest.raises(hurcules.Error, match="only the method 'lexicographic'"):
+        solution.vjp([1.0, 0.0])
+    with pytest.raises(hurcules.Error, match="only the method 'lexicographic'"):
+        _ = solution.levels
+
+
 def test_an_unfinished_solve_has_no_derivative() -> None:
     for seed in range(20):
         n, levels = CLASSES["box_conflict"](np.random.default_rng([seed, 12]))

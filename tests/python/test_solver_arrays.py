@@ -182,7 +182,10 @@ def test_levels_that_nobody_else_holds_live_as_long_as_the_solve() -> None:
 BAD = {
     "NaN in A": (lambda b, A, lo, up: A.__setitem__((1, 2), np.nan), "level 1, row 1: A must"),
     "infinite A": (lambda b, A, lo, up: A.__setitem__((0, 0), np.inf), "level 1, row 0: A must"),
-    "huge A": (lambda b, A, lo, up: A.__setitem__((2, 0), 1e200), "level 1, row 2: A is too large"),
+    "huge A": (
+        lambda b, A, lo, up: A.__setitem__((2, 0), 1e200),
+        "level 1, row 2: a row of A must not be longer",
+    ),
     "NaN in lower": (lambda b, A, lo, up: lo.__setitem__(2, np.nan), "level 1, row 2: a bound is"),
     "NaN in bounds": (lambda b, A, lo, up: b.__setitem__(1, np.nan), "level 0, row 1: a bound is"),
     "crossed": (lambda b, A, lo, up: lo.__setitem__(1, 9.0), "level 1, row 1: lower must not"),
@@ -223,7 +226,7 @@ def test_an_array_that_changed_its_shape_is_refused() -> None:
         solver.solve([level])
 
 
-@pytest.mark.parametrize("size", [1e100, 1e150, 1e-200, 1e-308])
+@pytest.mark.parametrize("size", [1e99, 1e-99, 1e-200, 1e-308])
 def test_numbers_at_the_ends_of_double_have_a_truthful_status(size: float) -> None:
     """The answer is finite and within its limits; Solved comes with a proof."""
     rng = np.random.default_rng(0)
