@@ -131,16 +131,7 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   } else if (!has_kept(k) && solve_free(rho)) {
     residual = prove(Way::Warm, rho, k);
   } else {
-    for (const Way way : {Way::Warm, Way::Cold, Way::Careful}) {
-      if (way == Way::Warm && !has_kept(k)) continue;
-      start_way();
-      done = solve(way, rho, k);
-      residual = prove(way, rho, k);
-      const double harm = believed(way) ? 0.0 : harm_above(k);
-      residual = std::max(residual, harm);
-      const bool proven = residual <= tolerance::kProven && harm <= tolerance::kHarm;
-      if (budget_.spent() || (done && !raised_ && proven)) break;
-    }
+    residual = try_ways(rho, k, done);
   }
   solution_.optimality = std::max(solution_.optimality, residual);
   if (!std::isfinite(residual) || !std::isfinite(x_scale_)) {
@@ -179,6 +170,29 @@ bool Lexicographic::believed(Way way) const {
 double Lexicographic::harm_above(int k) {
   const double moved = optimality_.moved(rows_, *chain_, k, x_above_, x_);
   return std::max(moved, optimality_.worsened(rows_, candidates_, k)) / x_scale_;
+}
+
+double Lexicographic::try_ways(double rho, int k, bool& done) {
+  double residual = 0.0, harm = 0.0;
+  bool proven = false;
+  const auto go = [&](Way way) {
+    start_way();
+    done = solve(way, rho, k);
+    residual = prove(way, rho, k);
+    harm = believed(way) ? 0.0 : harm_above(k);
+    residual = std::max(residual, harm);
+    proven = done && !raised_ && residual <= tolerance::kProven;
+  };
+  // a proven answer that moves the rows above a little: good enough where nothing is better
+  Way second_best = Way::Careful;
+  for (const Way way : {Way::Warm, Way::Cold, Way::Careful}) {
+    if (way == Way::Warm && !has_kept(k)) continue;
+    go(way);
+    if (budget_.spent() || (proven && harm <= tolerance::kHarm)) return residual;
+    if (proven) second_best = way;
+  }
+  if (!proven && second_best != Way::Careful) go(second_best);
+  return residual;
 }
 
 void Lexicographic::start_way() {

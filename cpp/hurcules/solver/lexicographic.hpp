@@ -56,6 +56,8 @@ class Lexicographic : public Method {
   void solve_first_bounds(int k);
   // without limits in the way
   bool solve_free(double rho);
+  // the first way whose answer proves itself: its worst residual; `done` when it came to an end
+  double try_ways(double rho, int k, bool& done);
   bool solve(Way way, double rho, int k);
   bool solve_regularized(Way way, double rho, int k);
   // rho nothing or small: the settled level; or proximal steps and the smallest step
