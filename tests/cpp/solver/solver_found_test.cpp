@@ -71,6 +71,33 @@ TEST(SolverFound, AWeakRowBesideAStrongLimitIsMet) {
                 2);
 }
 
+TEST(SolverFound, OwnRowsThatRegularisationAloneBreaksCount) {
+  // both rows of a pair are violated by amounts of rho^2
+  expect_solved({interval(Matrix{{2.0}, {-2.0}}, Vector{{1.0, -1.0}}, Vector{{3.0, -1.0}}, 1e-5)},
+                1);
+  expect_solved({interval(Matrix{{1.0}, {1.0}}, Vector{{3.0, 3.0}}, Vector{{4.0, 3.0}}, 1e-5)}, 1);
+  expect_solved(
+      {interval(Matrix{{0.001}, {1000.0}}, Vector{{0.004, 1000.0}}, Vector{{1.004, 1000.0}}, 1e-9)},
+      1);
+  expect_solved({interval(Matrix{{0.001}, {0.001}, {0.001}}, Vector{{0.001, 0.001, 0.001}},
+                          Vector{{0.001 + 1e-14, 0.001, 0.001}}, 1e-7)},
+                1);
+}
+
+TEST(SolverFound, TwoNearlyParallelLimitsInConflict) {
+  expect_solved({interval(Matrix{{2.0, 1.9619140625}, {6.0, 5.8858421874999998}},
+                          Vector{{3.0, 0.0}}, Vector{{3.5, 1.0}}, 0.0)},
+                2);
+}
+
+TEST(SolverFound, AWeakEqualityBesideALimitWithTinyRegularisation) {
+  expect_solved({interval(Matrix{{278.2129685317737, 1565.6117451807434},
+                                 {1.3243626947064973, 7.3961667753724463}},
+                          Vector{{-115304.7805787222, -201.31391881575274}},
+                          Vector{{-115304.7805787222, kInf}}, 1e-9)},
+                2);
+}
+
 TEST(SolverFound, NearlyEqualRowsInALevelOfLimits) {
   expect_solved(
       {interval(Matrix{{3.0, 3.0, 3.0, 3.0}, {9.0, 9.0, 9.0, 9.0 + 1e-10}}, Vector{{3.0, 3.0}},

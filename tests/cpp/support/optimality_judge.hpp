@@ -66,15 +66,16 @@ class OptimalityJudge {
       }
       return rest.cast<double>();
     }
-    void add(const hurcules::Vector& a) {
+    void add(const hurcules::Vector& a, double least = kRank) {
       const hurcules::Vector rest = remove(a);
-      if (rest.norm() <= kRank * a.norm()) return;
+      if (rest.norm() <= least * a.norm()) return;
       weakest = std::min(weakest, rest.norm() / a.norm());
       q.push_back(rest.cast<long double>().normalized());
     }
   };
 
   static constexpr double kRank = 1e-10;  // solver.md §1
+  static constexpr double kDistinct = 1e-13;  // less is rounding
   static constexpr double kAtLimit =
       1e-9;  // a row stands at its limit, relative to |a| max(1, |x|)
 
@@ -106,7 +107,8 @@ class OptimalityJudge {
       largest = std::max(largest, a.norm());
       const double at_limit = kAtLimit * a.norm() * scale_;
       if (equal(k, i) || std::abs(v) > at_limit) {
-        settled.add(a);
+        // only equality rows have a rank to lose (solver.md §1)
+        settled.add(a, equal(k, i) ? kRank : kDistinct);
       } else {
         look_limits(a, level.lower[i], level.upper[i], touching);
       }
