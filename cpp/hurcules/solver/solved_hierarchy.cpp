@@ -66,8 +66,9 @@ double SolvedHierarchy::violation(int i, const Vector& x) const {
 }
 
 void require_solved(const SolvedHierarchy* solved) {
-  require(solved != nullptr, "only the method 'lexicographic' has sensitivities and level reports, and not where "
-                              "weak directions were handed over smoothly");
+  require(solved != nullptr,
+          "only the method 'lexicographic' has sensitivities and level reports, and not where "
+          "weak directions were handed over smoothly");
 }
 
 std::vector<std::vector<Vector>> multipliers(const SolvedHierarchy& solved) {
