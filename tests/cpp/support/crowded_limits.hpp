@@ -1,6 +1,8 @@
 // Hierarchies whose limits crowd: through one vertex, facing each other, in thin cones, repeated.
 #pragma once
 
+#include <cmath>
+
 #include "support/draw.hpp"
 
 namespace hurcules_test {
@@ -45,12 +47,18 @@ inline Hierarchy facing_limits(Draw& draw, double rho) {
   return levels;
 }
 
+// The least angle between two limits of a cone. Where they meet, x is known to eps / angle of its
+// size, summed over up to ten unknowns, and so is all that depends on it.
+inline constexpr double kThinnest = 1e-8;
+inline constexpr double kThinRounding = 10.0 * 2.2e-16 / kThinnest;
+
 // pairs of nearly opposite limits: a wedge of angle 1e-1 .. 1e-8
 inline Hierarchy thin_cones(Draw& draw, double rho) {
   const Index n = draw.integer(2, 10);
   Level cones = interval(Matrix(0, n), Vector(0), Vector(0), 0.0);
   for (Index pairs = draw.integer(1, n); pairs > 0; --pairs) {
-    const Matrix a = draw.unit_rows(1, n), off = draw.power(-8.0, -1.0) * draw.unit_rows(1, n);
+    const Matrix a = draw.unit_rows(1, n),
+                 off = draw.power(std::log10(kThinnest), -1.0) * draw.unit_rows(1, n);
     const double limit = draw.choose({0.0, 0.0, 1e-3, 1.0});
     append_row(cones, a, -kNoLimit, limit);
     append_row(cones, -a + off, -kNoLimit, draw.choose({0.0, -limit, 1e-3}));
