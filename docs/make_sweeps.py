@@ -44,7 +44,6 @@ class Sweep:
         source = self.rows[0] if algorithmic else self.rows[1][:2]
         self.inside = rng.standard_normal(len(source)) @ source
         self.inside /= np.linalg.norm(self.inside)
-        # what stands out is seen by neither level
         outside = rng.standard_normal(N)
         seen = np.linalg.qr(np.vstack([self.rows[0], self.rows[1][:2]]).T)[0]
         outside -= seen @ (seen.T @ outside)
@@ -91,7 +90,7 @@ def main() -> None:
     )
     for column in range(4):
         draw(panels[:, column], algorithmic=column % 2 == 1, boxed=column >= 2)
-    panels[0, 0].set(ylabel="largest |x|", xlim=(1, 1e-12))
+    panels[0, 0].set(ylabel="largest |x|", xlim=(1, 1e-12), xticks=10.0 ** np.arange(-10, 0, 3))
     panels[1, 0].set(ylabel=f"largest |dx| in 1/{A_DECADE} of a decade")
     panels[0, 0].legend(fontsize="small")
     figure.savefig(target, dpi=80)
