@@ -1,4 +1,4 @@
-"""The README keeps its word: its Python runs, its commands and its files exist."""
+"""The README and the pages of docs keep their word: Python runs, commands and files exist."""
 
 import re
 import subprocess
@@ -59,6 +59,21 @@ def test_every_link_leads_to_a_file(readme: str, root: Path) -> None:
     links = re.findall(r"\]\(([^)#:]+)\)", readme) + re.findall(r'src="([^":]+)"', readme)
     assert links
     assert [link for link in links if not (root / link).exists()] == []
+
+
+def test_every_link_and_command_in_a_page_leads_to_a_file(root: Path) -> None:
+    pages = sorted((root / "docs").glob("*.md"))
+    assert pages
+    makefile = (root / "Makefile").read_text(encoding="utf-8")
+    lost = []
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        links = [page.parent / link for link in re.findall(r"\]\(([^)#:]+)\)", text)]
+        programs = [root / name for name in re.findall(r"`python ([^ `]+)", text)]
+        lost += [str(path) for path in links + programs if not path.exists()]
+        targets = re.findall(r"`make ([a-z]+)", text)
+        lost += [name for name in targets if not re.search(rf"^{name}:", makefile, re.MULTILINE)]
+    assert lost == []
 
 
 def test_the_pictures_are_small(root: Path) -> None:
