@@ -23,7 +23,8 @@ from hierarchies import to_levels
 from hurcules import rhqp
 from oracle import Rows
 
-RANK = 1e-10  # solver.md section 1
+RANK = 1e-10  # of equality rows, solver.md section 1
+DISTINCT = 1e-13  # other rows have no rank to lose: less than this is rounding
 AT_LIMIT = 1e-9  # relative to |a| max(1, |x|)
 ROUNDING = 1e-6  # 1e-15 counts as 1e-9
 TINY = 1e-4  # rho relative to |a|: rho^2 |t| is lost in the rounding of the violations
@@ -81,14 +82,14 @@ class Basis:
                 rest = rest - (q @ rest) * q
         return rest.astype(float)
 
-    def take(self, rows: np.ndarray) -> Basis:
-        """This basis and the directions of further rows (m, n)."""
+    def take(self, rows: np.ndarray, least: float = RANK) -> Basis:
+        """This basis and the directions of further rows (m, n) that stand out by `least`."""
         basis = Basis(rows.shape[1])
         basis.Q, basis.weakest = self.Q, self.weakest
         for a in rows:
             rest, size = basis.remove(a), float(np.linalg.norm(a))
             out = float(np.linalg.norm(rest))
-            if out > RANK * size:
+            if out > least * size:
                 basis.weakest = min(basis.weakest, out / size)
                 unit = rest.astype(np.longdouble)
                 basis.Q = np.vstack([basis.Q, unit / np.sqrt(unit @ unit)])
@@ -140,11 +141,12 @@ def level_residual(levels: list[Rows], k: int, x: np.ndarray, x_above: np.ndarra
     if forces > 0.0:
         worst = max(worst, above.left_over(level.rho**2 * step + level.A.T @ v, pushing, forces))
     if level.rho <= TINY * float(norm.max()):
-        settled = level.equal | (np.abs(v) > AT_LIMIT * norm * scale)
-        inside = ~settled
+        violated = ~level.equal & (np.abs(v) > AT_LIMIT * norm * scale)
+        inside = ~level.equal & ~violated
         own = sides_at_limit(level.A[inside], level.lower[inside], level.upper[inside], x)
         both = np.vstack([pushing, own])
-        worst = max(worst, above.take(level.A[settled]).left_over(step, both, scale))
+        settled = above.take(level.A[level.equal]).take(level.A[violated], DISTINCT)
+        worst = max(worst, settled.left_over(step, both, scale))
     return worst
 
 

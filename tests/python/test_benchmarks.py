@@ -66,4 +66,4 @@ def test_no_answer_is_missing_on_a_path(root: Path) -> None:
     program = root / "benchmarks" / "continuity.py"
     text = run(sys.executable, program, "--paths", "1", "--length", "0.006")
     rows = [line.split("│") for line in text.splitlines() if "hurcules" in line]
-    assert [row[-2].strip() for row in rows] == ["0"] * 4
+    assert len(rows) >= 4 and all(row[-2].strip() == "0" for row in rows)

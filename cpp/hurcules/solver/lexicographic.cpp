@@ -185,8 +185,11 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
   };
   // a proven answer that moves the rows above a little: good enough where nothing is better
   Way second_best = Way::Careful;
-  for (const Way way : {Way::Warm, Way::Cold, Way::Careful}) {
+  const bool least_distance = rho >= tolerance::kSmall * problem_.own_norm();
+  for (const Way way : {Way::Warm, Way::Cold, Way::Settled, Way::Careful}) {
     if (way == Way::Warm && !has_kept(k)) continue;
+    // the usual way of a level with a small rho
+    if (way == Way::Settled && !least_distance) continue;
     go(way);
     if (budget_.spent() || (proven && harm <= tolerance::kHarm)) return residual;
     if (proven) second_best = way;

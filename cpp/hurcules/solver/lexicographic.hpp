@@ -1,6 +1,6 @@
 // The default method: the loop over the levels, and all memory that it needs (solver.md §1).
 //
-// A level has up to three ways to its answer, from the quickest to the most careful; the first
+// A level has up to four ways to its answer, from the quickest to the most careful; the first
 // whose answer proves itself counts.
 #pragma once
 
@@ -39,7 +39,7 @@ class Lexicographic : public Method {
   void restore(StateReader& reader) override;
 
  private:
-  enum class Way { Warm, Cold, Careful };
+  enum class Way { Warm, Cold, Settled, Careful };
 
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here

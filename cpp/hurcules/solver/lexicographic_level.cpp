@@ -21,6 +21,7 @@ bool Lexicographic::solve_regularized(Way way, double rho, int k) {
     take(way == Way::Warm ? x_above_ : active_set_.x_feasible());
     return false;
   }
+  if (way == Way::Settled) return settle_held(rho, rho);
   take_refined();
   keep_held(rho * rho);
   begin_norm_ = static_cast<int>(held_.size());

@@ -23,7 +23,7 @@ inline constexpr double kNegativeWarm = 1e-10;
 // a sum of forces that is rounding, relative to the largest of them
 inline constexpr double kNoise = 1e-14;
 // a row depends on the working set: what is left of it, relative to its norm in z
-inline constexpr double kDependent = 1e-12;
+inline constexpr double kDependent = 1e-10;
 // an active row misses its limit and is worth a correction, relative to max(1, |x|)
 inline constexpr double kMiss = 2e-14;
 // a limit settles the violation of a level with rho = 0 when its multiplier is above this part of
