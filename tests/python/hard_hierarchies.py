@@ -100,11 +100,15 @@ def facing_limits(rng: Generator) -> tuple[int, list[Rows]]:
 
 
 def thin_cones(rng: Generator) -> tuple[int, list[Rows]]:
-    """Pairs of nearly opposite limits: wedges of angle 1e-1 .. 1e-8."""
+    """Pairs of nearly opposite limits: wedges of angle 1e-1 .. 1e-5.
+
+    Thinner ones, to 1e-8, stand in the C++ tests: their multipliers reach 1e9, and the least
+    squares of the judge here, in double precision, no longer find them.
+    """
     n, rho = int(rng.integers(2, 11)), any_rho(rng)
     cones = no_rows(n)
     for _ in range(int(rng.integers(1, n + 1))):
-        a, off = unit_rows(1, n, rng), 10.0 ** rng.uniform(-8, -1) * unit_rows(1, n, rng)
+        a, off = unit_rows(1, n, rng), 10.0 ** rng.uniform(-5, -1) * unit_rows(1, n, rng)
         limit = float(rng.choice([0.0, 0.0, 1e-3, 1.0]))
         append(cones, a, -np.inf, limit)
         append(cones, -a + off, -np.inf, float(rng.choice([0.0, -limit, 1e-3])))
