@@ -89,7 +89,7 @@ def takes_more_than_one_factorization(name: str, problems: int) -> list[int]:
 
 
 # share of problems whose known set may be refused, of 200 measured: where held rows depend on each
-# other, exactly (4.5 % and 1 %) or but for 1e-8 (0.5 %: one row is broken by 4e-13 at the cold answer)
+# other, exactly (4.5 % and 1 %) or but for 1e-8 (0.5 %: a row broken by 4e-13 at the cold answer)
 REFUSED = {"degenerate": 0.06, "whole_numbers": 0.06, "near_singular": 0.005}
 INDEPENDENT = [name for name in CLASSES if name not in REFUSED]
 
