@@ -6,15 +6,13 @@ errors name the problem. Bad numbers inside a batch are in test_solver_arrays.py
 
 from __future__ import annotations
 
-import threading
-import time
-
 import numpy as np
 import pytest
 
 import hurcules
 from hierarchies import CLASSES, to_levels
 from hurcules import rhqp
+from other_threads import assert_they_run_during
 
 
 def problems(each: int) -> list[list[rhqp.Level]]:
@@ -54,21 +52,7 @@ def test_answers_of_a_batch_have_derivatives_and_reports() -> None:
 
 def test_other_threads_run_during_a_batch() -> None:
     batch = problems(300)
-    ticks, done = [], threading.Event()
-
-    def tick() -> None:
-        while not done.is_set():
-            ticks.append(time.perf_counter())
-            time.sleep(1e-4)
-
-    watcher = threading.Thread(target=tick)
-    watcher.start()
-    start = time.perf_counter()
-    rhqp.solve_batch(batch, threads=1)
-    end = time.perf_counter()
-    done.set()
-    watcher.join()
-    assert sum(start < t < end for t in ticks) > 3, f"{end - start:.3f} s"
+    assert_they_run_during(lambda: rhqp.solve_batch(batch, threads=1))
 
 
 def test_options_count_for_every_problem() -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import gc
 import threading
-import time
 import weakref
 from collections.abc import Sequence
 
@@ -19,6 +18,7 @@ import pytest
 import hurcules
 from hierarchies import CLASSES, to_levels
 from hurcules import rhqp
+from other_threads import assert_they_run_during
 
 
 def equality(A: np.ndarray, b: np.ndarray, rho: float = 0.0) -> rhqp.Level:
@@ -123,22 +123,7 @@ def test_a_level_keeps_its_arrays_alive_and_lets_them_go() -> None:
 
 def test_other_threads_run_during_a_solve() -> None:
     levels, solver = large(160), rhqp.Solver(160)
-    ticks, done = [], threading.Event()
-
-    def tick() -> None:
-        while not done.is_set():
-            ticks.append(time.perf_counter())
-            time.sleep(1e-4)
-
-    watcher = threading.Thread(target=tick)
-    watcher.start()
-    start = time.perf_counter()
-    solver.solve(levels)
-    end = time.perf_counter()
-    done.set()
-    watcher.join()
-    # a held lock would let none of them through between start and end
-    assert sum(start < t < end for t in ticks) > 3, f"{end - start:.3f} s"
+    assert_they_run_during(lambda: solver.solve(levels))
 
 
 def test_threads_that_share_a_solver_take_turns() -> None:
