@@ -73,9 +73,8 @@ bool ActiveSet::warm() {
   set_.factor();
   solve();
   set_.find_multipliers();
-  if (set_.most_negative(tolerance::kNegativeWarm) >= 0) return false;
-  if (worst_excess(candidates_->target.data()) > 0.0) return false;
-  return true;
+  return set_.most_negative(tolerance::kNegativeWarm) < 0 &&
+         !(worst_excess(candidates_->target.data()) > 0.0);
 }
 
 bool ActiveSet::lost(const Row& row) const {

@@ -2,8 +2,6 @@
 // set from the centre; and from any set by a dual active set.
 #pragma once
 
-#include <span>
-
 #include "hurcules/solver/budget.hpp"
 #include "hurcules/solver/working_set.hpp"
 

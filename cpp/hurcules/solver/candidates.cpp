@@ -39,7 +39,8 @@ void Candidates::open(const RowTable& rows, int level, const double* x) {
   ask(first, rows.inequalities(level + 1) - rows.inequalities(level));
 }
 
-bool Candidates::violates(const RowTable& rows, int level, double x_scale) const {
+bool Candidates::violated(const RowTable& rows, int level, const PaddedVector& value,
+                          double x_scale) {
   if (rows.begin(level + 1) - rows.begin(level) ==
       rows.equalities(level + 1) - rows.equalities(level)) {
     return false;
@@ -55,7 +56,7 @@ bool Candidates::violates(const RowTable& rows, int level, double x_scale) const
 
 void Candidates::close(const RowTable& rows, int level, double x_scale) {
   // as long as every row is within what it was asked for there is nothing to do
-  widened_ = widened_ || violates(rows, level, x_scale);
+  widened_ = widened_ || violated(rows, level, value, x_scale);
   if (!widened_) {
     std::swap(above, value);
     return;

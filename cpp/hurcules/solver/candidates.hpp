@@ -21,6 +21,10 @@ class Candidates {
   // What is broken by rounding in x (of size x_scale) counts as held.
   void close(const RowTable& rows, int level, double x_scale);
 
+  // some inequality row of `level` is violated at `value`, beyond rounding in x of size x_scale
+  [[nodiscard]] static bool violated(const RowTable& rows, int level, const PaddedVector& value,
+                                     double x_scale);
+
   [[nodiscard]] kernels::LimitArrays limits(const RowTable& rows) const {
     return {lower_.data(), upper_.data(), rows.norms()};
   }
@@ -36,8 +40,6 @@ class Candidates {
   PaddedVector target;  // where a move wants to take them
 
  private:
-  [[nodiscard]] bool violates(const RowTable& rows, int level, double x_scale) const;
-
   PaddedVector lower_, upper_;
   bool widened_ = false;  // some row is beyond what it was asked for
 };

@@ -2,12 +2,6 @@
 // instruction set for this file alone, so it includes nothing that others share.
 #if defined(__AVX2__) && defined(__FMA__)
 #define HURCULES_KERNEL_WIDTH 4
-namespace hurcules::kernels {
-namespace {
-constexpr int kWidth = HURCULES_KERNEL_WIDTH;
-constexpr const char* kName = "avx2";
-}  // namespace
-}  // namespace hurcules::kernels
 #include "hurcules/solver/kernels_impl.hpp"
 
 namespace hurcules::kernels {

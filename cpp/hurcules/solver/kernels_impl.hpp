@@ -10,6 +10,9 @@
 namespace hurcules::kernels {
 namespace {
 
+constexpr int kWidth = HURCULES_KERNEL_WIDTH;
+constexpr const char* kName = kWidth == 4 ? "avx2" : "baseline";
+
 using Pack = double __attribute__((vector_size(kWidth * sizeof(double))));
 using Mask = long long __attribute__((vector_size(kWidth * sizeof(double))));
 

@@ -214,16 +214,8 @@ void Lexicographic::lose_precision(int k) {
 }
 
 bool Lexicographic::satisfied(int k) const {
-  if (!problem_.equalities_met(x_scale_)) return false;
-  if (!problem_.has_slacks()) return true;
-  for (int i = rows_.begin(k); i < rows_.begin(k + 1); ++i) {
-    const Row& row = rows_[i];
-    if (row.equality) continue;
-    const double value = candidates_.above[row.candidate];
-    const double allowed = tolerance::kBroken * x_scale_ * row.norm;
-    if (value > row.upper + allowed || value < row.lower - allowed) return false;
-  }
-  return true;
+  return problem_.equalities_met(x_scale_) &&
+         !Candidates::violated(rows_, k, candidates_.above, x_scale_);
 }
 
 void Lexicographic::solve_first_bounds(int k) {
