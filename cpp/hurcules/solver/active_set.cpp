@@ -16,7 +16,7 @@ constexpr double kAbsent = std::numeric_limits<double>::infinity();
 }  // namespace
 
 void ActiveSet::reserve(Index unknowns, Index most_rows, Index most_own) {
-  const Index dimension = unknowns + most_own;
+  const Index dimension = padded(unknowns) + most_own;
   set_.reserve(most_rows, dimension);
   for (PaddedVector* v : {&x_, &x_free_, &target_}) v->reserve(padded(unknowns));
   for (PaddedVector* v : {&y_, &rest_}) v->reserve(padded(dimension));
@@ -67,14 +67,6 @@ void ActiveSet::evaluate() {
 void ActiveSet::solve() {
   set_.solve(y_.data());
   evaluate();
-}
-
-bool ActiveSet::warm() {
-  set_.factor();
-  solve();
-  set_.find_multipliers();
-  return set_.most_negative(tolerance::kNegativeWarm) < 0 &&
-         !(worst_excess(candidates_->target.data()) > 0.0);
 }
 
 bool ActiveSet::lost(const Row& row) const {

@@ -1,5 +1,5 @@
-// Finds the working set of a level: warm, from the set of the last solve; cold, by a primal active
-// set from the centre; and from any set by a dual active set.
+// Finds the working set of a level: by a primal active set from the centre, or by a dual active set
+// from any set.
 #pragma once
 
 #include "hurcules/solver/budget.hpp"
@@ -10,7 +10,7 @@ namespace hurcules {
 class ActiveSet {
  public:
   void reserve(Index unknowns, Index most_rows, Index most_own);
-  // A level around `centre`, which is where the levels above ended unless only `warm` follows.
+  // A level around `centre`, which is where the levels above ended.
   // `x_scale` is what rounding in x is relative to.
   void start(const RowTable& rows, LevelProblem& problem, Candidates& candidates, double rho,
              const double* centre, double x_scale);
@@ -19,10 +19,10 @@ class ActiveSet {
 
   // No limit is in the way of x_free: it is the answer, candidates.value its values.
   [[nodiscard]] bool free_is_feasible();
-  // Plans a row of the last solve's set for `warm`.
+  // Plans a row of the last solve's set for `take_planned`.
   void plan(int row, Side side) { set_.plan(row, side); }
-  // factors the planned rows at once; true when they are the working set
-  bool warm();
+  // factors the planned rows at once
+  void take_planned() { set_.factor(); }
   // Primal, from the centre, which no limit forbids: feasible all along, monotone. False when
   // `most_changes`, or the budget, are used up; x_feasible() is then the best point so far.
   bool primal(Budget& budget, int most_changes);

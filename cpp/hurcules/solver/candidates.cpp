@@ -28,30 +28,19 @@ void Candidates::start(const RowTable& rows) {
 
 void Candidates::open(const RowTable& rows, int level, const double* x) {
   rows.own_values(level, x, above.data());
-  const auto ask = [&](Index first, Index count) {
-    std::copy_n(rows.asked_lower() + first, count, lower_.data() + first);
-    std::copy_n(rows.asked_upper() + first, count, upper_.data() + first);
-  };
-  for (int b = 0; b < rows.bounds_blocks(); ++b) {
-    if (rows.block_level(b) == level) ask(b * rows.stride(), rows.stride());
-  }
-  const Index first = rows.first_dense_candidate() + rows.inequalities(level);
-  ask(first, rows.inequalities(level + 1) - rows.inequalities(level));
+  const RowTable::Range own = rows.own_candidates(level);
+  std::copy_n(rows.asked_lower() + own.first, own.count, lower_.data() + own.first);
+  std::copy_n(rows.asked_upper() + own.first, own.count, upper_.data() + own.first);
 }
 
 bool Candidates::violated(const RowTable& rows, int level, const PaddedVector& value,
                           double x_scale) {
-  if (rows.begin(level + 1) - rows.begin(level) ==
-      rows.equalities(level + 1) - rows.equalities(level)) {
-    return false;
-  }
-  for (int i = rows.begin(level); i < rows.begin(level + 1); ++i) {
-    const Row& row = rows[i];
-    if (row.equality) continue;
-    const double allowed = tolerance::kBroken * x_scale * row.norm;
-    if (std::abs(rows.violation(i, value[row.candidate])) > allowed) return true;
-  }
-  return false;
+  const RowTable::Range own = rows.own_candidates(level);
+  if (own.count == 0) return false;
+  const kernels::LimitArrays asked = {rows.asked_lower() + own.first,
+                                      rows.asked_upper() + own.first, rows.norms() + own.first};
+  return kernels::chosen->worst_excess(own.count, value.data() + own.first, asked,
+                                       tolerance::kBroken * x_scale, 0.0) > 0.0;
 }
 
 void Candidates::close(const RowTable& rows, int level, double x_scale) {

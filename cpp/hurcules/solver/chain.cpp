@@ -84,6 +84,17 @@ void Chain::remove_first(Index r, double* y) {
   kernel.axpys(direction(0), r, x_stride_, part_.data(), y);
 }
 
+double Chain::free_part(Index r, const double* y, double* work) {
+  const kernels::Table& kernel = *kernels::chosen;
+  // all directions are known: the free ones tell it at once
+  if (factor_.rank() == unknowns()) {
+    return std::sqrt(kernel.norm2_along(direction(r), unknowns() - r, x_stride_, y));
+  }
+  std::copy_n(y, x_stride_, work);
+  remove_first(r, work);
+  return std::sqrt(kernel.dot(x_stride_, work, work));
+}
+
 void Chain::reserve_basis(Index unknowns, Index levels) {
   basis_.reserve(unknowns, levels);
   images_.reserve(unknowns, unknowns);

@@ -33,6 +33,7 @@ class Chain {
 
   [[nodiscard]] Index unknowns() const { return factor_.columns(); }  // of t'
   [[nodiscard]] Index stride() const { return factor_.stride(); }
+  [[nodiscard]] Index x_stride() const { return x_stride_; }
   [[nodiscard]] Index rank_before(int level) const { return rank_[level]; }
   // q_j as a step of x, padded: B q_j
   [[nodiscard]] const double* direction(Index j) const { return directions_ + j * x_stride_; }
@@ -50,6 +51,8 @@ class Chain {
   // Takes the parts along the first r directions out of y (padded). Behind a hand-over y, a force
   // on x, becomes the step of x that it makes in the other directions: B (B'y less those parts).
   void remove_first(Index r, double* y);
+  // |y less its parts along the first r directions| of a basis that is whole
+  double free_part(Index r, const double* y, double* work);
   // y += the part of a step of x in the directions from r on; the chain is complete
   void add_free_part(Index r, const double* step, double* y) const;
   // the level of an equality row gave directions back to this chain

@@ -33,12 +33,15 @@ struct Directions {
   double* side;  // b of  L g = b, which becomes g; or null
 };
 
-// All lengths `size` are multiples of four. Functions on `count` rows take rows `stride` apart.
+// All lengths `size` are multiples of four, but those of candidates may be any. Functions on
+// `count` rows take rows `stride` apart.
 struct Table {
   const char* name;
   double (*dot)(Size size, const double* a, const double* b);
   // y += s x
   void (*axpy)(Size size, double s, const double* x, double* y);
+  // y = s x
+  void (*scale)(Size size, double s, const double* x, double* y);
   // (a, b) = (c a + s b, c b - s a)
   void (*rotate)(Size size, double c, double s, double* a, double* b);
   // out[i] = row i . x
@@ -50,6 +53,15 @@ struct Table {
   // to three rows behind the last are read and written.
   void (*eliminate)(const double* pivot, double scale, double* rows, Size count, Size stride,
                     double* coordinates);
+  // `count` rows of `length` numbers, one behind the other, to rows `stride` apart
+  void (*copy_rows)(const double* from, Size count, Size length, double* to, Size stride);
+  // out = s (a - b); |out|^2
+  double (*scaled_difference)(Size size, double s, const double* a, const double* b, double* out);
+  // sum_i (row i . x)^2
+  double (*norm2_along)(const double* rows, Size count, Size stride, const double* x);
+  // the largest  |row i . x| / norm[i],  rows of no length left out
+  double (*largest_way)(const double* rows, Size count, Size stride, const double* x,
+                        const double* norm);
   // columns of `count` rows become rows of `out`, as many as rows are long; all `stride` apart,
   // count and stride multiples of four
   void (*transpose)(const double* rows, Size count, Size stride, double* out);

@@ -66,6 +66,10 @@ void axpy(Size size, double s, const double* x, double* y) {
   for (Size j = 0; j < size; j += kWidth) store(y + j, load(y + j) + scale * load(x + j));
 }
 
+void scale(Size size, double s, const double* x, double* y) {
+  for (Size j = 0; j < size; j += kWidth) store(y + j, s * load(x + j));
+}
+
 void rotate(Size size, double c, double s, double* a, double* b) {
   const Pack cosine = spread(c), sine = spread(s);
   for (Size j = 0; j < size; j += kWidth) {
@@ -218,6 +222,52 @@ void norms2(const double* rows, Size count, Size stride, double* out) {
   for (; i < count; ++i) out[i] = dot(stride, rows + i * stride, rows + i * stride);
 }
 
+void copy_rows(const double* from, Size count, Size length, double* to, Size stride) {
+  for (Size i = 0; i < count; ++i, from += length, to += stride) {
+    if (length < kWidth) {
+      for (Size j = 0; j < length; ++j) to[j] = from[j];
+      continue;
+    }
+    for (Size j = 0; j + kWidth < length; j += kWidth) store(to + j, load(from + j));
+    // the last numbers, some of them once more
+    store(to + length - kWidth, load(from + length - kWidth));
+  }
+}
+
+double scaled_difference(Size size, double s, const double* a, const double* b, double* out) {
+  Pack total = {};
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack d = s * (load(a + j) - load(b + j));
+    store(out + j, d);
+    total += d * d;
+  }
+  return sum(total);
+}
+
+double norm2_along(const double* rows, Size count, Size stride, const double* x) {
+  double total = 0.0;
+  double part[4];
+  for (Size i = 0; i < count; i += 4) {
+    four_dots(rows + i * stride, stride, x, part);
+    for (Size l = 0; l < 4 && i + l < count; ++l) total += part[l] * part[l];
+  }
+  return total;
+}
+
+double largest_way(const double* rows, Size count, Size stride, const double* x,
+                   const double* norm) {
+  double worst = 0.0;
+  double part[4];
+  for (Size i = 0; i < count; i += 4) {
+    four_dots(rows + i * stride, stride, x, part);
+    for (Size l = 0; l < 4 && i + l < count; ++l) {
+      const double way = part[l] > 0.0 ? part[l] : -part[l];
+      if (way > worst * norm[i + l]) worst = way / norm[i + l];
+    }
+  }
+  return worst;
+}
+
 // NaN, where there is one
 double largest(Size size, const double* x) {
   Pack high = {}, low = {}, bad = {};
@@ -241,9 +291,28 @@ double largest(Size size, const double* x) {
 namespace hurcules::kernels {
 namespace {
 
-constexpr Table kTable = {kName,   dot,          axpy,           rotate,          dots,
-                          axpys,   eliminate,    transpose,      take_directions, norms2,
-                          largest, worst_excess, first_blocking, worsened,        widen};
+constexpr Table kTable = {
+    .name = kName,
+    .dot = dot,
+    .axpy = axpy,
+    .scale = scale,
+    .rotate = rotate,
+    .dots = dots,
+    .axpys = axpys,
+    .eliminate = eliminate,
+    .copy_rows = copy_rows,
+    .scaled_difference = scaled_difference,
+    .norm2_along = norm2_along,
+    .largest_way = largest_way,
+    .transpose = transpose,
+    .take_directions = take_directions,
+    .norms2 = norms2,
+    .largest = largest,
+    .worst_excess = worst_excess,
+    .first_blocking = first_blocking,
+    .worsened = worsened,
+    .widen = widen,
+};
 
 }  // namespace
 }  // namespace hurcules::kernels

@@ -4,18 +4,41 @@
 namespace hurcules::kernels {
 namespace {
 
+// The largest f(j) over packs of any number of candidates, not less than `least`; the last pack may
+// take some once more. `one` is f of a single candidate.
+template <class F, class One>
+inline double largest_of(Size size, double least, F f, One one) {
+  double result = least;
+  if (size < kWidth) {
+    for (Size j = 0; j < size; ++j) {
+      const double v = one(j);
+      result = v > result ? v : result;
+    }
+    return result;
+  }
+  Pack worst = spread(least);
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack v = f(j + kWidth > size ? size - kWidth : j);
+    worst = v > worst ? v : worst;
+  }
+  for (int l = 0; l < kWidth; ++l) result = worst[l] > result ? worst[l] : result;
+  return result;
+}
+
 double worst_excess(Size size, const double* value, LimitArrays limits, double relative,
                     double absolute) {
-  Pack worst = spread(-kInfinite);
-  for (Size j = 0; j < size; j += kWidth) {
-    const Pack v = load(value + j);
-    const Pack over = v - load(limits.upper + j), under = load(limits.lower + j) - v;
-    const Pack excess = (over > under ? over : under) - relative * load(limits.norm + j);
-    worst = excess > worst ? excess : worst;
-  }
-  double result = worst[0];
-  for (int l = 1; l < kWidth; ++l) result = worst[l] > result ? worst[l] : result;
-  return result - absolute;
+  const auto excess = [&](auto v, auto upper, auto lower, auto norm) {
+    const auto over = v - upper, under = lower - v;
+    return (over > under ? over : under) - relative * norm;
+  };
+  const auto pack = [&](Size j) {
+    return excess(load(value + j), load(limits.upper + j), load(limits.lower + j),
+                  load(limits.norm + j));
+  };
+  const auto one = [&](Size j) {
+    return excess(value[j], limits.upper[j], limits.lower[j], limits.norm[j]);
+  };
+  return largest_of(size, -kInfinite, pack, one) - absolute;
 }
 
 Blocking first_blocking(Size size, const double* value, const double* target, LimitArrays limits,
@@ -52,17 +75,18 @@ Blocking first_blocking(Size size, const double* value, const double* target, Li
 }
 
 double worsened(Size size, const double* before, const double* now, LimitArrays limits) {
-  Pack worst = {};
-  for (Size j = 0; j < size; j += kWidth) {
-    const Pack was = load(before + j), is = load(now + j);
-    const Pack lower = load(limits.lower + j), upper = load(limits.upper + j);
-    const Pack over = is - (upper > was ? upper : was), under = (lower < was ? lower : was) - is;
-    const Pack excess = (over > under ? over : under) / load(limits.norm + j);
-    worst = excess > worst ? excess : worst;
-  }
-  double result = 0.0;
-  for (int l = 0; l < kWidth; ++l) result = worst[l] > result ? worst[l] : result;
-  return result;
+  const auto excess = [](auto was, auto is, auto lower, auto upper, auto norm) {
+    const auto over = is - (upper > was ? upper : was), under = (lower < was ? lower : was) - is;
+    return (over > under ? over : under) / norm;
+  };
+  const auto pack = [&](Size j) {
+    return excess(load(before + j), load(now + j), load(limits.lower + j), load(limits.upper + j),
+                  load(limits.norm + j));
+  };
+  const auto one = [&](Size j) {
+    return excess(before[j], now[j], limits.lower[j], limits.upper[j], limits.norm[j]);
+  };
+  return largest_of(size, 0.0, pack, one);
 }
 
 void widen(Size size, const double* value, LimitArrays asked, double relative, double* lower,

@@ -22,7 +22,7 @@ void LevelProblem::reserve(Index unknowns, Index rows, Index most_own) {
     stacked_.resize(rows + own, own + 1);
   }
   R_.reserve(own * own);
-  for (PaddedVector* v : {&inverse_, &c_, &t_}) v->reserve(padded(unknowns) + 4);
+  for (PaddedVector* v : {&inverse_, &c_, &t_, &t_free_}) v->reserve(padded(unknowns) + 4);
   for (PaddedVector* v : {&r_, &r_above_}) v->reserve(rows + 4);
 }
 
@@ -38,15 +38,17 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
   const Index count = rows.begin(level + 1) - rows.begin(level);
   // a row of a Bounds level has the slack of its place there
   slacks_ = count == equalities_ ? 0 : rows[rows.begin(level)].bound ? count : count - equalities_;
+  lead_ = first_ % 4;
+  body_ = chain.stride() - (first_ - lead_);
+  const double* norms = rows.dense_norms() + rows.equalities(level);
   own_norm_ = 0.0;
-  for (Index i = 0; i < equalities_; ++i) {
-    own_norm_ = std::max(own_norm_, rows.dense_norms()[rows.equalities(level) + i]);
+  for (Index i = 0; i < equalities_; ++i) own_norm_ = std::max(own_norm_, norms[i]);
+  if (slacks_ > 0) {
+    const RowTable::Range own = rows.own_candidates(level);
+    const double* last = rows.norms() + own.first + own.count;
+    own_norm_ = std::max(own_norm_, *std::max_element(rows.norms() + own.first, last));
   }
-  for (int i = rows.begin(level); slacks_ > 0 && i < rows.begin(level + 1); ++i) {
-    own_norm_ = std::max(own_norm_, rows[i].norm);
-  }
-  find_residual(x_above);
-  std::copy_n(r_.data(), equalities_, r_above_.data());
+  find_residual(x_above, r_above_.data());
   x_above_ = x_above;
 }
 
@@ -55,10 +57,11 @@ double LevelProblem::least_settling(double largest_multiplier, double x_scale) c
                   tolerance::kNoForce * own_norm_ * own_norm_ * x_scale);
 }
 
-void LevelProblem::find_residual(const double* x) {
+void LevelProblem::find_residual(const double* x, double* r) const {
   const int first = rows_->equalities(level_);
-  kernels::chosen->dots(rows_->dense_row(first), equalities_, rows_->stride(), x, r_.data());
-  for (Index i = 0; i < equalities_; ++i) r_[i] = rows_->targets()[first + i] - r_[i];
+  const double* target = rows_->targets() + first;
+  kernels::chosen->dots(rows_->dense_row(first), equalities_, rows_->stride(), x, r);
+  for (Index i = 0; i < equalities_; ++i) r[i] = target[i] - r[i];
 }
 
 bool LevelProblem::equalities_met(double x_scale) const {
@@ -80,10 +83,12 @@ double LevelProblem::largest_coordinate() const {
   return largest;
 }
 
-// q known to the compiler for the usual sizes; 0: any
+// q known to the compiler for the usual sizes, so that it keeps all in registers; 0: any
 template <int fixed>
-void LevelProblem::factor_by_cholesky() {
-  double *R = R_.data(), *c = c_.data();
+void LevelProblem::factor_by_cholesky(const double* residual) {
+  constexpr int kSize = fixed > 0 ? fixed : 1;
+  double square[kSize * kSize], sums[kSize];
+  double *R = fixed > 0 ? square : R_.data(), *c = fixed > 0 ? sums : c_.data();
   const Index q = fixed > 0 ? fixed : own_;
   for (Index j = 0; j < q; ++j) {
     for (Index l = j; l < q; ++l) R[j * q + l] = j == l ? rho_ * rho_ : 0.0;
@@ -91,7 +96,7 @@ void LevelProblem::factor_by_cholesky() {
   }
   for (Index i = 0; i < equalities_; ++i) {
     const double* e = own_row(i);
-    const double r = r_[i];
+    const double r = residual[i];
     for (Index j = 0; j < q; ++j) {
       c[j] += e[j] * r;
       for (Index l = j; l < q; ++l) R[j * q + l] += e[j] * e[l];
@@ -112,13 +117,18 @@ void LevelProblem::factor_by_cholesky() {
       for (Index h = l; h < q; ++h) R[l * q + h] -= row[l] * row[h];
     }
   }
+  if (fixed == 0) return;
+  for (Index j = 0; j < q; ++j) {
+    c_[j] = c[j];
+    for (Index l = j; l < q; ++l) R_[j * q + l] = R[j * q + l];
+  }
 }
 
-void LevelProblem::factor_by_householder() {
+void LevelProblem::factor_by_householder(const double* residual) {
   Index count = 0;
   for (; count < equalities_; ++count) {
     for (Index j = 0; j < own_; ++j) stacked_(count, j) = own_row(count)[j];
-    stacked_(count, own_) = r_[count];
+    stacked_(count, own_) = residual[count];
   }
   if (rho_ > 0.0) {
     for (Index j = 0; j < own_; ++j, ++count) {
@@ -144,36 +154,55 @@ void LevelProblem::solve_triangular(double scale, const double* b) {
   }
 }
 
-void LevelProblem::solve_free(double rho, const double* centre, double* x_free) {
+template <int fixed>
+void LevelProblem::solve_transposed(double scale, double* own) const {
+  const double* R = R_.data();
+  const Index q = fixed > 0 ? fixed : own_;
+  for (Index j = 0; j < q; ++j) {
+    double sum = scale * own[j];
+    for (Index l = 0; l < j; ++l) sum -= R[l * q + j] * own[l];
+    own[j] = sum * inverse_[j];
+  }
+}
+
+void LevelProblem::factor(double rho, const double* residual) {
   rho_ = rho;
   target_size_ = 0.0;
-  std::copy_n(centre, rows_->stride(), x_free);
   if (own_ == 0) return;
-  if (centre == x_above_) {
-    std::copy_n(r_above_.data(), equalities_, r_.data());
-  } else {
-    find_residual(centre);
-  }
-  if (rho > 0.0 && largest_coordinate() < kMostCondition * rho) {
+  // no coordinate is larger than its row
+  if (rho > 0.0 &&
+      (own_norm_ < kMostCondition * rho || largest_coordinate() < kMostCondition * rho)) {
     switch (own_) {
       case 1:
-        factor_by_cholesky<1>();
+        factor_by_cholesky<1>(residual);
         break;
       case 2:
-        factor_by_cholesky<2>();
+        factor_by_cholesky<2>(residual);
         break;
       case 3:
-        factor_by_cholesky<3>();
+        factor_by_cholesky<3>(residual);
         break;
       default:
-        factor_by_cholesky<0>();
+        factor_by_cholesky<0>(residual);
     }
   } else {
-    factor_by_householder();
+    factor_by_householder(residual);
   }
   for (Index j = 0; j < own_; ++j) target_size_ = std::max(target_size_, std::abs(c_[j]));
   if (rho > 0.0) target_size_ /= rho;
   solve_triangular(1.0, c_.data());
+}
+
+void LevelProblem::solve_free(double rho) {
+  factor(rho, r_above_.data());
+  std::copy_n(t_.data(), own_, t_free_.data());
+}
+
+void LevelProblem::solve_free(double rho, const double* centre, double* x_free) {
+  std::copy_n(centre, rows_->stride(), x_free);
+  if (centre != x_above_) find_residual(centre, r_.data());
+  factor(rho, centre == x_above_ ? r_above_.data() : r_.data());
+  if (own_ == 0) return;
   kernels::chosen->axpys(chain_->direction(first_), own_, rows_->stride(), t_.data(), x_free);
 }
 
@@ -183,18 +212,33 @@ Index LevelProblem::slack_of(const Row& row) const {
 }
 
 void LevelProblem::image(const Row& row, double sign, double* m) const {
-  const double* e = chain_->coordinates(row) + first_;
-  const double* R = R_.data();
-  // rho R^-T e_1
-  const double scale = sign * rho_;
-  for (Index j = 0; j < own_; ++j) {
-    double sum = scale * e[j];
-    for (Index l = 0; l < j; ++l) sum -= R[l * own_ + j] * m[l];
-    m[j] = sum * inverse_[j];
+  kernels::chosen->scale(body_, sign, chain_->coordinates(row) + (first_ - lead_), m);
+  // at most three zeros in front and behind
+  const Index end = lead_ + free_;
+  if (lead_ > 0) m[0] = 0.0;
+  if (lead_ > 1) m[1] = 0.0;
+  if (lead_ > 2) m[2] = 0.0;
+  if (end < body_) m[end] = 0.0;
+  if (end + 1 < body_) m[end + 1] = 0.0;
+  if (end + 2 < body_) m[end + 2] = 0.0;
+  switch (own_) {
+    case 0:
+      break;
+    case 1:
+      solve_transposed<1>(rho_, m + lead_);
+      break;
+    case 2:
+      solve_transposed<2>(rho_, m + lead_);
+      break;
+    case 3:
+      solve_transposed<3>(rho_, m + lead_);
+      break;
+    default:
+      solve_transposed<0>(rho_, m + lead_);
   }
-  for (Index j = own_; j < free_; ++j) m[j] = sign * e[j];
-  for (Index j = free_; j < padded(dimension()); ++j) m[j] = 0.0;
-  if (has_slack(row)) m[free_ + slack_of(row)] = scale;
+  if (slacks_ == 0) return;
+  std::fill_n(m + body_, padded(slacks_), 0.0);
+  if (has_slack(row)) m[body_ + slack_of(row)] = sign * rho_;
 }
 
 double LevelProblem::free_part(const Row& row) const {
@@ -206,9 +250,17 @@ double LevelProblem::free_part(const Row& row) const {
 
 void LevelProblem::step(const double* y, const double* x_free, double* x) {
   // t_1 = rho R^-1 y_1
-  solve_triangular(rho_, y);
-  std::copy(y + own_, y + free_, t_.data() + own_);
+  solve_triangular(rho_, y + lead_);
+  std::copy(y + lead_ + own_, y + lead_ + free_, t_.data() + own_);
   std::copy_n(x_free, rows_->stride(), x);
+  kernels::chosen->axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), x);
+}
+
+void LevelProblem::step(const double* y, double* x) {
+  solve_triangular(rho_, y + lead_);
+  for (Index j = 0; j < own_; ++j) t_[j] += t_free_[j];
+  std::copy(y + lead_ + own_, y + lead_ + free_, t_.data() + own_);
+  std::copy_n(x_above_, rows_->stride(), x);
   kernels::chosen->axpys(chain_->direction(first_), free_, rows_->stride(), t_.data(), x);
 }
 

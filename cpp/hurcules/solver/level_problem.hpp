@@ -2,11 +2,12 @@
 //
 // With t the step from a centre in the free directions, e = coordinates of a row, R'R = Lk'Lk +
 // rho^2 I, and x_free the optimum of the level's equality rows alone:
-//     y = (R (t_1 - t_free) / rho, t_2, w)
+//     y = (0, R (t_1 - t_free) / rho, t_2, w)
 //     t_1: directions of the level's own equality rows, t_2: the other free ones,
 //     w: a slack an own inequality row, violation = rho w
+//     0: `lead` zeros, and zeros before w, so that coordinates stand in y as they do in the chain
 //     1/2 |violation|^2 + 1/2 rho^2 |t|^2 = 1/2 rho^2 |y|^2 + constant
-// A row a x becomes m y with m = (rho e_1 R^-1, e_2, rho at its own slack).  [T 3.3.38]
+// A row a x becomes m y with m = (0, rho e_1 R^-1, e_2, rho at its own slack).  [T 3.3.38]
 #pragma once
 
 #include "hurcules/base/types.hpp"
@@ -23,12 +24,15 @@ class LevelProblem {
   void start(const RowTable& rows, const Chain& chain, int level, const double* x_above);
   // the optimum of the own equality rows alone, from the centre
   void solve_free(double rho, const double* centre, double* x_free);
+  // the same as a step in the own directions, from where the levels above ended
+  void solve_free(double rho);
 
   [[nodiscard]] int level() const { return level_; }
-  [[nodiscard]] Index first() const { return first_; }               // first free direction
-  [[nodiscard]] Index own() const { return own_; }                   // own directions
-  [[nodiscard]] Index free() const { return free_; }                 // free directions
-  [[nodiscard]] Index dimension() const { return free_ + slacks_; }  // of y
+  [[nodiscard]] Index first() const { return first_; }  // first free direction
+  [[nodiscard]] Index own() const { return own_; }      // own directions
+  [[nodiscard]] Index free() const { return free_; }    // free directions
+  [[nodiscard]] Index dimension() const { return free_ + slacks_; }
+  [[nodiscard]] Index width() const { return body_ + slacks_; }  // of y, with its zeros
   [[nodiscard]] bool has_slacks() const { return slacks_ > 0; }
   [[nodiscard]] bool has_slack(const Row& row) const { return slacks_ > 0 && row.level == level_; }
   // largest part of x_free - centre in units of y: what rounding is relative to
@@ -40,28 +44,40 @@ class LevelProblem {
   // the own equality rows are met at x_above, to rounding
   [[nodiscard]] bool equalities_met(double x_scale) const;
 
-  // m of an inequality row times sign, all of dimension() and zeros behind
+  // m of an inequality row times sign, all of width() and zeros behind
   void image(const Row& row, double sign, double* m) const;
   // the part of a row in the free directions, squared
   [[nodiscard]] double free_part(const Row& row) const;
   // x = x_free + what y moves
   void step(const double* y, const double* x_free, double* x);
-  // part of a step (padded) in the free directions
-  void project(const double* v, double* part);
+  // x = x_above + the step of solve_free(rho) + what y moves
+  void step(const double* y, double* x);
+  // by how much the step of solve_free(rho) moves a row
+  [[nodiscard]] double way_to_free(const Row& row) const {
+    const double* e = chain_->coordinates(row) + first_;
+    double sum = 0.0;
+    for (Index j = 0; j < own_; ++j) sum += e[j] * t_free_[j];
+    return sum;
+  }
   // rho w of an own inequality row
   [[nodiscard]] double slack(const Row& row, const double* y) const {
-    return rho_ * y[free_ + slack_of(row)];
+    return rho_ * y[body_ + slack_of(row)];
   }
 
  private:
   [[nodiscard]] Index slack_of(const Row& row) const;
-  void find_residual(const double* x);
+  void find_residual(const double* x, double* r) const;
+  // R and c from a residual: the least squares of the own equality rows
+  void factor(double rho, const double* residual);
   [[nodiscard]] double largest_coordinate() const;
   template <int fixed>
-  void factor_by_cholesky();
-  void factor_by_householder();
-  // t = R^-1 b
+  void factor_by_cholesky(const double* residual);
+  void factor_by_householder(const double* residual);
+  // t = R^-1 scale b
   void solve_triangular(double scale, const double* b);
+  // own = R^-T scale own, in place
+  template <int fixed>
+  void solve_transposed(double scale, double* own) const;
   // coordinates of own equality row i in the own directions
   [[nodiscard]] const double* own_row(Index i) const {
     return chain_->equality_coordinates(rows_->equalities(level_) + i) + first_;
@@ -72,10 +88,12 @@ class LevelProblem {
   const double* x_above_ = nullptr;
   int level_ = 0;
   Index first_ = 0, own_ = 0, free_ = 0, slacks_ = 0, equalities_ = 0;
+  Index lead_ = 0, body_ = 0;
   double rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0;
-  PaddedVector R_;                              // (own, own) upper triangular, rows own_ apart
-  Matrix stacked_;                              // Householder's block
-  PaddedVector inverse_, c_, t_, r_, r_above_;  // 1 / diagonal; R^-T Lk' r; coefficients; residuals
+  PaddedVector R_;                         // (own, own) upper triangular, rows own_ apart
+  Matrix stacked_;                         // Householder's block
+  PaddedVector inverse_, c_;               // 1 / diagonal; R^-T Lk' r
+  PaddedVector t_, t_free_, r_, r_above_;  // coefficients; residuals
 };
 
 }  // namespace hurcules

@@ -54,6 +54,7 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   if (uses_svd()) svd_.reserve(unknowns_, reserved_own_);
   candidates_.reserve(reserved_rows_ + 4 * levels);
   problem_.reserve(unknowns_, reserved_rows_, reserved_own_);
+  kept_level_.reserve(unknowns_, reserved_rows_, reserved_own_);
   active_set_.reserve(unknowns_, reserved_rows_, reserved_own_);
   settled_level_.reserve(unknowns_, reserved_rows_);
   careful_level_.reserve(unknowns_, reserved_rows_);
@@ -79,6 +80,7 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
 
 void Lexicographic::reset() {
   kept_.clear();
+  std::fill(kept_begin_.begin(), kept_begin_.end(), 0);
 }
 
 const Solution& Lexicographic::solve(HierarchyView hierarchy) {
@@ -89,7 +91,7 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   solution_.optimality = 0.0;
   budget_ = {.used = 0, .most = options_.max_changes};
   if (!rows_.read(hierarchy)) return refuse();
-  count_kept();
+  check_kept();
   x_above_ = x_ = zero_.data();
   x_scale_ = 1.0;
   chains_.start(rows_, hierarchy);
@@ -168,8 +170,11 @@ bool Lexicographic::believed(Way way) const {
 }
 
 double Lexicographic::harm_above(int k) {
-  const double moved = optimality_.moved(rows_, *chain_, k, x_above_, x_);
-  return std::max(moved, optimality_.worsened(rows_, candidates_, k)) / x_scale_;
+  const double moved = optimality_.moved(rows_, *chain_, k, x_above_, x_) / x_scale_;
+  // without a proof nobody has looked yet
+  const double worse = options_.proof ? records_[k].worsened
+                                      : optimality_.worsened(rows_, candidates_, k) / x_scale_;
+  return std::max(moved, worse);
 }
 
 double Lexicographic::try_ways(double rho, int k, bool& done) {

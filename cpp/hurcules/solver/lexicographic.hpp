@@ -10,6 +10,7 @@
 #include "hurcules/solver/candidates.hpp"
 #include "hurcules/solver/careful_level.hpp"
 #include "hurcules/solver/chain_segments.hpp"
+#include "hurcules/solver/kept_level.hpp"
 #include "hurcules/solver/level_problem.hpp"
 #include "hurcules/solver/method.hpp"
 #include "hurcules/solver/optimality.hpp"
@@ -17,14 +18,6 @@
 #include "hurcules/solver/settled_level.hpp"
 
 namespace hurcules {
-
-// A row of the last solve's working sets.
-struct KeptRow {
-  int held_by = 0;
-  int row = 0;  // in the table
-  Side side = Side::Upper;
-  Role role = Role::Violation;
-};
 
 class Lexicographic : public Method {
  public:
@@ -60,6 +53,8 @@ class Lexicographic : public Method {
   double try_ways(double rho, int k, bool& done);
   bool solve(Way way, double rho, int k);
   bool solve_regularized(Way way, double rho, int k);
+  // with the rows of the last solve, if they are the working set
+  bool solve_kept(double rho, int k);
   // rho nothing or small: the settled level; or proximal steps and the smallest step
   bool solve_settled(Way way, double rho, int k);
   bool solve_carefully(double rho);
@@ -86,10 +81,11 @@ class Lexicographic : public Method {
   // by how much rows above moved or got worse, relative to |a| |x|
   double harm_above(int k);
   void lose_precision(int k);
-  // where the kept rows of each level begin; none when they do not fit the present rows
-  void count_kept();
+  // no kept rows where they do not fit the present rows
+  void check_kept();
   void keep_working_sets();
-  void keep_roles(const LevelRecord& record, int k);
+  ActiveRow* list_active(const LevelRecord& record, int k, ActiveRow* active);
+  KeptRow* keep_roles(const LevelRecord& record, int k, KeptRow* kept);
   void fill_solution();
   void fill_violations(int k);
   const Solution& refuse();
@@ -103,6 +99,7 @@ class Lexicographic : public Method {
   LevelSvd svd_;
   Candidates candidates_;
   LevelProblem problem_;
+  KeptLevel kept_level_;
   ActiveSet active_set_;
   SettledLevel settled_level_;
   CarefulLevel careful_level_;
@@ -114,11 +111,12 @@ class Lexicographic : public Method {
   PaddedVector zero_, equality_values_;
   std::vector<LevelRecord> records_;
   std::vector<HeldRow> held_;
-  std::vector<KeptRow> kept_;  // of the last solve, by level
-  std::vector<int> kept_begin_;
-  std::vector<KeptRow> found_;  // by the active set, for the settled level
-  std::vector<char> listed_;    // (rows)
-  double x_scale_ = 1.0;        // max(1, |x_above_|)
+  std::vector<KeptRow> kept_;    // of the last solve, by level
+  std::vector<int> kept_begin_;  // where those of each level begin
+  bool restored_ = false;        // they come from a snapshot
+  std::vector<KeptRow> found_;   // by the active set, for the settled level
+  std::vector<char> listed_;     // (rows)
+  double x_scale_ = 1.0;         // max(1, |x_above_|)
   std::size_t begin_held_ = 0;
   int begin_norm_ = 0;
   bool values_known_ = false;  // candidates_.value belongs to x_

@@ -42,7 +42,8 @@ double Lexicographic::prove(Way way, double rho, int k) {
   return optimality_.residual(rows_, *chain_, candidates_, k, x_above_, x_scale_, record, held_);
 }
 
-void Lexicographic::count_kept() {
+void Lexicographic::check_kept() {
+  if (rows_.same_pattern() && !restored_) return;
   const int levels = rows_.levels();
   const auto fits = [&](const KeptRow& kept) {
     return kept.held_by < levels && kept.row < rows_.size() && rows_[kept.row].candidate >= 0;
@@ -53,44 +54,65 @@ void Lexicographic::count_kept() {
       !std::is_sorted(kept_.begin(), kept_.end(), above)) {
     kept_.clear();
   }
+  restored_ = false;
   kept_begin_.assign(levels + 1, 0);
   for (const KeptRow& kept : kept_) ++kept_begin_[kept.held_by + 1];
   for (int k = 0; k < levels; ++k) kept_begin_[k + 1] += kept_begin_[k];
 }
 
 void Lexicographic::keep_working_sets() {
-  kept_.clear();
-  solution_.working_set.clear();
-  for (int k = 0; k < solution_.final_levels; ++k) {
+  kept_.resize(held_.size());
+  solution_.working_set.resize(held_.size());
+  KeptRow* kept = kept_.data();
+  ActiveRow* active = solution_.working_set.data();
+  for (int k = 0; k < rows_.levels(); ++k) {
+    kept_begin_[k + 1] = static_cast<int>(kept - kept_.data());
+    if (k >= solution_.final_levels) continue;
     const LevelRecord& record = records_[k];
-    const int end_held = record.first_held + record.held, end = record.first_norm + record.norm;
-    // without a list of the smallest step every row is listed once
-    const bool once = record.norm == 0;
-    if (!once) std::fill(listed_.begin(), listed_.end(), 0);
-    for (int h = record.first_held; h < end; ++h) {
-      const HeldRow& held = held_[h];
-      const Row& row = rows_[held.row];
-      if (!once && listed_[held.row]) continue;
-      listed_[held.row] = 1;
-      solution_.working_set.push_back(
-          {row.level, row.row, held.side, k, h < end_held ? held.multiplier : 0.0});
-      if (once) kept_.push_back({k, held.row, held.side, held.role});
+    if (record.norm == 0) {
+      // without a list of the smallest step every row is listed once
+      for (int h = record.first_held; h < record.first_held + record.held; ++h) {
+        const HeldRow& held = held_[h];
+        const Row& row = rows_[held.row];
+        *active++ = {row.level, row.row, held.side, k, held.multiplier};
+        *kept++ = {k, held.row, held.side, held.role};
+      }
+    } else {
+      active = list_active(record, k, active);
+      kept = keep_roles(record, k, kept);
     }
-    if (!once) keep_roles(record, k);
+    kept_begin_[k + 1] = static_cast<int>(kept - kept_.data());
   }
+  kept_.resize(kept - kept_.data());
+  solution_.working_set.resize(active - solution_.working_set.data());
+}
+
+// every row once, with what it does against the violations
+ActiveRow* Lexicographic::list_active(const LevelRecord& record, int k, ActiveRow* active) {
+  std::fill(listed_.begin(), listed_.end(), 0);
+  const int end_held = record.first_held + record.held;
+  for (int h = record.first_held; h < record.first_norm + record.norm; ++h) {
+    const HeldRow& held = held_[h];
+    const Row& row = rows_[held.row];
+    if (listed_[held.row]) continue;
+    listed_[held.row] = 1;
+    *active++ = {row.level, row.row, held.side, k, h < end_held ? held.multiplier : 0.0};
+  }
+  return active;
 }
 
 // a row that has a role is not listed again as idle
-void Lexicographic::keep_roles(const LevelRecord& record, int k) {
+KeptRow* Lexicographic::keep_roles(const LevelRecord& record, int k, KeptRow* kept) {
   std::fill(listed_.begin(), listed_.end(), 0);
   for (const bool idle : {false, true}) {
     for (int h = record.first_held; h < record.first_norm + record.norm; ++h) {
       const HeldRow& held = held_[h];
       if (listed_[held.row] || (held.role == Role::Idle) != idle) continue;
       listed_[held.row] = 1;
-      kept_.push_back({k, held.row, held.side, held.role});
+      *kept++ = {k, held.row, held.side, held.role};
     }
   }
+  return kept;
 }
 
 void Lexicographic::fill_solution() {
@@ -168,6 +190,7 @@ void Lexicographic::restore(StateReader& reader) {
     kept.side = reader.get() < 0.0 ? Side::Lower : Side::Upper;
     kept.role = static_cast<Role>(reader.get_count(static_cast<Index>(Role::Idle)));
   }
+  restored_ = true;
 }
 
 }  // namespace hurcules

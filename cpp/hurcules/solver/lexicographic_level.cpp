@@ -14,7 +14,16 @@ bool Lexicographic::solve(Way way, double rho, int k) {
                                                         : solve_settled(way, rho, k);
 }
 
+bool Lexicographic::solve_kept(double rho, int k) {
+  const std::span kept(kept_.data() + kept_begin_[k], kept_.data() + kept_begin_[k + 1]);
+  if (!kept_level_.solve(rows_, problem_, candidates_, rho, x_scale_, kept, x_)) return false;
+  kept_level_.keep(rho * rho, held_);
+  begin_norm_ = static_cast<int>(held_.size());
+  return values_known_ = true;
+}
+
 bool Lexicographic::solve_regularized(Way way, double rho, int k) {
+  if (way == Way::Warm && solve_kept(rho, k)) return true;
   active_set_.start(rows_, problem_, candidates_, rho, x_above_, x_scale_);
   const bool done = way == Way::Warm ? find_warm(k) : find_cold();
   if (!done) {
@@ -82,7 +91,8 @@ bool Lexicographic::find_warm(int k) {
   for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
     active_set_.plan(kept_[h].row, kept_[h].side);
   }
-  return active_set_.warm() || find_by_dual();
+  active_set_.take_planned();
+  return find_by_dual();
 }
 
 bool Lexicographic::find_cold() {

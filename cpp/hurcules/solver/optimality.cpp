@@ -40,7 +40,7 @@ double Optimality::add_own_rows(const RowTable& rows, const Candidates& candidat
     scale += std::abs(violation_[i]) * rows.dense_norms()[first + i];
   }
   kernel.axpys(rows.dense_row(first), count, rows.stride(), violation_.data(), g);
-  if (count == rows.begin(k + 1) - rows.begin(k)) return scale;
+  if (!Candidates::violated(rows, k, candidates.value, 0.0)) return scale;
   for (int i = rows.begin(k); i < rows.begin(k + 1); ++i) {
     if (rows[i].equality) continue;
     const double violation = rows.violation(i, candidates.value[rows[i].candidate]);
@@ -58,64 +58,89 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
   double* g = record.gradient.data();
   const Index size = rows.stride();
   const double rho2 = record.rho * record.rho;
-  for (Index j = 0; j < size; ++j) g[j] = rho2 * (x[j] - x_above[j]);
-  double scale = norm_of(size, g);
+  double scale = std::sqrt(kernels::chosen->scaled_difference(size, rho2, x, x_above, g));
   scale += add_own_rows(rows, candidates, k, x, g);
-  for (int h = record.first_held; h < record.first_held + record.held; ++h) {
-    if (rows[held[h].row].level == k) continue;
-    rows.add_to(held[h].row, static_cast<double>(held[h].side) * held[h].multiplier, g);
-    scale += std::abs(held[h].multiplier) * rows[held[h].row].norm;
-  }
-  // stationarity on the free directions
-  const bool whole = chain.basis().whole();
-  for (Index j = 0; !whole && j < size; ++j) g[j] -= rho2 * (x[j] - x_above[j]);
-  std::copy_n(g, size, work_.data());
-  chain.remove_first(chain.rank_before(k), work_.data());
-  for (Index j = 0; !whole && j < size; ++j) work_[j] += rho2 * (x[j] - x_above[j]);
+  scale += add_held_rows(rows, k, record, held, g);
+  const double unbalanced = unbalanced_force(chain, k, x_above, x, rho2, g);
   // what is left against the forces that balance; a level that is met has none, only the rounding
   // of its rows
   const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
-  const double unbalanced = norm_of(size, work_.data());
   double worst = scale > 0.0 ? unbalanced / std::max(scale, least) : 0.0;
   worst = std::max(worst, worst_held(rows, candidates, k, record, held, x_scale));
-  worst = std::max(worst, worsened(rows, candidates, k) / x_scale);
-  if (!whole) worst = std::max(worst, moved(rows, chain, k, x_above, x) / x_scale);
+  record.worsened = worsened(rows, candidates, k) / x_scale;
+  worst = std::max(worst, record.worsened);
+  if (!chain.basis().whole()) worst = std::max(worst, moved(rows, chain, k, x_above, x) / x_scale);
   const double rounding = kRounding * std::max(scale, record.own_norm * record.own_norm * x_scale);
   return std::max(worst, norm_residual(rows, chain, k, x_above, record, held,
                                        std::max(0.0, unbalanced - rounding)));
 }
 
-// signs and complementarity
+// the part of g in the free directions of level k; behind a hand-over as an error of x
+double Optimality::unbalanced_force(Chain& chain, int k, const double* x_above, const double* x,
+                                    double rho2, double* g) {
+  const Index size = chain.x_stride(), first = chain.rank_before(k);
+  if (chain.basis().whole()) return chain.free_part(first, g, work_.data());
+  for (Index j = 0; j < size; ++j) g[j] -= rho2 * (x[j] - x_above[j]);
+  std::copy_n(g, size, work_.data());
+  chain.remove_first(first, work_.data());
+  for (Index j = 0; j < size; ++j) work_[j] += rho2 * (x[j] - x_above[j]);
+  return norm_of(size, work_.data());
+}
+
+// adds what rows above push to g; returns  sum mu |a|
+double Optimality::add_held_rows(const RowTable& rows, int k, const LevelRecord& record,
+                                 const std::vector<HeldRow>& held, double* g) {
+  double scale = 0.0;
+  for (int h = record.first_held; h < record.first_held + record.held; ++h) {
+    const Row& row = rows[held[h].row];
+    if (row.level == k) continue;
+    const double push = static_cast<double>(held[h].side) * held[h].multiplier;
+    scale += std::abs(push) * row.norm;
+    if (row.dense < 0) {
+      g[row.row] += push;
+    } else {
+      rows.add_to(held[h].row, push, g);
+    }
+  }
+  return scale;
+}
+
+// signs and complementarity, relative to the largest multiplier
 double Optimality::worst_held(const RowTable& rows, const Candidates& candidates, int k,
                               const LevelRecord& record, const std::vector<HeldRow>& held,
                               double x_scale) const {
-  double push = 0.0, worst = 0.0;
-  const int end = record.first_held + record.held;
-  for (int h = record.first_held; h < end; ++h) push = std::max(push, std::abs(held[h].multiplier));
-  if (push == 0.0) return 0.0;
-  for (int h = record.first_held; h < end; ++h) {
-    const double weight = held[h].multiplier / push;
-    worst = std::max(worst, -weight);
+  double largest = 0.0, pull = 0.0, apart = 0.0;
+  for (int h = record.first_held; h < record.first_held + record.held; ++h) {
     const Row& row = rows[held[h].row];
-    if (row.level == k || row.norm == 0.0) continue;
+    const double multiplier = held[h].multiplier, size = std::abs(multiplier);
+    largest = std::max(largest, size);
+    pull = std::max(pull, -multiplier);
+    if (row.level == k) continue;
     // what a row above may reach: its limit, or where it stood when that was worse
     const double stood = candidates.above[row.candidate], stands = candidates.value[row.candidate];
-    const double gap = held[h].side == Side::Upper ? stands - std::max(row.upper, stood)
-                                                   : stands - std::min(row.lower, stood);
-    worst = std::max(worst, weight * std::abs(gap) / (row.norm * x_scale));
+    const double limit =
+        held[h].side == Side::Upper ? std::max(row.upper, stood) : std::min(row.lower, stood);
+    const double gap = size * std::abs(stands - limit);
+    if (gap > apart * row.norm) apart = gap / row.norm;
   }
-  return worst;
+  return largest > 0.0 ? std::max(pull, apart / x_scale) / largest : 0.0;
 }
 
 double Optimality::moved(const RowTable& rows, const Chain& chain, int k, const double* x_above,
                          const double* x) {
-  for (Index j = 0; j < rows.stride(); ++j) work_[j] = x[j] - x_above[j];
-  kernels::chosen->dots(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
-                        violation_.data());
+  const kernels::Table& kernel = *kernels::chosen;
+  kernel.scaled_difference(rows.stride(), 1.0, x, x_above, work_.data());
+  const double* norms = rows.dense_norms();
+  if (chain.basis().whole()) {
+    return kernel.largest_way(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
+                              norms);
+  }
+  kernel.dots(rows.dense_row(0), rows.equalities(k), rows.stride(), work_.data(),
+              violation_.data());
   double worst = 0.0;
   for (int d = 0; d < rows.equalities(k); ++d) {
-    const double way = std::abs(violation_[d]), norm = rows.dense_norms()[d];
-    if (way > worst * norm && !chain.handed_over(rows, d)) worst = way / norm;
+    const double way = std::abs(violation_[d]);
+    if (way > worst * norms[d] && !chain.handed_over(rows, d)) worst = way / norms[d];
   }
   return std::max(worst, chain.basis().moved(work_.data()));
 }
@@ -142,15 +167,7 @@ double Optimality::worsened(const RowTable& rows, const Candidates& candidates, 
   for (int b = 0; b < rows.bounds_blocks(); ++b) {
     if (rows.block_level(b) < k) check(b * rows.stride(), rows.stride());
   }
-  const Index first = rows.first_dense_candidate(), above = rows.inequalities(k);
-  const Index whole = above / 4 * 4;
-  if (whole > 0) check(first, whole);
-  for (Index c = first + whole; c < first + above; ++c) {
-    const double stood = candidates.above[c], stands = candidates.value[c];
-    const double excess = std::max(stands - std::max(rows.asked_upper()[c], stood),
-                                   std::min(rows.asked_lower()[c], stood) - stands);
-    if (excess > worst * rows.norms()[c]) worst = excess / rows.norms()[c];
-  }
+  if (rows.inequalities(k) > 0) check(rows.first_dense_candidate(), rows.inequalities(k));
   return worst;
 }
 

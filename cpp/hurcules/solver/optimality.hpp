@@ -28,6 +28,7 @@ struct LevelRecord {
   PaddedVector x;         // (n), after this level
   // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
   PaddedVector gradient;
+  double worsened = 0.0;         // by how much rows above got worse, relative to |a| max(1, |x|)
   int first_held = 0, held = 0;  // its rows in the list of held rows
   int first_norm = 0, norm = 0;  // rows that hold only the smallest step (rho = 0)
 };
@@ -70,6 +71,10 @@ class Optimality {
  private:
   double add_own_rows(const RowTable& rows, const Candidates& candidates, int k, const double* x,
                       double* g);
+  double unbalanced_force(Chain& chain, int k, const double* x_above, const double* x, double rho2,
+                          double* g);
+  static double add_held_rows(const RowTable& rows, int k, const LevelRecord& record,
+                              const std::vector<HeldRow>& held, double* g);
   [[nodiscard]] double worst_held(const RowTable& rows, const Candidates& candidates, int k,
                                   const LevelRecord& record, const std::vector<HeldRow>& held,
                                   double x_scale) const;

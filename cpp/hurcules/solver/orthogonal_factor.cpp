@@ -6,8 +6,6 @@ namespace hurcules {
 
 namespace {
 
-// a row of which less than this part is left (squared) has lost digits: clean it
-constexpr double kClean = 1e-2;
 constexpr int kMostCleanings = 3;
 // what is left is noise altogether (squared)
 constexpr double kNothing = 1e-36;
@@ -49,12 +47,12 @@ double OrthogonalFactor::project(double* v, double* part, double norm2) const {
 }
 
 void OrthogonalFactor::run(Index first, Index end, const double* norm2, double tolerance,
-                           double* side) {
+                           double* side, double clean) {
   kernels::Directions d = {rest_.row(0), Q_.row(0), L_.row(0), norm2, pivot_.data(),
                            rows_,        columns_,  stride(),  rank_, side};
   Index i = first;
   while (true) {
-    i = kernels::chosen->take_directions(d, i, end, kClean);
+    i = kernels::chosen->take_directions(d, i, end, clean);
     rank_ = d.rank;
     if (i == end || rank_ == columns_) break;
     take_cleaned(i, norm2[i], tolerance, side);

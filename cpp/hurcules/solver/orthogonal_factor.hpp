@@ -22,7 +22,9 @@ class OrthogonalFactor {
   // Takes the directions of rows [first, end); later rows get their coordinates only. A row counts
   // as dependent when less than `tolerance` of its norm is left (norm2: squared norms, by row).
   // `side`: a column b that becomes g of L g = b, when no row depends on others; or null.
-  void run(Index first, Index end, const double* norm2, double tolerance, double* side = nullptr);
+  // A row with less than the part `clean` of its squared norm left has lost digits: cleaned first.
+  void run(Index first, Index end, const double* norm2, double tolerance, double* side = nullptr,
+           double clean = kClean);
   // Entries of L of directions that came after a row of [first, end) become zero; `run` leaves
   // them as they are.
   void clear_unknown(Index first, Index end);
@@ -54,6 +56,8 @@ class OrthogonalFactor {
   double* push_direction() { return Q_.row(rank_++); }
 
  private:
+  static constexpr double kClean = 1e-2;
+
   // a row that lost digits, cleaned first
   void take_cleaned(Index i, double norm2, double tolerance, double* side);
   [[nodiscard]] Index pivots_before(Index row) const;

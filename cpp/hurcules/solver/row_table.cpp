@@ -12,11 +12,9 @@ constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
 enum Pattern : char { kEquality, kInequality, kBoundEquality, kBoundInequality, kEndOfLevel };
 
-double lower_of(const LevelView& level, Index i) {
-  return level.lower[i] <= -kInfinity ? -kAbsent : level.lower[i];
-}
-double upper_of(const LevelView& level, Index i) {
-  return level.upper[i] >= kInfinity ? kAbsent : level.upper[i];
+char kind_of(const LevelView& level, Index i) {
+  if (level.lower[i] == level.upper[i]) return level.bounds ? kBoundEquality : kEquality;
+  return level.bounds ? kBoundInequality : kInequality;
 }
 
 }  // namespace
@@ -25,7 +23,7 @@ void RowTable::reserve(Index unknowns, Index rows, Index levels) {
   unknowns_ = unknowns;
   rows_.reserve(rows);
   for (auto* v : {&begin_, &equalities_, &inequalities_}) v->reserve(levels + 1);
-  block_level_.reserve(levels);
+  for (auto* v : {&block_level_, &level_block_}) v->reserve(levels);
   row_of_dense_.reserve(rows);
   dense_.reserve(rows, unknowns);
   dense_.shape(unknowns);
@@ -35,7 +33,6 @@ void RowTable::reserve(Index unknowns, Index rows, Index levels) {
   for (PaddedVector* v : {&asked_lower_, &asked_upper_, &norm_}) v->reserve(candidates);
   for (PaddedVector* v : {&target_, &dense_norm_, &dense_norm2_}) v->reserve(rows + 4);
   pattern_.reserve(rows + levels);
-  old_pattern_.reserve(rows + levels);
   arranged_ = false;
 }
 
@@ -52,24 +49,35 @@ bool RowTable::shapes_fit(HierarchyView hierarchy) const {
   return true;
 }
 
+bool RowTable::pattern_stands(HierarchyView hierarchy) const {
+  const char* kind = pattern_.data();
+  const char* const end = kind + pattern_.size();
+  for (const LevelView& level : hierarchy) {
+    const Index count = level.rows();
+    if (end - kind <= count) return false;
+    bool same = kind[count] == kEndOfLevel;
+    for (Index i = 0; i < count; ++i) same &= kind[i] == kind_of(level, i);
+    if (!same) return false;
+    kind += count + 1;
+  }
+  return kind == end;
+}
+
 void RowTable::read_pattern(HierarchyView hierarchy) {
-  std::swap(pattern_, old_pattern_);
+  same_pattern_ = pattern_stands(hierarchy);
+  if (same_pattern_) return;
   pattern_.clear();
   for (const LevelView& level : hierarchy) {
-    const char equality = level.bounds ? kBoundEquality : kEquality;
-    const char inequality = level.bounds ? kBoundInequality : kInequality;
-    for (Index i = 0; i < level.rows(); ++i) {
-      pattern_.push_back(level.lower[i] == level.upper[i] ? equality : inequality);
-    }
+    for (Index i = 0; i < level.rows(); ++i) pattern_.push_back(kind_of(level, i));
     pattern_.push_back(kEndOfLevel);
   }
-  same_pattern_ = pattern_ == old_pattern_;
 }
 
 void RowTable::arrange(HierarchyView hierarchy) {
   rows_.clear();
   for (auto* v : {&begin_, &equalities_, &inequalities_}) v->assign(1, 0);
   block_level_.clear();
+  level_block_.assign(hierarchy.size(), -1);
   row_of_dense_.clear();
   row_of_candidate_.clear();
   const char* kind = pattern_.data();
@@ -78,6 +86,7 @@ void RowTable::arrange(HierarchyView hierarchy) {
     int equal = equalities_.back(), unequal = inequalities_.back();
     const int block = static_cast<int>(block_level_.size() * stride());
     if (level.bounds) {
+      level_block_[k] = bounds_blocks();
       block_level_.push_back(k);
       row_of_candidate_.resize(block + stride(), -1);
     }
@@ -123,26 +132,43 @@ bool RowTable::read_limits(HierarchyView hierarchy) {
   Row* row = rows_.data();
   for (const LevelView& level : hierarchy) {
     for (Index r = 0; r < level.rows(); ++r, ++row) {
-      row->lower = lower_of(level, r);
-      row->upper = upper_of(level, r);
-      good &= level.lower[r] <= level.upper[r] && level.lower[r] < kInfinity &&
-              level.upper[r] > -kInfinity;
+      const double lower = level.lower[r], upper = level.upper[r];
+      good &= lower <= upper && lower < kInfinity && upper > -kInfinity;
+      row->lower = lower <= -kInfinity ? -kAbsent : lower;
+      row->upper = upper >= kInfinity ? kAbsent : upper;
       if (row->equality) {
-        target_[row->dense] = row->lower;
+        target_[row->dense] = lower;
       } else {
         asked_lower_[row->candidate] = row->lower;
         asked_upper_[row->candidate] = row->upper;
-      }
-      if (!level.bounds) {
-        std::copy_n(level.A.data() + r * unknowns_, unknowns_, dense_.row(row->dense));
       }
     }
   }
   return good;
 }
 
+void RowTable::read_rows(HierarchyView hierarchy) {
+  const kernels::Table& kernel = *kernels::chosen;
+  for (int k = 0; k < levels(); ++k) {
+    const LevelView& level = hierarchy[k];
+    const int first = begin(k), count = begin(k + 1) - first;
+    if (level.bounds || count == 0) continue;
+    const int equal = equalities(k + 1) - equalities(k);
+    // rows of one kind stand one behind the other
+    if (equal == 0 || equal == count) {
+      kernel.copy_rows(level.A.data(), count, unknowns_, dense_.row(rows_[first].dense), stride());
+      continue;
+    }
+    for (int r = 0; r < count; ++r) {
+      kernel.copy_rows(level.A.data() + r * unknowns_, 1, unknowns_,
+                       dense_.row(rows_[first + r].dense), stride());
+    }
+  }
+}
+
 bool RowTable::read_numbers(HierarchyView hierarchy) {
   bool good = read_limits(hierarchy);
+  read_rows(hierarchy);
   kernels::chosen->norms2(dense_row(0), dense(), stride(), dense_norm2_.data());
   for (int d = 0; d < dense(); ++d) {
     const double norm = std::sqrt(dense_norm2_[d]);
@@ -188,13 +214,14 @@ void RowTable::values(int level, const double* x, double* value) const {
 }
 
 void RowTable::own_values(int level, const double* x, double* value) const {
-  for (int b = 0; b < bounds_blocks(); ++b) {
-    if (block_level(b) == level) std::copy_n(x, stride(), value + b * stride());
+  const Range own = own_candidates(level);
+  if (own.count == 0) return;
+  if (level_block_[level] >= 0) {
+    std::copy_n(x, own.count, value + own.first);
+  } else {
+    kernels::chosen->dots(dense_row(equalities() + inequalities(level)), own.count, stride(), x,
+                          value + own.first);
   }
-  const int first = inequalities(level), count = inequalities(level + 1) - first;
-  if (count == 0) return;
-  kernels::chosen->dots(dense_row(equalities() + first), count, stride(), x,
-                        value + first_dense_candidate() + first);
 }
 
 double RowTable::violation(int i, double value) const {

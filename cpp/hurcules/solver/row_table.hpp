@@ -71,6 +71,16 @@ class RowTable {
   }
   // row behind a candidate, or -1
   [[nodiscard]] int row_of_candidate(Index c) const { return row_of_candidate_[c]; }
+  // the candidates of one level: `count` from `first` on (of simple bounds with their padding)
+  struct Range {
+    Index first, count;
+  };
+  [[nodiscard]] Range own_candidates(int level) const {
+    const int b = level_block_[level];
+    if (b >= 0) return {b * stride(), stride()};
+    return {first_dense_candidate() + inequalities(level),
+            inequalities(level + 1) - inequalities(level)};
+  }
   // limits as the hierarchy asks for them, by candidate; absent until `own_limits` of their level
   [[nodiscard]] const double* asked_lower() const { return asked_lower_.data(); }
   [[nodiscard]] const double* asked_upper() const { return asked_upper_.data(); }
@@ -94,19 +104,21 @@ class RowTable {
  private:
   [[nodiscard]] bool shapes_fit(HierarchyView hierarchy) const;
   void read_pattern(HierarchyView hierarchy);
+  [[nodiscard]] bool pattern_stands(HierarchyView hierarchy) const;
   // places of all rows in storage and among the candidates, from the pattern
   void arrange(HierarchyView hierarchy);
   [[nodiscard]] bool read_numbers(HierarchyView hierarchy);
   [[nodiscard]] bool read_limits(HierarchyView hierarchy);
+  void read_rows(HierarchyView hierarchy);
 
   Index unknowns_ = 0;
   std::vector<Row> rows_;
   std::vector<int> begin_{0}, equalities_{0}, inequalities_{0};
-  std::vector<int> block_level_, row_of_dense_, row_of_candidate_;
+  std::vector<int> block_level_, level_block_, row_of_dense_, row_of_candidate_;
   PaddedRows dense_;
   PaddedVector asked_lower_, asked_upper_, norm_;
   PaddedVector target_, dense_norm_, dense_norm2_;
-  std::vector<char> pattern_, old_pattern_;
+  std::vector<char> pattern_;
   bool same_pattern_ = false, arranged_ = false;
 };
 

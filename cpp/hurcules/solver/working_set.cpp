@@ -46,12 +46,12 @@ double WorkingSet::room(const ActiveSlot& slot) const {
 
 double WorkingSet::fill_image(int row, Side side, double* m) const {
   problem_->image((*rows_)[row], static_cast<double>(side), m);
-  return kernels::chosen->dot(padded(problem_->dimension()), m, m);
+  return kernels::chosen->dot(padded(problem_->width()), m, m);
 }
 
 void WorkingSet::start_factor(Index rows) {
   started_ = true;
-  factor_.start(rows, problem_->dimension());
+  factor_.start(rows, problem_->width());
 }
 
 void WorkingSet::plan(int row, Side side) {
