@@ -71,8 +71,7 @@ void ActiveSet::solve() {
 
 bool ActiveSet::lost(const Row& row) const {
   if (row.norm == 0.0) return true;
-  const double least = tolerance::kLost * row.norm;
-  return !problem_->has_slack(row) && problem_->free_part(row) <= least * least;
+  return !problem_->has_slack(row) && problem_->lost(row);
 }
 
 void ActiveSet::ignore(const Row& row) {

@@ -33,9 +33,9 @@ bool ActiveSet::primal(Budget& budget, int most_changes) {
   if (problem_->has_slacks()) hold_violated();
   double *value = candidates_->value.data(), *target = candidates_->target.data();
   const int end = std::min(budget.most, budget.used + most_changes);
+  solve();
   while (true) {
-    // where the working set wants to go, and how far it can
-    solve();
+    // how far it is to where the working set wants to go
     const kernels::Blocking blocking = kernels::chosen->first_blocking(
         count_, value, target, candidates_->limits(*rows_), relative_, absolute_);
     if (blocking.candidate >= 0) {
@@ -45,13 +45,16 @@ bool ActiveSet::primal(Budget& budget, int most_changes) {
         continue;
       }
       if (budget.used >= end) return false;
-      const double way = blocking.way;
-      for (Index j = 0; j < rows_->stride(); ++j) x_[j] += way * (target_[j] - x_[j]);
-      for (Index c = 0; c < count_; ++c) value[c] += way * (target[c] - value[c]);
+      kernels::chosen->advance(rows_->stride(), blocking.way, target_.data(), x_.data());
+      kernels::chosen->advance(count_, blocking.way, target, value);
       const bool up = target[blocking.candidate] > candidates_->upper(blocking.candidate);
       ++budget.used;
-      // a row that depends on the set cannot stop a move inside it: rounding
-      if (!set_.add(row, up ? Side::Upper : Side::Lower)) ignore((*rows_)[row]);
+      if (set_.add(row, up ? Side::Upper : Side::Lower)) {
+        set_.add_newest(y_.data());
+        evaluate();
+      } else {  // a row that depends on the set cannot stop a move inside it: rounding
+        ignore((*rows_)[row]);
+      }
       continue;
     }
     std::copy_n(target_.data(), rows_->stride(), x_.data());
@@ -63,6 +66,7 @@ bool ActiveSet::primal(Budget& budget, int most_changes) {
     set_.drop(slot);
     restore_ignored();
     ++budget.used;
+    solve();
   }
 }
 

@@ -42,6 +42,8 @@ struct Table {
   void (*axpy)(Size size, double s, const double* x, double* y);
   // y = s x
   void (*scale)(Size size, double s, const double* x, double* y);
+  // x += way (target - x)
+  void (*advance)(Size size, double way, const double* target, double* x);
   // (a, b) = (c a + s b, c b - s a)
   void (*rotate)(Size size, double c, double s, double* a, double* b);
   // out[i] = row i . x

@@ -35,6 +35,15 @@ inline double sum(Pack v) {
   return total;
 }
 
+// some number of the mask is set
+inline bool any(Mask mask) {
+#if HURCULES_KERNEL_WIDTH == 4
+  return __builtin_ia32_movmskpd256(reinterpret_cast<Pack>(mask)) != 0;
+#else
+  return (mask[0] | mask[1]) != 0;
+#endif
+}
+
 // four sums at once
 inline void sums(Pack a, Pack b, Pack c, Pack d, double* out) {
 #if HURCULES_KERNEL_WIDTH == 4
@@ -68,6 +77,13 @@ void axpy(Size size, double s, const double* x, double* y) {
 
 void scale(Size size, double s, const double* x, double* y) {
   for (Size j = 0; j < size; j += kWidth) store(y + j, s * load(x + j));
+}
+
+void advance(Size size, double way, const double* target, double* x) {
+  for (Size j = 0; j < size; j += kWidth) {
+    const Pack here = load(x + j);
+    store(x + j, here + way * (load(target + j) - here));
+  }
 }
 
 void rotate(Size size, double c, double s, double* a, double* b) {
@@ -296,6 +312,7 @@ constexpr Table kTable = {
     .dot = dot,
     .axpy = axpy,
     .scale = scale,
+    .advance = advance,
     .rotate = rotate,
     .dots = dots,
     .axpys = axpys,

@@ -51,11 +51,12 @@ Blocking first_blocking(Size size, const double* value, const double* target, Li
     const Pack allowed = relative * norm + absolute;
     const Mask over = (goal - upper) > allowed, under = (lower - goal) > allowed;
     const Pack move = goal - v;
+    // a row that does not move towards the limit that it breaks cannot stop the move
+    const Mask blocks = (over & (move > 0.0)) | (under & (move < 0.0));
+    if (!any(blocks)) continue;
     const Pack room = over ? upper - v : lower - v;
     Pack way = room / move;
     way = way > 0.0 ? way : Pack{};
-    // a row that does not move towards the limit that it breaks cannot stop the move
-    const Mask blocks = (over & (move > 0.0)) | (under & (move < 0.0));
     const Pack speed = (move > 0.0 ? move : -move) / norm;
     const Mask better = blocks & ((way < best) | ((way == best) & (speed > best_speed)));
     best = better ? way : best;

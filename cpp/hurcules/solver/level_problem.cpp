@@ -241,11 +241,15 @@ void LevelProblem::image(const Row& row, double sign, double* m) const {
   if (has_slack(row)) m[body_ + slack_of(row)] = sign * rho_;
 }
 
-double LevelProblem::free_part(const Row& row) const {
+bool LevelProblem::lost(const Row& row) const {
   const double* e = chain_->coordinates(row) + first_;
+  const double least = tolerance::kLost * row.norm;
   double sum = 0.0;
-  for (Index j = 0; j < free_; ++j) sum += e[j] * e[j];
-  return sum;
+  for (Index j = 0; j < free_; ++j) {
+    sum += e[j] * e[j];
+    if (sum > least * least) return false;
+  }
+  return true;
 }
 
 void LevelProblem::step(const double* y, const double* x_free, double* x) {

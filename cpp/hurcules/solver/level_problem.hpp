@@ -46,8 +46,8 @@ class LevelProblem {
 
   // m of an inequality row times sign, all of width() and zeros behind
   void image(const Row& row, double sign, double* m) const;
-  // the part of a row in the free directions, squared
-  [[nodiscard]] double free_part(const Row& row) const;
+  // a row has no part in the free directions, only rounding
+  [[nodiscard]] bool lost(const Row& row) const;
   // x = x_free + what y moves
   void step(const double* y, const double* x_free, double* x);
   // x = x_above + the step of solve_free(rho) + what y moves

@@ -41,7 +41,7 @@ double OrthogonalFactor::project(double* v, double* part, double norm2) const {
     const double before = left;
     left = kernel.dot(stride(), v, v);
     // twice is enough, unless nearly nothing was left
-    if (left >= 0.25 * before || left <= kNothing * norm2) break;
+    if (left >= 0.1 * before || left <= kNothing * norm2) break;
   }
   return left;
 }

@@ -162,17 +162,16 @@ bool SettledLevel::advance(Budget& budget) {
       inside ? kernels::Blocking()
              : kernels::chosen->first_blocking(count, value, target, limits, relative_, 0.0);
   const double way = blocking.candidate < 0 ? 1.0 : blocking.way;
-  for (Index j = 0; j < rows_->stride(); ++j) x_[j] += way * (target_[j] - x_[j]);
+  kernels::chosen->advance(rows_->stride(), way, target_.data(), x_.data());
   if (blocking.candidate < 0) {
     std::copy_n(target, count, value);
     return false;
   }
-  for (Index c = 0; c < count; ++c) value[c] += way * (target[c] - value[c]);
+  kernels::chosen->advance(count, way, target, value);
   const int i = rows_->row_of_candidate(blocking.candidate);
   const Row& row = (*rows_)[i];
   const bool up = target[blocking.candidate] > candidates_->upper(blocking.candidate);
-  const double least = tolerance::kLost * row.norm;
-  if (level_->free_part(row) <= least * least) {
+  if (level_->lost(row)) {
     // nothing here can move it: rounding
     ignored_.push_back({i, Side::Upper, 0.0, candidates_->lower(row.candidate),
                         candidates_->upper(row.candidate), 0.0, false});

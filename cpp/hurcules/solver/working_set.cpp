@@ -122,8 +122,7 @@ bool WorkingSet::lost(int row, double norm2) const {
   const Row& r = (*rows_)[row];
   const double least = tolerance::kLost * tolerance::kLost * r.norm * r.norm;
   // an image is never longer than the free part of its row
-  return norm2 == 0.0 ||
-         (norm2 <= least && !problem_->has_slack(r) && problem_->free_part(r) <= least);
+  return norm2 == 0.0 || (norm2 <= least && !problem_->has_slack(r) && problem_->lost(r));
 }
 
 void WorkingSet::clear() {
@@ -136,6 +135,11 @@ void WorkingSet::solve(double* y) {
   if (!started_) start_factor(0);
   std::fill_n(y, factor_.stride(), 0.0);
   kernels::chosen->axpys(factor_.direction(0), size(), factor_.stride(), g_.data(), y);
+}
+
+void WorkingSet::add_newest(double* y) const {
+  const Index slot = size() - 1;
+  kernels::chosen->axpy(factor_.stride(), g_[slot], factor_.direction(slot), y);
 }
 
 void WorkingSet::find_multipliers() {

@@ -43,6 +43,8 @@ class WorkingSet {
 
   // y of the held rows
   void solve(double* y);
+  // y of the held rows from that without the row that was added last
+  void add_newest(double* y) const;
   void find_multipliers();
   // moves y by the least amount that changes each held row by its entry of `change` (slots)
   void correct(double* change, double* y);
