@@ -99,11 +99,12 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   candidates_.start(rows_);
   for (int k = 0; k < rows_.levels(); ++k) {
     x_ = records_[k].x.data();
+    above_scale_ = x_scale_;
     chain_ = &chains_.of(k);
     if (uses_svd()) svd_.start(rows_, *chain_, k);
     const bool done = solve_level(hierarchy[k], k);
     active_set_.clear();
-    candidates_.close(rows_, k, x_scale_);
+    candidates_.close(rows_, k, x_scale_, held_.size() > begin_held_);
     if (!done) break;
     ++solution_.final_levels;
     chains_.close(rows_, svd_, k);
@@ -177,6 +178,14 @@ double Lexicographic::harm_above(int k) {
   return std::max(moved, worse);
 }
 
+bool Lexicographic::stays() const {
+  double longest = 0.0;
+  for (Index j = 0; j < rows_.stride(); ++j) {
+    longest = std::max(longest, std::abs(x_[j] - x_above_[j]));
+  }
+  return longest <= tolerance::kStays * x_scale_;
+}
+
 double Lexicographic::try_ways(double rho, int k, bool& done) {
   double residual = 0.0, harm = 0.0;
   bool proven = false;
@@ -185,6 +194,14 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
     done = solve(way, rho, k);
     residual = prove(way, rho, k);
     harm = believed(way) ? 0.0 : harm_above(k);
+    // in a crowded vertex the held rows may be so near to dependent that rounding on them harms
+    // others: where the level cannot move, x_above is its answer, too
+    if (done && harm > tolerance::kHarm && stays()) {
+      take(x_above_);
+      values_known_ = false;
+      residual = prove(way, rho, k);
+      harm = 0.0;
+    }
     residual = std::max(residual, harm);
     proven = done && !raised_ && residual <= tolerance::kProven;
   };
@@ -219,8 +236,8 @@ void Lexicographic::lose_precision(int k) {
 }
 
 bool Lexicographic::satisfied(int k) const {
-  return problem_.equalities_met(x_scale_) &&
-         !Candidates::violated(rows_, k, candidates_.above, x_scale_);
+  return problem_.equalities_met(above_scale_) &&
+         !Candidates::violated(rows_, k, candidates_.above, above_scale_);
 }
 
 void Lexicographic::solve_first_bounds(int k) {
@@ -236,7 +253,7 @@ void Lexicographic::solve_first_bounds(int k) {
 }
 
 bool Lexicographic::solve_free(double rho) {
-  active_set_.start(rows_, problem_, candidates_, rho, x_above_, x_scale_);
+  active_set_.start(rows_, problem_, candidates_, rho, x_above_, above_scale_);
   if (!active_set_.free_is_feasible()) return false;
   take(active_set_.x_free());
   values_known_ = true;

@@ -80,6 +80,8 @@ class Lexicographic : public Method {
   [[nodiscard]] bool believed(Way way) const;
   // by how much rows above moved or got worse, relative to |a| |x|
   double harm_above(int k);
+  // the answer is x_above_, to rounding
+  [[nodiscard]] bool stays() const;
   void lose_precision(int k);
   // no kept rows where they do not fit the present rows
   void check_kept();
@@ -116,7 +118,8 @@ class Lexicographic : public Method {
   bool restored_ = false;        // they come from a snapshot
   std::vector<KeptRow> found_;   // by the active set, for the settled level
   std::vector<char> listed_;     // (rows)
-  double x_scale_ = 1.0;         // max(1, |x_above_|)
+  double above_scale_ = 1.0;     // max(1, |x_above_|)
+  double x_scale_ = 1.0;         // max(1, |x_|), of the last answer that was proven
   std::size_t begin_held_ = 0;
   int begin_norm_ = 0;
   bool values_known_ = false;  // candidates_.value belongs to x_
