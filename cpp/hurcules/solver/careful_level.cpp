@@ -139,7 +139,10 @@ bool CarefulLevel::blocked(State own) {
     found = i;
     lines_[i].side = moved > 0.0L ? Side::Upper : Side::Lower;
   }
-  for (Index j = 0; j < free_; ++j) t_[j] += way * p_[j];
+  for (Index j = 0; j < free_; ++j) {
+    t_[j] += way * p_[j];
+    x_scale_ = std::max(x_scale_, std::abs(t_[j]));
+  }
   if (found < 0) return false;
   lines_[found].state = lines_[found].own ? own : State::Held;
   return true;
@@ -164,7 +167,7 @@ bool CarefulLevel::revise_violated() {
   return changed;
 }
 
-bool CarefulLevel::drop_worst(Long Line::*part, Long least) {
+bool CarefulLevel::drop_worst(Long Line::* part, Long least) {
   Line* found = nullptr;
   for (Line& line : lines_) {
     if (line.state != State::Held || sign(line.side) * line.*part >= least) continue;

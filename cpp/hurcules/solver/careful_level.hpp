@@ -22,7 +22,7 @@ namespace hurcules {
 class CarefulLevel {
  public:
   void reserve(Index unknowns, Index rows);
-  // a level from x_above; x_scale is what rounding in x is relative to
+  // a level from x_above, of size x_scale
   void start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
              const double* x_above, double x_scale);
   // To the answer x; then `held` has its rows (those of the smallest step from begin_norm on).
@@ -80,7 +80,7 @@ class CarefulLevel {
   [[nodiscard]] Long pull(Index round) const;
   [[nodiscard]] Index rounds() const { return 2 * (free_ + static_cast<Index>(lines_.size()) + 1); }
   // lets the held row go that pulls most, by what `part` says
-  bool drop_worst(Long Line::*part, Long least);
+  bool drop_worst(Long Line::* part, Long least);
   // what may not change any more once the violation is the smallest
   void settle(Long forces);
   void write(double* x);
@@ -91,7 +91,7 @@ class CarefulLevel {
   const LevelProblem* level_ = nullptr;
   const double* x_above_ = nullptr;
   Index free_ = 0;
-  Long x_scale_ = 1.0L;
+  Long x_scale_ = 1.0L;  // what rounding in x is relative to: the largest x so far
   std::vector<Line> lines_;
   std::vector<Long> coordinates_;  // (lines, free)
   CarefulBasis basis_;

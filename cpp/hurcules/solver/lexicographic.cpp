@@ -99,6 +99,7 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   candidates_.start(rows_);
   for (int k = 0; k < rows_.levels(); ++k) {
     x_ = records_[k].x.data();
+    above_scale_ = x_scale_;
     chain_ = &chains_.of(k);
     if (uses_svd()) svd_.start(rows_, *chain_, k);
     const bool done = solve_level(hierarchy[k], k);
@@ -219,8 +220,8 @@ void Lexicographic::lose_precision(int k) {
 }
 
 bool Lexicographic::satisfied(int k) const {
-  return problem_.equalities_met(x_scale_) &&
-         !Candidates::violated(rows_, k, candidates_.above, x_scale_);
+  return problem_.equalities_met(above_scale_) &&
+         !Candidates::violated(rows_, k, candidates_.above, above_scale_);
 }
 
 void Lexicographic::solve_first_bounds(int k) {
@@ -236,7 +237,7 @@ void Lexicographic::solve_first_bounds(int k) {
 }
 
 bool Lexicographic::solve_free(double rho) {
-  active_set_.start(rows_, problem_, candidates_, rho, x_above_, x_scale_);
+  active_set_.start(rows_, problem_, candidates_, rho, x_above_, above_scale_);
   if (!active_set_.free_is_feasible()) return false;
   take(active_set_.x_free());
   values_known_ = true;

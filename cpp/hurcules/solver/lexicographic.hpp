@@ -116,7 +116,8 @@ class Lexicographic : public Method {
   bool restored_ = false;        // they come from a snapshot
   std::vector<KeptRow> found_;   // by the active set, for the settled level
   std::vector<char> listed_;     // (rows)
-  double x_scale_ = 1.0;         // max(1, |x_above_|)
+  double above_scale_ = 1.0;     // max(1, |x_above_|)
+  double x_scale_ = 1.0;         // max(1, |x_|), of the last answer that was proven
   std::size_t begin_held_ = 0;
   int begin_norm_ = 0;
   bool values_known_ = false;  // candidates_.value belongs to x_

@@ -16,7 +16,7 @@ bool Lexicographic::solve(Way way, double rho, int k) {
 
 bool Lexicographic::solve_kept(double rho, int k) {
   const std::span kept(kept_.data() + kept_begin_[k], kept_.data() + kept_begin_[k + 1]);
-  if (!kept_level_.solve(rows_, problem_, candidates_, rho, x_scale_, kept, x_)) return false;
+  if (!kept_level_.solve(rows_, problem_, candidates_, rho, above_scale_, kept, x_)) return false;
   kept_level_.keep(rho * rho, held_);
   begin_norm_ = static_cast<int>(held_.size());
   return values_known_ = true;
@@ -24,7 +24,7 @@ bool Lexicographic::solve_kept(double rho, int k) {
 
 bool Lexicographic::solve_regularized(Way way, double rho, int k) {
   if (way == Way::Warm && solve_kept(rho, k)) return true;
-  active_set_.start(rows_, problem_, candidates_, rho, x_above_, x_scale_);
+  active_set_.start(rows_, problem_, candidates_, rho, x_above_, above_scale_);
   const bool done = way == Way::Warm ? find_warm(k) : find_cold();
   if (!done) {
     take(way == Way::Warm ? x_above_ : active_set_.x_feasible());
@@ -44,7 +44,7 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
     return true;
   }
   const double epsilon = std::max(rho, tolerance::kProximal * problem_.own_norm());
-  active_set_.start(rows_, problem_, candidates_, epsilon, x_above_, x_scale_);
+  active_set_.start(rows_, problem_, candidates_, epsilon, x_above_, above_scale_);
   if (find_cold()) return settle_held(rho, epsilon);
   take(active_set_.x_feasible());
   return false;
@@ -52,12 +52,12 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
 
 bool Lexicographic::solve_carefully(double rho) {
   ++solution_.factorizations;
-  careful_level_.start(rows_, *chain_, problem_, x_above_, x_scale_);
+  careful_level_.start(rows_, *chain_, problem_, x_above_, above_scale_);
   return careful_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {
-  settled_level_.start(rows_, *chain_, problem_, candidates_, x_above_, x_above_, x_scale_);
+  settled_level_.start(rows_, *chain_, problem_, candidates_, x_above_, x_above_, above_scale_);
   for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
     settled_level_.hold(kept_[h].row, kept_[h].side, kept_[h].role);
   }
@@ -70,7 +70,7 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
   for (const ActiveSlot& slot : active_set_.slots()) {
     largest = std::max(largest, scale * slot.multiplier);
   }
-  const double least = problem_.least_settling(largest, x_scale_);
+  const double least = problem_.least_settling(largest, above_scale_);
   found_.clear();
   for (const ActiveSlot& slot : active_set_.slots()) {
     const bool settles = scale * slot.multiplier > least || problem_.has_slack(rows_[slot.row]);
@@ -78,7 +78,8 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
   }
   ++solution_.factorizations;
   active_set_.clear();
-  settled_level_.start(rows_, *chain_, problem_, candidates_, x_above_, active_set_.x(), x_scale_);
+  settled_level_.start(rows_, *chain_, problem_, candidates_, x_above_, active_set_.x(),
+                       above_scale_);
   for (const KeptRow& row : found_) settled_level_.hold(row.row, row.side, row.role);
   return settled_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }

@@ -41,7 +41,7 @@ void SettledLevel::start(const RowTable& rows, const Chain& chain, const LevelPr
   candidates_ = &candidates;
   x_above_ = x_above;
   x_scale_ = x_scale;
-  relative_ = tolerance::kBroken * x_scale;
+  size_ = x_scale;
   std::copy_n(x, rows.stride(), x_.data());
   rows.values(level.level() + 1, x, candidates.value.data());
   if (worst_above(x_scale) > 0.0) {
@@ -102,7 +102,7 @@ void SettledLevel::release() {
 }
 
 double SettledLevel::allowed(int row) const {
-  return relative_ * (*rows_)[row].norm;
+  return tolerance::kBroken * size_ * (*rows_)[row].norm;
 }
 
 double SettledLevel::beyond(const Held& held) const {
@@ -156,11 +156,12 @@ bool SettledLevel::advance(Budget& budget) {
   const Index count = rows_->candidates(level_->level() + 1);
   double *value = candidates_->value.data(), *target = candidates_->target.data();
   const kernels::LimitArrays limits = candidates_->limits(*rows_);
-  const bool inside = kernels::chosen->worst_excess(count, target, limits, relative_, 0.0) <= 0.0;
+  const double relative = tolerance::kBroken * size_;
+  const bool inside = kernels::chosen->worst_excess(count, target, limits, relative, 0.0) <= 0.0;
   if (!inside && hold_violated()) return true;
   const kernels::Blocking blocking =
       inside ? kernels::Blocking()
-             : kernels::chosen->first_blocking(count, value, target, limits, relative_, 0.0);
+             : kernels::chosen->first_blocking(count, value, target, limits, relative, 0.0);
   const double way = blocking.candidate < 0 ? 1.0 : blocking.way;
   kernels::chosen->advance(rows_->stride(), way, target_.data(), x_.data());
   if (blocking.candidate < 0) {
@@ -201,7 +202,7 @@ bool SettledLevel::mend_own() {
 bool SettledLevel::mend_weak() {
   double largest = 0.0;
   for (const Held& held : all_) largest = std::max(largest, std::abs(held.multiplier));
-  const double least = level_->least_settling(largest, x_scale_);
+  const double least = level_->least_settling(largest, size_);
   bool moved = false;
   for (Index i = end_[kLimits] - 1; i >= 0; --i) {
     const Held held = group_[kLimits][i];
@@ -269,7 +270,8 @@ bool SettledLevel::solve(double rho, Budget& budget, double* x, std::vector<Held
   const Index most = 4 * (level_->free() + 8);
   for (Index round = 0; round < most && !budget.spent(); ++round) {
     answer(rho);
-    if (!std::isfinite(kernels::chosen->largest(rows_->stride(), target_.data()))) break;
+    size_ = std::max(x_scale_, kernels::chosen->largest(rows_->stride(), target_.data()));
+    if (!std::isfinite(size_)) break;
     if (mend_unmet() || advance(budget) || mend_own()) continue;
     balance_violation(rho);
     if (mend_weak()) continue;

@@ -23,8 +23,8 @@ namespace hurcules {
 class SettledLevel {
  public:
   void reserve(Index unknowns, Index rows);
-  // A level from x_above, from the point `x`, or x_above where `x` breaks a row above. x_scale is
-  // what rounding in x is relative to.
+  // A level from x_above, of size x_scale, from the point `x`, or x_above where `x` breaks a row
+  // above.
   void start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
              Candidates& candidates, const double* x_above, const double* x, double x_scale);
   // holds a row from the beginning
@@ -80,7 +80,7 @@ class SettledLevel {
   const LevelProblem* level_ = nullptr;
   Candidates* candidates_ = nullptr;
   const double* x_above_ = nullptr;
-  double relative_ = 0.0, x_scale_ = 1.0;
+  double x_scale_ = 1.0, size_ = 1.0;  // of x_above; of the target, too
   std::vector<Held> group_[kGroups], all_, ignored_;
   Index end_[kGroups] = {}, rank_[kGroups] = {};
   OrthogonalFactor factor_;
