@@ -43,9 +43,9 @@ bool Candidates::violated(const RowTable& rows, int level, const PaddedVector& v
                                        tolerance::kBroken * x_scale, 0.0) > 0.0;
 }
 
-void Candidates::close(const RowTable& rows, int level, double x_scale) {
-  // as long as every row is within what it was asked for there is nothing to do
-  widened_ = widened_ || violated(rows, level, value, x_scale);
+void Candidates::close(const RowTable& rows, int level, double x_scale, bool held) {
+  // as long as no row stands at a limit or beyond there is nothing to do
+  widened_ = widened_ || held || violated(rows, level, value, x_scale);
   if (!widened_) {
     std::swap(above, value);
     return;

@@ -17,9 +17,11 @@ class Candidates {
   // the rows of `level` count from here on, as asked for; `x`, where the levels above ended, gives
   // their values
   void open(const RowTable& rows, int level, const double* x);
-  // the level is solved, with `value` at its answer: its rows and those above may not get worse.
-  // What is broken by rounding in x (of size x_scale) counts as held.
-  void close(const RowTable& rows, int level, double x_scale);
+  // The level is solved, with `value` at its answer: its rows and those above may not get worse.
+  // What is within rounding in x (of size x_scale) of a limit, on either side, is limited where it
+  // is: more rows may meet in a point than there are directions, and only those values agree on it.
+  // `held`: some row was held.
+  void close(const RowTable& rows, int level, double x_scale, bool held);
 
   // some inequality row of `level` is violated at `value`, beyond rounding in x of size x_scale
   [[nodiscard]] static bool violated(const RowTable& rows, int level, const PaddedVector& value,
@@ -41,7 +43,7 @@ class Candidates {
 
  private:
   PaddedVector lower_, upper_;
-  bool widened_ = false;  // some row is beyond what it was asked for
+  bool widened_ = false;  // some row may be at a limit, or beyond
 };
 
 }  // namespace hurcules

@@ -84,7 +84,8 @@ struct Table {
   // by how much candidates got worse from `before` to `now`: the largest  now - max(upper, before)
   // or  min(lower, before) - now,  relative to their norms
   double (*worsened)(Size size, const double* before, const double* now, LimitArrays limits);
-  // lower and upper as asked for, or the value where it is beyond by more than relative * norm
+  // lower and upper as asked for, or the value where it is beyond, or inside by less than
+  // relative * norm
   void (*widen)(Size size, const double* value, LimitArrays asked, double relative, double* lower,
                 double* upper);
 };

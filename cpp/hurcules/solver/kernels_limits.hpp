@@ -95,8 +95,8 @@ void widen(Size size, const double* value, LimitArrays asked, double relative, d
   for (Size j = 0; j < size; j += kWidth) {
     const Pack v = load(value + j), allowed = relative * load(asked.norm + j);
     const Pack low = load(asked.lower + j), high = load(asked.upper + j);
-    store(lower + j, (low - v) > allowed ? v : low);
-    store(upper + j, (v - high) > allowed ? v : high);
+    store(lower + j, v - low < allowed ? v : low);
+    store(upper + j, high - v < allowed ? v : high);
   }
 }
 

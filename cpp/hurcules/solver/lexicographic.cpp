@@ -104,7 +104,7 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
     if (uses_svd()) svd_.start(rows_, *chain_, k);
     const bool done = solve_level(hierarchy[k], k);
     active_set_.clear();
-    candidates_.close(rows_, k, x_scale_);
+    candidates_.close(rows_, k, x_scale_, held_.size() > begin_held_);
     if (!done) break;
     ++solution_.final_levels;
     chains_.close(rows_, svd_, k);
