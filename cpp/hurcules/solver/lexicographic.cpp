@@ -178,6 +178,14 @@ double Lexicographic::harm_above(int k) {
   return std::max(moved, worse);
 }
 
+bool Lexicographic::stays() const {
+  double longest = 0.0;
+  for (Index j = 0; j < rows_.stride(); ++j) {
+    longest = std::max(longest, std::abs(x_[j] - x_above_[j]));
+  }
+  return longest <= tolerance::kStays * x_scale_;
+}
+
 double Lexicographic::try_ways(double rho, int k, bool& done) {
   double residual = 0.0, harm = 0.0;
   bool proven = false;
@@ -186,6 +194,14 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
     done = solve(way, rho, k);
     residual = prove(way, rho, k);
     harm = believed(way) ? 0.0 : harm_above(k);
+    // in a crowded vertex the held rows may be so near to dependent that rounding on them harms
+    // others: where the level cannot move, x_above is its answer, too
+    if (done && harm > tolerance::kHarm && stays()) {
+      take(x_above_);
+      values_known_ = false;
+      residual = prove(way, rho, k);
+      harm = 0.0;
+    }
     residual = std::max(residual, harm);
     proven = done && !raised_ && residual <= tolerance::kProven;
   };

@@ -80,6 +80,8 @@ class Lexicographic : public Method {
   [[nodiscard]] bool believed(Way way) const;
   // by how much rows above moved or got worse, relative to |a| |x|
   double harm_above(int k);
+  // the answer is x_above_, to rounding
+  [[nodiscard]] bool stays() const;
   void lose_precision(int k);
   // no kept rows where they do not fit the present rows
   void check_kept();
