@@ -29,6 +29,38 @@ void expect_solved(const Hierarchy& levels, Index unknowns) {
   EXPECT_LE(verdict.smallest, 1e-9);
 }
 
+TEST(SolverFound, AWeakRowTakesXFarAway) {
+  // x is 1e3 to 1e6 where the level begins at 0
+  expect_solved({interval(Matrix{{3.0, 3.0, 3.0}, {0.0, 0.0, 1e-4}}, Vector{{3.0, 0.5}},
+                          Vector{{5.0, 1.0}}, 1e-8)},
+                3);
+  expect_solved({interval(Matrix{{18.0, 27.0, 1.0},
+                                 {35.995605478750001, 53.993408203125, 53.993414202392579},
+                                 {-36.0, -54.0, 0.0}},
+                          Vector{{3.0, 3.0, 0.0}}, Vector{{5.0, 5.0, kInf}}, 1e-8)},
+                3);
+}
+
+TEST(SolverFound, AWeakRowTakesXFarAwayFromLimitsAbove) {
+  expect_solved({interval(Matrix{{0.0, 1.0, 3.0, -2.0}}, Vector{{3.0}}, Vector{{5.0}}, 0.0),
+                 equality(Matrix{{0.0005, 1.0001, 500.0, 0.25}, {0.001, 2.0, 1000.0, 0.5}},
+                          Vector{{-0.5, -2.0}}, 0.0)},
+                4);
+  expect_solved({interval(Matrix{{0.0, 0.0, 1.0, 0.0, 0.0}}, Vector{{0.5}}, Vector{{1.0}}, 0.0),
+                 equality(Matrix{{0.5, 0.0, 0.0, 0.5, 0.5}}, Vector{{-0.5}}, 0.0),
+                 equality(Matrix{{0.25, 500.0, 0.0, 0.25, 0.2501},
+                                 {0.0, 0.0, 0.0, -0.001, 1.9375},
+                                 {0.001, 0.001, 0.001, 0.001, 0.001}},
+                          Vector{{-0.5, 0.001, 0.001}}, 0.0)},
+                5);
+  expect_solved(
+      {interval(Matrix{{0.0, 0.0, 0.001, 1.0, 0.0}}, Vector{{1.9375}}, Vector{{2.9375}}, 0.0),
+       make_bounds(Vector{{-kInf, -kInf, -kInf, -kInf, -kInf}},
+                   Vector{{kInf, kInf, 2.0 + 1e-14, -999.999, kInf}}),
+       equality(Matrix{{0.001, 0.001, 0.001, 0.001, 0.001}}, Vector{{0.001}}, 0.0)},
+      5);
+}
+
 TEST(SolverFound, ABoundBelowPullsAgainstAOneSidedBoundAbove) {
   const Hierarchy levels = {
       make_bounds(Vector{{0.25, 0.5, -kInf}}, Vector{{0.25, 1.5, -0.75}}),

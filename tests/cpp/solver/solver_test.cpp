@@ -142,6 +142,33 @@ TEST(Solver, AnInterruptedSolveKeepsTheLevelsAbove) {
   }
 }
 
+// In a crowded corner of the box more limits meet than there are directions. Each level stands on
+// others of them: were their rounding of x not one and the same, it would grow from level to level.
+TEST(Solver, ManyLevelsInACornerTakeOneFactorizationALevel) {
+  const Index n = 57;
+  const Vector ones = Vector::Ones(n);
+  for (const double rho : {0.1, 0.0}) {
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      RandomHierarchy random(seed);
+      Hierarchy levels = {make_bounds(-ones, ones)};
+      for (Index k = 0; k < n / 3; ++k) {
+        levels.push_back(random.equality(3, n, rho));
+        levels.back().A.rowwise().normalize();
+      }
+      Solver solver(n);
+      const Solution cold = solver.solve(levels);
+      EXPECT_EQ(to_string(cold.status), "solved");
+      EXPECT_LE(cold.violations[0].lpNorm<Eigen::Infinity>(), 5e-13) << "seed " << seed;
+      // without regularisation a level is sought and then settled
+      const int levels_count = static_cast<int>(levels.size());
+      EXPECT_LE(cold.factorizations, rho > 0.0 ? levels_count : 2 * levels_count);
+      const Solution& warm = solver.solve(levels);
+      EXPECT_EQ(warm.factorizations, levels_count) << "seed " << seed << ", rho " << rho;
+      EXPECT_EQ(warm.changes, 0) << "seed " << seed << ", rho " << rho;
+    }
+  }
+}
+
 TEST(Solver, WarmAndUnchangedTakesOneFactorizationALevel) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     const Hierarchy levels = RandomHierarchy(seed).conflicting(12, 0.1);
