@@ -14,6 +14,9 @@ using Long = long double;
 
 // forces below this part of |a|^2 |x| are not told from rounding
 constexpr Long kLeastForce = 1e-3L;
+// what is left of a row that counts is rounding: a tenth of what the quicker ways take for it
+// (tolerance::kOwnRank), because nothing but the coordinates is in double here
+constexpr double kOwnRank = 1e-14;
 // a held row that has less than this outside the rows before it is held by them
 constexpr Long kImplied = 1e-12L;
 
@@ -32,7 +35,7 @@ void CarefulLevel::build_basis(State first) {
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     if (!counts(lines_[i])) continue;
     // the coordinates come from directions in double; a weak row magnifies their rounding
-    const Long rounding = tolerance::kOwnRank / basis_.weakest();
+    const Long rounding = kOwnRank / basis_.weakest();
     basis_.add(coordinates(i), i, std::min<Long>(tolerance::kRank, rounding));
   }
   if (first != State::Held) add_state(State::Held);
