@@ -50,6 +50,9 @@ struct Table {
   void (*dots)(const double* rows, Size count, Size stride, const double* x, double* out);
   // y += sum_i s[i] row i
   void (*axpys)(const double* rows, Size count, Size stride, const double* s, double* y);
+  // v loses its parts along orthonormal rows, which are added to part[i] (a multiple of four of
+  // them); |v|^2 then
+  double (*project)(const double* rows, Size count, Size stride, double* v, double* part);
   // One step of Gram-Schmidt: coordinates[i * stride] = scale (pivot . row i), and the row loses
   // its part along the pivot: row i -= scale^2 (pivot . row i) pivot. Takes four rows at a time: up
   // to three rows behind the last are read and written.

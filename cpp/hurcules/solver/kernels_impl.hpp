@@ -95,16 +95,24 @@ void rotate(Size size, double c, double s, double* a, double* b) {
   }
 }
 
-inline void four_dots(const double* rows, Size stride, const double* x, double* out) {
+struct FourRows {
+  const double *a, *b, *c, *d;
+};
+
+inline void four_dots(FourRows rows, Size size, const double* x, double* out) {
   Pack a = {}, b = {}, c = {}, d = {};
-  for (Size j = 0; j < stride; j += kWidth) {
+  for (Size j = 0; j < size; j += kWidth) {
     const Pack v = load(x + j);
-    a += v * load(rows + j);
-    b += v * load(rows + stride + j);
-    c += v * load(rows + 2 * stride + j);
-    d += v * load(rows + 3 * stride + j);
+    a += v * load(rows.a + j);
+    b += v * load(rows.b + j);
+    c += v * load(rows.c + j);
+    d += v * load(rows.d + j);
   }
   sums(a, b, c, d, out);
+}
+
+inline void four_dots(const double* r, Size stride, const double* x, double* out) {
+  four_dots({r, r + stride, r + 2 * stride, r + 3 * stride}, stride, x, out);
 }
 
 void dots(const double* rows, Size count, Size stride, const double* x, double* out) {
@@ -116,7 +124,20 @@ void dots(const double* rows, Size count, Size stride, const double* x, double* 
   for (Size l = 0; i < count; ++i, ++l) out[i] = last[l];
 }
 
-void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
+// y in registers while the rows pass
+template <int packs>
+void axpys_of(const double* rows, Size count, Size stride, const double* s, double* y) {
+  Pack sum[packs];
+  for (int p = 0; p < packs; ++p) sum[p] = load(y + p * kWidth);
+  for (Size i = 0; i < count; ++i) {
+    const double* r = rows + i * stride;
+    const Pack scale = spread(s[i]);
+    for (int p = 0; p < packs; ++p) sum[p] += scale * load(r + p * kWidth);
+  }
+  for (int p = 0; p < packs; ++p) store(y + p * kWidth, sum[p]);
+}
+
+void axpys_of_any(const double* rows, Size count, Size stride, const double* s, double* y) {
   Size i = 0;
   for (; i + 4 <= count; i += 4) {
     const double* r = rows + i * stride;
@@ -128,14 +149,56 @@ void axpys(const double* rows, Size count, Size stride, const double* s, double*
       store(y + j, load(y + j) + (left + right));
     }
   }
-  for (; i + 2 <= count; i += 2) {
-    const double* r = rows + i * stride;
-    const Pack s0 = spread(s[i]), s1 = spread(s[i + 1]);
+  for (; i < count; ++i) axpy(stride, s[i], rows + i * stride, y);
+}
+
+void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
+  switch (stride / kWidth) {
+    case 1:
+      return axpys_of<1>(rows, count, stride, s, y);
+    case 2:
+      return axpys_of<2>(rows, count, stride, s, y);
+    case 3:
+      return axpys_of<3>(rows, count, stride, s, y);
+    case 4:
+      return axpys_of<4>(rows, count, stride, s, y);
+    case 5:
+      return axpys_of<5>(rows, count, stride, s, y);
+    case 6:
+      return axpys_of<6>(rows, count, stride, s, y);
+    case 8:
+      return axpys_of<8>(rows, count, stride, s, y);
+    case 10:
+      return axpys_of<10>(rows, count, stride, s, y);
+    default:
+      return axpys_of_any(rows, count, stride, s, y);
+  }
+}
+
+double project(const double* rows, Size count, Size stride, double* v, double* part) {
+  Pack left = {};
+  for (Size i = 0; i < count; i += 4) {
+    // in place of rows behind the last, that row once more, and no part of it
+    const Size last = count - 1;
+    const auto row = [&](Size l) { return rows + (i + l < last ? i + l : last) * stride; };
+    const FourRows r = {row(0), row(1), row(2), row(3)};
+    double p[4];
+    four_dots(r, stride, v, p);
+    for (Size l = 0; l < 4; ++l) {
+      if (i + l > last) p[l] = 0.0;
+      part[i + l] += p[l];
+    }
+    const Pack p0 = spread(p[0]), p1 = spread(p[1]), p2 = spread(p[2]), p3 = spread(p[3]);
+    left = Pack{};
     for (Size j = 0; j < stride; j += kWidth) {
-      store(y + j, load(y + j) + (s0 * load(r + j) + s1 * load(r + stride + j)));
+      const Pack near = p0 * load(r.a + j) + p1 * load(r.b + j);
+      const Pack far = p2 * load(r.c + j) + p3 * load(r.d + j);
+      const Pack rest = load(v + j) - (near + far);
+      store(v + j, rest);
+      left += rest * rest;
     }
   }
-  if (i < count) axpy(stride, s[i], rows + i * stride, y);
+  return sum(left);
 }
 
 // with_side: side[i] -= part of row i times `value`, too
@@ -316,6 +379,7 @@ constexpr Table kTable = {
     .rotate = rotate,
     .dots = dots,
     .axpys = axpys,
+    .project = project,
     .eliminate = eliminate,
     .copy_rows = copy_rows,
     .scaled_difference = scaled_difference,

@@ -144,13 +144,30 @@ void LevelProblem::factor_by_householder(const double* residual) {
   }
 }
 
+template <int fixed>
 void LevelProblem::solve_triangular(double scale, const double* b) {
   const double* R = R_.data();
   double* t = t_.data();
-  for (Index j = own_ - 1; j >= 0; --j) {
+  const Index q = fixed > 0 ? fixed : own_;
+  for (Index j = q - 1; j >= 0; --j) {
     double sum = scale * b[j];
-    for (Index l = j + 1; l < own_; ++l) sum -= R[j * own_ + l] * t[l];
+    for (Index l = j + 1; l < q; ++l) sum -= R[j * q + l] * t[l];
     t[j] = sum * inverse_[j];
+  }
+}
+
+void LevelProblem::solve_triangular(double scale, const double* b) {
+  switch (own_) {
+    case 0:
+      return;
+    case 1:
+      return solve_triangular<1>(scale, b);
+    case 2:
+      return solve_triangular<2>(scale, b);
+    case 3:
+      return solve_triangular<3>(scale, b);
+    default:
+      return solve_triangular<0>(scale, b);
   }
 }
 

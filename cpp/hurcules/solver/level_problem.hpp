@@ -75,6 +75,8 @@ class LevelProblem {
   void factor_by_householder(const double* residual);
   // t = R^-1 scale b
   void solve_triangular(double scale, const double* b);
+  template <int fixed>
+  void solve_triangular(double scale, const double* b);
   // own = R^-T scale own, in place
   template <int fixed>
   void solve_transposed(double scale, double* own) const;

@@ -7,6 +7,8 @@ namespace hurcules {
 namespace {
 
 constexpr int kMostCleanings = 3;
+// a row that keeps this part in a cleaning is clean (squared)
+constexpr double kEnough = 0.1;
 // what is left is noise altogether (squared)
 constexpr double kNothing = 1e-36;
 
@@ -31,17 +33,13 @@ void OrthogonalFactor::start(Index rows, Index columns) {
 
 double OrthogonalFactor::project(double* v, double* part, double norm2) const {
   const kernels::Table& kernel = *kernels::chosen;
-  std::fill_n(part, rank_, 0.0);
+  std::fill_n(part, padded(rank_), 0.0);
   double left = norm2;
   for (int pass = 0; pass < kMostCleanings && rank_ > 0; ++pass) {
-    kernel.dots(Q_.row(0), rank_, stride(), v, part_.data());
-    for (Index j = 0; j < rank_; ++j) part[j] += part_[j];
-    for (Index j = 0; j < rank_; ++j) part_[j] = -part_[j];
-    kernel.axpys(Q_.row(0), rank_, stride(), part_.data(), v);
     const double before = left;
-    left = kernel.dot(stride(), v, v);
+    left = kernel.project(Q_.row(0), rank_, stride(), v, part);
     // twice is enough, unless nearly nothing was left
-    if (left >= 0.1 * before || left <= kNothing * norm2) break;
+    if (left >= kEnough * before || left <= kNothing * norm2) break;
   }
   return left;
 }
