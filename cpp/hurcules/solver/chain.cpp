@@ -7,6 +7,13 @@
 
 namespace hurcules {
 
+namespace {
+
+// a unit vector that keeps this part outside the span needs no second cleaning (squared)
+constexpr double kWhole = 0.05;
+
+}  // namespace
+
 void Chain::reserve(Index unknowns, Index rows, Index levels) {
   factor_.reserve(rows, unknowns);
   transposed_.reserve(padded(unknowns), unknowns);
@@ -41,17 +48,7 @@ void Chain::complete(const RowTable& rows) {
   const Index n = unknowns(), first = factor_.rank();
   if (first < n) find_rest();
 
-  while (factor_.rank() < n) {
-    const Index b = std::max_element(rest_.data(), rest_.data() + n) - rest_.data();
-    double* q = factor_.row(rows.dense());  // a free row behind all others
-    std::fill_n(q, stride(), 0.0);
-    q[b] = 1.0;
-    const double left = factor_.project(q, part_.data(), 1.0);
-    const double scale = 1.0 / std::sqrt(left);
-    double* direction = factor_.push_direction();
-    for (Index j = 0; j < stride(); ++j) direction[j] = scale * q[j];
-    for (Index j = 0; j < n; ++j) rest_[j] -= direction[j] * direction[j];
-  }
+  while (factor_.rank() < n) add_direction(rows);
   if (!basis_.whole()) find_images(first);
   for (int d = rows.equalities(); first < n && d < rows.dense(); ++d) {
     kernel.dots(factor_.direction(first), n - first, stride(), factor_.rest(d),
@@ -64,12 +61,26 @@ void Chain::complete(const RowTable& rows) {
 
 // what each unit vector still has outside the span, squared
 void Chain::find_rest() {
-  const Index n = unknowns();
-  for (Index b = 0; b < n; ++b) rest_[b] = 1.0;
-  for (Index j = 0; j < factor_.rank(); ++j) {
-    const double* q = factor_.direction(j);
-    for (Index b = 0; b < n; ++b) rest_[b] -= q[b] * q[b];
-  }
+  std::fill_n(rest_.data(), stride(), 1.0);
+  kernels::chosen->take_squares(factor_.direction(0), factor_.rank(), stride(), rest_.data());
+}
+
+// that of the unit vector which has most left outside the span
+void Chain::add_direction(const RowTable& rows) {
+  const kernels::Table& kernel = *kernels::chosen;
+  const Index rank = factor_.rank();
+  const Index b = std::max_element(rest_.data(), rest_.data() + unknowns()) - rest_.data();
+  double* q = factor_.row(rows.dense());  // a free row behind all others
+  std::fill_n(q, stride(), 0.0);
+  q[b] = 1.0;
+  // its parts are numbers of the directions
+  for (Index j = 0; j < rank; ++j) part_[j] = -factor_.direction(j)[b];
+  kernel.axpys(factor_.direction(0), rank, stride(), part_.data(), q);
+  double left = kernel.dot(stride(), q, q);
+  if (left < kWhole) left = factor_.project(q, part_.data(), left);
+  double* direction = factor_.push_direction();
+  kernel.scale(stride(), 1.0 / std::sqrt(left), q, direction);
+  kernel.take_squares(direction, 1, stride(), rest_.data());
 }
 
 void Chain::remove_first(Index r, double* y) {

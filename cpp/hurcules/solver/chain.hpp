@@ -63,6 +63,7 @@ class Chain {
  private:
   void build_levels(const RowTable& rows, int first);
   void find_rest();
+  void add_direction(const RowTable& rows);
   void find_images(Index from);
 
   OrthogonalFactor factor_;

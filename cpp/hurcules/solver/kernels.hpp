@@ -67,6 +67,8 @@ struct Table {
   // the largest  |row i . x| / norm[i],  rows of no length left out
   double (*largest_way)(const double* rows, Size count, Size stride, const double* x,
                         const double* norm);
+  // rest[b] -= row i [b]^2 for all rows
+  void (*take_squares)(const double* rows, Size count, Size stride, double* rest);
   // columns of `count` rows become rows of `out`, as many as rows are long; all `stride` apart,
   // count and stride multiples of four
   void (*transpose)(const double* rows, Size count, Size stride, double* out);

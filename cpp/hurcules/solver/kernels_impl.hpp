@@ -323,6 +323,17 @@ double scaled_difference(Size size, double s, const double* a, const double* b, 
   return sum(total);
 }
 
+void take_squares(const double* rows, Size count, Size stride, double* rest) {
+  for (Size j = 0; j < stride; j += kWidth) {
+    Pack left = load(rest + j);
+    for (Size i = 0; i < count; ++i) {
+      const Pack q = load(rows + i * stride + j);
+      left -= q * q;
+    }
+    store(rest + j, left);
+  }
+}
+
 double norm2_along(const double* rows, Size count, Size stride, const double* x) {
   double total = 0.0;
   double part[4];
@@ -385,6 +396,7 @@ constexpr Table kTable = {
     .scaled_difference = scaled_difference,
     .norm2_along = norm2_along,
     .largest_way = largest_way,
+    .take_squares = take_squares,
     .transpose = transpose,
     .take_directions = take_directions,
     .norms2 = norms2,
