@@ -23,7 +23,7 @@ void KeptLevel::reserve(Index unknowns, Index most_rows, Index most_own) {
   factor_.reserve(most_rows, width);
   slots_.resize(std::max<std::size_t>(slots_.size(), most_rows));
   y_.reserve(padded(width));
-  for (PaddedVector* v : {&norm2_, &g_, &change_}) v->reserve(most_rows + 4);
+  for (PaddedVector* v : {&norm2_, &g_, &change_, &multiplier_}) v->reserve(most_rows + 4);
 }
 
 bool KeptLevel::solve(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
@@ -53,9 +53,10 @@ bool KeptLevel::factor(std::span<const KeptRow> kept) {
     const Index c = row.candidate;
     const double limit = up ? candidates_->upper(c) : candidates_->lower(c);
     if (std::isinf(limit)) return false;
-    slots_[i] = {&row, kept[i].row, kept[i].side, limit, 0.0};
-    problem_->image(row, sign, factor_.row(i));
-    g_[i] = sign * (limit - (candidates_->above[c] + problem_->way_to_free(row)));
+    slots_[i] = {&row, kept[i].row, kept[i].side, limit};
+    double* image = factor_.row(i);
+    problem_->image(row, sign, image);
+    g_[i] = sign * (limit - candidates_->above[c]) - problem_->way_to_free(image);
   }
   kernels::chosen->norms2(factor_.row(0), size_, factor_.stride(), norm2_.data());
   for (Index i = 0; i < size_; ++i) {
@@ -68,17 +69,16 @@ bool KeptLevel::factor(std::span<const KeptRow> kept) {
 }
 
 bool KeptLevel::find_multipliers() {
-  double largest = 0.0;
+  double* multiplier = multiplier_.data();
+  double largest = 0.0, most = 0.0, least = 0.0;
   for (Index i = 0; i < size_; ++i) {
-    change_[i] = -g_[i];
+    multiplier[i] = -g_[i];
     largest = std::max(largest, std::abs(g_[i]));
   }
-  factor_.solve_transposed(change_.data(), tolerance::kNoise * largest);
-  double most = 0.0, least = 0.0;
+  factor_.solve_transposed(multiplier, tolerance::kNoise * largest);
   for (Index i = 0; i < size_; ++i) {
-    slots_[i].multiplier = change_[i];
-    most = std::max(most, change_[i]);
-    least = std::min(least, change_[i]);
+    most = std::max(most, multiplier[i]);
+    least = std::min(least, multiplier[i]);
   }
   return least >= -tolerance::kNegativeWarm * most;
 }
@@ -132,7 +132,7 @@ bool KeptLevel::none_broken(double x_scale) {
 void KeptLevel::keep(double scale, std::vector<HeldRow>& held) const {
   for (Index i = 0; i < size_; ++i) {
     const Slot& slot = slots_[i];
-    held.push_back({slot.place, slot.side, scale * slot.multiplier, Role::Violation});
+    held.push_back({slot.place, slot.side, scale * multiplier_[i], Role::Violation});
   }
 }
 

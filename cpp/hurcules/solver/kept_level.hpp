@@ -37,7 +37,6 @@ class KeptLevel {
     int place;  // of the row in the table
     Side side;
     double limit;
-    double multiplier;
   };
 
   bool factor(std::span<const KeptRow> kept);
@@ -56,7 +55,7 @@ class KeptLevel {
   OrthogonalFactor factor_;
   std::vector<Slot> slots_;
   Index size_ = 0;  // slots in use
-  PaddedVector norm2_, g_, y_, change_;
+  PaddedVector norm2_, g_, multiplier_, y_, change_;
 };
 
 }  // namespace hurcules

@@ -212,6 +212,7 @@ void LevelProblem::factor(double rho, const double* residual) {
 
 void LevelProblem::solve_free(double rho) {
   factor(rho, r_above_.data());
+  per_rho_ = 1.0 / rho;
   std::copy_n(t_.data(), own_, t_free_.data());
 }
 

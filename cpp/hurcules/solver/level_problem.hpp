@@ -52,12 +52,11 @@ class LevelProblem {
   void step(const double* y, const double* x_free, double* x);
   // x = x_above + the step of solve_free(rho) + what y moves
   void step(const double* y, double* x);
-  // by how much the step of solve_free(rho) moves a row
-  [[nodiscard]] double way_to_free(const Row& row) const {
-    const double* e = chain_->coordinates(row) + first_;
+  // by how much the step of solve_free(rho) moves the row whose image is m: e_1 t = m_1 c / rho
+  [[nodiscard]] double way_to_free(const double* m) const {
     double sum = 0.0;
-    for (Index j = 0; j < own_; ++j) sum += e[j] * t_free_[j];
-    return sum;
+    for (Index j = 0; j < own_; ++j) sum += m[lead_ + j] * c_[j];
+    return sum * per_rho_;
   }
   // rho w of an own inequality row
   [[nodiscard]] double slack(const Row& row, const double* y) const {
@@ -91,7 +90,7 @@ class LevelProblem {
   int level_ = 0;
   Index first_ = 0, own_ = 0, free_ = 0, slacks_ = 0, equalities_ = 0;
   Index lead_ = 0, body_ = 0;
-  double rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0;
+  double rho_ = 0.0, per_rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0;
   PaddedVector R_;                         // (own, own) upper triangular, rows own_ apart
   Matrix stacked_;                         // Householder's block
   PaddedVector inverse_, c_;               // 1 / diagonal; R^-T Lk' r

@@ -60,13 +60,16 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
   const double rho2 = record.rho * record.rho;
   double scale = std::sqrt(kernels::chosen->scaled_difference(size, rho2, x, x_above, g));
   scale += add_own_rows(rows, candidates, k, x, g);
-  scale += add_held_rows(rows, k, record, held, g);
+  const Forces forces = add_held_rows(rows, candidates, k, record, held, g);
+  scale += forces.scale;
   const double unbalanced = unbalanced_force(chain, k, x_above, x, rho2, g);
   // what is left against the forces that balance; a level that is met has none, only the rounding
   // of its rows
   const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
   double worst = scale > 0.0 ? unbalanced / std::max(scale, least) : 0.0;
-  worst = std::max(worst, worst_held(rows, candidates, k, record, held, x_scale));
+  if (forces.largest > 0.0) {
+    worst = std::max(worst, std::max(forces.pull, forces.apart / x_scale) / forces.largest);
+  }
   record.worsened = worsened(rows, candidates, k) / x_scale;
   worst = std::max(worst, record.worsened);
   if (!chain.basis().whole()) worst = std::max(worst, moved(rows, chain, k, x_above, x) / x_scale);
@@ -87,43 +90,32 @@ double Optimality::unbalanced_force(Chain& chain, int k, const double* x_above, 
   return norm_of(size, work_.data());
 }
 
-// adds what rows above push to g; returns  sum mu |a|
-double Optimality::add_held_rows(const RowTable& rows, int k, const LevelRecord& record,
-                                 const std::vector<HeldRow>& held, double* g) {
-  double scale = 0.0;
+// adds what rows above push to g
+Optimality::Forces Optimality::add_held_rows(const RowTable& rows, const Candidates& candidates,
+                                             int k, const LevelRecord& record,
+                                             const std::vector<HeldRow>& held, double* g) {
+  Forces forces;
   for (int h = record.first_held; h < record.first_held + record.held; ++h) {
     const Row& row = rows[held[h].row];
+    const bool up = held[h].side == Side::Upper;
+    const double multiplier = held[h].multiplier, size = std::abs(multiplier);
+    forces.largest = std::max(forces.largest, size);
+    forces.pull = std::max(forces.pull, -multiplier);
     if (row.level == k) continue;
-    const double push = static_cast<double>(held[h].side) * held[h].multiplier;
-    scale += std::abs(push) * row.norm;
+    forces.scale += size * row.norm;
+    const double push = up ? multiplier : -multiplier;
     if (row.dense < 0) {
       g[row.row] += push;
     } else {
       rows.add_to(held[h].row, push, g);
     }
-  }
-  return scale;
-}
-
-// signs and complementarity, relative to the largest multiplier
-double Optimality::worst_held(const RowTable& rows, const Candidates& candidates, int k,
-                              const LevelRecord& record, const std::vector<HeldRow>& held,
-                              double x_scale) const {
-  double largest = 0.0, pull = 0.0, apart = 0.0;
-  for (int h = record.first_held; h < record.first_held + record.held; ++h) {
-    const Row& row = rows[held[h].row];
-    const double multiplier = held[h].multiplier, size = std::abs(multiplier);
-    largest = std::max(largest, size);
-    pull = std::max(pull, -multiplier);
-    if (row.level == k) continue;
     // what a row above may reach: its limit, or where it stood when that was worse
     const double stood = candidates.above[row.candidate], stands = candidates.value[row.candidate];
-    const double limit =
-        held[h].side == Side::Upper ? std::max(row.upper, stood) : std::min(row.lower, stood);
+    const double limit = up ? std::max(row.upper, stood) : std::min(row.lower, stood);
     const double gap = size * std::abs(stands - limit);
-    if (gap > apart * row.norm) apart = gap / row.norm;
+    if (gap > forces.apart * row.norm) forces.apart = gap / row.norm;
   }
-  return largest > 0.0 ? std::max(pull, apart / x_scale) / largest : 0.0;
+  return forces;
 }
 
 double Optimality::moved(const RowTable& rows, const Chain& chain, int k, const double* x_above,

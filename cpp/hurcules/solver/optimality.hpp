@@ -73,11 +73,16 @@ class Optimality {
                       double* g);
   double unbalanced_force(Chain& chain, int k, const double* x_above, const double* x, double rho2,
                           double* g);
-  static double add_held_rows(const RowTable& rows, int k, const LevelRecord& record,
-                              const std::vector<HeldRow>& held, double* g);
-  [[nodiscard]] double worst_held(const RowTable& rows, const Candidates& candidates, int k,
-                                  const LevelRecord& record, const std::vector<HeldRow>& held,
-                                  double x_scale) const;
+  // what the held rows do in one level
+  struct Forces {
+    double scale = 0.0;    // sum mu |a| of rows above
+    double largest = 0.0;  // multiplier
+    double pull = 0.0;     // the most negative multiplier
+    double apart = 0.0;    // the largest mu times distance from the limit, relative to |a|
+  };
+  static Forces add_held_rows(const RowTable& rows, const Candidates& candidates, int k,
+                              const LevelRecord& record, const std::vector<HeldRow>& held,
+                              double* g);
   double norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                        const LevelRecord& record, const std::vector<HeldRow>& held,
                        double unbalanced);
