@@ -41,6 +41,7 @@ void SettledLevel::start(const RowTable& rows, const Chain& chain, const LevelPr
   candidates_ = &candidates;
   x_above_ = x_above;
   x_scale_ = x_scale;
+  remembered_ = x == x_above;
   size_ = x_scale;
   std::copy_n(x, rows.stride(), x_.data());
   rows.values(level.level() + 1, x, candidates.value.data());
@@ -132,6 +133,15 @@ void SettledLevel::answer(double rho) {
   meet(kSmallest);
   step();
   rows_->values(level_->level() + 1, target_.data(), candidates_->target.data());
+}
+
+// A limit that is held, depends on the others and is broken where they are met. Rows that were held
+// in another problem may do that, and mending such a set takes longer than a cold start.
+bool SettledLevel::contradictory() const {
+  for (Index i = 0; i < end_[kLimits]; ++i) {
+    if (beyond(all_[i]) > allowed(all_[i].row)) return true;
+  }
+  return false;
 }
 
 // a limit of the last group that the rows before it leave broken, or inside
@@ -271,7 +281,7 @@ bool SettledLevel::solve(double rho, Budget& budget, double* x, std::vector<Held
   for (Index round = 0; round < most && !budget.spent(); ++round) {
     answer(rho);
     size_ = std::max(x_scale_, kernels::chosen->largest(rows_->stride(), target_.data()));
-    if (!std::isfinite(size_)) break;
+    if (!std::isfinite(size_) || (remembered_ && contradictory())) break;
     if (mend_unmet() || advance(budget) || mend_own()) continue;
     balance_violation(rho);
     if (mend_weak()) continue;

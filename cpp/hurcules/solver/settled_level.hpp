@@ -23,8 +23,8 @@ namespace hurcules {
 class SettledLevel {
  public:
   void reserve(Index unknowns, Index rows);
-  // A level from x_above, of size x_scale, from the point `x`, or x_above where `x` breaks a row
-  // above.
+  // A level from x_above, of size x_scale, from the point `x` of the rows that will be held, or
+  // x_above where `x` breaks a row above; x_above: they are those of the last solve.
   void start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
              Candidates& candidates, const double* x_above, const double* x, double x_scale);
   // holds a row from the beginning
@@ -61,6 +61,8 @@ class SettledLevel {
   void balance_violation(double rho);
   void balance_step();
 
+  [[nodiscard]] bool contradictory() const;
+
   // Each of these changes the held rows where they are wrong, and says whether it did.
   bool mend_unmet();
   bool advance(Budget& budget);
@@ -81,6 +83,7 @@ class SettledLevel {
   Candidates* candidates_ = nullptr;
   const double* x_above_ = nullptr;
   double x_scale_ = 1.0, size_ = 1.0;  // of x_above; of the target, too
+  bool remembered_ = false;            // the first rows come without a point of theirs
   std::vector<Held> group_[kGroups], all_, ignored_;
   Index end_[kGroups] = {}, rank_[kGroups] = {};
   OrthogonalFactor factor_;
