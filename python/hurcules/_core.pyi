@@ -103,6 +103,8 @@ class LevelReport(_Given):
     @property
     def singular_values(self) -> _Vector: ...  # (min(equality rows, free directions),)
     @property
+    def handed_over(self) -> _Vector: ...  # as singular_values
+    @property
     def infeasible(self) -> _Vector: ...  # (m,)
     @property
     def regularized(self) -> _Vector: ...  # (m,)
