@@ -92,7 +92,7 @@ def main() -> None:
         loop, *others = least(calls, given.rounds).values()
         gains = (f"{loop / other:.2f}" for other in others)
         table.add_row(conflict.name, f"{1e6 * loop / given.problems:.1f}", *gains, f"{other_bits}")
-    Console(width=120).print(table)
+    Console(width=150).print(table)
 
 
 if __name__ == "__main__":
