@@ -5,8 +5,8 @@
 // 0. A level answers for B D, D any rotation, as for B: so this B is as good as the columns of the
 // solve (handed_basis.hpp), and unlike them it is differentiable where singular values meet. With
 // M = U diag(sigma) V',
-//     dPsi = V (D o (V'(M'dM + dM'M) V) + diag(dpsi)) V',   D_ij = (psi_i - psi_j) / (sigma_i^2 -
-//     sigma_j^2)
+//     dPsi = V (D o (V'(M'dM + dM'M) V) + diag(dpsi)) V',
+//     D_ij = (psi_i - psi_j) / (sigma_i^2 - sigma_j^2)
 // and dpsi what rho and the receivers change. The adapted regularisation of the level [T §4.3.3]
 // moves with its smallest singular value, d sigma = u'dM v.
 #pragma once

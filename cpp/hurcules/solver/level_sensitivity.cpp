@@ -20,7 +20,7 @@ double target_change(const SolvedHierarchy& solved, const DecidingRow& deciding,
   return deciding.target == Target::Lower ? lower : upper;
 }
 
-// d(B) t, (n)
+// dB t, (n)
 Vector turned_step(const LevelPiece& piece, const Matrix& dB) {
   if (dB.size() == 0) return Vector::Zero(piece.t.size());
   return dB * piece.t;

@@ -4,12 +4,13 @@
 // held, and chained from the first level to the last:
 //     rho^2 dt + V'(V dt - right) + force + C'dmu = 0,   C dt = dd - dC t
 //     right = db - dV x - V dx_above,   force = dV'e + dC'mu + 2 rho drho t
-// Where weak directions were handed over, or rho follows the smallest singular value, the
-// directions B that each level is left move too (left_directions.hpp): x = x_above + B t,
+// Where weak directions were handed over, the directions B that each level is left move too
+// (left_directions.hpp): x = x_above + B t,
 //     dx = dx_above + dB t + B dt,   the equations above for C B, V B and dt
-// It is the derivative wherever a small change leaves the working set and the ranks alone. Rows of
-// one level that depend on each other and conflict have derivatives in A of size 1 / rho^2; those
-// carry rounding of that size.
+// and rho moves with them where it follows the smallest singular value. It is the derivative
+// wherever a small change leaves the working set and the ranks alone. Rows of one level that depend
+// on each other and conflict have derivatives in A of size 1 / rho^2; those carry rounding of that
+// size.
 #pragma once
 
 #include <memory>
