@@ -83,13 +83,23 @@ def row_weakens_on_the_level_above(rng: np.random.Generator) -> Path:
     return row_weakens(rng, above=True)
 
 
+KINDS: dict[str, Callable[[np.random.Generator], Path]] = {
+    "targets move": targets_move,
+    "rows turn": rows_turn,
+    "row weakens, own level": row_weakens_in_its_level,
+    "row weakens, level above": row_weakens_on_the_level_above,
+}
+
+
 def move(peer: Peer, path: Path, rho: float, s: float, step: float) -> float:
     """|dx| from s to s + step; not a number where an answer is missing."""
     before, after = (attempt(peer, with_rho(path(at), rho))[0] for at in (s, s + step))
     return np.nan if before is None or after is None else float(np.linalg.norm(after - before))
 
 
-def slopes(peer: Peer, rho: float, paths: list[Path], length: float) -> tuple[list[float], int]:
+def worst_slopes(
+    peer: Peer, rho: float, paths: list[Path], length: float
+) -> tuple[list[float], int]:
     """Worst slope over all paths for each size of step, and the number of missing steps."""
     worst, missing = [0.0] * len(STEPS), 0
     for path in paths:
@@ -121,16 +131,11 @@ def main() -> None:
         (DaqpHierarchy(), 0.0),
         (Weighted(), 0.0),
     ]
-    for name, kind in (
-        ("targets move", targets_move),
-        ("rows turn", rows_turn),
-        ("row weakens, own level", row_weakens_in_its_level),
-        ("row weakens, level above", row_weakens_on_the_level_above),
-    ):
+    for name, kind in KINDS.items():
         rng = np.random.default_rng(1)
         paths = [kind(rng) for _ in range(given.paths)]
         for peer, rho in cases:
-            worst, missing = slopes(peer, rho, paths, given.length)
+            worst, missing = worst_slopes(peer, rho, paths, given.length)
             figures = (f"{slope:.0f}" for slope in worst)
             table.add_row(name, peer.name, f"{rho:g}", *figures, f"{missing}")
         table.add_section()

@@ -2,7 +2,11 @@
 
 n = 19, levels of 3, 3, 3, 3, 3, 2, 2 unit equality rows. Row 2 of the second level is, but for
 sigma, in the span of the rows of its own level (kinematic singularity) or of the level above
-(algorithmic); without limits and in a box |x| <= 1. The worst of 20 problems is drawn.
+(algorithmic); without limits and in a box |x| <= 1. The worst of 20 problems is drawn: |x|; the
+slope |dx| / |dsigma| between neighbours, where a jump stands out by as much as the grid is fine.
+Below, every answer once more: what an option changes in x, smooth hand-over beside the strict rule
+and adaptive beside no regularisation, over the smallest singular value of all levels (no change at
+all is drawn at 1e-16).
 
 Run:  python docs/make_sweeps.py [FILE]    ten seconds
 """
@@ -29,6 +33,10 @@ KINDS = {
         rhqp.SolverOptions(regularization="adaptive"),
         "tab:orange",
     ),
+}
+EFFECTS = {
+    "rho = 0.1, smooth": "rho = 0.1, strict",
+    "rho = 0.1, adaptive, strict": "rho = 0, strict",
 }
 
 
@@ -58,40 +66,65 @@ class Sweep:
         return box + levels
 
 
-def sweep(one: Sweep, rho: float, options: rhqp.SolverOptions) -> tuple[np.ndarray, ...]:
-    """|x| at each sigma, |dx| between neighbours, and the optimality of each answer."""
+def sweep(one: Sweep, name: str) -> tuple[np.ndarray, int]:
+    """Answers at each sigma, (sigmas, n), and the number of answers that are not proven."""
+    rho, options, _ = KINDS[name]
     solver = rhqp.Solver(N, options)
     solutions = [solver.solve(one.at(sigma, rho)) for sigma in SIGMAS]
-    xs = np.array([solution.x for solution in solutions])
-    step = np.linalg.norm(np.diff(xs, axis=0, prepend=xs[:1]), axis=1)
-    return np.linalg.norm(xs, axis=1), step, np.array([s.optimality for s in solutions])
+    unproven = sum(not solution.optimality <= 1e-9 for solution in solutions)
+    return np.array([solution.x for solution in solutions]), unproven
+
+
+def worst(lengths: np.ndarray) -> np.ndarray:
+    """The largest of all problems at each sigma, from (problems, sigmas, n)."""
+    return np.linalg.norm(lengths, axis=2).max(axis=0)
 
 
 def draw(axes: np.ndarray, algorithmic: bool, boxed: bool) -> None:
-    """Two panels of one kind of singularity."""
+    """Three panels of one kind of singularity."""
     title = ("algorithmic" if algorithmic else "kinematic") + (", box" if boxed else "")
-    for name, (rho, options, colour) in KINDS.items():
-        ends = [sweep(Sweep(algorithmic, boxed, seed), rho, options) for seed in range(PROBLEMS)]
-        size, step, proof = (np.max(part, axis=0) for part in zip(*ends, strict=True))
+    problems = [Sweep(algorithmic, boxed, seed) for seed in range(PROBLEMS)]
+    weak, answers = SIGMAS[1:] < 1e-6, {}
+    for name, (_, _, colour) in KINDS.items():
+        runs = [sweep(one, name) for one in problems]
+        x = answers[name] = np.array([run[0] for run in runs])
+        size, step = worst(x), worst(np.diff(x, axis=1))
+        slope = step / -np.diff(SIGMAS)
         axes[0].loglog(SIGMAS, size, color=colour, label=name)
-        axes[1].loglog(SIGMAS, np.maximum(step, 1e-16), color=colour)
-        weak = SIGMAS < 1e-6
-        print(f"{title}; {name}: |x| <= {size.max():.3g}, |dx| <= {step.max():.3g}, ", end="")
-        print(f"{step[weak].max():.2g} below 1e-6; {(proof > 1e-9).sum()} not proven")
+        axes[1].loglog(SIGMAS[1:], slope, color=colour)
+        print(f"{title}; {name}: |x| <= {size.max():.3g}, |dx| <= {step[weak].max():.2g} and slope")
+        print(f"  <= {slope[weak].max():.2g} below 1e-6; {sum(run[1] for run in runs)} not proven")
+    least = np.array([[smallest(one.at(sigma, 0.1)) for sigma in SIGMAS] for one in problems])
+    for name, plain in EFFECTS.items():
+        effect = np.linalg.norm(answers[name] - answers[plain], axis=2)
+        style = {"marker": ".", "markersize": 1, "linestyle": "none", "color": KINDS[name][2]}
+        axes[2].loglog(least.ravel(), np.maximum(effect, 1e-16).ravel(), **style)
+        regular = least >= 0.1
+        print(f"  {name} beside {plain}: at most {effect[regular].max():.1g}", end="")
+        print(f" on {regular.sum()} of {regular.size} answers without a singular value below 0.1")
     axes[0].set(title=title, ylim=(0.5, 1e7))
-    axes[1].set(xlabel="sigma", ylim=(1e-16, 1e7))
+    axes[1].set(xlabel="sigma", ylim=(1e-4, 1e13))
+    axes[2].set(xlabel="smallest singular value of all levels", ylim=(3e-17, 1e3))
+
+
+def smallest(levels: list[rhqp.Level]) -> float:
+    """The smallest singular value of a level in what is left to it; 0 where a rank is lost."""
+    reports = rhqp.Solver(N).solve(levels).levels
+    return min(float(r.singular_values.min()) for r in reports if len(r.singular_values))
 
 
 def main() -> None:
-    """Draws the eight panels."""
+    """Draws the panels."""
     target = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).with_name("sweeps.png"))
     figure, panels = plt.subplots(
-        2, 4, figsize=(13, 6), sharex=True, sharey="row", layout="constrained"
+        3, 4, figsize=(13, 8.5), sharex="row", sharey="row", layout="constrained"
     )
     for column in range(4):
         draw(panels[:, column], algorithmic=column % 2 == 1, boxed=column >= 2)
-    panels[0, 0].set(ylabel="largest |x|", xlim=(1, 1e-12), xticks=10.0 ** np.arange(-10, 0, 3))
-    panels[1, 0].set(ylabel=f"largest |dx| in 1/{A_DECADE} of a decade")
+    span = {"xlim": (1, 1e-12), "xticks": 10.0 ** np.arange(-10, 0, 3)}
+    panels[0, 0].set(ylabel="largest |x|", **span)
+    panels[1, 0].set(ylabel="largest |dx| / |dsigma|", **span)
+    panels[2, 0].set(ylabel="what the option changes in x", xlim=(1, 1e-3))
     panels[0, 0].legend(fontsize="small")
     figure.savefig(target, dpi=80)
 

@@ -43,7 +43,8 @@ Args:
   horizon: [s] a position limit is approached no faster than distance / horizon.
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
-  solver: SolverOptions.
+  solver: SolverOptions; the default is SolverOptions(handover="smooth"), so that no velocity jumps
+    where a task loses a direction.
 )";
 constexpr const char* kController =
     R"(From a stack to velocities: first-order closed-loop inverse kinematics.

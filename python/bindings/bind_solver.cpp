@@ -5,11 +5,13 @@
 #include <deque>
 #include <mutex>
 
+#include "bind_solver_docs.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/solver/batch.hpp"
 #include "hurcules/solver/method.hpp"
 #include "solver_answer.hpp"
 #include "solver_levels.hpp"
+#include "solver_stacks.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -18,87 +20,9 @@ void bind_solver(py::module_& module);
 void bind_solver_answer(py::module_& module);
 
 using namespace hurcules;
-using hurcules_bindings::Answer;
-using hurcules_bindings::ArrayLevel;
-using hurcules_bindings::HeldLevels;
+using namespace hurcules_bindings;
 
 namespace {
-
-constexpr const char* kLevelDoc = R"(A level of bounded rows: lower <= A x <= upper.
-
-Args:
-  A: (m, n) float64.
-  lower, upper: (m,) float64. +-inf or a magnitude >= 1e20 means no side; lower == upper is an equality.
-  rho: regularisation coefficient >= 0 (thesis: 0.1). A level of limits wants 0.
-
-Arrays of float64 in C order are held, not copied: what is written into them is seen by the next
-solve. Anything else is copied once.
-
-Raises:
-  Error: wrong shapes, NaN, lower > upper, rho < 0.
-)";
-constexpr const char* kBoundsDoc =
-    R"(Simple bounds lower <= x <= upper as a level of its own, never regularised.
-
-Args:
-  lower, upper: (n,) float64. +-inf or a magnitude >= 1e20 means no side. Held as Level holds them.
-)";
-constexpr const char* kSolverDoc =
-    R"(Solves hierarchies over n unknowns; keeps its working sets between solves.
-
-Args:
-  n: number of unknowns.
-  options: SolverOptions.
-)";
-constexpr const char* kSolveDoc =
-    R"(Solves the levels in decreasing priority.
-
-The interpreter lock is released meanwhile: let no other thread write into the arrays. A solver that
-two threads share takes one after the other.
-
-Args:
-  levels: sequence of Level (and Bounds).
-
-Returns:
-  Solution. A hard problem is no error: look at status and optimality.
-
-Raises:
-  Error: shapes that do not fit n unknowns or each other; NaN, infinite A, lower > upper.
-)";
-constexpr const char* kBatchDoc =
-    R"(Solves many independent hierarchies on threads, without the interpreter lock.
-
-Args:
-  problems: sequence of sequences of Level (and Bounds); each may have its own number of unknowns.
-  threads: how many; None: one a processor.
-  options: SolverOptions of all.
-
-Returns:
-  list of Solution, bit for bit those of a new Solver a problem.
-
-Raises:
-  Error: as Solver.solve, with the number of the problem.
-)";
-
-constexpr const char* kMethodNamesDoc = R"(The names that SolverOptions(method=...) takes.
-
-'lexicographic': the default, exact, always ends.
-'rhqp_thesis': Algorithm 1 of the thesis, literally; can end off the optimum or at its iteration limit.
-'hqp': the same active set with every rho = 0.
-'dls_hqp': the same with a damped inverse and multipliers that leave out the regularisation error.
-'cascade': one general QP a level; the same answers as 'lexicographic', slow, for comparison.
-)";
-
-constexpr const char* kHandoverDoc =
-    R"('strict': a direction that a level's equality rows see is lost to the levels below, however
-weak its singular value; x jumps where a rank changes. 'smooth': it goes back to them gradually as
-its singular value falls below rho of the level; x is continuous there, the level loses at most
-0.033 of each lower level's residual (unit rows, rho 0.1, no limit in the way). Strict all the same
-where the level or a level below has rho = 0. Of the method 'lexicographic'.)";
-constexpr const char* kRegularizationDoc =
-    R"('constant': rho of each level. 'adaptive': rho sqrt(1 - (sigma / singular_threshold)^2) with the
-smallest singular value sigma of the level's equality rows on the directions left to it, and 0 where
-sigma >= singular_threshold. Of the method 'lexicographic'.)";
 
 // a solver that two Python threads may share
 struct SharedSolver {
@@ -135,34 +59,53 @@ int count_of(const py::object& threads) {
   return threads.cast<int>();
 }
 
+std::vector<Answer> answers_to(const std::vector<BatchProblem>& problems,
+                               const BatchOptions& options) {
+  std::vector<Answer> answers(problems.size());
+  const py::gil_scoped_release release;
+  solve_batch(problems, options,
+              [&answers](std::size_t i, const Solver& solver) { answers[i] = Answer(solver); });
+  return answers;
+}
+
+// refuse(i): the Error of problem i
+template <typename Refuse>
+void refuse_invalid(const std::vector<Answer>& answers, Refuse&& refuse) {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (answers[i].solution().status == SolverStatus::InvalidInput) refuse(i);
+  }
+}
+
 std::vector<Answer> solve_problems(const py::object& problems, const py::object& threads,
                                    const SolverOptions& options) {
   const BatchOptions batch{.solver = options, .threads = count_of(threads)};
-  require(py::isinstance<py::sequence>(problems),
-          "solve_batch wants a list of lists of Level, got " + std::string(py::repr(problems)));
+  // a text only when it is needed: that of a thousand problems costs more than their solves
+  if (!py::isinstance<py::sequence>(problems)) {
+    throw Error("solve_batch wants a list of lists of Level, or of LevelStack, got " +
+                std::string(py::repr(problems)));
+  }
+  const py::tuple items(problems);
+  if (!items.empty() && is_stack(items[0])) {
+    const HeldStacks held(items);
+    std::vector<Answer> answers = answers_to(held.problems(), batch);
+    refuse_invalid(answers, [&held](std::size_t i) { held.refuse(i); });
+    return answers;
+  }
   std::deque<HeldLevels> held;
   std::vector<BatchProblem> tasks;
-  for (const py::handle problem : py::tuple(problems)) {
+  for (const py::handle problem : items) {
     const std::string name = "problem " + std::to_string(held.size()) + ", ";
     held.emplace_back(py::reinterpret_borrow<py::object>(problem), name);
     tasks.push_back({held.back().unknowns(), held.back().views()});
   }
-  std::vector<Answer> answers(tasks.size());
-  {
-    const py::gil_scoped_release release;
-    solve_batch(tasks, batch,
-                [&answers](std::size_t i, const Solver& solver) { answers[i] = Answer(solver); });
-  }
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (answers[i].solution().status == SolverStatus::InvalidInput)
-      held[i].refuse(tasks[i].unknowns);
-  }
+  std::vector<Answer> answers = answers_to(tasks, batch);
+  refuse_invalid(answers, [&](std::size_t i) { held[i].refuse(tasks[i].unknowns); });
   return answers;
 }
 
 void bind_level(py::module_& module) {
   py::class_<ArrayLevel>(module, "Level", kLevelDoc)
-      .def(py::init(&hurcules_bindings::make_level), "A"_a, "lower"_a, "upper"_a, "rho"_a = 0.0)
+      .def(py::init(&make_level), "A"_a, "lower"_a, "upper"_a, "rho"_a = 0.0)
       .def_property_readonly(
           "A", [](const ArrayLevel& self) { return self.A; },
           "(m, n), the array that is solved; empty for bounds")
@@ -178,13 +121,28 @@ void bind_level(py::module_& module) {
         return (self.bounds ? "Bounds(n=" : "Level(m=") + std::to_string(self.lower.size()) +
                (self.bounds ? ")" : ", rho=" + std::to_string(self.rho) + ")");
       });
-  module.def("Bounds", &hurcules_bindings::make_bounds_level, "lower"_a, "upper"_a, kBoundsDoc);
+  module.def("Bounds", &make_bounds_level, "lower"_a, "upper"_a, kBoundsDoc);
+}
+
+void bind_stack(py::module_& module) {
+  py::class_<ArrayStack>(module, "LevelStack", kStackDoc)
+      .def(py::init(&make_stack), "A"_a, "lower"_a, "upper"_a, "rho"_a = 0.0)
+      .def_property_readonly(
+          "A", [](const ArrayStack& self) { return self.A; },
+          "the array that is solved; empty for bounds")
+      .def_property_readonly(
+          "lower", [](const ArrayStack& self) { return self.lower; }, "the array that is solved")
+      .def_property_readonly(
+          "upper", [](const ArrayStack& self) { return self.upper; }, "the array that is solved")
+      .def_readonly("rho", &ArrayStack::rho);
+  module.def("BoundsStack", &make_bounds_stack, "lower"_a, "upper"_a, kBoundsStackDoc);
 }
 
 }  // namespace
 
 void bind_solver(py::module_& module) {
   bind_level(module);
+  bind_stack(module);
   bind_solver_answer(module);
   py::class_<SolverOptions>(module, "SolverOptions")
       .def(py::init([](std::string method, bool proof, int max_changes, int max_iterations,

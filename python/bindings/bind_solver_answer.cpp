@@ -123,6 +123,10 @@ void bind_level_report(py::module_& module) {
       .def_readonly("singular_values", &LevelReport::singular_values,
                     "of its equality rows in the directions left by the equality rows above, "
                     "largest first")
+      .def_readonly("handed_over", &LevelReport::handed_over,
+                    "of each of these directions the weight with which the levels below get it: 0 "
+                    "where the level keeps it, 1 where it sees nothing, between them by smooth "
+                    "hand-over only")
       .def_readonly("infeasible", &LevelReport::infeasible,
                     "(m,) v_k: the part of the violation that no x allowed by the rows above and "
                     "the limits it meets removes [T 3.3.78]")

@@ -16,17 +16,6 @@ namespace hurcules_bindings {
 
 namespace {
 
-SharedArray shared(const py::object& value, py::ssize_t dimensions, const std::string& name,
-                   const std::string& shape) {
-  // as it stands, when it can; else one Error or one copy
-  if (SharedArray::check_(value)) {
-    const auto array = py::reinterpret_borrow<SharedArray>(value);
-    const bool aligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
-    if (aligned && array.ndim() == dimensions) return array;
-  }
-  return SharedArray::ensure(array_of(value, dimensions, name, shape));
-}
-
 SharedArray copy_of(const hurcules::Vector& v) {
   return SharedArray(v.size(), v.data());
 }
@@ -43,14 +32,25 @@ std::string text_of(const py::object& value) {
   return std::string(py::repr(value));
 }
 
+}  // namespace
+
+SharedArray shared_array(const py::object& value, py::ssize_t dimensions, const std::string& name,
+                         const std::string& shape) {
+  // as it stands, when it can; else one Error or one copy
+  if (SharedArray::check_(value)) {
+    const auto array = py::reinterpret_borrow<SharedArray>(value);
+    const bool aligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+    if (aligned && array.ndim() == dimensions) return array;
+  }
+  return SharedArray::ensure(array_of(value, dimensions, name, shape));
+}
+
 double number_of(const py::object& rho) {
   if (py::isinstance<py::float_>(rho)) return rho.cast<double>();
   require(py::isinstance<py::int_>(rho) || py::hasattr(rho, "__float__"),
           "rho wants a number >= 0, got " + text_of(rho));
   return py::float_(rho);
 }
-
-}  // namespace
 
 bool ArrayLevel::is_readable() const {
   using hurcules_bindings::is_readable;
@@ -67,9 +67,9 @@ LevelView ArrayLevel::view() const {
 
 ArrayLevel make_level(const py::object& A, const py::object& lower, const py::object& upper,
                       const py::object& rho) {
-  ArrayLevel level{.A = shared(A, 2, "A", "(m, n)"),
-                   .lower = shared(lower, 1, "lower", "(m,)"),
-                   .upper = shared(upper, 1, "upper", "(m,)"),
+  ArrayLevel level{.A = shared_array(A, 2, "A", "(m, n)"),
+                   .lower = shared_array(lower, 1, "lower", "(m,)"),
+                   .upper = shared_array(upper, 1, "upper", "(m,)"),
                    .rho = number_of(rho)};
   check(level.view(), level.A.shape(1), "level");
   return level;
@@ -77,8 +77,8 @@ ArrayLevel make_level(const py::object& A, const py::object& lower, const py::ob
 
 ArrayLevel make_bounds_level(const py::object& lower, const py::object& upper) {
   ArrayLevel level{.A = SharedArray(py::array::ShapeContainer{0, 0}),
-                   .lower = shared(lower, 1, "lower", "(n,)"),
-                   .upper = shared(upper, 1, "upper", "(n,)"),
+                   .lower = shared_array(lower, 1, "lower", "(n,)"),
+                   .upper = shared_array(upper, 1, "upper", "(n,)"),
                    .bounds = true};
   check(level.view(), level.lower.shape(0), "bounds");
   return level;

@@ -16,6 +16,11 @@ using SharedArray =
     pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast |
                                   pybind11::detail::npy_api::NPY_ARRAY_ALIGNED_>;
 
+// `value` with this number of axes, as it stands when it can; `name` and `shape` for the text
+[[nodiscard]] SharedArray shared_array(const pybind11::object& value, pybind11::ssize_t dimensions,
+                                       const std::string& name, const std::string& shape);
+[[nodiscard]] double number_of(const pybind11::object& rho);
+
 struct ArrayLevel {
   SharedArray A;             // (m, n); (0, 0) for simple bounds
   SharedArray lower, upper;  // (m)

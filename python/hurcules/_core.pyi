@@ -51,6 +51,21 @@ class Level:
 
 def Bounds(lower: ArrayLike, upper: ArrayLike) -> Level: ...  # (n,), (n,)
 
+class LevelStack:
+    def __init__(
+        self, A: ArrayLike, lower: ArrayLike, upper: ArrayLike, rho: float = 0.0
+    ) -> None: ...  # (B, m, n) or (m, n), (B, m) or (m,) each
+    @property
+    def A(self) -> NDArray[np.float64]: ...
+    @property
+    def lower(self) -> NDArray[np.float64]: ...
+    @property
+    def upper(self) -> NDArray[np.float64]: ...
+    @property
+    def rho(self) -> float: ...
+
+def BoundsStack(lower: ArrayLike, upper: ArrayLike) -> LevelStack: ...  # (B, n) or (n,) each
+
 class Status(_Enum):
     Solved: ClassVar[Status]
     ReducedAccuracy: ClassVar[Status]
@@ -102,6 +117,8 @@ class LevelReport(_Given):
     def rank(self) -> int: ...
     @property
     def singular_values(self) -> _Vector: ...  # (min(equality rows, free directions),)
+    @property
+    def handed_over(self) -> _Vector: ...  # as singular_values
     @property
     def infeasible(self) -> _Vector: ...  # (m,)
     @property
@@ -162,7 +179,7 @@ class Solver:
     def n(self) -> int: ...
 
 def solve_batch(
-    problems: Sequence[Sequence[Level]],
+    problems: Sequence[Sequence[Level]] | Sequence[LevelStack],
     threads: int | None = None,
     options: SolverOptions = ...,
 ) -> list[Solution]: ...

@@ -15,9 +15,11 @@ solution keeps what it needs and never changes.
 from hurcules._core import (
     ActiveRow,
     Bounds,
+    BoundsStack,
     Level,
     LevelChange,
     LevelReport,
+    LevelStack,
     Side,
     Solution,
     Solver,
@@ -30,9 +32,11 @@ from hurcules._core import (
 __all__ = [
     "ActiveRow",
     "Bounds",
+    "BoundsStack",
     "Level",
     "LevelChange",
     "LevelReport",
+    "LevelStack",
     "Side",
     "Solution",
     "Solver",

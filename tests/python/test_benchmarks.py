@@ -67,3 +67,10 @@ def test_no_answer_is_missing_on_a_path(root: Path) -> None:
     text = run(sys.executable, program, "--paths", "1", "--length", "0.006")
     rows = [line.split("│") for line in text.splitlines() if "hurcules" in line]
     assert len(rows) >= 4 and all(row[-2].strip() == "0" for row in rows)
+
+
+def test_a_batch_answers_like_a_loop(root: Path) -> None:
+    program = root / "benchmarks" / "batch.py"
+    text = run(sys.executable, program, "--problems", "20", "--rounds", "1")
+    rows = [line.split("│") for line in text.splitlines() if line.startswith("│")]
+    assert [row[-2].strip() for row in rows] == ["0"] * 4

@@ -1,7 +1,7 @@
 """Stack, controller, servo and snapshots from Python: what wrong input is answered with.
 
-Strategy: each wrong call on the smallest robot, and the words of the answer. Not tested here: what
-the controller computes (C++ tests, examples).
+Strategy: each wrong call on the smallest robot, and the words of the answer; a default. Not tested
+here: what the controller computes (C++ tests, examples).
 """
 
 from __future__ import annotations
@@ -69,6 +69,12 @@ def test_wrong_input_says_what_was_wanted_and_what_came(
         call(robot)
     assert text in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_only_the_default_of_a_controller_hands_weak_directions_down_smoothly() -> None:
+    options = hurcules.VelocityControllerOptions
+    assert options().solver.handover == "smooth"
+    assert options(solver=hurcules.rhqp.SolverOptions()).solver.handover == "strict"
 
 
 def test_the_servo_refuses_nan() -> None:

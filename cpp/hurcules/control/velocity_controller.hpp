@@ -27,7 +27,8 @@ struct VelocityControllerOptions {
   double horizon = 0.05;  // [s] T of [T 4.3.9]: a limit is approached at distance / T at most
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
   double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
-  SolverOptions solver = {};
+  // smooth: the commanded velocity does not jump where a task loses a direction
+  SolverOptions solver = {.handover = Handover::Smooth};
 };
 
 class VelocityController {

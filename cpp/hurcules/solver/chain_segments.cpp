@@ -75,6 +75,12 @@ void ChainSegments::close(const RowTable& rows, LevelSvd& svd, int k) {
   of(k + 1).build_behind(rows, k);
 }
 
+int ChainSegments::handed_to() const {
+  if (used_ == 1) return -1;
+  const auto first = std::find(segment_.begin(), segment_.end(), 1);
+  return static_cast<int>(first - segment_.begin());
+}
+
 void ChainSegments::fill_basis(const RowTable& rows, const LevelSvd& svd, int k) {
   const kernels::Table& kernel = *kernels::chosen;
   const Chain& before = of(k);

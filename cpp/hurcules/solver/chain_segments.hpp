@@ -34,8 +34,8 @@ class ChainSegments {
   // level k is solved: gives its weak directions to a new chain for the levels behind it
   void close(const RowTable& rows, LevelSvd& svd, int k);
 
-  // some level of the last hierarchy gave directions back
-  [[nodiscard]] bool handed_over() const { return used_ > 1; }
+  // the first level behind one that gave directions back; -1: none did
+  [[nodiscard]] int handed_to() const;
   [[nodiscard]] Chain& of(int level) { return chains_[segment_[level]]; }
   [[nodiscard]] const Chain& of(int level) const { return chains_[segment_[level]]; }
 

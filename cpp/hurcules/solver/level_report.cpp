@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "hurcules/solver/left_directions.hpp"
 #include "hurcules/solver/level_piece.hpp"
 
 namespace hurcules {
@@ -26,11 +27,10 @@ Vector singular_values(const SolvedHierarchy& solved, int k, const EqualityRows&
 }
 
 // the part of the violation that a step in the level's own directions could remove
-void split_violation(const SolvedHierarchy& solved, int k, const EqualityRows& above,
+void split_violation(const SolvedHierarchy& solved, int k, const LevelPiece& piece,
                      LevelReport& report) {
   const int begin = solved.begin(k);
   const Index m = solved.begin(k + 1) - begin;
-  const LevelPiece piece(solved, k, above);
   report.infeasible.resize(m);
   for (Index i = 0; i < m; ++i) {
     report.infeasible[i] = solved.violation(begin + static_cast<int>(i), piece.x);
@@ -44,19 +44,37 @@ void split_violation(const SolvedHierarchy& solved, int k, const EqualityRows& a
   report.infeasible -= report.regularized;
 }
 
+// where directions were handed over
+std::vector<LevelReport> reports_in_directions(const SolvedHierarchy& solved) {
+  std::vector<LevelReport> reports(solved.final_levels());
+  const std::vector<LeftDirections> directions = left_directions(solved);
+  for (int k = 0; k < solved.final_levels(); ++k) {
+    LevelReport& report = reports[k];
+    report.rho = solved.rho(k);
+    report.singular_values = directions[k].singular_values();
+    report.rank = directions[k].rank();
+    report.handed_over = directions[k].handed_over();
+    split_violation(solved, k, LevelPiece(solved, k, directions[k].basis()), report);
+  }
+  return reports;
+}
+
 }  // namespace
 
 std::vector<LevelReport> level_reports(const SolvedHierarchy& solved) {
+  if (solved.handed_over()) return reports_in_directions(solved);
   std::vector<LevelReport> reports(solved.final_levels());
   EqualityRows above(solved.unknowns());
   for (int k = 0; k < solved.final_levels(); ++k) {
     LevelReport& report = reports[k];
     report.rho = solved.rho(k);
     report.singular_values = singular_values(solved, k, above);
-    split_violation(solved, k, above, report);
+    split_violation(solved, k, LevelPiece(solved, k, above), report);
     const Index taken = above.space.size();
     above.add_level(solved, k);
     report.rank = above.space.size() - taken;
+    report.handed_over.setOnes(report.singular_values.size());
+    report.handed_over.head(report.rank).setZero();
   }
   return reports;
 }

@@ -14,6 +14,9 @@ struct LevelReport {
   // of its equality rows on the directions left by the equality rows above, largest first  [T
   // 3.3.37]
   Vector singular_values;
+  // of each of these directions the part w that the levels below get: 0 where the level keeps it,
+  // 1 where it sees nothing, between them by smooth hand-over only; the rank counts it all the same
+  Vector handed_over;
   // violation = infeasible + regularized, (m) each  [T 3.3.76]
   Vector infeasible;   // v_k: against the rows above and the limits that it meets  [T 3.3.78]
   Vector regularized;  // u_k: zero for rho = 0  [T 3.3.80]

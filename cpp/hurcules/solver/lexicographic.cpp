@@ -97,6 +97,7 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   chains_.start(rows_, hierarchy);
   chain_ = &chains_.of(0);
   candidates_.start(rows_);
+  for (int k = 0; k < rows_.levels(); ++k) records_[k].asked_rho = hierarchy[k].rho;
   for (int k = 0; k < rows_.levels(); ++k) {
     x_ = records_[k].x.data();
     above_scale_ = x_scale_;

@@ -16,6 +16,7 @@
 #include "hurcules/solver/optimality.hpp"
 #include "hurcules/solver/row_table.hpp"
 #include "hurcules/solver/settled_level.hpp"
+#include "hurcules/solver/solved_hierarchy.hpp"
 
 namespace hurcules {
 
@@ -42,6 +43,7 @@ class Lexicographic : public Method {
     return options_.handover == Handover::Smooth ||
            options_.regularization == Regularization::Adaptive;
   }
+  [[nodiscard]] SingularRules rules() const;
   // rho of level k, constant or adapted to its singular values
   double regularization(double rho, int k);
   [[nodiscard]] bool satisfied(int k) const;

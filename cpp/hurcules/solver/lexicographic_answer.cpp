@@ -153,21 +153,17 @@ void Lexicographic::fill_violations(int k) {
 }
 
 std::shared_ptr<const SolvedHierarchy> Lexicographic::solved() const {
-  // which weak directions a level keeps is not part of that copy
-  if (chains_.handed_over()) return nullptr;
-  return std::make_shared<const SolvedHierarchy>(rows_, records_, held_, solution_);
+  return std::make_shared<const SolvedHierarchy>(rows_, records_, held_, solution_, rules());
+}
+
+SingularRules Lexicographic::rules() const {
+  return {.handed_to = chains_.handed_to(),
+          .adaptive = options_.regularization == Regularization::Adaptive,
+          .threshold = options_.singular_threshold};
 }
 
 std::vector<std::vector<Vector>> Lexicographic::multipliers() const {
-  auto result = hurcules::multipliers(SolvedHierarchy(rows_, records_, held_, solution_));
-  // behind a hand-over it is no rows above that hold x, only combinations of them
-  for (int i = 0; i < rows_.size(); ++i) {
-    const Row& row = rows_[i];
-    for (int k = row.level + 1; row.equality && k < solution_.final_levels; ++k) {
-      if (!chains_.of(k).basis().whole()) result[k][row.level][row.row] = 0.0;
-    }
-  }
-  return result;
+  return hurcules::multipliers(*solved());
 }
 
 void Lexicographic::save(StateWriter& writer) const {

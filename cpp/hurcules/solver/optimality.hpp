@@ -23,9 +23,10 @@ namespace hurcules {
 
 // what a solved level leaves behind
 struct LevelRecord {
-  double rho = 0.0;
-  double own_norm = 0.0;  // largest |a| of its rows
-  PaddedVector x;         // (n), after this level
+  double rho = 0.0;        // that was used
+  double asked_rho = 0.0;  // of the level as it came; of levels without an answer, too
+  double own_norm = 0.0;   // largest |a| of its rows
+  PaddedVector x;          // (n), after this level
   // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
   PaddedVector gradient;
   double worsened = 0.0;         // by how much rows above got worse, relative to |a| max(1, |x|)

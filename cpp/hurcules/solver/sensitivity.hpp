@@ -4,25 +4,22 @@
 // held, and chained from the first level to the last:
 //     rho^2 dt + V'(V dt - right) + force + C'dmu = 0,   C dt = dd - dC t
 //     right = db - dV x - V dx_above,   force = dV'e + dC'mu + 2 rho drho t
-// It is the derivative wherever a small change leaves the working set and the ranks alone. Rows of
-// one level that depend on each other and conflict have derivatives in A of size 1 / rho^2; those
-// carry rounding of that size.
+// Where weak directions were handed over, the directions B that each level is left move too
+// (left_directions.hpp): x = x_above + B t,
+//     dx = dx_above + dB t + B dt,   the equations above for C B, V B and dt
+// and rho moves with them where it follows the smallest singular value. It is the derivative
+// wherever a small change leaves the working set and the ranks alone. Rows of one level that depend
+// on each other and conflict have derivatives in A of size 1 / rho^2; those carry rounding of that
+// size.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "hurcules/solver/level_piece.hpp"
+#include "hurcules/solver/left_directions.hpp"
+#include "hurcules/solver/level_sensitivity.hpp"
 
 namespace hurcules {
-
-// A change of the numbers of one level, or the gradient of a function in them. An array of size
-// zero is no change.
-struct LevelChange {
-  Matrix A;             // (m, n); empty for simple bounds
-  Vector lower, upper;  // (m); an equality row moves with the mean of both
-  double rho = 0.0;
-};
 
 class Sensitivity {
  public:
@@ -36,9 +33,17 @@ class Sensitivity {
 
  private:
   void check(const std::vector<LevelChange>& changes) const;
+  // what the changes do to the directions behind level k, dB of those that it has
+  [[nodiscard]] DirectionsChange directions_change(int k, const std::vector<LevelChange>& changes,
+                                                   const Matrix& dB) const;
+  void add_directions_gradient(int k, const DirectionsChange& bar,
+                               std::vector<LevelChange>& gradient) const;
 
   std::shared_ptr<const SolvedHierarchy> solved_;
   std::vector<LevelPiece> pieces_;
+  // of each level; empty where neither x nor rho needs them
+  std::vector<LeftDirections> directions_;
+  std::vector<Receiver> receivers_;
 };
 
 }  // namespace hurcules

@@ -8,8 +8,12 @@
 namespace hurcules {
 
 SolvedHierarchy::SolvedHierarchy(const RowTable& rows, std::span<const LevelRecord> records,
-                                 std::span<const HeldRow> held, const Solution& solution)
-    : unknowns_(solution.x.size()), status_(solution.status), final_levels_(solution.final_levels) {
+                                 std::span<const HeldRow> held, const Solution& solution,
+                                 const SingularRules& rules)
+    : unknowns_(solution.x.size()),
+      status_(solution.status),
+      final_levels_(solution.final_levels),
+      rules_(rules) {
   if (status_ == SolverStatus::InvalidInput) return;
   numbers_.reserve((final_levels_ + rows.dense()) * unknowns_);
   held_.reserve(held.size());
@@ -18,6 +22,7 @@ SolvedHierarchy::SolvedHierarchy(const RowTable& rows, std::span<const LevelReco
     SolvedLevel& level = levels_[k];
     level.begin = rows.begin(k);
     level.bounds = rows.begin(k + 1) > level.begin && rows[level.begin].bound;
+    level.asked_rho = records[k].asked_rho;
     if (k >= final_levels_) continue;
     const LevelRecord& record = records[k];
     level.rho = record.rho;
@@ -66,9 +71,7 @@ double SolvedHierarchy::violation(int i, const Vector& x) const {
 }
 
 void require_solved(const SolvedHierarchy* solved) {
-  require(solved != nullptr,
-          "only the method 'lexicographic' has sensitivities and level reports, and not where "
-          "weak directions were handed over smoothly");
+  require(solved != nullptr, "only the method 'lexicographic' has sensitivities and level reports");
 }
 
 std::vector<std::vector<Vector>> multipliers(const SolvedHierarchy& solved) {
@@ -90,9 +93,12 @@ std::vector<std::vector<Vector>> multipliers(const SolvedHierarchy& solved) {
       if (solved.row(held.row).level == k) continue;
       set(held.row, static_cast<double>(held.side) * held.multiplier);
     }
-    // equality rows above take what is left of the gradient along their directions
-    const Vector mu = above.solve_transposed(-gradient);
-    for (std::size_t e = 0; e < independent.size(); ++e) set(independent[e], mu[e]);
+    // equality rows above take what is left of the gradient along their directions; behind a
+    // hand-over it is no rows above that hold x, only combinations of them
+    if (!solved.handed_over() || k < solved.rules().handed_to) {
+      const Vector mu = above.solve_transposed(-gradient);
+      for (std::size_t e = 0; e < independent.size(); ++e) set(independent[e], mu[e]);
+    }
     for (int i = solved.begin(k); i < solved.begin(k + 1); ++i) {
       if (solved.row(i).equality && above.add(solved.dense(i))) independent.push_back(i);
     }

@@ -13,11 +13,19 @@
 
 namespace hurcules {
 
+// what was done about singularities
+struct SingularRules {
+  int handed_to = -1;      // the first level that has weak directions of those above; -1: none
+  bool adaptive = false;   // rho follows the smallest singular value
+  double threshold = 0.0;  // below this
+};
+
 class SolvedHierarchy {
  public:
   // what a method has at the end of a solve; a record a level
   SolvedHierarchy(const RowTable& rows, std::span<const LevelRecord> records,
-                  std::span<const HeldRow> held, const Solution& solution);
+                  std::span<const HeldRow> held, const Solution& solution,
+                  const SingularRules& rules);
 
   [[nodiscard]] Index unknowns() const { return unknowns_; }
   [[nodiscard]] SolverStatus status() const { return status_; }
@@ -34,7 +42,12 @@ class SolvedHierarchy {
   // signed distance of a_i x to its interval
   [[nodiscard]] double violation(int i, const Vector& x) const;
 
+  // the regularisation that was used
   [[nodiscard]] double rho(int k) const { return levels_[k].rho; }
+  // the one that was asked for; of every level
+  [[nodiscard]] double asked_rho(int k) const { return levels_[k].asked_rho; }
+  [[nodiscard]] const SingularRules& rules() const { return rules_; }
+  [[nodiscard]] bool handed_over() const { return rules_.handed_to >= 0; }
   // x after level k, (n); before the first level it is zero
   [[nodiscard]] Vector x(int k) const;
   // the rows that push back in the problem of level k, and those that only keep its step (rho = 0)
@@ -44,7 +57,7 @@ class SolvedHierarchy {
  private:
   struct SolvedLevel {
     int begin = 0, first_held = 0, held = 0, smallest = 0;
-    double rho = 0.0;
+    double rho = 0.0, asked_rho = 0.0;
     bool bounds = false;
   };
 
@@ -53,6 +66,7 @@ class SolvedHierarchy {
   Index unknowns_ = 0;
   SolverStatus status_ = SolverStatus::Solved;
   int final_levels_ = 0;
+  SingularRules rules_;
   std::vector<Row> rows_;
   std::vector<SolvedLevel> levels_;
   std::vector<HeldRow> held_;

@@ -1,6 +1,7 @@
 // Strategy: the rows that tasks become, written out by hand; then the seven-joint arm chased by
 // random commands for thousands of ticks: limits, velocity and acceleration hold at each of them,
-// nothing is allocated, a restored controller gives the same bits.
+// nothing is allocated, a restored controller gives the same bits; an arm of two joints through a
+// singularity: no jump.
 #include "hurcules/control/velocity_controller.hpp"
 
 #include <cmath>
@@ -211,6 +212,54 @@ TEST_F(Controller, RefusesAStackOfAnotherRobot) {
   PostureTask foreign("foreign", other);
   const std::string text = error_text([&] { controller_.set_stack(joint_ < foreign); });
   EXPECT_TRUE(contains(text, "'foreign' is for 13 coordinates, the robot has 7")) << text;
+}
+
+// two hinges that turn in a plane; stretched along x, neither moves the tip along x
+constexpr const char* kElbow = R"(
+<mujoco>
+  <compiler angle="radian"/>
+  <worldbody>
+    <body name="upper">
+      <joint name="j1" axis="0 0 1"/><geom size="0.1" mass="1"/>
+      <body name="lower" pos="0.5 0 0">
+        <joint name="j2" axis="0 0 1"/><geom size="0.1" mass="1"/>
+        <site name="tip" pos="0.5 0 0"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="j1"/><motor joint="j2"/></actuator>
+</mujoco>)";
+
+// largest change of qdot* a tick, while the arm is led through its stretched posture
+double largest_change(const VelocityControllerOptions& options, double step) {
+  Robot robot(load_model_text(kElbow));
+  PositionTask along_x("x", robot, "tip", {.axes = Matrix3::Identity().topRows(1)});
+  PostureTask posture("posture", robot);
+  robot.set_configuration(Vector{{0.6, 0.9}});
+  for (Task* task : std::initializer_list<Task*>{&along_x, &posture}) task->hold(robot);
+  VelocityController controller(robot, options);
+  controller.set_stack(along_x < posture);
+  Vector last;
+  double largest = 0.0;
+  const int ticks = static_cast<int>(std::lround(0.1 / step));
+  for (int i = -ticks; i <= ticks; ++i) {
+    robot.set_configuration(Vector{{i * step, 0.5 * i * step}});
+    const Vector& now = controller.compute(robot);
+    if (last.size() > 0) largest = std::max(largest, (now - last).norm());
+    last = now;
+  }
+  return largest;
+}
+
+TEST(ControllerAtASingularity, DoesNotJumpUnlessItIsToldTo) {
+  // the direction goes over gradually: a tenth of the step, a tenth of the change
+  const double fine = largest_change({}, 1e-4), coarse = largest_change({}, 1e-3);
+  EXPECT_LT(fine, 0.12 * coarse);
+  EXPECT_LT(fine, 0.05);
+  // strict, the posture gets it all at once in the one tick that is stretched
+  const VelocityControllerOptions strict{.solver = {.handover = Handover::Strict}};
+  EXPECT_GT(largest_change(strict, 1e-4), 1.0);
+  EXPECT_GT(largest_change(strict, 1e-5), 1.0);
 }
 
 }  // namespace
