@@ -69,6 +69,80 @@ TEST_P(Kernels, DotsAndSumsAreThoseOfPlainLoops) {
   }
 }
 
+TEST_P(Kernels, MovesAndDifferencesAreThoseOfPlainLoops) {
+  const kernels::Table& kernel = *kernels::chosen;
+  for (const Size size : {4, 8, 12, 20, 40}) {
+    const Numbers a = numbers(size), b = numbers(size);
+    Numbers scaled(size), moved = b, difference(size);
+    kernel.scale(size, -1.5, a.data(), scaled.data());
+    kernel.advance(size, 0.25, a.data(), moved.data());
+    const double norm2 = kernel.scaled_difference(size, 2.0, a.data(), b.data(), difference.data());
+    for (Size j = 0; j < size; ++j) {
+      EXPECT_EQ(scaled[j], -1.5 * a[j]);
+      EXPECT_NEAR(moved[j], b[j] + 0.25 * (a[j] - b[j]), 1e-15);
+      EXPECT_NEAR(difference[j], 2.0 * (a[j] - b[j]), 1e-15);
+    }
+    EXPECT_NEAR(norm2, plain_dot(size, difference.data(), difference.data()), 1e-12);
+  }
+}
+
+TEST_P(Kernels, SumsOverRowsAreThoseOfPlainLoops) {
+  const kernels::Table& kernel = *kernels::chosen;
+  const Size stride = 12;
+  for (const Size count : {1, 2, 3, 4, 5, 7, 11}) {
+    const Numbers rows = numbers((count + 3) * stride), x = numbers(stride);
+    Numbers norm(count, 2.0), rest(stride, 0.0);
+    norm[0] = 0.0;  // no row: left out
+    double squares = 0.0, way = 0.0;
+    for (Size i = 0; i < count; ++i) {
+      const double part = plain_dot(stride, rows.data() + i * stride, x.data());
+      squares += part * part;
+      if (i > 0) way = std::max(way, std::abs(part) / norm[i]);
+    }
+    EXPECT_NEAR(kernel.norm2_along(rows.data(), count, stride, x.data()), squares, 1e-12);
+    const double largest = kernel.largest_way(rows.data(), count, stride, x.data(), norm.data());
+    EXPECT_TRUE(std::isinf(largest)) << "what moves without a norm has moved too far";
+    norm[0] = 1e300;
+    EXPECT_NEAR(kernel.largest_way(rows.data(), count, stride, x.data(), norm.data()), way, 1e-13);
+    kernel.take_squares(rows.data(), count, stride, rest.data());
+    for (Size j = 0; j < stride; ++j) {
+      double wanted = 0.0;
+      for (Size i = 0; i < count; ++i) wanted -= rows[i * stride + j] * rows[i * stride + j];
+      EXPECT_NEAR(rest[j], wanted, 1e-13);
+    }
+  }
+}
+
+TEST_P(Kernels, RowsAreCopiedAndWhatIsBehindThemStays) {
+  for (const Size length : {1, 2, 3, 4, 5, 7, 8, 19}) {
+    const Size stride = (length + 3) / 4 * 4, count = 3;
+    const Numbers from = numbers(count * length);
+    Numbers to(count * stride, 7.0);
+    kernels::chosen->copy_rows(from.data(), count, length, to.data(), stride);
+    for (Size i = 0; i < count; ++i) {
+      for (Size j = 0; j < stride; ++j) {
+        EXPECT_EQ(to[i * stride + j], j < length ? from[i * length + j] : 7.0);
+      }
+    }
+  }
+}
+
+TEST_P(Kernels, ProjectionLeavesNoPartAlongOrthonormalRows) {
+  const Size stride = 8;
+  for (const Size count : {1, 2, 3, 4, 5, 6}) {
+    // unit vectors; what stands behind the last row must not count
+    Numbers rows((count + 3) * stride, std::nan("")), v = numbers(stride);
+    std::fill_n(rows.begin(), count * stride, 0.0);
+    for (Size i = 0; i < count; ++i) rows[i * stride + i] = 1.0;
+    const Numbers before = v;
+    Numbers part(8, 0.5);
+    const double left = kernels::chosen->project(rows.data(), count, stride, v.data(), part.data());
+    EXPECT_NEAR(left, plain_dot(stride, v.data(), v.data()), 1e-14);
+    for (Size j = 0; j < stride; ++j) EXPECT_NEAR(v[j], j < count ? 0.0 : before[j], 1e-15);
+    for (Size i = 0; i < count; ++i) EXPECT_NEAR(part[i], 0.5 + before[i], 1e-15);
+  }
+}
+
 TEST_P(Kernels, EliminationLeavesRowsWithoutAPartAlongThePivot) {
   const Size stride = 20, count = 6;
   const Numbers pivot = numbers(stride);
