@@ -8,6 +8,13 @@
 
 namespace hurcules {
 
+namespace {
+
+// rounding of a row, relative to |a|, where nothing magnifies it
+constexpr double kOwnRounding = 1e-15;
+
+}  // namespace
+
 void SettledLevel::gather() {
   all_.clear();
   for (int g = 0; g < kGroups; ++g) {
@@ -31,23 +38,32 @@ void SettledLevel::factor() {
     std::fill(r + known, r + factor_.stride(), 0.0);
     norm2_[i] = row.norm * row.norm;
   }
-  for (const Group group : {kLimits, kOwn, kSmallest}) {
-    factor_.run(begin(group), end_[group], norm2_.data(),
-                group == kOwn ? own_rank() : tolerance::kRank);
-    factor_.clear_unknown(begin(group), end_[group]);
-    rank_[group] = factor_.rank();
+  const double* norm2 = norm2_.data();
+  factor_.run(0, end_[kLimits], norm2, tolerance::kRank);
+  rank_[kLimits] = factor_.rank();
+  double weakest = 1.0;
+  Index seen = 0;
+  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
+    factor_.run(i, i + 1, norm2, own_rank(weakest, seen));
   }
+  rank_[kOwn] = factor_.rank();
+  factor_.run(begin(kSmallest), end_[kSmallest], norm2, tolerance::kRank);
+  rank_[kSmallest] = factor_.rank();
+  factor_.clear_unknown(0, end_[kSmallest]);
 }
 
-// What is left of an own row outside the held limits is rounding below this. A limit that stands
-// out from those before it by a part of its length carries rounding as many times larger.
-double SettledLevel::own_rank() const {
-  double weakest = 1.0;
-  for (Index j = 0; j < rank_[kLimits]; ++j) {
-    const Index i = factor_.pivot(j);
-    weakest = std::min(weakest, std::abs(factor_.coordinates(i)[j]) / std::sqrt(norm2_[i]));
+// What is left of an own row outside the rows before it is rounding below this. A row that stands
+// out from those before it by a part of its length leaves rounding as many times larger; limits
+// carry more of it than own rows, whose directions are those of the chain. `weakest` such part,
+// squared, of the directions that are `seen`.
+double SettledLevel::own_rank(double& weakest, Index& seen) {
+  for (; seen < factor_.rank(); ++seen) {
+    const Index i = factor_.pivot(seen);
+    const double part = factor_.coordinates(i)[seen];
+    weakest = std::min(weakest, part * part / norm2_[i]);
   }
-  return std::min(tolerance::kRank, tolerance::kOwnRank / weakest);
+  if (seen == rank_[kLimits]) limits_rank_ = tolerance::kOwnRank / std::sqrt(weakest);
+  return std::min(tolerance::kRank, std::max(limits_rank_, kOwnRounding / std::sqrt(weakest)));
 }
 
 void SettledLevel::meet(Group group) {

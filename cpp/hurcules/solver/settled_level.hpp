@@ -53,7 +53,7 @@ class SettledLevel {
   // the step that the held rows ask for: target_, its values, multipliers
   void answer(double rho);
   void factor();
-  [[nodiscard]] double own_rank() const;
+  double own_rank(double& weakest, Index& seen);
   void meet(Group group);
   void least_squares(double rho);
   void add_smallest(double rho, Index& count);
@@ -83,6 +83,7 @@ class SettledLevel {
   Candidates* candidates_ = nullptr;
   const double* x_above_ = nullptr;
   double x_scale_ = 1.0, size_ = 1.0;  // of x_above; of the target, too
+  double limits_rank_ = 0.0;           // what is rounding of an own row outside the limits
   bool remembered_ = false;            // the first rows come without a point of theirs
   std::vector<Held> group_[kGroups], all_, ignored_;
   Index end_[kGroups] = {}, rank_[kGroups] = {};
