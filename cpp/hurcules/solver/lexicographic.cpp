@@ -172,7 +172,9 @@ bool Lexicographic::believed(Way way) const {
 }
 
 double Lexicographic::harm_above(int k) {
-  const double moved = optimality_.moved(rows_, *chain_, k, x_above_, x_) / x_scale_;
+  // where every equality row above has a direction of its own, a step along the others moves none
+  const bool apart = chain_->basis().whole() && chain_->rank_before(k) == rows_.equalities(k);
+  const double moved = apart ? 0.0 : optimality_.moved(rows_, *chain_, k, x_above_, x_) / x_scale_;
   // without a proof nobody has looked yet
   const double worse = options_.proof ? records_[k].worsened
                                       : optimality_.worsened(rows_, candidates_, k) / x_scale_;
