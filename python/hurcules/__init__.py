@@ -7,7 +7,7 @@ from hurcules.opengl import choose_backend
 choose_backend()
 require_mujoco()
 
-from hurcules import models, rhqp  # noqa: E402
+from hurcules import models, rhqp, scenes  # noqa: E402
 from hurcules._core import (  # noqa: E402
     AngleKind,
     AngleTask,
@@ -70,5 +70,6 @@ __all__ = [
     "missions",
     "models",
     "rhqp",
+    "scenes",
     "step",
 ]
