@@ -18,7 +18,7 @@ __all__ = ["PERSONS", "text"]
 
 PERSONS = [Person(50, 1.60), Person(75, 1.75), Person(90, 1.80), Person(120, 1.85)]
 
-HEADER = """<!-- Limp adult, {mass:g} kg and {stature:.2f} m, in clothes and helmet, with {joints} joints; free.
+HEADER = """<!-- Limp adult, {mass:g} kg and {stature:.2f} m, clothed, with {joints} joints, free.
      Written by assets/make_casualties.py; the sources of its numbers stand in anthropometry.py.
      Segment frames in standing posture: x to the front, y left, z up; the pelvis frame lies between
      the hip joints. At zero the body is straight and its back touches the plane x = {back:.4f}: on

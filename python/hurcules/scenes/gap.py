@@ -47,9 +47,8 @@ class Trench(Scene):
     def build(self, ground: Ground) -> None:
         """The floor lies at the bottom; two plates in a turned frame are the ground."""
         ground.floor(-self.depth)
-        ground.paint("earth")
         point = (self.distance, 0.0, 0.0)
         frame = ground.spec.worldbody.add_frame(pos=point, quat=turn("z", self.angle))
-        for name, near, end in (("start", -20.0, 0.0), ("end", self.width, 20.0)):
-            low, high = (near, -20.0, -self.depth), (end, 20.0, 0.0)
-            ground.box(f"ground_{name}", low, high, frame=frame)
+        for name, near, end in (("start", -60.0, 0.0), ("end", self.width, 60.0)):
+            low, high = (near, -60.0, -self.depth), (end, 60.0, 0.0)
+            ground.box(f"ground_{name}", low, high, frame=frame, material="ground")

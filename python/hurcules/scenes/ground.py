@@ -53,16 +53,14 @@ class Ground:
         self._robot = robot
         self._friction = friction
         add_materials(self.spec)
+        if robot is None:  # the robot brings the sun that follows it
+            _add_sun(self.spec)
         self._slide(self.spec.geom(FLOOR))
 
     def floor(self, z: float = 0.0, quat: ArrayLike = (1, 0, 0, 0), size: float = 60.0) -> None:
         """Moves the floor; its plane reaches everywhere, `size` [m] of it is seen."""
         geom = self.spec.geom(FLOOR)
         geom.pos, geom.quat, geom.size = [0, 0, z], quat, [size, size, 1]
-
-    def paint(self, material: str) -> None:
-        """Gives the floor another look."""
-        self.spec.geom(FLOOR).material = material
 
     def box(self, name: str, low: Sequence[float], high: Sequence[float], **more: Any) -> Any:
         """A box between two corners [m]; more: `material`, `frame`."""
@@ -87,7 +85,9 @@ class Ground:
         self.spec.add_mesh(name=name, uservert=points.flatten())
         return self._geom(name, mujoco.mjtGeom.mjGEOM_MESH, meshname=name, **more)
 
-    def field(self, name: str, heights: NDArray[np.float64], corner: ArrayLike, cell: float) -> Any:
+    def field(
+        self, name: str, heights: NDArray[np.float64], corner: ArrayLike, cell: float, **more: Any
+    ) -> Any:
         """A height field.
 
         Args:
@@ -95,6 +95,7 @@ class Ground:
             heights: (rows along y, columns along x) [m].
             corner: x and y of the first height [m].
             cell: distance between heights [m].
+            more: `material`.
         """
         rows, columns = heights.shape
         half = np.array([columns - 1, rows - 1]) * cell / 2
@@ -103,7 +104,7 @@ class Ground:
         size = [*half, span, 0.5]
         self.spec.add_hfield(name=name, nrow=rows, ncol=columns, size=size, userdata=data.flatten())
         centre = [*(np.asarray(corner) + half), low]
-        return self._geom(name, mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname=name, pos=centre)
+        return self._geom(name, mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname=name, pos=centre, **more)
 
     def attach(
         self, thing: str, prefix: str, pos: ArrayLike, quat: ArrayLike = (1, 0, 0, 0)
@@ -158,6 +159,12 @@ class Ground:
 
     def _slide(self, geom: Any) -> None:
         geom.friction[0] = self._friction
+
+
+def _add_sun(spec: Any) -> None:
+    sun = spec.worldbody.add_light(name="sun", pos=[2.2, 2.6, 5], dir=[-0.40, -0.47, -0.90])
+    sun.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
+    sun.diffuse, sun.specular = [0.75, 0.73, 0.68], [0.3, 0.3, 0.3]
 
 
 def _moved(

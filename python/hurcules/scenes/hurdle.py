@@ -56,7 +56,8 @@ class Hurdle(Scene):
             joint = f"hurdle_pipe_{name}"
             hinge = mujoco.mjtJoint.mjJNT_HINGE
             body.add_joint(name=joint, type=hinge, axis=[0, 1, 0], damping=0.02, armature=0.01)
-            body.mass, body.inertia, body.explicitinertial = 2.0, [0.1, 0.01, 0.1], True
+            body.mass, body.ipos, body.inertia = 2.0, [0, 0, 0], [0.1, 0.01, 0.1]
+            body.explicitinertial = True
             at = (0.0, 0.0, 0.0)
         ends = [(at[0], side * self.lane / 2, at[2]) for side in (-1, 1)]
         ground.cylinder(f"hurdle_pipe_{name}", self.edge_radius, ends, frame=body, material="steel")

@@ -12,7 +12,7 @@ from hurcules._core import Error
 from hurcules.scenes.ground import Ground
 from hurcules.scenes.parameters import choice, number
 from hurcules.scenes.scene import Scene
-from hurcules.scenes.surfaces import bumps, level_at_start, road
+from hurcules.scenes.surfaces import PAD, bumps, fade_to_pad, road
 
 __all__ = ["Gravel", "RoughRoad", "Sand"]
 
@@ -22,7 +22,7 @@ MAX_HEIGHTS = 1_000_000  # of one field: 4 MB
 
 @dataclass(frozen=True)
 class _Bed(Scene):
-    """Ground that is a height field, level where the robot starts."""
+    """Ground that is a height field, with a level pad where the robot starts."""
 
     length: float = number(20.0, 4.0, 400.0, "m", "of the bed, beginning 3 m behind the start")
     width: float = number(6.0, 3.0, 100.0, "m", "of the bed")
@@ -41,8 +41,10 @@ class _Bed(Scene):
 
     def _add(self, ground: Ground, heights: NDArray[np.float64], material: str) -> None:
         corner = (-3.0, -self.width / 2)
-        heights = level_at_start(heights, corner, self.cell)
-        ground.field("bed", heights, corner, self.cell).material = material
+        heights = fade_to_pad(heights, corner, self.cell)
+        ground.field("bed", heights, corner, self.cell, material=material)
+        left, right, low, high = PAD
+        ground.box("pad", (left, low, -0.2), (right, high, 0.0))
         ground.floor(float(heights.min()) - 0.02)
 
 

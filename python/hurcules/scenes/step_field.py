@@ -22,7 +22,7 @@ POSTS = 12  # along each side of a pallet
 class StepField(Scene):
     """Pallets in a straight line, each the same when turned by half a turn.
 
-    Flat: posts of one unit, every third one lower or higher. Hill: a ridge across the way.
+    Flat: posts of one unit, every sixth one lower or higher. Hill: a ridge across the way.
     Diagonal: a ridge from corner to corner. Dash: flat, hill, diagonal, hill, flat.
     """
 
@@ -52,7 +52,7 @@ class StepField(Scene):
         crest = {"flat": 0 * i, "hill": np.minimum(i, POSTS - 1 - i)}
         crest["diagonal"] = np.minimum(i + j, 2 * (POSTS - 1) - i - j) // 2
         base = 1 + crest[pattern] * (self.peak - 1) // (POSTS // 2 - 1)
-        change = rng.choice([-1, 0, 0, 0, 0, 1], size=(POSTS, POSTS))
+        change = rng.choice([-1, 1] + 10 * [0], size=(POSTS, POSTS))
         change[POSTS // 2 :] = change[: POSTS // 2][::-1, ::-1]
         return np.clip(base + change, 0, self.peak if pattern != "flat" else max(2, self.peak // 2))
 

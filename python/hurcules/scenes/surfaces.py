@@ -14,12 +14,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["bumps", "level_at_start", "road"]
+__all__ = ["PAD", "bumps", "fade_to_pad", "road"]
 
 N0 = 0.1  # [cycles/m] where ISO 8608 states the density
 LONGEST = 100.0  # [m] ISO 8608 begins at 0.01 cycles/m
-PAD = (-1.5, 1.5, -1.0, 1.0)  # [m] x and y that stay level round the start
+PAD = (-1.5, 1.5, -1.0, 1.0)  # [m] x and y of a level pad round the start, a geom of its own
 FADE = 1.5  # [m] from level to rough
+SUNK = 0.05  # [m] the surface below the pad: a track has fewer contacts with one box
 
 
 def road(
@@ -65,10 +66,10 @@ def bumps(rng: np.random.Generator, shape: tuple[int, int], breadth: float) -> N
     return (heights - heights.mean()) / heights.std()
 
 
-def level_at_start(
+def fade_to_pad(
     heights: NDArray[np.float64], corner: tuple[float, float], cell: float
 ) -> NDArray[np.float64]:
-    """The same surface, level at z = 0 where the robot starts, rough again after FADE.
+    """The same surface, at z = 0 round the pad, sunk below it, rough again after FADE.
 
     Args:
         heights: (rows along y, columns along x) [m].
@@ -79,8 +80,10 @@ def level_at_start(
     x, y = x + corner[0], y + corner[1]
     beyond_x = np.maximum(np.maximum(PAD[0] - x, x - PAD[1]), 0.0)
     beyond_y = np.maximum(np.maximum(PAD[2] - y, y - PAD[3]), 0.0)
-    u = np.clip(np.hypot(beyond_x, beyond_y) / FADE, 0.0, 1.0)
-    return heights * u**2 * (3 - 2 * u)
+    beyond = np.hypot(beyond_x, beyond_y)
+    u = np.clip(beyond / FADE, 0.0, 1.0)
+    inside = np.minimum.reduce([x - PAD[0], PAD[1] - x, y - PAD[2], PAD[3] - y])
+    return heights * u**2 * (3 - 2 * u) - SUNK * (inside > 0.5 * cell)
 
 
 def _even(size: int) -> int:

@@ -98,7 +98,7 @@ class Door(Scene):
         quat = turn("z", math.pi if self.opens == "towards" else 0.0)
         ground.attach("door", "door_", (self.distance, 0.0, 0.0), quat)
         if not self.closer:
-            ground.spec.joint("door_hinge").stiffness = 0.0
+            ground.spec.joint("door_hinge").stiffness = np.zeros(3)
 
 
 @dataclass(frozen=True)
