@@ -1,4 +1,4 @@
-"""Draws docs/scenes/*.png: every kind of scene with a robot at its start, and the four casualties.
+"""Draws docs/scenes/*.png and writes the list of all kinds of scenes into docs/scenes.md.
 
 Run:  python docs/make_scenes.py [KIND ...]    half a minute; needs an OpenGL without a window
 """
@@ -14,7 +14,9 @@ import hurcules
 from hurcules import models, scenes
 from hurcules.rendering import open_renderer
 
-FOLDER = Path(__file__).resolve().parent / "scenes"
+PAGE = Path(__file__).resolve().parent / "scenes.md"
+FOLDER = PAGE.with_suffix("")
+MARK = "<!-- from here on written by make_scenes.py -->\n"
 SIZE = (800, 480)
 
 # kind: parameters, where the camera looks [m], distance [m], azimuth, elevation [degrees]
@@ -85,9 +87,28 @@ def draw_casualties():
     return picture(model, data, LINE_UP)
 
 
+def gallery():
+    """The list of all kinds: picture, parameters."""
+    text = []
+    for kind in scenes.names():
+        about = type(scenes.scene(kind))
+        text += [f"### {kind}", "", f"![{kind}](scenes/{kind}.png)", "", about.__doc__.strip(), ""]
+        if kind == "ramps":
+            text += ["![crossing ramps](scenes/crossing_ramps.png)", ""]
+        text += [f"Follows: {about.source}.", ""] if about.source else []
+        text += ["| parameter | default | wanted | meaning |", "|---|---|---|---|"]
+        for p in scenes.parameters(kind):
+            default = f"{p.default:.4g}" if type(p.default) is float else str(p.default)
+            text.append(f"| `{p.name}` | {default} | {p.wanted} | {p.meaning} |")
+        text.append("")
+    return "\n".join(line.strip() for line in "\n".join(text).splitlines()) + "\n"
+
+
 def main(kinds):
     """Draws the kinds that are named, all without names."""
     FOLDER.mkdir(exist_ok=True)
+    page = PAGE.read_text(encoding="utf-8")
+    PAGE.write_text(page[: page.index(MARK)] + MARK + "\n" + gallery(), encoding="utf-8")
     for kind in kinds or [*VIEWS, "casualties"]:
         pixels = draw_casualties() if kind == "casualties" else draw_scene(kind)
         image = Image.fromarray(pixels).quantize(256, dither=Image.Dither.FLOYDSTEINBERG)

@@ -7,7 +7,7 @@ from hurcules.opengl import choose_backend
 choose_backend()
 require_mujoco()
 
-from hurcules import models, rhqp, scenes  # noqa: E402
+from hurcules import casualties, models, rhqp, scenes  # noqa: E402
 from hurcules._core import (  # noqa: E402
     AngleKind,
     AngleTask,
@@ -67,6 +67,7 @@ __all__ = [
     "VelocityController",
     "VelocityControllerOptions",
     "__version__",
+    "casualties",
     "missions",
     "models",
     "rhqp",

@@ -13,7 +13,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from hurcules import models
+import hurcules
+from hurcules import casualties, models, scenes
 
 PERSONS = {50: 1.60, 75: 1.75, 90: 1.80, 120: 1.85}  # [C] mass kg, stature m
 GRAVITY = 9.81
@@ -243,3 +244,42 @@ def test_a_falling_head_feels_the_blow(lying):
         mujoco.mj_step(model, data)
         peak = max(peak, np.linalg.norm(data.sensor("head_acceleration").data))
     assert 10 * GRAVITY < peak < 1000 * GRAVITY
+
+
+def test_forces_are_told_apart_by_who_exerts_them():
+    model = scenes.load("casualty", mass=90)
+    data = mujoco.MjData(model)
+    # the robot out of the way, a box of it held down on the thighs
+    mujoco.mj_resetDataKeyframe(model, data, model.key("ready").id)
+    hurcules.step(model, data, 1000)
+    forces = casualties.contact_forces(model, data)
+    assert list(forces) == casualties.regions(model) and set(forces) == REGIONS
+    for region, by in forces.items():
+        felt = data.sensor(f"casualty_force_{region}").data[0]
+        assert sum(by.values()) == pytest.approx(felt, abs=1e-9), region
+        assert by["robot"] == by["things"] == 0.0
+    assert sum(by["ground"] for by in forces.values()) == pytest.approx(90 * GRAVITY, rel=0.01)
+
+
+def test_an_arm_that_presses_on_the_chest_is_told_from_the_ground_below():
+    model = scenes.load("casualty", distance=2.0)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    root, person = model.joint("root").qposadr[0], model.joint("casualty_root").qposadr[0]
+    data.qpos[root + 2] = 3.0  # above everything, falling
+    data.qpos[person + 2] += 1e-3
+    mujoco.mj_forward(model, data)
+    # a lower track onto the chest: 2 mm into it
+    chest, track = data.site("casualty_chest").xpos, data.geom("L_lower_run_1").xpos
+    drop = track[2] - model.geom("L_lower_run_1").size[2] - chest[2] + 2e-3
+    data.qpos[root : root + 2] += (chest - track)[:2]
+    data.qpos[root + 2] -= drop
+    mujoco.mj_forward(model, data)
+    forces = casualties.contact_forces(model, data)
+    assert forces["chest"]["robot"] > 0.0 and forces["chest"]["ground"] == 0.0
+    assert sum(by["ground"] for by in forces.values()) >= 0.0
+
+
+def test_without_a_casualty_the_message_names_the_prefix():
+    with pytest.raises(hurcules.Error, match="no casualty with the prefix 'person_'"):
+        casualties.regions(scenes.load("casualty"), prefix="person_")

@@ -95,6 +95,8 @@ def test_wrong_names_are_answered_with_those_that_exist() -> None:
         scenes.make("slope", angel=0.1)
     with pytest.raises(hurcules.Error, match=r"'nobody' does not exist; .*rescue"):
         scenes.make("flat", robot="nobody")
+    with pytest.raises(hurcules.Error, match=r"robot 'stretch' does not exist; .*rescue"):
+        scenes.load("slope", "stretch")  # a scene, not a robot
 
 
 @pytest.mark.parametrize("seed", [-1, 1.5, "0", True, None])

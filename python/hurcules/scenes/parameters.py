@@ -31,7 +31,9 @@ class Parameter:
         if self.choices:
             return "one of " + ", ".join(str(value) for value in self.choices)
         kind = "a whole number" if isinstance(self.default, int) else "a number"
-        return f"{kind} from {self.low:g} to {self.high:g}" + (f" {self.unit}" if self.unit else "")
+        return f"{kind} from {self.low:.4g} to {self.high:.4g}" + (
+            f" {self.unit}" if self.unit else ""
+        )
 
 
 def number(default: float, low: float, high: float, unit: str, meaning: str) -> Any:
