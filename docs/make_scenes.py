@@ -39,11 +39,13 @@ VIEWS = {
     "sled": ({}, (1.6, 0, 0.5), 5.2, 112, -18),
     "casualty": ({}, (1.5, 0, 0.5), 5.4, 130, -18),
     "ordnance": ({}, (1.0, 0, 0.5), 4.4, 30, -26),
+    "lift": ({}, (1.0, 0, 0.5), 4.6, 60, -20),
+    "force_pad": ({}, (1.0, 0, 0.5), 4.6, 60, -24),
     "debris": ({}, (2.2, 0, 0.3), 6.2, 112, -20),
     "door": ({}, (1.4, 0, 0.9), 6.4, 135, -12),
     "valve": ({}, (0.9, 0, 0.9), 4.6, 50, -12),
 }
-STANDING = {"casualty", "ordnance", "debris", "valve", "sled"}  # the robot stands up
+STANDING = {"casualty", "ordnance", "lift", "force_pad", "debris", "valve", "sled"}  # the robot stands up
 MANIPULATION = {"ordnance", "debris", "door", "valve"}
 SETTLE = {"debris": 2.0}  # [s] until things lie
 LINE_UP = ((0, 0, 0.1), 4.6, 160, -38)  # camera of the four casualties

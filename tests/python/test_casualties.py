@@ -249,7 +249,6 @@ def test_a_falling_head_feels_the_blow(lying):
 def test_forces_are_told_apart_by_who_exerts_them():
     model = scenes.load("casualty", mass=90)
     data = mujoco.MjData(model)
-    # the robot out of the way, a box of it held down on the thighs
     mujoco.mj_resetDataKeyframe(model, data, model.key("ready").id)
     hurcules.step(model, data, 1000)
     forces = casualties.contact_forces(model, data)
@@ -266,8 +265,8 @@ def test_an_arm_that_presses_on_the_chest_is_told_from_the_ground_below():
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
     root, person = model.joint("root").qposadr[0], model.joint("casualty_root").qposadr[0]
-    data.qpos[root + 2] = 3.0  # above everything, falling
-    data.qpos[person + 2] += 1e-3
+    data.qpos[root + 2] = 3.0  # above everything
+    data.qpos[person + 2] += 1e-3  # clear of the ground
     mujoco.mj_forward(model, data)
     # a lower track onto the chest: 2 mm into it
     chest, track = data.site("casualty_chest").xpos, data.geom("L_lower_run_1").xpos
@@ -277,7 +276,6 @@ def test_an_arm_that_presses_on_the_chest_is_told_from_the_ground_below():
     mujoco.mj_forward(model, data)
     forces = casualties.contact_forces(model, data)
     assert forces["chest"]["robot"] > 0.0 and forces["chest"]["ground"] == 0.0
-    assert sum(by["ground"] for by in forces.values()) >= 0.0
 
 
 def test_without_a_casualty_the_message_names_the_prefix():

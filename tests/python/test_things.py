@@ -191,3 +191,42 @@ def test_a_person_begins_clear_of_the_ground_and_comes_to_rest(mass, lying):
     forces = [s for s in range(model.nsensor) if "_force_" in model.sensor(s).name]
     total = sum(data.sensor(s).data[0] for s in forces)
     assert total == pytest.approx(mass * GRAVITY, rel=0.15)
+
+
+# ---- loads
+
+
+@pytest.mark.parametrize("mass", [20.0, 120.0])  # [F A2] 120 kg
+def test_the_beam_lies_still_with_room_for_arms_below(mass):
+    model, data = ready("lift", mass=mass, clearance=0.3)
+    mujoco.mj_step(model, data, 1000)
+    assert model.body("beam").mass[0] == pytest.approx(mass)
+    assert data.body("beam").xpos[2] == pytest.approx(0.4, abs=2e-3)
+    assert abs(data.qvel).max() < 2e-3
+    # both lower arms of the robot, 0.66 m apart and 0.12 m wide, pass between the blocks
+    inner = data.geom("block_left").xpos[1] - model.geom("block_left").size[1]
+    assert inner > 0.33 + 0.06 + 0.1
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e4, 1e5])  # [D4 16]
+@pytest.mark.parametrize("height", [0.05, 0.15])
+def test_the_pad_gives_way_by_force_over_stiffness_and_weighs_the_force(stiffness, height):
+    spec = scenes.make("force_pad", stiffness=stiffness, height=height)
+    weight = spec.worldbody.add_body(pos=[1.5, 0.2, height + 0.05])
+    weight.add_freejoint()
+    weight.add_geom(size=[0.05, 0, 0], mass=1.0, contype=4, conaffinity=8, friction=[1, 0.1, 0.1])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    top = data.body("pad").xpos
+    mujoco.mj_forward(model, data)
+    assert top[2] + 0.015 == pytest.approx(height, abs=1e-9)
+    mujoco.mj_step(model, data, 6000)
+    assert data.sensor("pad_force").data[0] == pytest.approx(GRAVITY, rel=0.02)
+    assert data.joint("pad").qpos[0] == pytest.approx(-GRAVITY / stiffness, rel=0.02, abs=2e-6)
+
+
+def test_an_empty_pad_stays_where_it_is():
+    model, data = ready("force_pad")
+    mujoco.mj_step(model, data, 1000)
+    assert abs(data.joint("pad").qpos[0]) < 1e-9
+    assert data.sensor("pad_force").data[0] == 0.0

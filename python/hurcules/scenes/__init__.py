@@ -19,6 +19,7 @@ from hurcules.scenes.flat import Flat, Pylons
 from hurcules.scenes.gap import Gap, Trench
 from hurcules.scenes.ground import Ground
 from hurcules.scenes.hurdle import Hurdle
+from hurcules.scenes.load import ForcePad, Lift
 from hurcules.scenes.overlap import require_clear
 from hurcules.scenes.parameters import Parameter, parameters_of
 from hurcules.scenes.ramps import Ramps
@@ -35,7 +36,7 @@ _KINDS: dict[str, type[Scene]] = {
     kind.kind(): kind
     for kind in (
         Flat, Slope, Incline, Gap, Trench, Hurdle, Steps, Stairs, Ramps, StepField, RoughRoad,
-        Gravel, Sand, Pylons, Sled, Casualty, Ordnance, Debris, Door, Valve,
+        Gravel, Sand, Pylons, Sled, Casualty, Ordnance, Lift, ForcePad, Debris, Door, Valve,
     )
 }  # fmt: skip
 
