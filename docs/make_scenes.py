@@ -23,6 +23,8 @@ SIZE = (800, 480)
 VIEWS = {
     "flat": ({"friction": 0.6}, (0.4, 0, 0.7), 4.6, 130, -14),
     "slope": ({}, (0.0, 0, 0.8), 5.2, 100, -8),
+    "slope30_down": ({}, (0.0, 0, 0.8), 5.2, 100, -8),
+    "slope30_across": ({}, (0.0, 0, 0.8), 5.2, 145, -10),
     "incline": ({}, (3.6, 0, 0.8), 11.0, 112, -14),
     "gap": ({"width": 0.4}, (1.8, 0, 0.2), 6.5, 118, -16),
     "trench": ({"width": 0.4, "angle": 0.4}, (1.6, 0, 0.3), 6.0, 120, -22),
@@ -45,7 +47,15 @@ VIEWS = {
     "door": ({}, (1.4, 0, 0.9), 6.4, 135, -12),
     "valve": ({}, (0.9, 0, 0.9), 4.6, 50, -12),
 }
-STANDING = {"casualty", "ordnance", "lift", "force_pad", "debris", "valve", "sled"}  # the robot stands up
+STANDING = {
+    "casualty",
+    "ordnance",
+    "lift",
+    "force_pad",
+    "debris",
+    "valve",
+    "sled",
+}  # the robot stands up
 MANIPULATION = {"ordnance", "debris", "door", "valve"}
 SETTLE = {"debris": 2.0}  # [s] until things lie
 LINE_UP = ((0, 0, 0.1), 4.6, 160, -38)  # camera of the four casualties
@@ -94,9 +104,9 @@ def gallery():
     text = []
     for kind in scenes.names():
         about = type(scenes.scene(kind))
-        text += [f"### {kind}", "", f"![{kind}](scenes/{kind}.png)", "", about.__doc__.strip(), ""]
-        if kind == "ramps":
-            text += ["![crossing ramps](scenes/crossing_ramps.png)", ""]
+        presets = [name for name, (of, _) in scenes.PRESETS.items() if of == kind and name in VIEWS]
+        text += [f"### {kind}", "", about.__doc__.strip(), ""]
+        text += [" ".join(f"![{name}](scenes/{name}.png)" for name in [kind, *presets]), ""]
         text += [f"Follows: {about.source}.", ""] if about.source else []
         text += ["| parameter | default | wanted | meaning |", "|---|---|---|---|"]
         for p in scenes.parameters(kind):
