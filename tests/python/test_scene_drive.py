@@ -99,4 +99,5 @@ def test_rough_ground_is_crossed(kind):
 def test_ramps_pitch_the_robot_by_their_angle():
     run = ride("ramps", 8.0, angle=math.radians(10))
     assert run.x > 4.5
-    assert run.tilt == pytest.approx(math.radians(10), abs=math.radians(4))
+    # it tips over each ridge and lands nose down, but never turns by both slopes together
+    assert math.radians(9) < run.tilt < math.radians(20)
