@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 import pytest
-from standing import brake
 
 import hurcules
 from hurcules import scenes
+from standing import brake
 
 RADIUS = 0.14  # [m] of the belts
 GAIN = 800.0  # [N m s/rad]

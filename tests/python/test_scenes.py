@@ -1,8 +1,8 @@
 """Scenes made from parameters: they load, carry both robots, repeat, and refuse what is wrong.
 
 Strategy: what must hold for every kind is asked of every kind, in a loop over those that exist;
-what one kind promises stands in test_scene_shapes.py and test_things.py. Not tested: the looks, and
-whether a robot masters a scene.
+what one kind promises stands in test_scene_shapes.py, _rough, _drive and test_things.py. Not
+tested: the looks, and how hard a setting a robot masters.
 """
 
 import math
