@@ -24,6 +24,11 @@ class Gap(Scene):
     length: float = number(4.0, 1.5, 20.0, "m", "of the second platform")
     distance: float = number(2.0, 1.2, 20.0, "m", "from the start to the edge")
 
+    @property
+    def end(self) -> float:
+        """The far edge [m]."""
+        return self.distance + self.width
+
     def build(self, ground: Ground) -> None:
         """A floor below, two boxes on it."""
         ground.floor(-self.height)
@@ -43,6 +48,11 @@ class Trench(Scene):
         0.0, -math.pi / 3, math.pi / 3, "rad", "turned by this from square to the way"
     )
     distance: float = number(2.0, 1.2, 20.0, "m", "from the start to its near edge, straight ahead")
+
+    @property
+    def end(self) -> float:
+        """The far edge, straight ahead [m]."""
+        return self.distance + self.width / math.cos(self.angle)
 
     def build(self, ground: Ground) -> None:
         """The floor lies at the bottom; two plates in a turned frame are the ground."""

@@ -37,6 +37,11 @@ class Hurdle(Scene):
                 f"{room:g} m, got {self.edge_radius:g} m"
             )
 
+    @property
+    def end(self) -> float:
+        """The far side [m]."""
+        return self.distance + self.thickness
+
     def build(self, ground: Ground) -> None:
         """Two walls that differ by the pipes' radius, and the pipes."""
         r, half, near = self.edge_radius, self.lane / 2, self.distance

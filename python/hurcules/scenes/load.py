@@ -45,7 +45,7 @@ class ForcePad(Scene):
 
     stiffness: float = number(1e4, 1e3, 1e5, "N/m", "of the springs")
     damping_ratio: float = number(0.3, 0.05, 2.0, "", "of the plate on its springs")
-    height: float = number(0.1, 0.05, 0.6, "m", "of the plate's top when nothing is on it")
+    height: float = number(0.06, 0.05, 0.6, "m", "of the plate's top when nothing is on it")
     distance: float = number(1.1, 1.05, 10.0, "m", "from the start to its near edge")
 
     def build(self, ground: Ground) -> None:

@@ -34,11 +34,21 @@ class Ramps(Scene):
         2.0, 1.2, 20.0, "m", "from the start to the field's near edge, unturned"
     )
 
+    @property
+    def _reach(self) -> float:
+        """Of the turned field along the way [m]."""
+        long, broad = self.rows * self.cell, self.columns * self.cell
+        return abs(long * math.cos(self.heading)) + abs(broad * math.sin(self.heading))
+
+    @property
+    def end(self) -> float:
+        """The far edge of the field [m]."""
+        return self.distance + self._reach
+
     def build(self, ground: Ground) -> None:
         """One wedge a cell, in a frame at the middle of the field."""
         long, broad = self.rows * self.cell, self.columns * self.cell
-        reach = abs(long * math.cos(self.heading)) + abs(broad * math.sin(self.heading))
-        middle = (self.distance + reach / 2, 0.0, 0.0)
+        middle = (self.distance + self._reach / 2, 0.0, 0.0)
         frame = ground.spec.worldbody.add_frame(pos=middle, quat=turn("z", self.heading))
         for i in range(self.rows):
             for j in range(self.columns):

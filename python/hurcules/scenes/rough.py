@@ -36,6 +36,11 @@ class _Bed(Scene):
             wanted = f"{self.kind()}: length x width / cell^2 wants at most {MAX_HEIGHTS} heights"
             raise Error(f"{wanted}, got {rows * columns}")
 
+    @property
+    def end(self) -> float:
+        """Where the robot can stop and still be on the bed [m]."""
+        return self.length - 6.0
+
     def _shape(self) -> tuple[int, int]:
         return round(self.width / self.cell) + 1, round(self.length / self.cell) + 1
 

@@ -32,6 +32,11 @@ class Scene:
         """The scene's name: that of the class in snake_case."""
         return re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
 
+    @property
+    def end(self) -> float:
+        """Where the obstacle ends, and its landing begins [m] along x; 0 without an obstacle."""
+        return 0.0
+
     def build(self, ground: Ground) -> None:
         """Puts the scene on the ground; the robot stands at the origin and looks along +x."""
         raise NotImplementedError

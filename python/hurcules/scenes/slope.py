@@ -43,6 +43,11 @@ class Incline(Scene):
     landing: float = number(2.4, 0.0, 10.0, "m", "length of the landing")
     distance: float = number(2.0, 1.2, 20.0, "m", "from the start to the foot")
 
+    @property
+    def end(self) -> float:
+        """The top of the ramp [m]."""
+        return self.distance + self.length * math.cos(self.angle)
+
     def build(self, ground: Ground) -> None:
         """A solid wedge and a box behind it."""
         run, rise = self.length * math.cos(self.angle), self.length * math.sin(self.angle)

@@ -26,6 +26,11 @@ class Steps(Scene):
     width: float = number(2.4, 1.2, 10.0, "m", "breadth")
     distance: float = number(2.0, 1.2, 20.0, "m", "from the start to the first step")
 
+    @property
+    def end(self) -> float:
+        """The foot of the last step [m]."""
+        return self.distance + 2 * (self.count - 1) * self.run + self.platform
+
     def build(self, ground: Ground) -> None:
         """Slabs on each other, each shorter by a run at both ends."""
         half = self.width / 2
@@ -59,6 +64,11 @@ class Stairs(Scene):
     def run(self) -> float:
         """Depth of one step [m]."""
         return self.riser / math.tan(self.pitch)
+
+    @property
+    def end(self) -> float:
+        """The edge of the landing [m]."""
+        return self.distance + (self.count - 1) * self.run
 
     def build(self, ground: Ground) -> None:
         """One box a step; the last one is the landing."""

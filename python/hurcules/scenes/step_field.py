@@ -33,6 +33,11 @@ class StepField(Scene):
     pallets: int = count(5, 1, 20, "in line")
     distance: float = number(2.0, 1.2, 20.0, "m", "from the start to the first post")
 
+    @property
+    def end(self) -> float:
+        """The far edge of the last pallet [m]."""
+        return self.distance + self.pallets * POSTS * self.unit
+
     def build(self, ground: Ground) -> None:
         """Posts of one height in a row of a pallet are one box."""
         side = POSTS * self.unit
