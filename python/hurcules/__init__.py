@@ -7,7 +7,7 @@ from hurcules.opengl import choose_backend
 choose_backend()
 require_mujoco()
 
-from hurcules import casualties, models, rhqp, scenes  # noqa: E402
+from hurcules import casualties, models, rhqp, scenes, trials  # noqa: E402
 from hurcules._core import (  # noqa: E402
     AngleKind,
     AngleTask,
@@ -73,4 +73,5 @@ __all__ = [
     "rhqp",
     "scenes",
     "step",
+    "trials",
 ]
