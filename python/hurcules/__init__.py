@@ -7,7 +7,7 @@ from hurcules.opengl import choose_backend
 choose_backend()
 require_mujoco()
 
-from hurcules import models, rhqp  # noqa: E402
+from hurcules import casualties, models, rhqp, scenes, trials  # noqa: E402
 from hurcules._core import (  # noqa: E402
     AngleKind,
     AngleTask,
@@ -67,8 +67,11 @@ __all__ = [
     "VelocityController",
     "VelocityControllerOptions",
     "__version__",
+    "casualties",
     "missions",
     "models",
     "rhqp",
+    "scenes",
     "step",
+    "trials",
 ]

@@ -1,10 +1,12 @@
 """The robots and scenes that come with Hurcules, as MuJoCo models.
 
-A robot (models/robots/NAME.xml) stands in a scene (models/scenes/NAME.xml). Most scenes are mere
-surroundings and take any robot; the scene of a mission names the robot that it is made for.
+A robot (models/robots/NAME.xml) stands in a scene: a file (models/scenes/NAME.xml), or one that
+`hurcules.scenes` makes from parameters. Most scenes are mere surroundings and take any robot; the
+scene of a mission names the robot that it is made for.
 """
 
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Sequence
 from pathlib import Path
 
 import mujoco
@@ -12,7 +14,7 @@ import mujoco
 from hurcules import _core
 from hurcules._core import Error
 
-__all__ = ["folder", "load", "names", "path", "scenes"]
+__all__ = ["folder", "load", "names", "parse", "path", "scenes"]
 
 
 def folder() -> Path:
@@ -27,19 +29,39 @@ def names() -> list[str]:
 
 
 def scenes() -> list[str]:
-    """Returns the names of the scenes."""
-    return _stems("scenes")
+    """Returns the names of the scenes: files first, then those that are made."""
+    files = _stems("scenes")
+    return files + [name for name in _made() if name not in files]
 
 
 def path(name: str) -> Path:
-    """Returns the MJCF file of a robot or of a scene.
+    """Returns the MJCF file of a robot or of a scene that is one.
 
     Raises:
         Error: nothing has this name; the text lists the names that exist.
     """
     if name in names():
         return folder() / "robots" / f"{name}.xml"
-    return _existing("scenes", name, "robot or scene", names() + scenes())
+    return _existing("scenes", name, "robot or scene", names() + _stems("scenes"))
+
+
+def parse(files: Sequence[Path], model: str = "hurcules") -> mujoco.MjSpec:
+    """Reads MJCF files into one model, names as they are there.
+
+    Args:
+        files: in this order, the robot's first.
+        model: name of the model.
+
+    Raises:
+        Error: MuJoCo's text about broken MJCF.
+    """
+    includes = "".join(f'<include file="{file}"/>' for file in files)
+    try:
+        spec = mujoco.MjSpec.from_string(f'<mujoco model="{model}">{includes}</mujoco>')
+    except ValueError as error:
+        raise _rejected(error) from error
+    spec.modelfiledir = str(folder() / "robots")
+    return spec
 
 
 def load(
@@ -49,7 +71,8 @@ def load(
 
     Args:
         name: one of `names()`; by default the robot that the scene is made for, else "rescue".
-        scene: one of `scenes()`; by default that of the mission, without a mission "flat".
+        scene: one of `scenes()`; by default that of the mission, without a mission "flat". A scene
+            that is made has its default parameters and seed 0 here; see `hurcules.scenes.load`.
         mission: one of `hurcules.missions()`.
 
     Raises:
@@ -57,16 +80,26 @@ def load(
     """
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
+    if scene in _made() and scene not in _stems("scenes"):
+        from hurcules import scenes as made
+
+        return made.load(scene, name or "rescue")
     surroundings = _existing("scenes", scene, "scene", scenes())
     inhabitant = _robot_in(surroundings)
     name = name or inhabitant or "rescue"
     robot = _existing("robots", name, "robot", names())
     if inhabitant is None:
-        includes = f'<include file="{robot}"/><include file="{surroundings}"/>'
-        return _compile(f'<mujoco model="{name} in {scene}">{includes}</mujoco>')
+        return _compile(parse([robot, surroundings], f"{name} in {scene}"))
     if inhabitant != name:
         raise Error(f"scene '{scene}' is made for robot '{inhabitant}', not '{name}'")
     return _compile(surroundings)
+
+
+def _made() -> list[str]:
+    """Scenes that need no file; imported here, as they need this module."""
+    from hurcules import scenes as made
+
+    return [*made.names(), *made.PRESETS]
 
 
 def _stems(kind: str) -> list[str]:
@@ -89,14 +122,15 @@ def _robot_in(scene: Path) -> str | None:
     return next((file.stem for file in files if file.parent.name == "robots"), None)
 
 
-def _compile(source: Path | str) -> mujoco.MjModel:
-    """Compiles a file, or MJCF text whose files are looked for in models/robots."""
+def _compile(source: Path | mujoco.MjSpec) -> mujoco.MjModel:
     try:
         if isinstance(source, Path):
             return mujoco.MjModel.from_xml_path(str(source))
-        spec = mujoco.MjSpec.from_string(source)
-        spec.modelfiledir = str(folder() / "robots")
-        return spec.compile()
+        return source.compile()
     except ValueError as error:
-        text = " ".join(str(error).split())
-        raise Error(f"MuJoCo rejects the model: {text}") from error
+        raise _rejected(error) from error
+
+
+def _rejected(error: ValueError) -> Error:
+    text = " ".join(str(error).split())
+    return Error(f"MuJoCo rejects the model: {text}")

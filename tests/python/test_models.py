@@ -419,11 +419,11 @@ def test_bed_and_battery_stop_the_trunk_behind_the_hip_range(robot):  # [F A4]
 # ---- the person
 
 
-def test_the_casualty_weighs_75_kg_is_175_cm_tall_and_has_19_joints():  # [C]
+def test_the_casualty_weighs_75_kg_is_175_cm_tall_and_has_26_joints():  # [C]
     model = load("objects/casualty_75kg.xml")
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    assert mujoco.mj_getTotalmass(model) == pytest.approx(75.0, abs=0.05) and model.nv == 6 + 19
+    assert mujoco.mj_getTotalmass(model) == pytest.approx(75.0, abs=0.05) and model.nv == 6 + 26
     head, foot = data.body("head").xpos[2], data.body("L_foot").xpos[2]
     assert head - foot == pytest.approx(1.75 * (0.870 - 0.039), abs=0.1)  # chin to ankle
 

@@ -84,7 +84,16 @@ def test_import_with_another_mujoco_ends_with_that_message(tmp_path: Path, pin: 
 
 
 @pytest.mark.parametrize(
-    "name", ["hurcules", "hurcules.models", "hurcules.rhqp", "hurcules.doctor"]
+    "name",
+    [
+        "hurcules",
+        "hurcules.models",
+        "hurcules.rhqp",
+        "hurcules.doctor",
+        "hurcules.scenes",
+        "hurcules.casualties",
+        "hurcules.trials",
+    ],
 )
 def test_all_names_exactly_what_is_there(name: str) -> None:
     module = importlib.import_module(name)

@@ -1,0 +1,65 @@
+"""A limp person on the ground across the way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules import models
+from hurcules.scenes.ground import Ground, turn
+from hurcules.scenes.parameters import choice, number
+from hurcules.scenes.scene import Scene
+
+__all__ = ["Casualty"]
+
+# from upright (x to the front, z up) to lying with the head along +y
+BACK = np.array([0.5, -0.5, -0.5, -0.5])
+ROLL = {"back": 0.0, "left": math.pi / 2, "front": math.pi, "right": -math.pi / 2}
+
+
+@dataclass(frozen=True)
+class Casualty(Scene):
+    """One of the persons of models/objects, its names behind `casualty_`."""
+
+    mass: int = choice(75, (50, 75, 90, 120), "of the person, kg")
+    lying: str = choice("back", tuple(ROLL), "on which side")
+    distance: float = number(2.72, 1.5, 20.0, "m", "from the start to the person's middle")
+    heading: float = number(0.0, -math.pi, math.pi, "rad", "turned by this; 0: head to the left")
+
+    def build(self, ground: Ground) -> None:
+        """Lays the person down just above the ground."""
+        quat = _product(turn("z", self.heading), _product(turn("y", ROLL[self.lying]), BACK))
+        low, middle = _extent(self.mass, quat)
+        pos = (self.distance - middle[0], -middle[1], -low)
+        ground.attach(f"casualty_{self.mass}kg", "casualty_", pos, quat)
+
+
+def _extent(mass: int, quat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+    """Lowest point of a turned person [m], and the centre of its mass in x and y."""
+    spec = mujoco.MjSpec.from_file(str(models.folder() / "objects" / f"casualty_{mass}kg.xml"))
+    spec.body("pelvis").quat = quat
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    solid = np.flatnonzero(model.geom_contype)
+    low = min(data.geom_xpos[g][2] - _half_height(model, data, g) for g in map(int, solid))
+    return float(low), data.subtree_com[0][:2].copy()
+
+
+def _half_height(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> float:
+    up, size = data.geom_xmat[geom].reshape(3, 3)[2], model.geom_size[geom]
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_CAPSULE:
+        return float(size[0] + abs(up[2]) * size[1])
+    assert model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_ELLIPSOID
+    return float(np.linalg.norm(up * size))
+
+
+def _product(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    result = np.zeros(4)
+    mujoco.mju_mulQuat(result, a, b)
+    return result

@@ -1,0 +1,117 @@
+"""Things to handle: ordnance, debris, a sled to tow, a door, a valve."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from hurcules.scenes.ground import Ground, turn
+from hurcules.scenes.parameters import choice, count, flag, number
+from hurcules.scenes.scene import Scene
+
+__all__ = ["Debris", "Door", "Ordnance", "Sled", "Valve"]
+
+PIECES = {"timber_2x4": 0.019, "timber_4x4": 0.0445, "concrete_block": 0.095}  # half heights [m]
+CASE_RADIUS, BOX_HALF = 0.067, 0.14  # [m] of the shell (with its band) and the box
+
+
+@dataclass(frozen=True)
+class Ordnance(Scene):
+    """A shell and a box of 30 kg each, before the left and the right hand."""
+
+    distance: float = number(1.7, 1.5, 10.0, "m", "from the start")
+    apart: float = number(1.0, 0.6, 4.0, "m", "between the middles")
+    height: float = number(0.0, 0.0, 1.2, "m", "of the tables they lie on; 0: on the ground")
+
+    def build(self, ground: Ground) -> None:
+        """Tables if wanted, then both things."""
+        half = self.apart / 2
+        if self.height > 0.0:
+            reach = min(0.45, half - 0.01)
+            for name, y in (("left", half), ("right", -half)):
+                low = (self.distance - 0.3, y - reach, 0.0)
+                high = (self.distance + 0.3, y + reach, self.height)
+                ground.box(f"table_{name}", low, high, material="timber")
+        left = (self.distance, half, self.height + CASE_RADIUS)
+        ground.attach("shell_30kg", "shell_", left, turn("z", math.pi))
+        ground.attach("ordnance_box_30kg", "box_", (self.distance, -half, self.height + BOX_HALF))
+
+
+@dataclass(frozen=True)
+class Debris(Scene):
+    """Timber and concrete blocks in layers before the robot, drawn by the seed."""
+
+    source: ClassVar[str] = "DARPA Robotics Challenge (debris)"
+    timber: int = count(10, 0, 60, "pieces of wood, half of each size")
+    blocks: int = count(4, 0, 60, "hollow concrete blocks")
+    length: float = number(2.0, 0.5, 10.0, "m", "of the heap along the way")
+    width: float = number(1.6, 0.5, 10.0, "m", "of the heap across")
+    distance: float = number(2.5, 1.5, 20.0, "m", "from the start to its near side")
+
+    def build(self, ground: Ground) -> None:
+        """Each piece lies above those before it: it falls into place in the first second."""
+        names = ["concrete_block"] * self.blocks
+        names += ["timber_4x4", "timber_2x4"] * (self.timber // 2) + ["timber_2x4"] * (
+            self.timber % 2
+        )
+        height = 0.0
+        for index, name in enumerate(names, start=1):
+            low = np.array([self.distance + 0.5, -self.width / 2])
+            place = low + ground.rng.random(2) * (self.length, self.width)
+            yaw = turn("z", ground.rng.uniform(-math.pi, math.pi))
+            thick = PIECES[name]
+            ground.attach(name, f"piece_{index}_", (*place, height + thick + 0.002), yaw)
+            height += 2 * thick + 0.004
+
+
+@dataclass(frozen=True)
+class Sled(Scene):
+    """The sled to tow: its handle lies before the robot."""
+
+    source: ClassVar[str] = "ASTM E2830 (towing, grasped sleds)"
+    mass: float = number(75.0, 25.0, 500.0, "kg", "of sled and load")
+    sled_friction: float = number(0.5, 0.05, 1.5, "", "sliding friction of the runners")
+    distance: float = number(1.7, 1.5, 10.0, "m", "from the start to the handle")
+
+    def build(self, ground: Ground) -> None:
+        """The load makes up the mass."""
+        ground.attach("sled", "sled_", (self.distance + 1.54, 0.0, 0.0))
+        for name in ("runner_left", "runner_right", "nose_left", "nose_right"):
+            ground.spec.geom(f"sled_{name}").friction[0] = self.sled_friction
+        ground.spec.geom("sled_load").mass = self.mass - 20.0
+
+
+@dataclass(frozen=True)
+class Door(Scene):
+    """A door of 0.851 m in a wall across the way, with lever, latch and closer."""
+
+    source: ClassVar[str] = "DARPA Robotics Challenge (door)"
+    opens: str = choice("away", ("away", "towards"), "from or to the robot")
+    closer: bool = flag(True, "a spring shuts it")
+    distance: float = number(2.5, 1.5, 20.0, "m", "from the start")
+
+    def build(self, ground: Ground) -> None:
+        """Seen from behind, the same door opens towards the robot."""
+        quat = turn("z", math.pi if self.opens == "towards" else 0.0)
+        ground.attach("door", "door_", (self.distance, 0.0, 0.0), quat)
+        if not self.closer:
+            ground.spec.joint("door_hinge").stiffness = np.zeros(3)
+
+
+@dataclass(frozen=True)
+class Valve(Scene):
+    """A round valve at a wall; to be opened by one turn."""
+
+    source: ClassVar[str] = "DARPA Robotics Challenge (valve)"
+    torque: float = number(5.0, 0.0, 200.0, "N m", "friction at the axle")
+    height: float = number(1.05, 0.4, 1.7, "m", "of the axle")
+    distance: float = number(1.7, 1.5, 10.0, "m", "from the start to the wheel")
+
+    def build(self, ground: Ground) -> None:
+        """The whole wall is raised or sunk with the axle."""
+        rise = self.height - 1.05
+        ground.attach("valve", "valve_", (self.distance, 0.0, rise))
+        ground.spec.joint("valve_wheel").frictionloss = self.torque
