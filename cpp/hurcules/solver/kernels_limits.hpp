@@ -53,7 +53,6 @@ Blocking first_blocking(Size size, const double* value, const double* target, Li
     const Pack move = goal - v;
     // a row that does not move towards the limit that it breaks cannot stop the move
     const Mask blocks = (over & (move > 0.0)) | (under & (move < 0.0));
-    if (!any(blocks)) continue;
     const Pack room = over ? upper - v : lower - v;
     Pack way = room / move;
     way = way > 0.0 ? way : Pack{};

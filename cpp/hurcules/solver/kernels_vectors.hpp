@@ -34,15 +34,6 @@ inline double sum(Pack v) {
   return total;
 }
 
-// some number of the mask is set
-inline bool any(Mask mask) {
-#if HURCULES_KERNEL_WIDTH == 4
-  return __builtin_ia32_movmskpd256(reinterpret_cast<Pack>(mask)) != 0;
-#else
-  return (mask[0] | mask[1]) != 0;
-#endif
-}
-
 // four sums at once
 inline void sums(Pack a, Pack b, Pack c, Pack d, double* out) {
 #if HURCULES_KERNEL_WIDTH == 4
