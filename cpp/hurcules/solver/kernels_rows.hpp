@@ -4,20 +4,7 @@
 namespace hurcules::kernels {
 namespace {
 
-// y in registers while the rows pass
-template <int packs>
-void axpys_of(const double* rows, Size count, Size stride, const double* s, double* y) {
-  Pack sum[packs];
-  for (int p = 0; p < packs; ++p) sum[p] = load(y + p * kWidth);
-  for (Size i = 0; i < count; ++i) {
-    const double* r = rows + i * stride;
-    const Pack scale = spread(s[i]);
-    for (int p = 0; p < packs; ++p) sum[p] += scale * load(r + p * kWidth);
-  }
-  for (int p = 0; p < packs; ++p) store(y + p * kWidth, sum[p]);
-}
-
-void axpys_of_any(const double* rows, Size count, Size stride, const double* s, double* y) {
+void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
   Size i = 0;
   for (; i + 4 <= count; i += 4) {
     const double* r = rows + i * stride;
@@ -30,29 +17,6 @@ void axpys_of_any(const double* rows, Size count, Size stride, const double* s, 
     }
   }
   for (; i < count; ++i) axpy(stride, s[i], rows + i * stride, y);
-}
-
-void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
-  switch (stride / kWidth) {
-    case 1:
-      return axpys_of<1>(rows, count, stride, s, y);
-    case 2:
-      return axpys_of<2>(rows, count, stride, s, y);
-    case 3:
-      return axpys_of<3>(rows, count, stride, s, y);
-    case 4:
-      return axpys_of<4>(rows, count, stride, s, y);
-    case 5:
-      return axpys_of<5>(rows, count, stride, s, y);
-    case 6:
-      return axpys_of<6>(rows, count, stride, s, y);
-    case 8:
-      return axpys_of<8>(rows, count, stride, s, y);
-    case 10:
-      return axpys_of<10>(rows, count, stride, s, y);
-    default:
-      return axpys_of_any(rows, count, stride, s, y);
-  }
 }
 
 double project(const double* rows, Size count, Size stride, double* v, double* part) {
