@@ -76,6 +76,7 @@ void Simulation::integrate() {
 
 // torques  [T A.2.12]
 void Simulation::servo() {
+  servo_.mind(physics_.brakes());
   servo_.act({telemetry_.q_des, telemetry_.qd_des}, physics_.data());
   telemetry_.torque = servo_.torque();
   telemetry_.demand = servo_.demand();
