@@ -78,6 +78,10 @@ void Brakes::set_closed(int actuator, bool closed) {
   closed_[static_cast<std::size_t>(actuator)] = closed;
 }
 
+void Brakes::close() {
+  for (std::size_t i = 0; i < brakes_.size(); ++i) closed_[i] = brakes_[i].torque > 0.0;
+}
+
 void Brakes::reset(bool closed) {
   for (int actuator = 0; actuator < grip_.size(); ++actuator) {
     closed_[static_cast<std::size_t>(actuator)] = closed && exists(actuator);

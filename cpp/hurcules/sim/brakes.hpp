@@ -35,6 +35,7 @@ class Brakes {
   [[nodiscard]] int find(const std::string& joint) const;
   [[nodiscard]] std::vector<std::string> names() const;  // of the joints with a brake
   void set_closed(int actuator, bool closed);            // throws Error where there is no brake
+  void close();                                          // all of them
   // all at once and at once shut or open: for a start
   void reset(bool closed = false);
 

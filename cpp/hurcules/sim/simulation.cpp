@@ -85,6 +85,11 @@ void Simulation::servo() {
 
 void Simulation::advance_physics() {
   physics_.step();
+  power_meter_.read(physics_.data(), physics_.brakes());
+  battery_.draw(power_meter_.total(), dt());
+  if (battery_.empty()) physics_.brakes().close();
+  telemetry_.power = power_meter_.total();
+  telemetry_.charge = battery_.charge();
 }
 
 // figures, limits and the row of the log; the tasks are left as measured at the real motion
