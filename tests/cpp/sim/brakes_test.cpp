@@ -76,11 +76,12 @@ TEST(Brakes, StopATurningJointWithTheirTorque) {
   beam.physics.brakes().reset(true);
   beam.physics.data()->qvel[0] = -1.0;  // falling: 720 N m against 294 N m
   int ticks = 0;
-  while (beam.speed() < -1e-3 && ticks < 1000) {
+  // to 0.05 rad/s: below 0.04 the stiff friction row fades out instead of stepping
+  while (beam.speed() < -0.05 && ticks < 1000) {
     beam.step(1);
     ++ticks;
   }
-  EXPECT_NEAR(1e-3 * ticks, (50.0 * 0.36 + 1.9) / (720.0 - kLoad), 2e-3);
+  EXPECT_NEAR(1e-3 * ticks, 0.95 * (50.0 * 0.36 + 1.9) / (720.0 - kLoad), 1e-3);
 }
 
 TEST(Brakes, CloseAndOpenOverTheirTime) {
