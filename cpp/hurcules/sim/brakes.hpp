@@ -66,10 +66,10 @@ class Brakes {
 
   BrakeOptions options_;
   double dt_;
-  std::vector<Brake> brakes_;       // (nu)
-  std::vector<int> brake_of_dof_;   // (nv), -1 for none
-  std::vector<bool> closed_;        // (nu) as commanded
-  Vector grip_, load_;              // (nu): 0 open to 1 shut; [N m]
+  std::vector<Brake> brakes_;      // (nu)
+  std::vector<int> brake_of_dof_;  // (nv), -1 for none
+  std::vector<bool> closed_;       // (nu) as commanded
+  Vector grip_, load_;             // (nu): 0 open to 1 shut; [N m]
 };
 
 }  // namespace hurcules

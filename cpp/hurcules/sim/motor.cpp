@@ -26,8 +26,8 @@ double find_limit(const mjModel* m, const std::string& marker, const std::string
     if (at == std::string::npos) continue;
     if (name.substr(0, at) + name.substr(at + marker.size()) != joint) continue;
     const double limit = m->numeric_data[m->numeric_adr[i]];
-    require(limit > 0.0, "numeric '" + name + "' wants a number above 0, " +
-                             std::to_string(limit) + " came");
+    require(limit > 0.0,
+            "numeric '" + name + "' wants a number above 0, " + std::to_string(limit) + " came");
     return limit;
   }
   return kNone;

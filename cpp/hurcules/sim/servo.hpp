@@ -38,11 +38,11 @@ class Servo {
   }  // of the joints, (m)
   [[nodiscard]] std::size_t coordinate_joints() const {
     return coordinate_joints_;
-  }                                                                     // they come first
+  }  // they come first
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
   [[nodiscard]] const Vector& demand() const {
     return pid_.demand();
-  }                                                                 // [N m], (m), before saturation
+  }  // [N m], (m), before saturation
   [[nodiscard]] const JointError& error() const { return error_; }  // [rad], [rad/s], (m)
   [[nodiscard]] const JointPid& pid() const { return pid_; }
   void save(StateWriter& writer) const;
@@ -58,9 +58,9 @@ class Servo {
     MotorLimits limits = {};
   };
   struct Rest {
-    bool on = false;       // the brake holds, the motor is without power
-    bool over = false;     // this tick the motor takes over
-    double torque = 0.0;   // [N m] at the joint, what it takes over
+    bool on = false;      // the brake holds, the motor is without power
+    bool over = false;    // this tick the motor takes over
+    double torque = 0.0;  // [N m] at the joint, what it takes over
   };
   void measure(const Reference& reference, const mjData_* data);
   void set_limits(const mjData_* data);
@@ -70,7 +70,7 @@ class Servo {
   std::size_t coordinate_joints_ = 0;
   JointPid pid_;
   JointError error_;
-  Vector place_;  // [rad], (m): what a motor without a coordinate holds
+  Vector place_;             // [rad], (m): what a motor without a coordinate holds
   std::vector<Rest> rests_;  // (m)
 };
 

@@ -62,7 +62,8 @@ class Simulation {
   int step(int n = 1, const Vector* command = nullptr);
   void reset(std::uint64_t seed);
   // The brake of a joint, open after reset. A joint rests behind its shut brake: the planner does
-  // not know, so that a mission holds its coordinate too (JointLimits). An empty battery closes all.
+  // not know, so that a mission holds its coordinate too (JointLimits). An empty battery closes
+  // all.
   void set_brake(const std::string& joint, bool closed);
 
   [[nodiscard]] double dt() const { return physics_.dt(); }      // [s]

@@ -59,9 +59,8 @@ void Telemetry::clear() {
                          &target_in_base}) {
     values->setZero();
   }
-  for (double* value :
-       {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality, &power,
-        &charge, &tick_us}) {
+  for (double* value : {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality,
+                        &power, &charge, &tick_us}) {
     *value = 0.0;
   }
 }

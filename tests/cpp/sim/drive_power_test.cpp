@@ -1,9 +1,9 @@
-// Strategy: the rescue robot drives a mission of 400 m at 20 km/h on flat ground with every joint but
-// the belts braked (F05, H06, H12): its work against friction and damping as a hand computes them,
-// and then the battery over the 2 h of F04 with seven such missions there and back (H13). Boards of
-// 4 cm on the way for the brakes of the arms; those of neck and knees slip there, for the tracks are
-// rigid: suspension is to come. The drive here is a plain speed loop. Not tested: slopes, loads,
-// turning.
+// Strategy: the rescue robot drives a mission of 400 m at 20 km/h on flat ground with every joint
+// but the belts braked (F05, H06, H12): its work against friction and damping as a hand computes
+// them, and then the battery over the 2 h of F04 with seven such missions there and back (H13).
+// Boards of 4 cm on the way for the brakes of the arms; those of neck and knees slip there, for the
+// tracks are rigid: suspension is to come. The drive here is a plain speed loop. Not tested:
+// slopes, loads, turning.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -26,7 +26,8 @@ constexpr double kRadius = 0.14, kSpeed = 5.56, kAcceleration = 1.0;
 
 ModelPtr scene(const std::string& more = "") {
   return load_model_text(R"(<mujoco><include file="../robots/rescue.xml"/>
-      <include file="flat.xml"/><worldbody>)" + more + "</worldbody></mujoco>",
+      <include file="flat.xml"/><worldbody>)" +
+                             more + "</worldbody></mujoco>",
                          std::string(HURCULES_MODELS) + "/scenes");
 }
 
@@ -117,8 +118,8 @@ TEST(DrivePower, OfAMissionIsFrictionAndDampingAndTwoHoursAreInTheBattery) {
   EXPECT_LT(vehicle.moved(), 1e-3);  // arms, legs and trunk without power
   EXPECT_LT(vehicle.most_power, 2.0 * 7950.0);
 
-  // friction 18 N m on each driven belt, damping 0.1 N m s/rad on each of four: over a ramp up to v,
-  // a cruise and a ramp down
+  // friction 18 N m on each driven belt, damping 0.1 N m s/rad on each of four: over a ramp up to
+  // v, a cruise and a ramp down
   const double cruise = 400.0 / kSpeed - kSpeed / kAcceleration;
   const double square = kSpeed * kSpeed * (cruise + 2.0 / 3.0 * kSpeed / kAcceleration);
   const double lost = 36.0 * 400.0 / kRadius + 0.4 * square / (kRadius * kRadius);
@@ -134,10 +135,11 @@ TEST(DrivePower, OfAMissionIsFrictionAndDampingAndTwoHoursAreInTheBattery) {
   RecordProperty("drive_400_m_J", static_cast<int>(vehicle.energy));
   RecordProperty("working_W", static_cast<int>(working));
   RecordProperty("charge_percent", static_cast<int>(100.0 * battery.charge()));
-  std::printf("400 m: %.1f s, %.1f kJ work, %.1f kJ electric, %.1f kJ in all, at most %.0f W; moved "
-              "%.1e rad; working %.0f W; after 2 h %.1f %%\n",
-              vehicle.seconds, 1e-3 * vehicle.work, 1e-3 * vehicle.electric, 1e-3 * vehicle.energy,
-              vehicle.most_power, vehicle.moved(), working, 100.0 * battery.charge());
+  std::printf(
+      "400 m: %.1f s, %.1f kJ work, %.1f kJ electric, %.1f kJ in all, at most %.0f W; moved "
+      "%.1e rad; working %.0f W; after 2 h %.1f %%\n",
+      vehicle.seconds, 1e-3 * vehicle.work, 1e-3 * vehicle.electric, 1e-3 * vehicle.energy,
+      vehicle.most_power, vehicle.moved(), working, 100.0 * battery.charge());
   EXPECT_GT(battery.charge(), 0.1);
 }
 

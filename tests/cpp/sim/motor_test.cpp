@@ -1,6 +1,7 @@
 // Strategy: the curve of a motor against the formulas of its header and the CVT of the design notes
 // (A6); its electric power against what a hand computes; then the drives of both real robots:
-// numbers present, and the rotor's inertia, the friction and the damping felt as a motor feels them.
+// numbers present, and the rotor's inertia, the friction and the damping felt as a motor feels
+// them.
 #include "hurcules/sim/motor.hpp"
 
 #include <mujoco/mujoco.h>
@@ -55,9 +56,9 @@ TEST(Motor, OfATrackIsTheCvtOfTheDesignNotes) {
 
 TEST(Motor, TakesItsShaftPowerItsLossesAndTheHeatOfItsWindings) {
   const MotorPower power(kElbow, {.efficiency = 0.8, .regeneration = 0.5, .heat_at_peak = 0.3});
-  EXPECT_NEAR(power.at(600.0, 0.0), 0.3 * 540.0, 1e-12);          // stalled
-  EXPECT_NEAR(power.at(300.0, 1.0), 300.0 / 0.8 + 40.5, 1e-12);   // drives
-  EXPECT_NEAR(power.at(300.0, -1.0), -0.5 * 300.0 + 40.5, 1e-12); // is driven
+  EXPECT_NEAR(power.at(600.0, 0.0), 0.3 * 540.0, 1e-12);           // stalled
+  EXPECT_NEAR(power.at(300.0, 1.0), 300.0 / 0.8 + 40.5, 1e-12);    // drives
+  EXPECT_NEAR(power.at(300.0, -1.0), -0.5 * 300.0 + 40.5, 1e-12);  // is driven
   EXPECT_EQ(power.at(0.0, 1.0), 0.0);
   EXPECT_GE(MotorPower(kElbow).at(300.0, -1.0), 0.0);  // a resistor burns it
 }
@@ -125,8 +126,8 @@ TEST(Motor, RefusesNumbersThatMakeNoMotor) {
   const auto text = [](const std::string& motor, const std::string& custom) {
     const ModelPtr model = load_model_text(
         "<mujoco><worldbody><body><joint name=\"j\"/><geom size=\"1\"/><site name=\"s\"/></body>"
-        "</worldbody><actuator><motor " + motor + "/></actuator><custom>" + custom +
-        "</custom></mujoco>");
+        "</worldbody><actuator><motor " +
+        motor + "/></actuator><custom>" + custom + "</custom></mujoco>");
     return error_text([&] { (void)read_motor_limits(model.get(), 0); });
   };
   EXPECT_EQ(text(R"(joint="j")", ""), "");
