@@ -29,6 +29,7 @@ CHANNELS = (
     ("active_rows/L", "rows that hold level L back"),
     ("command/K", "[m/s] or [rad/s] task-space command K"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
+    ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
     ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
 )

@@ -291,6 +291,7 @@ def test_every_drive_has_its_motor_limits_and_speed(robot):
             assert model.dof_frictionloss[j.dofadr[0]] == pytest.approx(0.03 * peak, rel=0.01)
             assert model.dof_damping[j.dofadr[0]] == pytest.approx(peak / (20 * speed), rel=0.02)
             assert model.numeric(f"velocity_limit_{joint}").data[0] == speed
+            assert model.numeric(f"power_limit_{joint}").data[0] == pytest.approx(peak * speed / 2)
 
 
 def test_all_agreed_names_exist(robot):

@@ -60,6 +60,20 @@ JointPid::JointPid(JointPidOptions options) : options_(std::move(options)) {
   check(options_);
   gain_ = options_.K.array() + 1.0 / (options_.gamma * options_.gamma);
   integral_ = demand_ = torque_ = Vector::Zero(gain_.size());
+  lower_ = -options_.max_torque;
+  upper_ = options_.max_torque;
+}
+
+void JointPid::limit(Index i, const EffortRange& range) {
+  lower_[i] = std::max(range.lower, -options_.max_torque[i]);
+  upper_[i] = std::min(range.upper, options_.max_torque[i]);
+}
+
+void JointPid::take_over(Index i, const JointError& error, double torque) {
+  const double e = error.position[i];
+  const double integral =
+      (torque / gain_[i] - error.velocity[i] - options_.K_P[i] * e) / options_.K_I[i];
+  integral_[i] = integral - e * options_.dt;  // compute adds this period's
 }
 
 const Vector& JointPid::compute(const JointError& error) {
@@ -68,7 +82,7 @@ const Vector& JointPid::compute(const JointError& error) {
     const double integral = integral_[i] + e * options_.dt;
     demand_[i] = gain_[i] * (error.velocity[i] + options_.K_P[i] * e +
                              options_.K_I[i] * integral);  // [T A.2.12], tau = -u
-    torque_[i] = std::clamp(demand_[i], -options_.max_torque[i], options_.max_torque[i]);
+    torque_[i] = std::clamp(demand_[i], lower_[i], upper_[i]);
     // a saturated joint keeps its integral unless the error leads back
     const bool deeper = torque_[i] != demand_[i] && (e > 0.0) == (demand_[i] > 0.0);
     if (!deeper) integral_[i] = integral;

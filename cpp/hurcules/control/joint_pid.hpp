@@ -42,11 +42,22 @@ struct JointError {
   Vector velocity;  // [rad/s], (m)
 };
 
+// What a drive can give at the moment.
+struct EffortRange {
+  double lower = 0.0;  // [N m] or [N], <= 0
+  double upper = 0.0;  // >= 0
+};
+
 class JointPid {
  public:
   explicit JointPid(JointPidOptions options);
   // [N m], (m); the reference stays valid until the next compute
   const Vector& compute(const JointError& error);
+  // saturation of joint i from now on, never beyond max_torque; 0 to 0 for a drive that is off
+  void limit(Index i, const EffortRange& range);
+  // goes on from a torque that somebody else gave: at this error joint i's next demand is `torque`
+  // [N m], and the integral takes it from there
+  void take_over(Index i, const JointError& error, double torque);
 
   [[nodiscard]] Index size() const { return torque_.size(); }
   [[nodiscard]] const JointPidOptions& options() const { return options_; }
@@ -62,6 +73,7 @@ class JointPid {
   JointPidOptions options_;
   Vector gain_;  // K + I / gamma^2
   Vector integral_, demand_, torque_;
+  Vector lower_, upper_;  // [N m] saturation of the moment
 };
 
 }  // namespace hurcules

@@ -37,6 +37,7 @@ Physics::Physics(ModelPtr model, mjData* borrowed)
     : model_(std::move(model)),
       data_(own_or_borrow(model_.get(), borrowed)),
       tracks_(model_.get()),
+      brakes_(model_.get()),
       state_(Vector::Zero(mj_stateSize(model_.get(), kState))) {}
 
 int Physics::find_keyframe(const std::string& text) const {
@@ -54,12 +55,17 @@ void Physics::reset(int keyframe) {
   data_->time = 0.0;
   std::fill_n(data_->qvel, model_->nv, 0.0);
   std::fill_n(data_->ctrl, model_->nu, 0.0);
+  brakes_.reset();
   sound_ = looks_sound();
 }
 
 void Physics::step() {
   if (!sound_) return;
-  hurcules::step(model_.get(), data_.get(), tracks_);
+  mj_step1(model_.get(), data_.get());
+  tracks_.add_belts(model_.get(), data_.get());
+  brakes_.tighten(data_.get());
+  mj_step2(model_.get(), data_.get());
+  brakes_.advance(data_.get());
   check();
 }
 
@@ -93,12 +99,14 @@ void Physics::save(StateWriter& writer) const {
   mj_getState(model_.get(), data_.get(), state_.data(), kState);
   writer.put(state_);
   writer.put(sound_ ? 1.0 : 0.0);
+  brakes_.save(writer);
 }
 
 void Physics::restore(StateReader& reader) {
   reader.get(state_);
   mj_setState(model_.get(), data_.get(), state_.data(), kState);
   sound_ = reader.get() > 0.0;
+  brakes_.restore(reader);
   for (mjWarningStat& warning : data_->warning) {
     if (sound_) warning.number = 0;
   }

@@ -1,5 +1,5 @@
-// The simulated world: MuJoCo's model and data, the tracks, and a look at whether it still makes
-// sense.
+// The simulated world: MuJoCo's model and data, the tracks, the brakes, and a look at whether it
+// still makes sense.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "hurcules/base/state.hpp"
 #include "hurcules/robot/robot.hpp"
+#include "hurcules/sim/brakes.hpp"
 #include "hurcules/sim/tracks.hpp"
 
 namespace hurcules {
@@ -19,7 +20,7 @@ class Physics {
   // index of the first keyframe whose name contains this text; throws Error with the names that
   // exist
   [[nodiscard]] int find_keyframe(const std::string& text) const;
-  // everything at rest in a keyframe, time zero
+  // everything at rest in a keyframe, brakes open, time zero
   void reset(int keyframe);
   void step();
   // false once a position, a velocity or an acceleration was not finite or huge; such a state is
@@ -33,12 +34,14 @@ class Physics {
   [[nodiscard]] mjData_* data() { return data_.get(); }
   [[nodiscard]] const mjData_* data() const { return data_.get(); }
   [[nodiscard]] const Tracks& tracks() const { return tracks_; }
+  [[nodiscard]] Brakes& brakes() { return brakes_; }
+  [[nodiscard]] const Brakes& brakes() const { return brakes_; }
   [[nodiscard]] double dt() const;                      // [s]
   [[nodiscard]] Eigen::Map<Vector> qpos();              // (nq)
   [[nodiscard]] Eigen::Map<const Vector> qpos() const;  // (nq)
   [[nodiscard]] Eigen::Map<const Vector> qvel() const;  // (nv)
 
-  // MuJoCo's whole integration state
+  // MuJoCo's whole integration state, and the brakes
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 
@@ -48,6 +51,7 @@ class Physics {
   ModelPtr model_;
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   Tracks tracks_;
+  Brakes brakes_;
   bool sound_ = true;
   mutable Vector state_;  // scratch, mjSTATE_INTEGRATION
 };

@@ -2,10 +2,6 @@
 
 #include <mujoco/mujoco.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -24,13 +20,6 @@ const ServoRow& row_of(const std::vector<ServoRow>& table, const std::string& jo
 std::string joint_name(const mjModel* m, int joint) {
   const char* const name = mj_id2name(m, mjOBJ_JOINT, joint);
   return name ? name : "";
-}
-
-// [N m] at the joint, the same both ways
-double max_torque(const mjModel* m, int actuator) {
-  if (!m->actuator_forcelimited[actuator]) return std::numeric_limits<double>::infinity();
-  const mjtNum* const range = m->actuator_forcerange + 2 * actuator;
-  return std::min(-range[0], range[1]) * std::abs(m->actuator_gear[6 * actuator]);
 }
 
 void require_motor(const mjModel* m, int actuator, const std::string& joint) {
@@ -53,10 +42,11 @@ Servo::Servo(const Robot& robot, const std::vector<ServoRow>& table, double dt)
     motor.qpos = m->jnt_qposadr[joint];
     motor.dof = m->jnt_dofadr[joint];
     motor.gear = m->actuator_gear[6 * motor.actuator];
+    motor.limits = read_motor_limits(m, motor.actuator);
     motors_.push_back(motor);
     taken[static_cast<std::size_t>(motor.actuator)] = true;
     const ServoRow& row = row_of(table, names_.back());
-    drives.push_back({row.inertia, row.bandwidth, max_torque(m, motor.actuator)});
+    drives.push_back({row.inertia, row.bandwidth, motor.limits.peak});
   };
   for (Index i = 0; i < robot.size(); ++i) {
     for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(i)].joints) {
@@ -71,18 +61,19 @@ Servo::Servo(const Robot& robot, const std::vector<ServoRow>& table, double dt)
   }
   pid_ = JointPid(triple_pole(drives, dt));
   error_.position = error_.velocity = place_ = Vector::Zero(pid_.size());
+  rests_.resize(motors_.size());
+}
+
+void Servo::mind(const Brakes& brakes) {
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    const bool shut = brakes.is_shut(motors_[i].actuator);
+    rests_[i] = {shut, rests_[i].on && !shut, brakes.load(motors_[i].actuator)};
+  }
 }
 
 void Servo::act(const Reference& reference, mjData* data) {
-  for (Index i = 0; i < pid_.size(); ++i) {
-    const Motor& motor = motors_[static_cast<std::size_t>(i)];
-    const bool driven = motor.coordinate >= 0;
-    const double position =
-        driven ? motor.factor * reference.position[motor.coordinate] : place_[i];
-    const double velocity = driven ? motor.factor * reference.velocity[motor.coordinate] : 0.0;
-    error_.position[i] = position - data->qpos[motor.qpos];
-    error_.velocity[i] = velocity - data->qvel[motor.dof];
-  }
+  measure(reference, data);
+  set_limits(data);
   const Vector& torque = pid_.compute(error_);
   for (Index i = 0; i < pid_.size(); ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
@@ -90,10 +81,36 @@ void Servo::act(const Reference& reference, mjData* data) {
   }
 }
 
+// errors of the joints; what held its place behind a brake holds where the brake left it
+void Servo::measure(const Reference& reference, const mjData* data) {
+  for (Index i = 0; i < pid_.size(); ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    const bool driven = motor.coordinate >= 0;
+    const Rest& rest = rests_[static_cast<std::size_t>(i)];
+    if (rest.on || rest.over) place_[i] = data->qpos[motor.qpos];
+    const double position =
+        driven ? motor.factor * reference.position[motor.coordinate] : place_[i];
+    const double velocity = driven ? motor.factor * reference.velocity[motor.coordinate] : 0.0;
+    error_.position[i] = position - data->qpos[motor.qpos];
+    error_.velocity[i] = velocity - data->qvel[motor.dof];
+  }
+}
+
+// by speed and by brake
+void Servo::set_limits(const mjData* data) {
+  for (Index i = 0; i < pid_.size(); ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    const Rest& rest = rests_[static_cast<std::size_t>(i)];
+    pid_.limit(i, rest.on ? EffortRange{} : motor.limits.at(data->qvel[motor.dof]));
+    if (rest.over) pid_.take_over(i, error_, rest.torque);
+  }
+}
+
 void Servo::reset(const mjData* data) {
   pid_.reset();
   error_.position.setZero();
   error_.velocity.setZero();
+  for (Rest& rest : rests_) rest = {};
   for (Index i = 0; i < pid_.size(); ++i) {
     place_[i] = data->qpos[motors_[static_cast<std::size_t>(i)].qpos];
   }
@@ -102,11 +119,13 @@ void Servo::reset(const mjData* data) {
 void Servo::save(StateWriter& writer) const {
   pid_.save(writer);
   writer.put(place_);
+  for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
 }
 
 void Servo::restore(StateReader& reader) {
   pid_.restore(reader);
   reader.get(place_);
+  for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
 }
 
 }  // namespace hurcules

@@ -1,5 +1,6 @@
 // The joint servos: one robust PID for every joint that the coordinates drive, both knees on their
-// own, and for every other motor, which holds its place: the drives brake.
+// own, and for every other motor, which holds its place: the drives brake. A torque goes no further
+// than the motor at its present speed, and none is given behind a brake that is shut.
 #pragma once
 
 #include <string>
@@ -8,6 +9,8 @@
 #include "hurcules/control/joint_pid.hpp"
 #include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/robot/robot.hpp"
+#include "hurcules/sim/brakes.hpp"
+#include "hurcules/sim/motor.hpp"
 
 struct mjData_;
 
@@ -25,6 +28,8 @@ class Servo {
     const Vector& velocity;
   };
   void act(const Reference& reference, mjData_* data);
+  // before act: a motor whose brake is shut rests; one whose brake opens takes over what it bore
+  void mind(const Brakes& brakes);
   // at rest and without memory; the motors that no coordinate drives hold where `data` has them
   void reset(const mjData_* data);
 
@@ -33,11 +38,11 @@ class Servo {
   }  // of the joints, (m)
   [[nodiscard]] std::size_t coordinate_joints() const {
     return coordinate_joints_;
-  }                                                                     // they come first
+  }  // they come first
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
   [[nodiscard]] const Vector& demand() const {
     return pid_.demand();
-  }                                                                 // [N m], (m), before saturation
+  }  // [N m], (m), before saturation
   [[nodiscard]] const JointError& error() const { return error_; }  // [rad], [rad/s], (m)
   [[nodiscard]] const JointPid& pid() const { return pid_; }
   void save(StateWriter& writer) const;
@@ -50,14 +55,23 @@ class Servo {
     double gear = 1.0;
     Index coordinate = -1;  // -1: holds its place
     double factor = 1.0;    // joint = factor * coordinate
+    MotorLimits limits = {};
   };
+  struct Rest {
+    bool on = false;      // the brake holds, the motor is without power
+    bool over = false;    // this tick the motor takes over
+    double torque = 0.0;  // [N m] at the joint, what it takes over
+  };
+  void measure(const Reference& reference, const mjData_* data);
+  void set_limits(const mjData_* data);
 
   std::vector<Motor> motors_;
   std::vector<std::string> names_;
   std::size_t coordinate_joints_ = 0;
   JointPid pid_;
   JointError error_;
-  Vector place_;  // [rad], (m): what a motor without a coordinate holds
+  Vector place_;             // [rad], (m): what a motor without a coordinate holds
+  std::vector<Rest> rests_;  // (m)
 };
 
 }  // namespace hurcules

@@ -76,6 +76,7 @@ void Simulation::integrate() {
 
 // torques  [T A.2.12]
 void Simulation::servo() {
+  servo_.mind(physics_.brakes());
   servo_.act({telemetry_.q_des, telemetry_.qd_des}, physics_.data());
   telemetry_.torque = servo_.torque();
   telemetry_.demand = servo_.demand();
@@ -84,6 +85,11 @@ void Simulation::servo() {
 
 void Simulation::advance_physics() {
   physics_.step();
+  power_meter_.read(physics_.data(), physics_.brakes());
+  battery_.draw(power_meter_.total(), dt());
+  if (battery_.empty()) physics_.brakes().close();
+  telemetry_.power = power_meter_.total();
+  telemetry_.charge = battery_.charge();
 }
 
 // figures, limits and the row of the log; the tasks are left as measured at the real motion

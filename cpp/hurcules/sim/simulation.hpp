@@ -15,8 +15,10 @@
 
 #include "hurcules/control/velocity_controller.hpp"
 #include "hurcules/mission/mission.hpp"
+#include "hurcules/sim/battery.hpp"
 #include "hurcules/sim/events.hpp"
 #include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/power_meter.hpp"
 #include "hurcules/sim/recorder.hpp"
 #include "hurcules/sim/servo.hpp"
 #include "hurcules/sim/stage_timer.hpp"
@@ -42,6 +44,8 @@ struct SimulationOptions {
   bool record = true;                    // keep the time series
   Clock clock = nullptr;                 // [s] for timings; null: none are taken
   BaseSource base = BaseSource::Held;
+  PowerOptions power;      // what the robot takes
+  BatteryOptions battery;  // from where
 };
 
 // Why a run is over.
@@ -57,6 +61,10 @@ class Simulation {
   // mission's own operator
   int step(int n = 1, const Vector* command = nullptr);
   void reset(std::uint64_t seed);
+  // The brake of a joint, open after reset. A joint rests behind its shut brake: the planner does
+  // not know, so that a mission holds its coordinate too (JointLimits). An empty battery closes
+  // all.
+  void set_brake(const std::string& joint, bool closed);
 
   [[nodiscard]] double dt() const { return physics_.dt(); }      // [s]
   [[nodiscard]] double time() const { return telemetry_.time; }  // [s] since reset
@@ -81,6 +89,7 @@ class Simulation {
   [[nodiscard]] const EventList& events() const { return events_; }
   [[nodiscard]] std::string text(const Event& event) const;
   [[nodiscard]] const Physics& physics() const { return physics_; }
+  [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] const Robot& plan() const { return plan_; }
   [[nodiscard]] const VelocityController& controller() const { return *controller_; }
 
@@ -126,6 +135,8 @@ class Simulation {
   std::vector<StackPlaces> places_;           // one for each stack
   VelocityController* controller_ = nullptr;  // of the present phase
   Servo servo_;
+  PowerMeter power_meter_;
+  Battery battery_;
   LimitWatch limit_watch_;
   FallWatch fall_watch_;
   TelemetryNames names_;

@@ -56,6 +56,8 @@ Simulation::Simulation(ModelPtr model, const std::string& mission, SimulationOpt
       plan_(physics_.model_ptr()),
       mission_(make_mission(mission, plan_)),
       servo_(world_, mission_->setup().servo, physics_.dt()),
+      power_meter_(physics_.model(), options_.power),
+      battery_(options_.battery),
       limit_watch_(world_, servo_.pid().options().max_torque),
       fall_watch_({mission_->setup().min_height, mission_->setup().max_tilt}),
       names_(names_of(*mission_, plan_, servo_)),

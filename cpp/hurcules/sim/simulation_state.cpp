@@ -20,6 +20,8 @@ void Simulation::reset(std::uint64_t seed) {
   for (Recorder* recorder : {&log_, &timings_}) recorder->truncate(0.0);
   events_.clear();
   telemetry_.clear();
+  battery_.reset();
+  telemetry_.charge = battery_.charge();
   place_scene(seed);
   servo_.reset(physics_.data());
   for (const auto& controller : controllers_) controller->reset();
@@ -29,6 +31,10 @@ void Simulation::reset(std::uint64_t seed) {
   mission_->reset(plan_, world_);
   enter_phase();
   observe();
+}
+
+void Simulation::set_brake(const std::string& joint, bool closed) {
+  physics_.brakes().set_closed(physics_.brakes().find(joint), closed);
 }
 
 void Simulation::place_scene(std::uint64_t seed) {
@@ -72,6 +78,7 @@ std::vector<double> Simulation::state() const {
   mission_->save(writer);
   for (const auto& controller : controllers_) controller->save(writer);
   servo_.save(writer);
+  battery_.save(writer);
   limit_watch_.save(writer);
   fall_watch_.save(writer);
   for (const Vector* vector : {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active,
@@ -100,6 +107,7 @@ void Simulation::read(const std::vector<double>& values) {
   mission_->restore(reader);
   for (const auto& controller : controllers_) controller->restore(reader);
   servo_.restore(reader);
+  battery_.restore(reader);
   limit_watch_.restore(reader);
   fall_watch_.restore(reader);
   for (Vector* vector : {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active,
@@ -111,6 +119,7 @@ void Simulation::read(const std::vector<double>& values) {
   controller_ = controllers_[controller_of_phase_[mission_->phase()]].get();
   telemetry_.time = static_cast<double>(ticks_) * dt();
   telemetry_.phase = static_cast<double>(mission_->phase());
+  telemetry_.charge = battery_.charge();
   for (Recorder* recorder : {&log_, &timings_}) recorder->truncate(telemetry_.time);
   events_.truncate(telemetry_.time);
   physics_.check();

@@ -59,8 +59,8 @@ void Telemetry::clear() {
                          &target_in_base}) {
     values->setZero();
   }
-  for (double* value :
-       {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality, &tick_us}) {
+  for (double* value : {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality,
+                        &power, &charge, &tick_us}) {
     *value = 0.0;
   }
 }
@@ -84,6 +84,8 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
   recorder.add("command", names.commands, command);
   recorder.add("base", axes(), base_position);
   recorder.add("base_rotation", axes(), base_rotation);
+  recorder.add("power", &power);
+  recorder.add("charge", &charge);
   recorder.add("factorizations", &factorizations);
   recorder.add("iterations", &iterations);
   recorder.add("changes", &changes);

@@ -1,0 +1,53 @@
+// What a motor behind its gear can give at a joint, and what that costs in electric power.
+//
+//   driving, F v > 0:  |F| <= min(peak, P / |v|), fading out from the peak speed to no-load speed
+//   braking, F v < 0:  |F| <= peak: only the current limits it
+//   electric power:    F v / efficiency + r F^2   (F v > 0),   regeneration F v + r F^2   (F v < 0)
+//
+// r F^2 is the heat in the windings: a motor that only holds a load takes power too, a brake none.
+// F is a torque [N m] at a hinge, a force [N] at a slide; v is [rad/s] or [m/s]. Dry friction,
+// damping and the rotor's inertia behind the gear are the model's: frictionloss, damping, armature.
+#pragma once
+
+#include <string>
+
+#include "hurcules/control/joint_pid.hpp"
+
+struct mjModel_;
+
+namespace hurcules {
+
+struct MotorLimits {
+  double peak = 0.0;   // [N m] or [N], > 0; inf for none
+  double speed = 0.0;  // [rad/s] or [m/s], > 0: up to here P is there; inf for none
+  double power = 0.0;  // [W] at the joint, > 0; inf for none
+
+  [[nodiscard]] EffortRange at(double velocity) const;
+};
+
+struct MotorLosses {
+  double efficiency = 0.9;    // of gear motor and inverter, 0 to 1, friction apart
+  double regeneration = 0.0;  // share of braking power that comes back; 0: a resistor burns it
+  // heat at peak torque over the motor's peak power: 10 % of it at 0.6 of the peak torque, which
+  // the motor bears for ever
+  double heat_at_peak = 0.3;
+};
+
+// The limits of the actuator's joint, which may have no others: peak from its forcerange, speed and
+// power from the model's numerics velocity_limit_JOINT and power_limit_JOINT. Without the latter
+// the power is that of peak and speed together. Throws Error for numbers that are not above 0.
+[[nodiscard]] MotorLimits read_motor_limits(const mjModel_* model, int actuator);
+
+class MotorPower {
+ public:
+  // throws Error for an efficiency outside (0, 1], a regeneration outside [0, 1], or negative heat
+  explicit MotorPower(const MotorLimits& limits, const MotorLosses& losses = {});
+  // [W] taken from the supply, negative when power comes back; braking joints never take extra
+  [[nodiscard]] double at(double effort, double velocity) const;
+
+ private:
+  MotorLosses losses_;
+  double resistance_ = 0.0;  // [W/(N m)^2]
+};
+
+}  // namespace hurcules
