@@ -166,8 +166,14 @@ void bind_options(py::module_& module) {
   py::class_<Options>(module, "SimulationOptions", kOptions)
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
                        bool timed, BaseSource base) {
-             return Options{seed, variation, std::move(method), record, timed ? now : nullptr,
-                            base};
+             Options options;
+             options.seed = seed;
+             options.variation = variation;
+             options.method = std::move(method);
+             options.record = record;
+             options.clock = timed ? now : nullptr;
+             options.base = base;
+             return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
            "method"_a = defaults.method, "record"_a = defaults.record,
