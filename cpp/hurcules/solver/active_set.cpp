@@ -25,15 +25,15 @@ void ActiveSet::reserve(Index unknowns, Index most_rows, Index most_own) {
 }
 
 void ActiveSet::start(const RowTable& rows, LevelProblem& problem, Candidates& candidates,
-                      double rho, const double* centre, double x_scale) {
+                      double rho, const double* x_above, double x_scale) {
   rows_ = &rows;
   problem_ = &problem;
   candidates_ = &candidates;
-  problem.solve_free(rho, centre, x_free_.data());
+  problem.solve_free(rho, x_free_.data());
   relative_ = tolerance::kBroken * x_scale;
   absolute_ = tolerance::kBrokenTarget * problem.target_size();
   count_ = rows.candidates(problem.level() + 1);
-  centre_ = centre;
+  x_above_ = x_above;
   ignored_.clear();
   set_.start(rows, problem, candidates, x_free_.data());
 }

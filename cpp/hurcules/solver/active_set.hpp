@@ -1,5 +1,5 @@
-// Finds the working set of a level: by a primal active set from the centre, or by a dual active set
-// from any set.
+// Finds the working set of a level: by a primal active set from where the levels above ended, or by
+// a dual active set from any set.
 #pragma once
 
 #include "hurcules/solver/budget.hpp"
@@ -10,10 +10,9 @@ namespace hurcules {
 class ActiveSet {
  public:
   void reserve(Index unknowns, Index most_rows, Index most_own);
-  // A level around `centre`, which is where the levels above ended.
-  // `x_scale` is what rounding in x is relative to.
+  // A level from x_above. `x_scale` is what rounding in x is relative to.
   void start(const RowTable& rows, LevelProblem& problem, Candidates& candidates, double rho,
-             const double* centre, double x_scale);
+             const double* x_above, double x_scale);
 
   void clear();
 
@@ -23,7 +22,7 @@ class ActiveSet {
   void plan(int row, Side side) { set_.plan(row, side); }
   // factors the planned rows at once
   void take_planned() { set_.factor(); }
-  // Primal, from the centre, which no limit forbids: feasible all along, monotone. False when
+  // Primal, from x_above, which no limit forbids: feasible all along, monotone. False when
   // `most_changes`, or the budget, are used up; x_feasible() is then the best point so far.
   bool primal(Budget& budget, int most_changes);
   // Dual (Goldfarb-Idnani) from the present set; `raised` tells that the tolerance had to grow.
@@ -43,7 +42,7 @@ class ActiveSet {
   void solve();
   void evaluate();
   [[nodiscard]] double worst_excess(const double* value) const;
-  // holds the own rows that are violated at the centre
+  // holds the own rows that are violated at x_above
   void hold_violated();
   // nothing here can move the row
   [[nodiscard]] bool lost(const Row& row) const;
@@ -61,7 +60,7 @@ class ActiveSet {
     double lower, upper;
   };
 
-  const double* centre_ = nullptr;
+  const double* x_above_ = nullptr;
   const RowTable* rows_ = nullptr;
   LevelProblem* problem_ = nullptr;
   Candidates* candidates_ = nullptr;

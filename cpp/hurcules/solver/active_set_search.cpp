@@ -28,7 +28,7 @@ void ActiveSet::hold_violated() {
 }
 
 bool ActiveSet::primal(Budget& budget, int most_changes) {
-  std::copy_n(centre_, rows_->stride(), x_.data());
+  std::copy_n(x_above_, rows_->stride(), x_.data());
   std::copy_n(candidates_->above.data(), count_, candidates_->value.data());
   if (problem_->has_slacks()) hold_violated();
   double *value = candidates_->value.data(), *target = candidates_->target.data();

@@ -23,7 +23,7 @@ void LevelProblem::reserve(Index unknowns, Index rows, Index most_own) {
   }
   R_.reserve(own * own);
   for (PaddedVector* v : {&inverse_, &c_, &t_, &t_free_}) v->reserve(padded(unknowns) + 4);
-  for (PaddedVector* v : {&r_, &r_above_}) v->reserve(rows + 4);
+  r_.reserve(rows + 4);
 }
 
 void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
@@ -48,7 +48,7 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
     const double* last = rows.norms() + own.first + own.count;
     own_norm_ = std::max(own_norm_, *std::max_element(rows.norms() + own.first, last));
   }
-  find_residual(x_above, r_above_.data());
+  find_residual(x_above);
   x_above_ = x_above;
 }
 
@@ -57,11 +57,11 @@ double LevelProblem::least_settling(double largest_multiplier, double x_scale) c
                   tolerance::kNoForce * own_norm_ * own_norm_ * x_scale);
 }
 
-void LevelProblem::find_residual(const double* x, double* r) const {
+void LevelProblem::find_residual(const double* x) {
   const int first = rows_->equalities(level_);
   const double* target = rows_->targets() + first;
-  kernels::chosen->dots(rows_->dense_row(first), equalities_, rows_->stride(), x, r);
-  for (Index i = 0; i < equalities_; ++i) r[i] = target[i] - r[i];
+  kernels::chosen->dots(rows_->dense_row(first), equalities_, rows_->stride(), x, r_.data());
+  for (Index i = 0; i < equalities_; ++i) r_[i] = target[i] - r_[i];
 }
 
 bool LevelProblem::equalities_met(double x_scale) const {
@@ -69,7 +69,7 @@ bool LevelProblem::equalities_met(double x_scale) const {
   for (Index i = 0; i < equalities_; ++i) {
     const double scale =
         rows_->dense_norms()[first + i] * x_scale + std::abs(rows_->targets()[first + i]);
-    if (std::abs(r_above_[i]) > tolerance::kZeroResidual * scale) return false;
+    if (std::abs(r_[i]) > tolerance::kZeroResidual * scale) return false;
   }
   return true;
 }
@@ -85,7 +85,7 @@ double LevelProblem::largest_coordinate() const {
 
 // q known to the compiler for the usual sizes, so that it keeps all in registers; 0: any
 template <int fixed>
-void LevelProblem::factor_by_cholesky(const double* residual) {
+void LevelProblem::factor_by_cholesky() {
   constexpr int kSize = fixed > 0 ? fixed : 1;
   double square[kSize * kSize], sums[kSize];
   double *R = fixed > 0 ? square : R_.data(), *c = fixed > 0 ? sums : c_.data();
@@ -96,7 +96,7 @@ void LevelProblem::factor_by_cholesky(const double* residual) {
   }
   for (Index i = 0; i < equalities_; ++i) {
     const double* e = own_row(i);
-    const double r = residual[i];
+    const double r = r_[i];
     for (Index j = 0; j < q; ++j) {
       c[j] += e[j] * r;
       for (Index l = j; l < q; ++l) R[j * q + l] += e[j] * e[l];
@@ -124,11 +124,11 @@ void LevelProblem::factor_by_cholesky(const double* residual) {
   }
 }
 
-void LevelProblem::factor_by_householder(const double* residual) {
+void LevelProblem::factor_by_householder() {
   Index count = 0;
   for (; count < equalities_; ++count) {
     for (Index j = 0; j < own_; ++j) stacked_(count, j) = own_row(count)[j];
-    stacked_(count, own_) = residual[count];
+    stacked_(count, own_) = r_[count];
   }
   if (rho_ > 0.0) {
     for (Index j = 0; j < own_; ++j, ++count) {
@@ -182,7 +182,7 @@ void LevelProblem::solve_transposed(double scale, double* own) const {
   }
 }
 
-void LevelProblem::factor(double rho, const double* residual) {
+void LevelProblem::factor(double rho) {
   rho_ = rho;
   target_size_ = 0.0;
   if (own_ == 0) return;
@@ -191,19 +191,19 @@ void LevelProblem::factor(double rho, const double* residual) {
       (own_norm_ < kMostCondition * rho || largest_coordinate() < kMostCondition * rho)) {
     switch (own_) {
       case 1:
-        factor_by_cholesky<1>(residual);
+        factor_by_cholesky<1>();
         break;
       case 2:
-        factor_by_cholesky<2>(residual);
+        factor_by_cholesky<2>();
         break;
       case 3:
-        factor_by_cholesky<3>(residual);
+        factor_by_cholesky<3>();
         break;
       default:
-        factor_by_cholesky<0>(residual);
+        factor_by_cholesky<0>();
     }
   } else {
-    factor_by_householder(residual);
+    factor_by_householder();
   }
   for (Index j = 0; j < own_; ++j) target_size_ = std::max(target_size_, std::abs(c_[j]));
   if (rho > 0.0) target_size_ /= rho;
@@ -211,15 +211,14 @@ void LevelProblem::factor(double rho, const double* residual) {
 }
 
 void LevelProblem::solve_free(double rho) {
-  factor(rho, r_above_.data());
+  factor(rho);
   per_rho_ = 1.0 / rho;
   std::copy_n(t_.data(), own_, t_free_.data());
 }
 
-void LevelProblem::solve_free(double rho, const double* centre, double* x_free) {
-  std::copy_n(centre, rows_->stride(), x_free);
-  if (centre != x_above_) find_residual(centre, r_.data());
-  factor(rho, centre == x_above_ ? r_above_.data() : r_.data());
+void LevelProblem::solve_free(double rho, double* x_free) {
+  std::copy_n(x_above_, rows_->stride(), x_free);
+  factor(rho);
   if (own_ == 0) return;
   kernels::chosen->axpys(chain_->direction(first_), own_, rows_->stride(), t_.data(), x_free);
 }

@@ -1,6 +1,6 @@
 // One level as a least-distance problem, and the way back to x.
 //
-// With t the step from a centre in the free directions, e = coordinates of a row, R'R = Lk'Lk +
+// With t the step from x_above in the free directions, e = coordinates of a row, R'R = Lk'Lk +
 // rho^2 I, and x_free the optimum of the level's equality rows alone:
 //     y = (0, R (t_1 - t_free) / rho, t_2, w)
 //     t_1: directions of the level's own equality rows, t_2: the other free ones,
@@ -22,9 +22,9 @@ class LevelProblem {
   void reserve(Index unknowns, Index rows, Index most_own);
   // level k in the free directions of the chain, from the answer of the levels above
   void start(const RowTable& rows, const Chain& chain, int level, const double* x_above);
-  // the optimum of the own equality rows alone, from the centre
-  void solve_free(double rho, const double* centre, double* x_free);
-  // the same as a step in the own directions, from where the levels above ended
+  // the optimum of the own equality rows alone, from where the levels above ended
+  void solve_free(double rho, double* x_free);
+  // the same as a step in the own directions
   void solve_free(double rho);
 
   [[nodiscard]] int level() const { return level_; }
@@ -35,7 +35,7 @@ class LevelProblem {
   [[nodiscard]] Index width() const { return body_ + slacks_; }  // of y, with its zeros
   [[nodiscard]] bool has_slacks() const { return slacks_ > 0; }
   [[nodiscard]] bool has_slack(const Row& row) const { return slacks_ > 0 && row.level == level_; }
-  // largest part of x_free - centre in units of y: what rounding is relative to
+  // largest part of x_free - x_above in units of y: what rounding is relative to
   [[nodiscard]] double target_size() const { return target_size_; }
   // largest |a| of the own rows
   [[nodiscard]] double own_norm() const { return own_norm_; }
@@ -65,13 +65,13 @@ class LevelProblem {
 
  private:
   [[nodiscard]] Index slack_of(const Row& row) const;
-  void find_residual(const double* x, double* r) const;
-  // R and c from a residual: the least squares of the own equality rows
-  void factor(double rho, const double* residual);
+  void find_residual(const double* x);
+  // R and c: the least squares of the own equality rows
+  void factor(double rho);
   [[nodiscard]] double largest_coordinate() const;
   template <int fixed>
-  void factor_by_cholesky(const double* residual);
-  void factor_by_householder(const double* residual);
+  void factor_by_cholesky();
+  void factor_by_householder();
   // t = R^-1 scale b
   void solve_triangular(double scale, const double* b);
   template <int fixed>
@@ -91,10 +91,10 @@ class LevelProblem {
   Index first_ = 0, own_ = 0, free_ = 0, slacks_ = 0, equalities_ = 0;
   Index lead_ = 0, body_ = 0;
   double rho_ = 0.0, per_rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0;
-  PaddedVector R_;                         // (own, own) upper triangular, rows own_ apart
-  Matrix stacked_;                         // Householder's block
-  PaddedVector inverse_, c_;               // 1 / diagonal; R^-T Lk' r
-  PaddedVector t_, t_free_, r_, r_above_;  // coefficients; residuals
+  PaddedVector R_;               // (own, own) upper triangular, rows own_ apart
+  Matrix stacked_;               // Householder's block
+  PaddedVector inverse_, c_;     // 1 / diagonal; R^-T Lk' r
+  PaddedVector t_, t_free_, r_;  // coefficients; residuals
 };
 
 }  // namespace hurcules

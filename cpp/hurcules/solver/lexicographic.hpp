@@ -64,7 +64,7 @@ class Lexicographic : public Method {
   bool settle_kept(double rho, int k);
   bool settle_held(double rho, double epsilon);
 
-  // to the optimal working set: from the set of the last solve, or from the centre
+  // to the optimal working set: from the set of the last solve, or from x_above_
   bool find_warm(int k);
   bool find_cold();
   bool find_by_dual();

@@ -97,7 +97,7 @@ bool Lexicographic::find_warm(int k) {
 }
 
 bool Lexicographic::find_cold() {
-  // from the centre, which is feasible and monotone; it hands over where zero steps might cycle
+  // from x_above_, which is feasible and monotone; it hands over where zero steps might cycle
   const int most = static_cast<int>(3 * (unknowns_ + rows_.size()));
   return active_set_.primal(budget_, most) || (!budget_.spent() && find_by_dual());
 }

@@ -103,12 +103,7 @@ Optimality::Forces Optimality::add_held_rows(const RowTable& rows, const Candida
     forces.pull = std::max(forces.pull, -multiplier);
     if (row.level == k) continue;
     forces.scale += size * row.norm;
-    const double push = up ? multiplier : -multiplier;
-    if (row.dense < 0) {
-      g[row.row] += push;
-    } else {
-      rows.add_to(held[h].row, push, g);
-    }
+    rows.add_to(held[h].row, up ? multiplier : -multiplier, g);
     // what a row above may reach: its limit, or where it stood when that was worse
     const double stood = candidates.above[row.candidate], stands = candidates.value[row.candidate];
     const double limit = up ? std::max(row.upper, stood) : std::min(row.lower, stood);

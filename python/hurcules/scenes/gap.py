@@ -32,7 +32,7 @@ class Gap(Scene):
     def build(self, ground: Ground) -> None:
         """A floor below, two boxes on it."""
         ground.floor(-self.height)
-        half, edge, far = self.lane / 2, self.distance, self.distance + self.width
+        half, edge, far = self.lane / 2, self.distance, self.end
         for name, near, end in (("start", -2.5, edge), ("end", far, far + self.length)):
             low, high = (near, -half, -self.height), (end, half, 0.0)
             ground.box(f"platform_{name}", low, high, material="wood")

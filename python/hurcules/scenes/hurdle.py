@@ -45,7 +45,7 @@ class Hurdle(Scene):
     def build(self, ground: Ground) -> None:
         """Two walls that differ by the pipes' radius, and the pipes."""
         r, half, near = self.edge_radius, self.lane / 2, self.distance
-        far, top = near + self.thickness, self.height - r
+        far, top = self.end, self.height - r
         ground.box("hurdle_wall", (near, -half, 0.0), (far, half, top), material="timber")
         middle = near + r, far - r
         if middle[1] > middle[0] + 1e-3 and self.height > top:
