@@ -31,7 +31,7 @@ bool KeptLevel::solve(const RowTable& rows, LevelProblem& problem, Candidates& c
   rows_ = &rows;
   problem_ = &problem;
   candidates_ = &candidates;
-  problem.solve_free(rho);
+  problem.factor(rho);
   if (static_cast<Index>(kept.size()) > problem.dimension() || !factor(kept) ||
       !find_multipliers()) {
     return false;

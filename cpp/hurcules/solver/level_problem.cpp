@@ -13,6 +13,8 @@ namespace {
 
 // normal equations lose no more than the square of this
 constexpr double kMostCondition = 100.0;
+// of a level that is not factored yet
+constexpr double kNoRho = -1.0;
 
 }  // namespace
 
@@ -49,6 +51,7 @@ void LevelProblem::start(const RowTable& rows, const Chain& chain, int level,
     own_norm_ = std::max(own_norm_, *std::max_element(rows.norms() + own.first, last));
   }
   find_residual(x_above);
+  rho_ = kNoRho;
   x_above_ = x_above;
 }
 
@@ -183,7 +186,9 @@ void LevelProblem::solve_transposed(double scale, double* own) const {
 }
 
 void LevelProblem::factor(double rho) {
+  if (rho == rho_) return;
   rho_ = rho;
+  per_rho_ = rho > 0.0 ? 1.0 / rho : 0.0;
   target_size_ = 0.0;
   if (own_ == 0) return;
   // no coordinate is larger than its row
@@ -208,19 +213,13 @@ void LevelProblem::factor(double rho) {
   for (Index j = 0; j < own_; ++j) target_size_ = std::max(target_size_, std::abs(c_[j]));
   if (rho > 0.0) target_size_ /= rho;
   solve_triangular(1.0, c_.data());
-}
-
-void LevelProblem::solve_free(double rho) {
-  factor(rho);
-  per_rho_ = 1.0 / rho;
   std::copy_n(t_.data(), own_, t_free_.data());
 }
 
 void LevelProblem::solve_free(double rho, double* x_free) {
-  std::copy_n(x_above_, rows_->stride(), x_free);
   factor(rho);
-  if (own_ == 0) return;
-  kernels::chosen->axpys(chain_->direction(first_), own_, rows_->stride(), t_.data(), x_free);
+  std::copy_n(x_above_, rows_->stride(), x_free);
+  kernels::chosen->axpys(chain_->direction(first_), own_, rows_->stride(), t_free_.data(), x_free);
 }
 
 Index LevelProblem::slack_of(const Row& row) const {

@@ -24,8 +24,9 @@ class LevelProblem {
   void start(const RowTable& rows, const Chain& chain, int level, const double* x_above);
   // the optimum of the own equality rows alone, from where the levels above ended
   void solve_free(double rho, double* x_free);
-  // the same as a step in the own directions
-  void solve_free(double rho);
+  // The same as a step in the own directions: R and c, the least squares of the own equality rows.
+  // Once for every rho.
+  void factor(double rho);
 
   [[nodiscard]] int level() const { return level_; }
   [[nodiscard]] Index first() const { return first_; }  // first free direction
@@ -50,9 +51,9 @@ class LevelProblem {
   [[nodiscard]] bool lost(const Row& row) const;
   // x = x_free + what y moves
   void step(const double* y, const double* x_free, double* x);
-  // x = x_above + the step of solve_free(rho) + what y moves
+  // x = x_above + the step of factor(rho) + what y moves
   void step(const double* y, double* x);
-  // by how much the step of solve_free(rho) moves the row whose image is m: e_1 t = m_1 c / rho
+  // by how much the step of factor(rho) moves the row whose image is m: e_1 t = m_1 c / rho
   [[nodiscard]] double way_to_free(const double* m) const {
     double sum = 0.0;
     for (Index j = 0; j < own_; ++j) sum += m[lead_ + j] * c_[j];
@@ -66,8 +67,6 @@ class LevelProblem {
  private:
   [[nodiscard]] Index slack_of(const Row& row) const;
   void find_residual(const double* x);
-  // R and c: the least squares of the own equality rows
-  void factor(double rho);
   [[nodiscard]] double largest_coordinate() const;
   template <int fixed>
   void factor_by_cholesky();
