@@ -65,6 +65,15 @@ Returns:
 )";
 constexpr const char* kIntegrate =
     R"(q* after one dt: q + qdot* dt (n,); rounding never carries it over a limit.)";
+constexpr const char* kStep =
+    R"(compute, integrate and set_configuration in one: the robot moves by one dt.
+
+Args:
+  robot: Robot at the reference configuration q*; it ends at the next one.
+
+Returns:
+  q* (n,) [rad] or [m], one dt later. Releases the interpreter lock.
+)";
 constexpr const char* kActiveLimits =
     "(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one";
 constexpr const char* kPidOptions = R"(Gains of the joint servo, (m,) each.
@@ -191,6 +200,10 @@ void bind_stack(py::module_& module) {
       .def("__repr__", [](const HeldStack& self) { return self.stack.text(); });
 }
 
+void require_stack(const VelocityController& controller) {
+  require(!controller.stack().levels().empty(), "a controller wants a stack before it computes");
+}
+
 void bind_controller(py::module_& module) {
   using Options = VelocityControllerOptions;
   const Options defaults;
@@ -213,7 +226,7 @@ void bind_controller(py::module_& module) {
     self.set_stack(stack.stack);
   };
   const auto compute = [](VelocityController& self, const Robot& robot) {
-    require(!self.stack().levels().empty(), "a controller wants a stack before it computes");
+    require_stack(self);
     py::gil_scoped_release release;
     return Vector(self.compute(robot));
   };
@@ -225,12 +238,18 @@ void bind_controller(py::module_& module) {
     self.integrate(next);
     return next;
   };
+  const auto step = [](VelocityController& self, Robot& robot) {
+    require_stack(self);
+    py::gil_scoped_release release;
+    return Vector(self.step(robot));
+  };
   const auto copy = py::return_value_policy::copy;
   py::class_<VelocityController>(module, "VelocityController", kController)
       .def(py::init<const Robot&, Options>(), "robot"_a, "options"_a = defaults)
       .def("set_stack", set_stack, "stack"_a, py::keep_alive<1, 2>(), kSetStack)
       .def("compute", compute, "robot"_a, kCompute)
       .def("integrate", integrate, "q"_a, kIntegrate)
+      .def("step", step, "robot"_a, kStep)
       .def("reset", &VelocityController::reset, "At rest, cold.")
       .def("state", &state<VelocityController>, kState)
       .def("restore", &restore<VelocityController>, "state"_a, kRestore)

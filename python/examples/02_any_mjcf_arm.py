@@ -47,5 +47,4 @@ for tick in range(2001):
         q = robot.configuration.round(3)
         distance = np.linalg.norm(robot.position("hand") - hand.target)
         print(f"{tick / 1000:3.1f} s   q = {q}   to go {1000 * distance:6.1f} mm")
-    controller.compute(robot)
-    robot.set_configuration(controller.integrate(robot.configuration))
+    controller.step(robot)

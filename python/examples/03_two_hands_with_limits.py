@@ -22,7 +22,7 @@ right.set_target(right.value + np.array([0.1, 0.0, 0.2]))
 controller = hurcules.VelocityController(robot)
 controller.set_stack(Stack([limits, left, right, hurcules.PostureTask("posture", robot)]))
 for _ in range(8000):  # 8 s at 1 kHz
-    robot.set_configuration(robot.configuration + 1e-3 * controller.compute(robot))
+    controller.step(robot)
 
 print(controller.stack)
 for hand in (left, right):

@@ -46,6 +46,7 @@ WRONG: list[tuple[Callable[[hurcules.Robot], object], str]] = [
     (lambda r: hurcules.Stack([[]]), "an empty list came"),
     (lambda r: hurcules.StackLevel("a", [3]), "a level wants tasks, a int came"),
     (lambda r: controller(r).compute(r), "a controller wants a stack before it computes"),
+    (lambda r: controller(r).step(r), "a controller wants a stack before it computes"),
     (lambda r: controller(r).integrate([1.0, 2.0, 3.0]), "integrate wants 2 finite numbers, got 3"),
     (lambda r: controller(r).integrate([1.0, np.nan]), "got 2, not all finite"),
     (

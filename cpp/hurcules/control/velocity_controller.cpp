@@ -57,6 +57,7 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
                             options_.max_acceleration, options_.return_speed});
   }
   velocity_ = Vector::Zero(robot.size());
+  next_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(rate_limits_.size());
 }
@@ -131,6 +132,14 @@ void VelocityController::integrate(VectorRef q) const {
     }
     q[i] += step;
   }
+}
+
+const Vector& VelocityController::step(Robot& robot) {
+  compute(robot);
+  next_ = robot.configuration();
+  integrate(next_);
+  robot.set_configuration(next_);
+  return next_;
 }
 
 void VelocityController::reset() {

@@ -43,6 +43,8 @@ class VelocityController {
   const Vector& solve();             // hierarchy -> qdot*
   // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q) const;  // [T 4.3.7]
+  // compute, then moves the robot by one period, q* = integrate(q*): (n) [rad]
+  const Vector& step(Robot& robot);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }
   [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -70,6 +72,7 @@ class VelocityController {
   Hierarchy hierarchy_;
   Solver solver_;
   Vector velocity_;
+  Vector next_;  // [rad], (n): q* after a step
   const Task* bounds_task_ = nullptr;          // null when the stack has none
   const JointLimits* joint_limits_ = nullptr;  // the same, when it is this kind of task
   int bounds_level_ = -1;

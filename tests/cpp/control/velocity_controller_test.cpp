@@ -54,6 +54,19 @@ TEST_F(Controller, MakesOneLevelOfEachOfTheStack) {
   EXPECT_EQ(hierarchy[3].A.cols(), robot_.size());
 }
 
+TEST_F(Controller, StepsTheRobotAsItsPartsDo) {
+  Robot other{load_model_text(kArm)};
+  other.set_configuration(robot_.configuration());
+  hand_.set_target(hand_.value() + Vector3(0.3, 0.1, -0.2));
+  VelocityController whole{other};
+  whole.set_stack(controller_.stack());
+  for (int i = 0; i < 300; ++i) {
+    tick(controller_);
+    EXPECT_EQ(whole.step(other), robot_.configuration());
+    EXPECT_EQ(other.configuration(), robot_.configuration());
+  }
+}
+
 TEST_F(Controller, AsksEqualityTasksForTheirFeedForwardMinusGainTimesError) {
   hand_.advance(Vector3(0.1, -0.2, 0.05), 0.1);  // the target is 10 ms ahead
   controller_.measure(robot_);
