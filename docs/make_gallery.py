@@ -17,7 +17,7 @@ PAGE = Path(__file__).resolve().parent / "gallery.md"
 FOLDER = PAGE.with_suffix("")
 SIZE = (400, 400)
 SIDES = {"front": 180, "left": -90, "rear": 0, "right": 90}  # azimuth of the view [degrees]
-HEIGHT = {"drive": 0.84, "ready": 0.95, "carry": 0.95}  # [m] that the cameras look at
+HEIGHT = {"drive": 0.80, "ready": 0.92, "carry": 0.92}  # [m] that the cameras look at
 CONTACTS = 3  # geom group
 
 HEAD = """# The robots in pictures
@@ -67,10 +67,10 @@ def four_sides(robot, key):
     """The robot from four sides, and its contact geoms."""
     model, data = posed(robot, key)
     at = middle(model, data)
-    at[2] = HEIGHT.get(key, 0.75)
+    at[2] = HEIGHT.get(key, 0.70)
     with open_renderer(model, *SIZE) as renderer:
         return np.concatenate(
-            [tile(renderer, data, look(at, 4.3, turn), side) for side, turn in SIDES.items()],
+            [tile(renderer, data, look(at, 3.1, turn, -8), side) for side, turn in SIDES.items()],
             axis=1,
         )
 
@@ -84,7 +84,7 @@ def contacts():
     for robot in ("rescue", "manipulation"):
         model, data = posed(robot, "ready")
         with open_renderer(model, 2 * SIZE[0], SIZE[1]) as renderer:
-            camera = look((0.3, 0, 0.95), 4.0, 130)
+            camera = look((0.3, 0, 0.95), 2.9, 130)
             tiles.append(tile(renderer, data, camera, robot, option))
     return np.concatenate(tiles, axis=1)
 
@@ -99,16 +99,16 @@ def bed():
     ):
         model, data = posed("rescue", "drive", state)
         with open_renderer(model, 533, SIZE[1]) as renderer:
-            tiles.append(tile(renderer, data, look((-0.25, 0, 0.65), 3.6, 140, -18), text))
+            tiles.append(tile(renderer, data, look((-0.25, 0, 0.75), 2.9, 140, -18), text))
     return np.concatenate(tiles, axis=1)
 
 
 def tracks():
-    """The same tracks before and after a tenth of a turn."""
+    """The same tracks before and after 14 mm."""
     model, data = posed("rescue", "drive")
     tiles = []
     with open_renderer(model, 2 * SIZE[0], SIZE[1]) as renderer:
-        for angle in (0.0, 0.2):
+        for angle in (0.0, 0.1):
             for joint in range(model.njnt):
                 if model.joint(joint).name.endswith("_belt"):
                     data.qpos[model.jnt_qposadr[joint]] = angle

@@ -26,6 +26,7 @@ class Load:
     mass: float
     hands: str  # "L", "R" or "LR"
     position: tuple[float, float, float]
+    foot: bool = True  # it stands on the ground there; else it is held from the start
 
 
 def load_spec(spec, name, load):
@@ -35,6 +36,8 @@ def load_spec(spec, name, load):
     box, height = mujoco.mjtGeom.mjGEOM_BOX, load.position[2]
     size = [0.14, 0.8, 0.12] if load.hands == "LR" else [0.08] * 3
     body.add_geom(name=name, type=box, size=size, mass=load.mass, contype=0, conaffinity=0)
+    if not load.foot:
+        return
     foot = [0.3, 0.3, height / 2]
     body.add_geom(
         name=f"{name}_foot", type=box, size=foot, pos=[0, 0, -height / 2], mass=1e-3,

@@ -25,7 +25,7 @@ def scene(force=None):
     case.add_geom(name="case", type=box, size=[0.2, 0.15, 0.03], mass=29.5, **bits)
     top = HANDLE - 0.03
     case.add_geom(
-        name="handle", type=capsule, size=[0.013, 0, 0], mass=0.5,
+        name="handle", type=capsule, size=[0.018, 0, 0], mass=0.5,
         fromto=[-0.07, 0, top, 0.07, 0, top], **bits,
     )  # fmt: skip
     model = spec.compile()
@@ -42,14 +42,14 @@ def grasped(force=None):
     address = model.joint("case").qposadr[0]
     tcp = data.site("L_tcp").xpos
     data.qpos[address : address + 3] = [tcp[0], tcp[1], 0.03]
-    player.play([postures.Move("close", 0.8, ((1.0, {"L_grip_1": 0.05}),), 0.5)])
+    player.play([postures.Move("close", 0.8, ((1.0, {"L_grip_1": 0.05}),), 1.5)])
     return model, data, player
 
 
 def in_the_hand(data):
-    """Where the case is, seen from the hand [m]."""
+    """Where the handle is, seen from the hand [m]."""
     hand = data.body("L_hand")
-    return hand.xmat.reshape(3, 3).T @ (data.body("case").xpos - hand.xpos)
+    return hand.xmat.reshape(3, 3).T @ (data.geom("handle").xpos - hand.xpos)
 
 
 def squeeze(model, data):

@@ -38,7 +38,7 @@ def stand_up(robot: str, *, turn_waist: bool = True, fold_arms: bool = True) -> 
         move("lean forward", 5, HIP=1.0, SP=1.9, EB=0.6, SY=0.0, SR=0.0),
         Move(
             "stand up",
-            12,
+            14,
             (
                 (0.25, {"LKN": 7 * pi / 8, "RKN": 7 * pi / 8, "HIP": 1.0 - pi / 8}),
                 (1.0, {"LKN": pi / 2, "RKN": pi / 2, "HIP": -pi / 2}),
