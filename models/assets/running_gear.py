@@ -4,8 +4,7 @@ Frame of a track: heel axle at the origin along y, toe axle at x = -run; metres.
 """
 
 import numpy as np
-
-from solids import box, lathe, loft, mirror, move, plate, turn
+from solids import box, lathe, loft, mirror, plate, turn
 
 RADIUS = 0.14  # of all tracks, pads included
 LOWER = dict(run=0.85, width=0.15)  # axle distance and belt width of a lower-leg track
@@ -29,10 +28,13 @@ def oval(s, run, radius):
     return radius * np.array([np.cos(a), np.sin(a)]), np.array([np.cos(a), np.sin(a)])
 
 
-def belt(run, width):
-    """Rubber band with two staggered rows of pads; the pads end at RADIUS."""
-    band, thick = RADIUS - 0.014, 0.012
-    length = 2 * run + 2 * np.pi * band
+BAND = RADIUS - 0.014  # the pads stand on it and end at RADIUS
+PITCH = 0.058  # at least, from pad to pad
+
+
+def band(run, width):
+    """Rubber band without pads."""
+    band, thick = BAND, 0.012
     part = []
     marks = np.r_[
         0,
@@ -51,10 +53,17 @@ def belt(run, width):
         for i in range(4):
             j = (i + 1) % 4
             part.append(np.array([a[i], b[i], b[j], a[j]]))
-    count = int(length / 0.058)
+    return part
+
+
+def belt(run, width):
+    """Band with two staggered rows of pads; what draws moving pads replaces it by band and pads."""
+    part = band(run, width)
+    length = 2 * run + 2 * np.pi * BAND
+    count = int(length / PITCH)
     for k in range(count):
         for row in (0, 1):
-            p, n = oval((k + 0.5 * row) * length / count, run, band)
+            p, n = oval((k + 0.5 * row) * length / count, run, BAND)
             y0, y1 = (-width / 2, 0.004) if row else (-0.004, width / 2)
             part += pad(p, n, y0, y1)
     return part
@@ -68,6 +77,12 @@ def pad(p, n, y0, y1, foot=0.019, top=0.012, height=0.014):
     high = [(-top, y0 + 0.004), (-top, y1 - 0.004), (top, y1 - 0.004), (top, y0 + 0.004)]
     low, high = ([corner(a, up, y) for a, y in ring] for ring, up in ((low, 0), (high, height)))
     return loft([low, high])[:-8] + [np.array(high)]
+
+
+def single_pad(width):
+    """One pad of a row, on the band below it (z = 0), in the middle of its row (y = 0)."""
+    half = width / 4 + 0.002
+    return pad(np.zeros(2), np.array([0.0, 1.0]), -half, half)
 
 
 def sprocket(width, teeth=13, radius=0.116):
@@ -129,6 +144,8 @@ def build():
     parts = {}
     for name, size in (("lower", LOWER), ("upper", UPPER)):
         parts[f"belt_{name}"] = belt(**size)
+        parts[f"band_{name}"] = band(**size)
+        parts[f"pad_{name}"] = single_pad(size["width"])
         parts[f"sprocket_{name}"] = sprocket(size["width"])
         parts[f"wheel_{name}"] = wheel(size["width"])
         parts[f"beam_{name}"] = leg_beam(**size)

@@ -157,6 +157,22 @@ void restore(Simulation& self, const Vector& state) {
   self.restore(std::vector<double>(state.begin(), state.end()));
 }
 
+py::dict servo_table(const std::string& robot) {
+  py::dict table;
+  for (const ServoRow& row : servo_of_robot(robot)) {
+    table[py::str(row.joint)] = py::make_tuple(row.inertia, row.bandwidth);
+  }
+  return table;
+}
+
+py::dict mode_ranges(const std::string& mode) {
+  py::dict ranges;
+  for (const ModeRange& range : ranges_of_mode(mode)) {
+    ranges[py::str(range.coordinate)] = py::make_tuple(range.lower, range.upper);
+  }
+  return ranges;
+}
+
 void bind_options(py::module_& module) {
   using Options = SimulationOptions;
   const Options defaults;
@@ -242,6 +258,8 @@ void bind_sim(py::module_& module) {
   module.def(
       "mission_scene", [](const std::string& mission) { return mission_setup(mission).scene; },
       "mission"_a, kMissionScene);
+  module.def("servo_table", &servo_table, "robot"_a, kServoTable);
+  module.def("mode_ranges", &mode_ranges, "mode"_a, kModeRanges);
   bind_options(module);
   py::class_<Simulation> simulation(module, "Simulation", kSimulation);
   simulation.def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",

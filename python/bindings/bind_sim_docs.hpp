@@ -16,6 +16,30 @@ Raises:
 )";
 inline constexpr const char* kMissions = "Names of the missions.";
 inline constexpr const char* kMissionScene = "Scene file of a mission, under models/.";
+inline constexpr const char* kServoTable =
+    R"(What the servos of a robot's joints reckon with.
+
+Args:
+  robot: "rescue" or "manipulation".
+
+Returns:
+  By joint: the inertia that it turns [kg m^2], of a slide [kg], and its bandwidth [rad/s].
+
+Raises:
+  Error: an unknown robot.
+)";
+inline constexpr const char* kModeRanges =
+    R"(Ranges of the coordinates in a mode of work: narrower than the hardware's.
+
+Args:
+  mode: "rescue_ready" (the transfer bed is on) or "rescue_ready_without_bed".
+
+Returns:
+  By coordinate: lowest and highest angle [rad].
+
+Raises:
+  Error: an unknown mode.
+)";
 inline constexpr const char* kOptions = R"(Options of a simulation.
 
 Args:

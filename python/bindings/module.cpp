@@ -11,6 +11,7 @@ namespace py = pybind11;
 void bind_base(py::module_& module);
 void bind_solver(py::module_& module);
 void bind_robot(py::module_& module);
+void bind_spring_force(py::module_& module);
 void bind_tasks(py::module_& module);
 void bind_control(py::module_& module);
 void bind_sim(py::module_& module);
@@ -55,6 +56,7 @@ PYBIND11_MODULE(_core, module) {
   bind_base(module);
   bind_solver(module);
   bind_robot(module);
+  bind_spring_force(module);
   bind_tasks(module);
   bind_control(module);
   bind_sim(module);

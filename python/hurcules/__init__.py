@@ -7,7 +7,7 @@ from hurcules.opengl import choose_backend
 choose_backend()
 require_mujoco()
 
-from hurcules import casualties, models, rhqp, scenes, trials  # noqa: E402
+from hurcules import casualties, models, postures, rhqp, scenes, transfer_bed, trials  # noqa: E402
 from hurcules._core import (  # noqa: E402
     AngleKind,
     AngleTask,
@@ -27,6 +27,7 @@ from hurcules._core import (  # noqa: E402
     PostureTask,
     Robot,
     SimulationOptions,
+    SpringForce,
     Stack,
     StackLevel,
     SwivelTask,
@@ -35,6 +36,8 @@ from hurcules._core import (  # noqa: E402
     VelocityController,
     VelocityControllerOptions,
     missions,
+    mode_ranges,
+    servo_table,
     step,
 )
 from hurcules.simulation import Simulation  # noqa: E402
@@ -59,6 +62,7 @@ __all__ = [
     "Robot",
     "Simulation",
     "SimulationOptions",
+    "SpringForce",
     "Stack",
     "StackLevel",
     "SwivelTask",
@@ -69,9 +73,13 @@ __all__ = [
     "__version__",
     "casualties",
     "missions",
+    "mode_ranges",
     "models",
+    "postures",
     "rhqp",
     "scenes",
+    "servo_table",
     "step",
+    "transfer_bed",
     "trials",
 ]

@@ -249,6 +249,22 @@ class Robot:
     def com_jacobian(self) -> _Matrix: ...  # (3, n)
     def mass_matrix(self) -> _Matrix: ...  # (n, n) [kg m^2]
 
+class SpringForce:
+    def __init__(self, robot: Robot, joint: str, frame: str) -> None: ...
+    def update(self, qpos: ArrayLike, qvel: ArrayLike) -> None: ...  # (nq,), (nv,)
+    @property
+    def deflection(self) -> float: ...  # [rad]
+    @property
+    def moment(self) -> float: ...  # [N m]
+    @property
+    def force(self) -> float: ...  # [N]
+    @property
+    def lever(self) -> float: ...  # [m]
+    @property
+    def direction(self) -> _Vector: ...  # (3,)
+    @property
+    def at_stop(self) -> bool: ...
+
 # tasks
 
 class Task(_Given):
@@ -453,6 +469,8 @@ class JointPid:
 def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None: ...
 def missions() -> list[str]: ...
 def mission_scene(mission: str) -> str: ...
+def servo_table(robot: str) -> dict[str, tuple[float, float]]: ...  # [kg m^2] or [kg], [rad/s]
+def mode_ranges(mode: str) -> dict[str, tuple[float, float]]: ...  # [rad]
 
 class BaseSource(_Enum):
     Held: ClassVar[BaseSource]

@@ -65,7 +65,11 @@ def parse(files: Sequence[Path], model: str = "hurcules") -> mujoco.MjSpec:
 
 
 def load(
-    name: str | None = None, scene: str | None = None, mission: str | None = None
+    name: str | None = None,
+    scene: str | None = None,
+    mission: str | None = None,
+    *,
+    bed: bool = True,
 ) -> mujoco.MjModel:
     """Compiles a robot in its surroundings.
 
@@ -74,25 +78,39 @@ def load(
         scene: one of `scenes()`; by default that of the mission, without a mission "flat". A scene
             that is made has its default parameters and seed 0 here; see `hurcules.scenes.load`.
         mission: one of `hurcules.missions()`.
+        bed: False takes the transfer bed off the rescue robot.
 
     Raises:
-        Error: an unknown name, a scene made for another robot, or MuJoCo's text about broken MJCF.
+        Error: an unknown name, no bed to take off, a scene made for another robot, or MuJoCo's text
+            about broken MJCF.
     """
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
     if scene in _made() and scene not in _stems("scenes"):
         from hurcules import scenes as made
 
-        return made.load(scene, name or "rescue")
+        if bed:
+            return made.load(scene, name or "rescue")
+        return _compile(_without_bed(made.make(scene, robot=name or "rescue")))
     surroundings = _existing("scenes", scene, "scene", scenes())
     inhabitant = _robot_in(surroundings)
     name = name or inhabitant or "rescue"
     robot = _existing("robots", name, "robot", names())
     if inhabitant is None:
-        return _compile(parse([robot, surroundings], f"{name} in {scene}"))
+        spec = parse([robot, surroundings], f"{name} in {scene}")
+        return _compile(spec if bed else _without_bed(spec))
     if inhabitant != name:
         raise Error(f"scene '{scene}' is made for robot '{inhabitant}', not '{name}'")
-    return _compile(surroundings)
+    if bed:
+        return _compile(surroundings)
+    return _compile(_without_bed(mujoco.MjSpec.from_file(str(surroundings))))
+
+
+def _without_bed(spec: mujoco.MjSpec) -> mujoco.MjSpec:
+    from hurcules import transfer_bed
+
+    transfer_bed.detach(spec)
+    return spec
 
 
 def _made() -> list[str]:

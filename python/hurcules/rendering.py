@@ -12,12 +12,38 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 from hurcules.opengl import REMEDY, give_mujoco
+from hurcules.running_gear import RunningGear
 
-__all__ = ["RendererError", "make_renderer", "open_renderer", "overview_camera", "pose"]
+__all__ = [
+    "RendererError",
+    "TrackRenderer",
+    "make_renderer",
+    "open_renderer",
+    "overview_camera",
+    "pose",
+]
 
 
 class RendererError(Error):
     """There is no usable OpenGL renderer; the text names the remedy."""
+
+
+class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the package mujoco
+    """MuJoCo's renderer with tracks that move."""
+
+    def __init__(self, model: mujoco.MjModel, height: int, width: int) -> None:
+        super().__init__(model, height, width)
+        self._gear = RunningGear(model)
+
+    def update_scene(
+        self,
+        data: mujoco.MjData,
+        camera: int | str | mujoco.MjvCamera = -1,
+        scene_option: mujoco.MjvOption | None = None,
+    ) -> None:
+        """As MuJoCo's, then the tracks."""
+        super().update_scene(data, camera, scene_option)
+        self._gear.show(data, self.scene)
 
 
 def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
@@ -35,7 +61,7 @@ def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
     buffer.offwidth, buffer.offheight = max(buffer.offwidth, width), max(buffer.offheight, height)
     try:
         give_mujoco(os.environ.get("MUJOCO_GL", ""))
-        return mujoco.Renderer(model, height, width)
+        return TrackRenderer(model, height, width)
     # each OpenGL fails with an exception of its own: RuntimeError, FatalError, ImportError, ...
     except Exception as error:
         text = " ".join(str(error).split()) or type(error).__name__

@@ -146,7 +146,7 @@ void servo_reckons_with_the_inertia_of_the_model(const Recorded& run) {
     largest = largest.cwiseMax(M.diagonal());
   }
   for (const ServoRow& row : rescue_servo()) {
-    if (contains(row.joint, "belt")) continue;
+    if (contains(row.joint, "belt") || contains(row.joint, "bed")) continue;
     const bool knee = contains(row.joint, "KN");
     const Index i = robot.coordinate(knee ? "KN" : row.joint);
     const double inertia = knee ? largest[i] / 2.0 : largest[i];

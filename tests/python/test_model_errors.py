@@ -1,0 +1,88 @@
+"""Models that lack something, or stand where they cannot: one clear line each.
+
+Wrong MuJoCo: test_package.py; friction zero and other parameters of scenes: test_scenes.py.
+"""
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import _core, models, scenes
+
+
+def scene():
+    return mujoco.MjSpec.from_file(str(models.path("stretch")))
+
+
+def simulate(spec):
+    model = spec.compile()
+    return _core.Simulation(model, mujoco.MjData(model), "stretch")
+
+
+RENAMED = {
+    "a hand": (lambda spec: spec.site("L_tcp"), "frame 'L_tcp' does not exist; there are: .*R_tcp"),
+    "the gaze": (lambda spec: spec.site("gaze"), "frame 'gaze' does not exist"),
+    "the support": (lambda spec: spec.body("lower_leg_L"), "frame 'lower_leg_L' does not exist"),
+    "the keyframe": (lambda spec: spec.key("stretch"), "keyframe 'stretch' .*: home, drive, ready"),
+    "the hip": (
+        lambda spec: next(t for t in spec.tuples if t.name == "coordinate_HIP"),
+        "coordinate 'HIP' does not exist; there are: KN",
+    ),
+    "the person": (
+        lambda spec: spec.site("casualty_near_side"), "frame 'casualty_near_side' does not exist"
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", RENAMED)
+def test_a_mission_names_what_its_model_lacks(what):
+    find, says = RENAMED[what]
+    spec = scene()
+    find(spec).name = "gone"
+    with pytest.raises(hurcules.Error, match=says):
+        simulate(spec)
+
+
+def test_a_motor_that_the_servo_does_not_know_is_named():
+    spec = scene()
+    spec.joint("bed_lift").name = "crane"
+    for actuator in spec.actuators:
+        if actuator.target == "bed_lift":
+            actuator.target = "crane"
+    with pytest.raises(hurcules.Error, match="servo of joint 'crane' does not exist; there are"):
+        simulate(spec)
+
+
+def test_tracks_without_what_they_want_are_named():
+    for change, says in (
+        (lambda option: setattr(option, "cone", mujoco.mjtCone.mjCONE_PYRAMIDAL), "elliptic"),
+        (lambda option: setattr(option, "jacobian", mujoco.mjtJacobian.mjJAC_SPARSE), "dense"),
+    ):
+        spec = scene()
+        change(spec.option)
+        with pytest.raises(hurcules.Error, match=says):
+            simulate(spec)
+
+
+def test_a_person_in_the_way_of_the_robot_is_named():
+    # the nearest that the scene allows is clear; the same person 1.3 m nearer is not
+    assert scenes.load("casualty", distance=1.5).nq > 0
+    from hurcules.scenes.overlap import require_clear
+
+    spec = scenes.make("casualty", robot="rescue", distance=1.5)
+    spec.body("casualty_pelvis").pos[0] -= 1.3
+    with pytest.raises(hurcules.Error, match=r"casualty: '.*' and '.*' overlap by .* mm"):
+        require_clear(spec.compile(), "casualty")
+
+
+@pytest.mark.parametrize("robot", ["rescue", "manipulation"])
+def test_no_keyframe_begins_in_an_overlap(robot):
+    model = models.load(robot)
+    data = mujoco.MjData(model)
+    for key in range(model.nkey):
+        mujoco.mj_resetDataKeyframe(model, data, key)
+        mujoco.mj_fwdPosition(model, data)
+        # the tracks sink in by 0.1 mm, about what the weight gives
+        assert data.ncon and data.contact.dist.min() > -2e-4, model.key(key).name
+        assert np.isfinite(data.qpos).all()
