@@ -13,6 +13,7 @@ void bind_solver(py::module_& module);
 void bind_robot(py::module_& module);
 void bind_tasks(py::module_& module);
 void bind_control(py::module_& module);
+void bind_drive(py::module_& module);
 void bind_sim(py::module_& module);
 
 namespace {
@@ -57,5 +58,6 @@ PYBIND11_MODULE(_core, module) {
   bind_robot(module);
   bind_tasks(module);
   bind_control(module);
+  bind_drive(module);
   bind_sim(module);
 }
