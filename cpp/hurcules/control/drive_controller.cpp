@@ -87,13 +87,13 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   speed_.advance(command.speed);
   yaw_rate_.advance(command.yaw_rate);
   learn_gauge(measured);
-  const double turn = steer(measured) * gauge_ / 2.0;
-  const double ground = measured.yaw_rate * gauge_ / 2.0;
-  slipping_ = false;
-  const double v = speed_.speed();
-  const double left = belt_torque(v - turn, measured.speed - ground, measured.left, left_integral_);
-  const double right =
-      belt_torque(v + turn, measured.speed + ground, measured.right, right_integral_);
+  const double asked = steer(measured) * gauge_ / 2.0;
+  const double v = within_slip(speed_.speed(), measured.speed);
+  const double turn = within_slip(asked, measured.yaw_rate * gauge_ / 2.0);
+  turning_slips_ = turn != asked;
+  slipping_ = v != speed_.speed() || turning_slips_;
+  const double left = belt_torque(v - turn, measured.left, left_integral_);
+  const double right = belt_torque(v + turn, measured.right, right_integral_);
   return {left, right, false};
 }
 
@@ -140,7 +140,7 @@ DriveTorques DriveController::hold() {
   speed_.reset();
   yaw_rate_.reset();
   yaw_integral_ = 0.0;
-  slipping_ = false;
+  slipping_ = turning_slips_ = false;
   const bool shut = still_ > options_.brake_time;
   return {shut ? 0.0 : left_integral_, shut ? 0.0 : right_integral_, true};
 }
@@ -162,20 +162,22 @@ double DriveController::steer(const DriveState& measured) {
     yaw_integral_ = 0.0;
     return 0.0;
   }
-  if (!slipping_) yaw_integral_ += options_.yaw_integral_gain * error * options_.dt;
+  if (!turning_slips_) yaw_integral_ += options_.yaw_integral_gain * error * options_.dt;
   yaw_integral_ = std::clamp(yaw_integral_, -kMostYawBias, kMostYawBias);
   return yaw_rate_.speed() + options_.yaw_gain * error + yaw_integral_;
 }
 
-// reference, ground: [m/s] of the belt and of the ground under it; rate [rad/s]
-double DriveController::belt_torque(double reference, double ground, double rate,
-                                    double& integral) {
+// a belt that is to stand stands, whatever slides; all others lead the ground by a little at most.
+// Driving and turning are held back each on its own, so that neither takes the other's share.
+double DriveController::within_slip(double reference, double ground) const {
+  if (speed_.at_rest() && yaw_rate_.at_rest()) return reference;
   const double slip = options_.slip_speed + options_.slip_ratio * std::abs(ground);
-  const bool stopping = speed_.at_rest() && yaw_rate_.at_rest();
-  // a belt that is to stand stands, whatever slides
-  const double held = stopping ? reference : std::clamp(reference, ground - slip, ground + slip);
-  slipping_ = slipping_ || held != reference;
-  const double error = held / options_.radius - rate;
+  return std::clamp(reference, ground - slip, ground + slip);
+}
+
+// reference: [m/s] of the belt; rate: [rad/s]
+double DriveController::belt_torque(double reference, double rate, double& integral) const {
+  const double error = reference / options_.radius - rate;
   const double feed = options_.mass * options_.radius * speed_.acceleration() / 2.0;
   const double most =
       std::min(options_.max_torque, options_.max_power / std::max(std::abs(rate), 1e-3));
@@ -195,7 +197,7 @@ void DriveController::reset() {
   left_integral_ = right_integral_ = yaw_integral_ = still_ = 0.0;
   gauge_ = options_.gauge;
   braked_ = true;
-  slipping_ = false;
+  slipping_ = turning_slips_ = false;
 }
 
 void DriveController::save(StateWriter& writer) const {
@@ -204,7 +206,7 @@ void DriveController::save(StateWriter& writer) const {
   yaw_rate_.save(writer);
   for (const double value :
        {command_.speed, command_.yaw_rate, left_integral_, right_integral_, yaw_integral_, gauge_,
-        still_, braked_ ? 1.0 : 0.0, slipping_ ? 1.0 : 0.0}) {
+        still_, braked_ ? 1.0 : 0.0, slipping_ ? 1.0 : 0.0, turning_slips_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -219,6 +221,7 @@ void DriveController::restore(StateReader& reader) {
   }
   braked_ = reader.get_count(1) > 0;
   slipping_ = reader.get_count(1) > 0;
+  turning_slips_ = reader.get_count(1) > 0;
 }
 
 }  // namespace hurcules

@@ -3,7 +3,7 @@
 //
 //   command -> profiles with limited acceleration and jerk -> v, omega
 //   omega_c = omega + k (omega - omega_gyro) + b,   db/dt = k_b (omega - omega_gyro)
-//   belt references: v -+ omega_c B / 2, held within the slip limit of the ground under the belt
+//   belt references: v -+ omega_c B / 2, either part within the slip limit of what is measured
 //   torque = gain (w_ref - w) + integral + mass r a / 2
 //
 // Skid steering turns less than its belts ask for: the belts' difference over the yaw rate is an
@@ -84,7 +84,8 @@ class DriveController {
   void mind_brakes(const DriveState& measured, const DriveCommand& command);
   void learn_gauge(const DriveState& measured);
   double steer(const DriveState& measured);
-  double belt_torque(double reference, double ground, double rate, double& integral);
+  [[nodiscard]] double within_slip(double reference, double ground) const;
+  [[nodiscard]] double belt_torque(double reference, double rate, double& integral) const;
   DriveTorques hold();
 
   DriveOptions options_;
@@ -95,7 +96,7 @@ class DriveController {
   double yaw_integral_ = 0.0;                          // [rad/s]
   double gauge_ = 0.0;                                 // [m]
   double still_ = 0.0;                                 // [s] without motion, or behind brakes
-  bool braked_ = true, slipping_ = false;
+  bool braked_ = true, slipping_ = false, turning_slips_ = false;
 };
 
 }  // namespace hurcules

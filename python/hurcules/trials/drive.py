@@ -14,11 +14,15 @@ import numpy as np
 
 from hurcules._core import DriveController, DriveOptions, ParkingOptions
 from hurcules.trials.brakes import BeltBrakes
+from hurcules.trials.course import Path, Place, Straight
 
 __all__ = ["Chassis", "LineDriver", "Motion", "drive_options", "yaw_of"]
 
+CORNERING = 0.8  # of the sideways acceleration that the controller allows
+BRAKING = 0.6  # of its deceleration: the jerk limit and the controller's lag want room
+
 # [m] of the drive pose: forward of the knee axis, where turns in place were measured to be about
-TURN_CENTRE = -0.40
+TURN_CENTRE = -0.42
 
 
 @dataclass(frozen=True)
@@ -87,24 +91,31 @@ class Chassis:
 
 
 class LineDriver:
-    """Drives along y = 0, forward or backward, and stands on its brakes at speed 0.
+    """Keeps to a path, forward or backward, and stands on its brakes at speed 0.
 
     Attributes:
         chassis: the drives.
     """
 
     def __init__(
-        self, model: mujoco.MjModel, steps: int, line_gain: float = 0.5, yaw_gain: float = 1.5
+        self,
+        model: mujoco.MjModel,
+        steps: int,
+        path: Path | None = None,
+        line_gain: float = 0.5,
+        yaw_gain: float = 1.5,
     ) -> None:
         """Takes over a robot.
 
         Args:
             model: with a robot.
             steps: of the physics between two calls.
-            line_gain: [rad/m] heading against the offset from the line.
+            path: to keep to; by default the line y = 0.
+            line_gain: [rad/m] heading against the offset from the path.
             yaw_gain: [1/s].
         """
         self.chassis = Chassis(model, drive_options(model, steps))
+        self.path = path or Straight()
         self.line_gain, self.yaw_gain = line_gain, yaw_gain
 
     def __call__(self, model: mujoco.MjModel, data: mujoco.MjData, speed: float) -> None:
@@ -113,16 +124,30 @@ class LineDriver:
         Args:
             model: with the robot.
             data: its state; `ctrl` is written.
-            speed: [m/s] along x, < 0 backward.
+            speed: [m/s] along the path, < 0 backward.
         """
         motion = self.chassis.sense(data)
-        _, y, yaw = motion.pose
         turn = 0.0
         if speed != 0.0:
-            wanted = -self.line_gain * y * math.copysign(1.0, speed)
-            turn = self.yaw_gain * (min(max(wanted, -0.3), 0.3) - yaw)
+            x, y, yaw = motion.pose
+            place = self.path.at(x, y)
+            speed = math.copysign(min(abs(speed), self._most(place)), speed)
+            lean = -self.line_gain * place.offset * math.copysign(1.0, speed)
+            error = place.heading + min(max(lean, -0.3), 0.3) - yaw
+            turn = self.yaw_gain * math.remainder(error, 2 * math.pi) + place.curvature * speed
         self.chassis.controller.drive(speed, turn)
         self.chassis.act(data, motion)
+
+    def _most(self, place: Place) -> float:
+        """The speed [m/s] from which the next curve can be taken."""
+        options = self.chassis.controller.options
+        if place.curvature:
+            return math.sqrt(CORNERING * options.max_sideways / abs(place.curvature))
+        if math.isinf(place.straight):
+            return math.inf
+        # all curves of a path are alike: this is what they allow, and braking comes before them
+        tightest = CORNERING * options.max_sideways * self.path.radius
+        return math.sqrt(tightest + BRAKING * 2 * options.forward.acceleration * place.straight)
 
 
 def yaw_of(data: mujoco.MjData) -> float:
