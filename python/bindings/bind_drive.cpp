@@ -36,6 +36,7 @@ Args:
   max_offset: [m] of the turning centre at the end.
   max_turn: [rad] of the heading at the end.
   attempts: run-ins at most.
+  patience: times what a turn or a line takes at full speed, and 5 s on top; then parking has failed.
 )";
 constexpr const char* kDriveOptions = R"(Options of the drive controller.
 
@@ -53,6 +54,7 @@ Args:
   turning: SpeedLimits [rad/s^2, rad/s^3].
   gain: [N m s/rad] belt rate to torque.
   integral_gain: [N m/rad].
+  speed_gain: share of a speed error that is added to what the belts are asked for.
   yaw_gain: share of a yaw rate error that is added to what the belts are asked for.
   yaw_integral_gain: [1/s].
   slip_speed: [m/s] by which a belt may slip.
@@ -157,15 +159,15 @@ void bind_options(py::module_& module) {
   py::class_<Park>(module, "ParkingOptions", kParkingOptions)
       .def(py::init([](double speed, double yaw_rate, double deceleration, double turn_centre,
                        double run_in, double line_gain, double heading_gain, double max_offset,
-                       double max_turn, int attempts) {
-             return Park{speed,     yaw_rate,     deceleration, turn_centre, run_in,
-                         line_gain, heading_gain, max_offset,   max_turn,    attempts};
+                       double max_turn, int attempts, double patience) {
+             return Park{speed,        yaw_rate,   deceleration, turn_centre, run_in,  line_gain,
+                         heading_gain, max_offset, max_turn,     attempts,    patience};
            }),
            py::kw_only(), "speed"_a = park.speed, "yaw_rate"_a = park.yaw_rate,
            "deceleration"_a = park.deceleration, "turn_centre"_a = park.turn_centre,
            "run_in"_a = park.run_in, "line_gain"_a = park.line_gain,
            "heading_gain"_a = park.heading_gain, "max_offset"_a = park.max_offset,
-           "max_turn"_a = park.max_turn, "attempts"_a = park.attempts)
+           "max_turn"_a = park.max_turn, "attempts"_a = park.attempts, "patience"_a = park.patience)
       .def_readwrite("speed", &Park::speed, "[m/s]")
       .def_readwrite("yaw_rate", &Park::yaw_rate, "[rad/s]")
       .def_readwrite("deceleration", &Park::deceleration, "[m/s^2]")
@@ -175,7 +177,8 @@ void bind_options(py::module_& module) {
       .def_readwrite("heading_gain", &Park::heading_gain, "[1/s]")
       .def_readwrite("max_offset", &Park::max_offset, "[m]")
       .def_readwrite("max_turn", &Park::max_turn, "[rad]")
-      .def_readwrite("attempts", &Park::attempts);
+      .def_readwrite("attempts", &Park::attempts)
+      .def_readwrite("patience", &Park::patience);
 }
 
 void bind_drive_options(py::module_& module) {
@@ -185,22 +188,40 @@ void bind_drive_options(py::module_& module) {
       .def(py::init([](double dt, double radius, double gauge, double mass, double max_torque,
                        double max_power, double max_speed, double max_yaw_rate, double max_sideways,
                        const SpeedLimits& forward, const SpeedLimits& turning, double gain,
-                       double integral_gain, double yaw_gain, double yaw_integral_gain,
-                       double slip_speed, double slip_ratio, double standstill_time,
-                       double brake_time, const ParkingOptions& parking) {
-             return Drive{dt,         radius,     gauge,           mass,         max_torque,
-                          max_power,  max_speed,  max_yaw_rate,    max_sideways, forward,
-                          turning,    gain,       integral_gain,   yaw_gain,     yaw_integral_gain,
-                          slip_speed, slip_ratio, standstill_time, brake_time,   parking};
+                       double integral_gain, double speed_gain, double yaw_gain,
+                       double yaw_integral_gain, double slip_speed, double slip_ratio,
+                       double standstill_time, double brake_time, const ParkingOptions& parking) {
+             return Drive{dt,
+                          radius,
+                          gauge,
+                          mass,
+                          max_torque,
+                          max_power,
+                          max_speed,
+                          max_yaw_rate,
+                          max_sideways,
+                          forward,
+                          turning,
+                          gain,
+                          integral_gain,
+                          speed_gain,
+                          yaw_gain,
+                          yaw_integral_gain,
+                          slip_speed,
+                          slip_ratio,
+                          standstill_time,
+                          brake_time,
+                          parking};
            }),
            py::kw_only(), "dt"_a = d.dt, "radius"_a = d.radius, "gauge"_a = d.gauge,
            "mass"_a = d.mass, "max_torque"_a = d.max_torque, "max_power"_a = d.max_power,
            "max_speed"_a = d.max_speed, "max_yaw_rate"_a = d.max_yaw_rate,
            "max_sideways"_a = d.max_sideways, "forward"_a = d.forward, "turning"_a = d.turning,
-           "gain"_a = d.gain, "integral_gain"_a = d.integral_gain, "yaw_gain"_a = d.yaw_gain,
-           "yaw_integral_gain"_a = d.yaw_integral_gain, "slip_speed"_a = d.slip_speed,
-           "slip_ratio"_a = d.slip_ratio, "standstill_time"_a = d.standstill_time,
-           "brake_time"_a = d.brake_time, "parking"_a = d.parking)
+           "gain"_a = d.gain, "integral_gain"_a = d.integral_gain, "speed_gain"_a = d.speed_gain,
+           "yaw_gain"_a = d.yaw_gain, "yaw_integral_gain"_a = d.yaw_integral_gain,
+           "slip_speed"_a = d.slip_speed, "slip_ratio"_a = d.slip_ratio,
+           "standstill_time"_a = d.standstill_time, "brake_time"_a = d.brake_time,
+           "parking"_a = d.parking)
       .def_readwrite("dt", &Drive::dt, "[s]")
       .def_readwrite("radius", &Drive::radius, "[m]")
       .def_readwrite("gauge", &Drive::gauge, "[m]")
@@ -214,6 +235,7 @@ void bind_drive_options(py::module_& module) {
       .def_readwrite("turning", &Drive::turning, "SpeedLimits")
       .def_readwrite("gain", &Drive::gain, "[N m s/rad]")
       .def_readwrite("integral_gain", &Drive::integral_gain, "[N m/rad]")
+      .def_readwrite("speed_gain", &Drive::speed_gain)
       .def_readwrite("yaw_gain", &Drive::yaw_gain)
       .def_readwrite("yaw_integral_gain", &Drive::yaw_integral_gain, "[1/s]")
       .def_readwrite("slip_speed", &Drive::slip_speed, "[m/s]")

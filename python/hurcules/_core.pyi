@@ -465,6 +465,7 @@ class ParkingOptions:
     max_offset: float  # [m]
     max_turn: float  # [rad]
     attempts: int
+    patience: float
     def __init__(
         self,
         *,
@@ -478,6 +479,7 @@ class ParkingOptions:
         max_offset: float = 0.02,
         max_turn: float = 0.02,
         attempts: int = 4,
+        patience: float = 3.0,
     ) -> None: ...
 
 class DriveOptions:
@@ -494,6 +496,7 @@ class DriveOptions:
     turning: SpeedLimits  # [rad/s^2], [rad/s^3]
     gain: float  # [N m s/rad]
     integral_gain: float  # [N m/rad]
+    speed_gain: float
     yaw_gain: float
     yaw_integral_gain: float  # [1/s]
     slip_speed: float  # [m/s]
@@ -517,6 +520,7 @@ class DriveOptions:
         turning: SpeedLimits = ...,
         gain: float = 300.0,
         integral_gain: float = 900.0,
+        speed_gain: float = 1.0,
         yaw_gain: float = 1.0,
         yaw_integral_gain: float = 2.0,
         slip_speed: float = 0.2,

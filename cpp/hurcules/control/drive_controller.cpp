@@ -35,6 +35,7 @@ void check(const DriveOptions& o) {
   require_range(o.max_sideways, "max_sideways", true);
   require_range(o.gain, "gain", true);
   require_range(o.integral_gain, "integral_gain", false);
+  require_range(o.speed_gain, "speed_gain", false);
   require_range(o.yaw_gain, "yaw_gain", false);
   require_range(o.yaw_integral_gain, "yaw_integral_gain", false);
   require_range(o.slip_speed, "slip_speed", true);
@@ -60,7 +61,7 @@ bool is_finite(const PlanarPose& p) {
 
 DriveController::DriveController(const DriveOptions& options)
     : options_((check(options), options)),
-      parking_(options.parking),
+      parking_(options.parking, options.dt),
       speed_(options.forward, options.dt),
       yaw_rate_(options.turning, options.dt),
       gauge_(options.gauge) {}
@@ -88,10 +89,11 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   yaw_rate_.advance(command.yaw_rate);
   learn_gauge(measured);
   const double asked = steer(measured) * gauge_ / 2.0;
-  const double v = within_slip(speed_.speed(), measured.speed);
+  const double go = drive_at(measured);
+  const double v = within_slip(go, measured.speed);
   const double turn = within_slip(asked, measured.yaw_rate * gauge_ / 2.0);
   turning_slips_ = turn != asked;
-  slipping_ = v != speed_.speed() || turning_slips_;
+  slipping_ = v != go || turning_slips_;
   const double left = belt_torque(v - turn, measured.left, left_integral_);
   const double right = belt_torque(v + turn, measured.right, right_integral_);
   return {left, right, false};
@@ -153,6 +155,12 @@ void DriveController::learn_gauge(const DriveState& measured) {
   const double weight = omega * omega + kLearnYaw * kLearnYaw;
   gauge_ += options_.dt / kLearnTime * omega * (difference - gauge_ * omega) / weight;
   gauge_ = std::clamp(gauge_, options_.gauge, kWidestGauge * options_.gauge);
+}
+
+// the speed that the belts are to give so that the ground passes as is wanted
+double DriveController::drive_at(const DriveState& measured) const {
+  if (speed_.at_rest() && yaw_rate_.at_rest()) return 0.0;
+  return speed_.speed() + options_.speed_gain * (speed_.speed() - measured.speed);
 }
 
 // the yaw rate that the belts are to give so that the gyro shows what is wanted

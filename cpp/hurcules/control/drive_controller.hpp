@@ -2,8 +2,9 @@
 // of the left and right drive, and the brakes when it stands.
 //
 //   command -> profiles with limited acceleration and jerk -> v, omega
+//   v_c = v + k_v (v - v_ground)
 //   omega_c = omega + k (omega - omega_gyro) + b,   db/dt = k_b (omega - omega_gyro)
-//   belt references: v -+ omega_c B / 2, either part within the slip limit of what is measured
+//   belt references: v_c -+ omega_c B / 2, either part within the slip limit of what is measured
 //   torque = gain (w_ref - w) + integral + mass r a / 2
 //
 // Skid steering turns less than its belts ask for: the belts' difference over the yaw rate is an
@@ -31,6 +32,7 @@ struct DriveOptions {
   SpeedLimits turning = {2.0, 10.0};  // [rad/s^2], [rad/s^3]
   double gain = 300.0;                // [N m s/rad]
   double integral_gain = 900.0;       // [N m/rad]
+  double speed_gain = 1.0;            // share of a speed error that the belts are asked for
   double yaw_gain = 1.0;              // k
   double yaw_integral_gain = 2.0;     // [1/s] k_b
   double slip_speed = 0.2;            // [m/s] by which a belt may slip
@@ -83,6 +85,7 @@ class DriveController {
   [[nodiscard]] DriveCommand within_limits(DriveCommand command) const;
   void mind_brakes(const DriveState& measured, const DriveCommand& command);
   void learn_gauge(const DriveState& measured);
+  [[nodiscard]] double drive_at(const DriveState& measured) const;
   double steer(const DriveState& measured);
   [[nodiscard]] double within_slip(double reference, double ground) const;
   [[nodiscard]] double belt_torque(double reference, double rate, double& integral) const;

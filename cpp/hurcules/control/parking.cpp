@@ -11,6 +11,7 @@ namespace hurcules {
 
 namespace {
 
+constexpr double kGrace = 5.0;        // [s]
 constexpr double kArrived = 0.004;    // [m] left of a line: stop here
 constexpr double kTurned = 0.004;     // [rad] left of a turn: stop here
 constexpr double kSteepest = 0.5;     // [rad] between heading and line at most
@@ -25,7 +26,7 @@ void require_positive(double value, const char* name) {
 
 }  // namespace
 
-Parking::Parking(const ParkingOptions& options) : options_(options) {
+Parking::Parking(const ParkingOptions& options, double dt) : options_(options), dt_(dt) {
   require_positive(options.speed, "speed");
   require_positive(options.yaw_rate, "yaw_rate");
   require_positive(options.deceleration, "deceleration");
@@ -34,6 +35,7 @@ Parking::Parking(const ParkingOptions& options) : options_(options) {
   require_positive(options.heading_gain, "heading_gain");
   require_positive(options.max_offset, "max_offset");
   require_positive(options.max_turn, "max_turn");
+  require_positive(options.patience, "patience");
   require(std::isfinite(options.turn_centre), "parking: turn_centre wants a finite number");
   require(options.attempts > 0, "parking: attempts wants a whole number above 0");
 }
@@ -79,9 +81,11 @@ DriveCommand Parking::command(const PlanarPose& measured, bool stopped) {
   if (phase_ == ParkingPhase::Face || phase_ == ParkingPhase::Align) {
     const double wanted = phase_ == ParkingPhase::Face ? line_.yaw : goal_.yaw;
     const double error = wrap_angle(wanted - centre.yaw);
+    if (lost_patience(std::abs(error) / options_.yaw_rate)) return {};
     ending_ = std::abs(error) < kTurned;
     return ending_ ? DriveCommand{} : turn(error);
   }
+  if (lost_patience(std::abs(remaining(centre)) / options_.speed)) return {};
   ending_ = remaining(centre) < kArrived;
   return ending_ ? DriveCommand{} : follow(centre);
 }
@@ -89,6 +93,15 @@ DriveCommand Parking::command(const PlanarPose& measured, bool stopped) {
 void Parking::begin(ParkingPhase phase) {
   phase_ = phase;
   ending_ = false;
+  left_ = -1.0;
+}
+
+bool Parking::lost_patience(double seconds) {
+  if (left_ < 0.0) left_ = options_.patience * seconds + kGrace;
+  left_ -= dt_;
+  if (left_ > 0.0) return false;
+  begin(ParkingPhase::Failed);
+  return true;
 }
 
 // the line to where the run-in starts, in reverse when that place lies behind
@@ -147,7 +160,7 @@ DriveCommand Parking::follow(const PlanarPose& centre) const {
 void Parking::save(StateWriter& writer) const {
   for (const double value :
        {static_cast<double>(phase_), goal_.x, goal_.y, goal_.yaw, line_.x, line_.y, line_.yaw,
-        line_.direction, static_cast<double>(attempts_), ending_ ? 1.0 : 0.0}) {
+        line_.direction, static_cast<double>(attempts_), left_, ending_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -160,6 +173,7 @@ void Parking::restore(StateReader& reader) {
   }
   goal_centre_ = centre_of(goal_);
   attempts_ = static_cast<int>(reader.get_count(options_.attempts));
+  left_ = reader.get();
   ending_ = reader.get_count(1) > 0;
 }
 

@@ -36,14 +36,16 @@ struct ParkingOptions {
   double max_offset = 0.02;    // [m] of the turning centre at the end
   double max_turn = 0.02;      // [rad] of the heading at the end
   int attempts = 4;            // run-ins at most
+  double patience = 3.0;       // times what a turn or a line takes at full speed, and 5 s on top
 };
 
 enum class ParkingPhase { Off, Face, Approach, Align, RunIn, Done, Failed };
 
 class Parking {
  public:
-  // throws Error for options that are not above 0 (the turning centre may be anything finite)
-  explicit Parking(const ParkingOptions& options = {});
+  // dt [s] between two commands; throws Error for options that are not above 0 (the turning centre
+  // may be anything finite)
+  Parking(const ParkingOptions& options, double dt);
   // goes to this pose from now on; throws Error for numbers that are not finite
   void start(const PlanarPose& goal);
   void stop() { phase_ = ParkingPhase::Off; }
@@ -62,6 +64,8 @@ class Parking {
     double direction = 1.0;              // 1 forward, -1 in reverse
   };
   void begin(ParkingPhase phase);
+  // whether this turn or line, which takes `seconds` at full speed, has lasted for too long
+  [[nodiscard]] bool lost_patience(double seconds);
   void aim(const PlanarPose& centre);
   void end_run_in(const PlanarPose& centre);
   [[nodiscard]] PlanarPose centre_of(const PlanarPose& pose) const;
@@ -70,10 +74,12 @@ class Parking {
   [[nodiscard]] DriveCommand follow(const PlanarPose& centre) const;
 
   ParkingOptions options_;
+  double dt_;
   ParkingPhase phase_ = ParkingPhase::Off;
   PlanarPose goal_, goal_centre_;
   Line line_;
   int attempts_ = 0;
+  double left_ = -1.0;   // [s] of patience with this phase, < 0: it has not begun
   bool ending_ = false;  // the phase only waits for the robot to stop
 };
 

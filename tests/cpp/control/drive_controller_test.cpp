@@ -162,6 +162,18 @@ TEST(DriveController, ParkingThatCannotSucceedEnds) {
   EXPECT_TRUE(vehicle.torques.brake);
 }
 
+TEST(DriveController, ParkingThatComesToNoEndFails) {
+  Vehicle vehicle;
+  vehicle.plant.stuck = true;  // the line is never driven
+  vehicle.controller.park({2.0, 0.0, 0.0});
+  // patience times 1 m at 0.5 m/s, and 5 s
+  vehicle.run(10.9);
+  EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Approach);
+  vehicle.run(2.0);
+  EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Failed);
+  EXPECT_TRUE(vehicle.torques.brake);
+}
+
 TEST(DriveController, ACommandEndsTheParking) {
   Vehicle vehicle;
   vehicle.controller.park({2.0, 0.0, 0.0});
