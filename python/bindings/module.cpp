@@ -14,6 +14,7 @@ void bind_robot(py::module_& module);
 void bind_spring_force(py::module_& module);
 void bind_tasks(py::module_& module);
 void bind_control(py::module_& module);
+void bind_drive(py::module_& module);
 void bind_sim(py::module_& module);
 
 namespace {
@@ -59,5 +60,6 @@ PYBIND11_MODULE(_core, module) {
   bind_spring_force(module);
   bind_tasks(module);
   bind_control(module);
+  bind_drive(module);
   bind_sim(module);
 }

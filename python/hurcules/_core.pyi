@@ -464,6 +464,127 @@ class JointPid:
     @property
     def integral(self) -> _Vector: ...  # (m,) [rad s]
 
+# control: the drives
+
+class SpeedLimits:
+    acceleration: float  # [m/s^2] or [rad/s^2]
+    jerk: float  # [m/s^3] or [rad/s^3]
+    def __init__(self, acceleration: float, jerk: float) -> None: ...
+
+class ParkingOptions:
+    speed: float  # [m/s]
+    yaw_rate: float  # [rad/s]
+    deceleration: float  # [m/s^2]
+    turn_centre: float  # [m]
+    run_in: float  # [m]
+    line_gain: float  # [rad/m]
+    heading_gain: float  # [1/s]
+    max_offset: float  # [m]
+    max_turn: float  # [rad]
+    attempts: int
+    patience: float
+    def __init__(
+        self,
+        *,
+        speed: float = 0.5,
+        yaw_rate: float = 0.5,
+        deceleration: float = 0.25,
+        turn_centre: float = -0.4,
+        run_in: float = 1.0,
+        line_gain: float = 2.5,
+        heading_gain: float = 2.0,
+        max_offset: float = 0.02,
+        max_turn: float = 0.02,
+        attempts: int = 4,
+        patience: float = 3.0,
+    ) -> None: ...
+
+class DriveOptions:
+    dt: float  # [s]
+    radius: float  # [m]
+    gauge: float  # [m]
+    mass: float  # [kg]
+    max_torque: float  # [N m]
+    max_power: float  # [W]
+    max_speed: float  # [m/s]
+    max_yaw_rate: float  # [rad/s]
+    max_sideways: float  # [m/s^2]
+    forward: SpeedLimits  # [m/s^2], [m/s^3]
+    turning: SpeedLimits  # [rad/s^2], [rad/s^3]
+    gain: float  # [N m s/rad]
+    integral_gain: float  # [N m/rad]
+    speed_gain: float
+    yaw_gain: float
+    yaw_integral_gain: float  # [1/s]
+    slip_speed: float  # [m/s]
+    slip_ratio: float
+    standstill_time: float  # [s]
+    brake_time: float  # [s]
+    parking: ParkingOptions
+    def __init__(
+        self,
+        *,
+        dt: float = 0.001,
+        radius: float = 0.14,
+        gauge: float = 0.67,
+        mass: float = 680.0,
+        max_torque: float = 600.0,
+        max_power: float = 7950.0,
+        max_speed: float = 5.56,
+        max_yaw_rate: float = 1.5,
+        max_sideways: float = 2.5,
+        forward: SpeedLimits = ...,
+        turning: SpeedLimits = ...,
+        gain: float = 300.0,
+        integral_gain: float = 900.0,
+        speed_gain: float = 1.0,
+        yaw_gain: float = 1.0,
+        yaw_integral_gain: float = 2.0,
+        slip_speed: float = 0.2,
+        slip_ratio: float = 0.1,
+        standstill_time: float = 0.2,
+        brake_time: float = 0.1,
+        parking: ParkingOptions = ...,
+    ) -> None: ...
+
+class ParkingPhase(_Enum):
+    Off: ClassVar[ParkingPhase]
+    Face: ClassVar[ParkingPhase]
+    Approach: ClassVar[ParkingPhase]
+    Align: ClassVar[ParkingPhase]
+    RunIn: ClassVar[ParkingPhase]
+    Done: ClassVar[ParkingPhase]
+    Failed: ClassVar[ParkingPhase]
+    __members__: ClassVar[dict[str, ParkingPhase]]
+
+class DriveController:
+    def __init__(self, options: DriveOptions = ...) -> None: ...
+    def drive(self, speed: float, yaw_rate: float = 0.0) -> None: ...  # [m/s], [rad/s]
+    def park(self, x: float, y: float, yaw: float) -> None: ...  # [m], [m], [rad]
+    def compute(
+        self,
+        left: float,
+        right: float,
+        yaw_rate: float,
+        speed: float,
+        pose: Sequence[float] | None = None,
+    ) -> list[float]: ...  # [rad/s], [rad/s], [rad/s], [m/s], (3,) -> (2,) [N m]
+    def reset(self) -> None: ...
+    def state(self) -> list[float]: ...
+    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def options(self) -> DriveOptions: ...
+    @property
+    def braked(self) -> bool: ...
+    @property
+    def slipping(self) -> bool: ...
+    @property
+    def gauge(self) -> float: ...  # [m]
+    @property
+    def parking_phase(self) -> ParkingPhase: ...
+    @property
+    def reference(self) -> list[float]: ...  # (2,) [m/s], [rad/s]
+
 # sim
 
 def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None: ...

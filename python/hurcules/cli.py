@@ -16,6 +16,8 @@ from hurcules._core import Error
 from hurcules.output import WriteError
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
+from hurcules.run_trial import TrialOptions, run_trial
+from hurcules.trials import METHODS
 
 __all__ = ["main"]
 
@@ -50,9 +52,15 @@ def _options(
     """Keeps `hurcules` a command with subcommands."""
 
 
-@app.command("run")
+_TRIALS = "Test methods"  # where their options stand in the help
+
+
+@app.command("run", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
 def run_mission(
-    mission: Annotated[str, typer.Argument(help="One of `hurcules list`.")] = "stretch",
+    context: typer.Context,
+    mission: Annotated[
+        str, typer.Argument(help="A mission or a test method of `hurcules list`.")
+    ] = "stretch",
     seed: Annotated[int, typer.Option(help="Draws what differs between runs.")] = 0,
     out: Annotated[
         Path | None,
@@ -70,8 +78,22 @@ def run_mission(
         str, typer.Option(help=f"How the hierarchy is solved: {', '.join(method_names())}.")
     ] = "lexicographic",
     video: Annotated[bool, typer.Option("--video/--no-video", help="Film the run.")] = True,
+    robot: Annotated[str, typer.Option(help="Who is tested.", rich_help_panel=_TRIALS)] = "rescue",
+    repetitions: Annotated[
+        int, typer.Option(help="At each setting.", rich_help_panel=_TRIALS)
+    ] = 10,
+    speed: Annotated[
+        float | None,
+        typer.Option(help="[m/s]", rich_help_panel=_TRIALS, show_default="the method's own"),
+    ] = None,
+    workers: Annotated[
+        int, typer.Option(help="Processes; the result is the same.", rich_help_panel=_TRIALS)
+    ] = 1,
 ) -> None:
     """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.
+
+    A test method goes to harder and harder settings until one is not passed, or takes the setting
+    that is given by its parameter's name; other parameters of the scene may follow (degrees, m).
 
     Exit status: 0 done, 1 the mission failed (`summary.json` says why), 2 wrong usage, 130 Ctrl-C.
 
@@ -80,9 +102,32 @@ def run_mission(
     - `hurcules run stretch --seed 7 --out /tmp/seven`
 
     - `hurcules run stretch --seconds 5 --no-video`
+
+    - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
     """
-    options = RunOptions(mission, seed, out or Path("out", mission), seconds, method, video)
+    folder = out or Path("out", mission)
+    if mission in METHODS:
+        _refuse_mission_options(context)
+        words = tuple(context.args)
+        trial = TrialOptions(
+            mission, words, robot, repetitions, seed, speed, workers, folder, video
+        )
+        raise typer.Exit(run_trial(trial, Console()))
+    if context.args:
+        raise Error(f"No such option: {context.args[0]}")
+    options = RunOptions(mission, seed, folder, seconds, method, video)
     raise typer.Exit(run(options, Console()))
+
+
+def _refuse_mission_options(context: typer.Context) -> None:
+    given = [name for name in ("seconds", "method") if _was_given(context, name)]
+    if given:
+        raise Error(f"--{given[0]}: for missions; a test method ends by itself")
+
+
+def _was_given(context: typer.Context, name: str) -> bool:
+    source = context.get_parameter_source(name)
+    return source is not None and source.name == "COMMANDLINE"
 
 
 def _plain_table() -> Table:
@@ -95,7 +140,7 @@ def _plain_table() -> Table:
 
 @app.command("list")
 def list_all() -> None:
-    """List missions, scenes, models and environments.
+    """List missions, test methods, scenes, models and environments.
 
     For example `hurcules list`.
     """
@@ -103,6 +148,7 @@ def list_all() -> None:
 
     rows = {
         "missions": hurcules.missions(),
+        "test methods": [f"{name} ({one.title})" for name, one in METHODS.items()],
         "scenes": hurcules.models.scenes(),
         "models": hurcules.models.names(),
         "environments": [f"hurcules_envs:{name}" for name in hurcules_envs.ENVIRONMENTS],

@@ -39,6 +39,8 @@ FIGURES = {
     "joint_error_max_s": Figure("time of the largest joint control error"),
     "stretched_m": Figure("hands went forward by"),
     "torque_excess_max_nm": Figure("torque asked for above a motor's limit"),
+    "energy_J": Figure("energy from the battery, standby included"),
+    "battery_share": Figure("share of the battery that was used"),
 }
 
 # suffix of a name: unit, then (below this magnitude, factor, smaller unit)
@@ -66,6 +68,10 @@ def readable(name: str, value: float | None) -> str:
     """
     if value is None or not math.isfinite(value):
         return "-"
+    if name.endswith("_J"):
+        return f"{value / 1e3:.1f} kJ"
+    if name.endswith("_share"):
+        return f"{100 * value:.2f} %"
     suffix = next((s for s in _UNITS if name.endswith(s)), None)
     if suffix is None:
         return f"{value:.4g}"

@@ -25,7 +25,7 @@ from hurcules.simulation import Simulation
 from hurcules.summary import summarize
 from hurcules.video import Painter, film
 
-__all__ = ["DONE", "FAILED", "INTERRUPTED", "RunOptions", "run"]
+__all__ = ["DONE", "FAILED", "INTERRUPTED", "RunOptions", "progress_bar", "run"]
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130  # exit codes
 FILES = ("log.npz", "timing.npz", "summary.json", "video.mp4", "report.html")
@@ -90,7 +90,7 @@ def _ticks(seconds: float | None, dt: float) -> int | None:
 def _simulate(
     simulation: Simulation, ticks: int | None, console: Console, interrupts: Interrupts
 ) -> Recording:
-    with _progress(console) as bar:
+    with progress_bar(console) as bar:
         total = ticks * simulation.dt if ticks else None
         task = bar.add_task(f"simulate {simulation.mission}", total=total, note="")
 
@@ -147,7 +147,7 @@ def _film(
     interrupts: Interrupts,
 ) -> Path:
     """Films until Ctrl-C at the longest; returns the file."""
-    with _progress(console) as bar:
+    with progress_bar(console) as bar:
         task = bar.add_task("film", total=len(recording.frames), note="")
 
         def shoot(path: Path) -> None:
@@ -203,7 +203,8 @@ def _tell(summary: dict[str, Any], output: Output, console: Console) -> None:
 
 
 @contextmanager
-def _progress(console: Console) -> Iterator[Progress]:
+def progress_bar(console: Console) -> Iterator[Progress]:
+    """A bar with a note (`note=`) and the time; each task says what it counts."""
     columns = (
         TextColumn("{task.description:18}"),
         BarColumn(bar_width=28),

@@ -44,7 +44,7 @@ def summarize(
             "real_time_factor": simulation.time / wall if wall else None,
             "control_tick_us": _statistics(recording.control_tick_us),
             "limit_violation": simulation.limit_violation(),
-            "figures": simulation.figures(),
+            "figures": simulation.figures() | _energy(recording, simulation.dt),
             "thesis": simulation.thesis_figures(),
             "events": [
                 {"time_s": round(time, 6), "text": text} for time, text in simulation.events()
@@ -57,6 +57,15 @@ def summarize(
             },
         }
     )
+
+
+def _energy(recording: Recording, dt: float) -> dict[str, float]:
+    """What the battery gave, standby included, and which share of it that is."""
+    if not len(recording.log.get("power", ())):
+        return {}
+    log = recording.log
+    energy = float(np.sum(log["power"])) * dt
+    return {"energy_J": energy, "battery_share": float(log["charge"][0] - log["charge"][-1])}
 
 
 def _reason(simulation: Simulation, recording: Recording) -> str:

@@ -40,14 +40,19 @@ class Frame:
 class Painter:
     """Draws frames of one model; a context manager, for it holds the renderers."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
+    def __init__(self, model: mujoco.MjModel, camera: str | None = None) -> None:
         """Opens the renderers.
+
+        Args:
+            model: what is drawn.
+            camera: of the model, for the overview; by default one that stands still.
 
         Raises:
             RendererError: there is no OpenGL that works.
         """
         self._model, self._data = model, mujoco.MjData(model)
         model.vis.quality.shadowsize = min(SHADOW_MAP, model.vis.quality.shadowsize)
+        self._camera = camera or overview_camera()
         self._head = next((name for name in _cameras(model) if name.startswith("head")), None)
         self._stack = ExitStack()
         self._overview = self._stack.enter_context(open_renderer(model, WIDTH, HEIGHT))
@@ -65,8 +70,12 @@ class Painter:
 
     def picture(self, qpos: NDArray[np.float64]) -> Picture:
         """The overview alone, (720, 1280, 3)."""
+        return self.view(qpos, self._camera)
+
+    def view(self, qpos: NDArray[np.float64], camera: mujoco.MjvCamera | str) -> Picture:
+        """What any camera sees, (720, 1280, 3)."""
         pose(self._model, self._data, qpos)
-        self._overview.update_scene(self._data, overview_camera())
+        self._overview.update_scene(self._data, camera)
         return self._overview.render()
 
     def frame(self, frame: Frame, note: str = "") -> Picture:

@@ -5,14 +5,19 @@ against draws; runs with few repetitions at settings that geometry decides. Not 
 settings themselves, which are results.
 """
 
+import dataclasses
 import json
 import math
+import re
 
 import numpy as np
 import pytest
 
 import hurcules
-from hurcules import scenes, trials
+from hurcules import cli, scenes, trials
+from hurcules.trials.asked import asked, shown
+from hurcules.trials.course import Leg, Oval
+from hurcules.trials.methods import Way
 
 # [C1] minimum n for 0 / 1 / 2 / 3 failures at confidence 80, 85, 90, 95 %
 TABLE = {
@@ -82,7 +87,9 @@ def test_a_run_stops_at_the_first_setting_that_is_not_passed_and_says_why():
     assert [one.setting for one in result.settings] == [0.2, 1.5]
     assert result.passed and result.largest == 0.2
     good, bad = result.settings
-    assert good.failures == 0 and good.metres_per_minute == pytest.approx(36, rel=0.05)
+    assert good.failures == 0 and good.metres_per_minute == pytest.approx(
+        36, rel=0.08
+    )  # starts and stops
     assert bad.failures == 1 and bad.faults[0].fault == "tip-over" and bad.faults[0].x > 1.5
     assert good.confidence_80 == pytest.approx(0.2) and bad.confidence_80 == 0.0
     assert json.loads(json.dumps(result.as_dict()))["settings"][0]["setting"] == 0.2
@@ -112,3 +119,106 @@ def test_another_driver_takes_the_place_of_ours():
     result = trials.run("e2801", repetitions=1, settings=(0.1,), driver=sleeper, speed=2.0)
     assert result.settings[0].faults[0].fault == "stuck"
     assert len(calls) > 100 and set(calls) == {2.0}
+
+
+# a sled of so much mass, towed by a little: repetitions of a second
+SHORT = dataclasses.replace(trials.METHODS["e2831"], distance=0.3)
+
+
+def test_any_number_of_workers_gives_the_same_result():
+    one, two = (trials.run(SHORT, repetitions=3, settings=(75.0, 120.0), workers=n) for n in (1, 2))
+    assert one == two and one.largest == 120.0 and len(one.settings) == 2
+
+
+def test_a_stop_keeps_what_was_done_and_passes_nothing_that_lacks_repetitions():
+    seen = []
+    result = trials.run(
+        SHORT,
+        repetitions=3,
+        settings=(75.0,),
+        progress=lambda *now: seen.append(now),
+        stopped=lambda: len(seen) == 2,
+    )
+    assert seen == [(75.0, 1, 0), (75.0, 2, 0)]
+    assert result.interrupted and not result.passed and result.settings[0].repetitions == 2
+
+
+def test_towing_ends_where_traction_does():
+    # 0.5 M g of the sled against at most 0.9 x 700 kg x g of the robot
+    result = trials.run(SHORT, repetitions=1, settings=(75.0, 2000.0))
+    assert result.largest == 75.0
+    assert result.settings[1].faults[0].fault == "stuck"
+
+
+def test_the_command_writes_summary_and_report_and_its_status_tells(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(trials.METHODS, "e2831", SHORT)
+    words = ["run", "e2831", "--repetitions", "1", "--no-video", "--out", str(tmp_path), "--mass"]
+    assert cli.main([*words, "75"]) == 0
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["mission"] == "e2831" and summary["success"] is True
+    assert summary["reason"] == "largest setting passed: 75 kg"
+    assert {"seed", "version", "simulated_seconds", "real_time_factor"} < set(summary)
+    assert "hitched sleds" in (tmp_path / "report.html").read_text()
+    assert cli.main([*words, "2000"]) == 1
+    assert json.loads((tmp_path / "summary.json").read_text())["success"] is False
+    assert "1 stuck" in capsys.readouterr().out
+
+
+def test_options_of_a_method_are_read_in_degrees():
+    chosen, settings = asked("e2803", ["--angle", "25,30", "--friction=0.5", "--length", "3"])
+    assert settings == (math.radians(25), math.radians(30))
+    assert chosen.values(settings[0])["friction"] == 0.5 and chosen.fixed["length"] == 3.0
+    assert [shown(chosen, one) for one in settings] == ["25 deg", "30 deg"]
+    assert asked("e2803", [])[1] is None
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["e2803", "--angel", "30"], "no option --angel; the scene 'incline' has: .*angle"),
+        (["e2803", "--angle"], "--angle wants a value"),
+        (["e2803", "30"], "wanted --PARAMETER VALUE, got '30'"),
+        (["e2803", "--angle", "steep"], "--angle: wanted a number, got 'steep'"),
+        (["e2803", "--angle", "80"], "angle wants a number from"),
+        (["e2829", "--speed", "0"], "speed"),
+    ],
+)
+def test_wrong_options_of_a_method_are_one_line_and_exit_code_2(words, says, capsys):
+    assert cli.main(["run", *words]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert re.search(says, error)
+
+
+def test_an_oval_is_as_long_as_it_is_and_its_places_are_right():
+    oval = Oval(50.0, 2.0)
+    assert oval.length == pytest.approx(100 + 4 * math.pi)
+    assert oval.at(10.0, 0.3).offset == pytest.approx(0.3)
+    assert oval.at(10.0, 0.3).straight == pytest.approx(40.0)
+    far = oval.at(10.0, 4.3)
+    assert far.offset == pytest.approx(-0.3) and far.heading == pytest.approx(math.pi)
+    bend = oval.at(52.5, 2.0)
+    assert bend.offset == pytest.approx(-0.5) and bend.curvature == pytest.approx(0.5)
+    assert bend.heading == pytest.approx(math.pi / 2)
+
+
+def test_a_lap_ends_after_one_turn_round_the_middle():
+    leg = Leg(1.0, 0.0, turns=1, centre=(5.0, 2.0))
+    angles = np.linspace(-2.0, -2.0 + 2 * math.pi + 0.01, 200)
+    done = [leg.done(np.array([5 + math.cos(a), 2 + math.sin(a)])) for a in angles]
+    assert not any(done[:-2]) and done[-1]
+    assert trials.METHODS["e2829"].way is Way.Laps
+
+
+def test_a_posture_is_taken_and_held_on_the_brakes():
+    raised = trials.Posture(knee=0.3, hip=0.2)
+    method = dataclasses.replace(
+        SHORT, postures=((-math.inf, trials.Posture()), (0.05, raised)), distance=1.2
+    )
+    last = []
+    trials.repeat(
+        method, 75.0, "rescue", 0, watch=lambda m, qpos, time: last.append((m, qpos.copy()))
+    )
+    model, qpos = last[-1]
+    for joint, angle in (("LKN", 0.3), ("RKN", 0.3), ("HIP", 0.2)):
+        assert qpos[model.joint(joint).qposadr[0]] == pytest.approx(angle, abs=0.01)

@@ -15,6 +15,9 @@ from hurcules.scenes.scene import Scene
 __all__ = ["Debris", "Door", "Ordnance", "Sled", "Valve"]
 
 PIECES = {"timber_2x4": 0.019, "timber_4x4": 0.0445, "concrete_block": 0.095}  # half heights [m]
+HANDLE = 1.54  # [m] of the sled's bar before its middle
+EYE = (-0.62, 0.0, 0.02)  # [m] the towing eye in the frame of the upper legs
+CHAIN = 0.40  # [m] of coupling between eye and handle: clear of the lower legs' ends
 CASE_RADIUS, BOX_HALF = 0.067, 0.14  # [m] of the shell (with its band) and the box
 
 
@@ -69,19 +72,36 @@ class Debris(Scene):
 
 @dataclass(frozen=True)
 class Sled(Scene):
-    """The sled to tow: its handle lies before the robot."""
+    """The sled to tow: its handle lies before the robot, or hangs at its towing eye behind."""
 
-    source: ClassVar[str] = "ASTM E2830 (towing, grasped sleds)"
-    mass: float = number(75.0, 25.0, 500.0, "kg", "of sled and load")
+    source: ClassVar[str] = "ASTM E2830, E2831 (towing, grasped and hitched sleds)"
+    mass: float = number(75.0, 25.0, 3000.0, "kg", "of sled and load")
     sled_friction: float = number(0.5, 0.05, 1.5, "", "sliding friction of the runners")
     distance: float = number(1.7, 1.5, 10.0, "m", "from the start to the handle")
+    hitched: bool = flag(
+        False, "coupled behind the robot, drive pose; `distance` then says nothing"
+    )
 
     def build(self, ground: Ground) -> None:
         """The load makes up the mass."""
-        ground.attach("sled", "sled_", (self.distance + 1.54, 0.0, 0.0))
+        if self.hitched:
+            self._hitch(ground)
+        else:
+            ground.attach("sled", "sled_", (self.distance + HANDLE, 0.0, 0.0))
         for name in ("runner_left", "runner_right", "nose_left", "nose_right"):
             ground.spec.geom(f"sled_{name}").friction[0] = self.sled_friction
         ground.spec.geom("sled_load").mass = self.mass - 20.0
+
+    def _hitch(self, ground: Ground) -> None:
+        """A rope of no mass from the towing eye to the middle of the handle, tight."""
+        ground.attach("sled", "sled_", (EYE[0] - CHAIN - HANDLE, 0.0, 0.0), turn("z", math.pi))
+        robot = ground.spec.body("upper_legs")
+        if robot is None:  # the ground alone
+            return
+        robot.add_site(name="towing_eye", pos=EYE, group=4)
+        rope = ground.spec.add_tendon(name="rope", limited=True, range=(0.0, CHAIN + 0.01))
+        rope.wrap_site("towing_eye")
+        rope.wrap_site("sled_handle")
 
 
 @dataclass(frozen=True)

@@ -3,13 +3,16 @@
 `trials.run("e2803")` climbs steeper and steeper inclines, ten times each; see `METHODS`.
 """
 
+from hurcules.trials.attempt import Repetition, Variation, repeat
 from hurcules.trials.methods import METHODS, Method, method
+from hurcules.trials.postures import Posture
 from hurcules.trials.reliability import confidence, lower_bound, repetitions_needed
-from hurcules.trials.runner import Repetition, Result, SettingResult, Variation, repeat, run
+from hurcules.trials.runner import Result, SettingResult, run
 
 __all__ = [
     "METHODS",
     "Method",
+    "Posture",
     "Repetition",
     "Result",
     "SettingResult",

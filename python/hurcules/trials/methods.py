@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import enum
 import math
 from dataclasses import dataclass, field
 from typing import Any
 
 from hurcules._core import Error
+from hurcules.trials.postures import FLAT, Posture
 
-__all__ = ["METHODS", "Method", "method"]
+__all__ = ["METHODS", "Method", "Way", "method"]
+
+
+class Way(enum.Enum):
+    """What a repetition is."""
+
+    ThereAndBack = "over the obstacle, and back in reverse"
+    There = "one way"
+    Laps = "a lap round both pylons"
 
 
 @dataclass(frozen=True)
@@ -21,11 +31,22 @@ class Method:
     settings: tuple[float, ...] = ()  # SI units, angles in radians; easy ones first
     fixed: dict[str, Any] = field(default_factory=dict)  # other parameters of the scene
     hold: float = 0.0  # [s] to stand still at the far end
-    lean: float = 0.0  # [rad] of the trunk, forward: the operator's choice of posture
+    # posture from this x on [m], the first one from the start: the operator's choice
+    postures: tuple[tuple[float, Posture], ...] = ((-math.inf, FLAT),)
+    way: Way = Way.ThereAndBack
+    speed: float = 0.6  # [m/s]
+    distance: float = 0.0  # [m] of a way without end
 
     def values(self, setting: float | None) -> dict[str, Any]:
         """Parameters of the scene at one setting."""
-        return self.fixed | ({self.parameter: setting} if self.parameter else {})
+        # a speed is the driver's, not the scene's
+        of_scene = self.parameter and self.way is not Way.Laps
+        return self.fixed | ({self.parameter: setting} if of_scene else {})
+
+    @property
+    def is_angle(self) -> bool:
+        """Whether the settings are angles."""
+        return self.parameter in ("angle", "pitch")
 
 
 def _steps(first: float, last: float, step: float) -> tuple[float, ...]:
@@ -36,11 +57,13 @@ def _degrees(*angles: float) -> tuple[float, ...]:
     return tuple(math.radians(angle) for angle in angles)
 
 
+# leaning forward keeps the robot from tipping backwards on its way up, and down in reverse
+_LEAN = ((-math.inf, Posture(hip=0.4)),)
+
 # numbers: response-robot-tests.md section C1; landings are as long as the whole robot needs
 METHODS: dict[str, Method] = {
     "e2801": Method("gaps", "gap", "width", _steps(0.10, 1.00, 0.10)),
     "e2802": Method("hurdles", "hurdle", "height", _steps(0.05, 0.50, 0.05)),
-    # leaning forward by 0.4 rad keeps the robot from tipping backwards on its way down in reverse
     "e2803": Method(
         title="inclined planes",
         scene="incline",
@@ -48,12 +71,32 @@ METHODS: dict[str, Method] = {
         settings=_degrees(*range(10, 46, 5)),
         fixed={"landing": 4.0},
         hold=5.0,
-        lean=0.4,
+        postures=_LEAN,
     ),
-    "e2804": Method("stairs", "stairs", "pitch", _degrees(30, 35, 40, 45), {"landing": 4.0}),
-    "e2826": Method("continuous pitch/roll ramps", "ramps"),
-    "e2827": Method("crossing pitch/roll ramps", "ramps", fixed={"pattern": "crossing"}),
-    "e2828": Method("symmetric stepfields", "step_field"),
+    "e2804": Method(
+        "stairs", "stairs", "pitch", _degrees(30, 35, 40, 45), {"landing": 4.0}, postures=_LEAN
+    ),
+    "e2826": Method("continuous pitch/roll ramps", "ramps", "angle", _degrees(5, 10, 15, 20, 25)),
+    "e2827": Method(
+        "crossing pitch/roll ramps",
+        "ramps",
+        "angle",
+        _degrees(5, 10, 15, 20, 25),
+        {"pattern": "crossing"},
+    ),
+    "e2828": Method("symmetric stepfields", "step_field", "unit", (0.02, 0.04, 0.06, 0.08, 0.10)),
+    "e2829": Method(
+        "sustained speed", "pylons", "speed", (1.0, 2.0, 3.0, 4.0, 5.0, 5.56), way=Way.Laps
+    ),
+    "e2831": Method(
+        title="towing, hitched sleds",
+        scene="sled",
+        parameter="mass",
+        settings=(75.0, 100.0, 120.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0, 1000.0),
+        fixed={"hitched": True},
+        way=Way.There,
+        distance=10.0,
+    ),
     "e2991": Method("gravel", "gravel"),
     "e2992": Method("sand", "sand"),
     "iso8608": Method("rough road of class F", "rough_road", fixed={"roughness": "F"}),

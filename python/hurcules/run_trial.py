@@ -1,0 +1,217 @@
+"""`hurcules run METHOD`: a test method of hurcules.trials, and what is left of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+from hurcules import scenes
+from hurcules._core import Error
+from hurcules._version import __version__
+from hurcules.interrupts import Interrupts
+from hurcules.models import names as robot_names
+from hurcules.output import Output
+from hurcules.rendering import RendererError
+from hurcules.report import trial
+from hurcules.run import DONE, FAILED, FPS, INTERRUPTED, SPEED, progress_bar
+from hurcules.trials import Method, Result, Variation, repeat
+from hurcules.trials import run as run_method
+from hurcules.trials.asked import asked, shown
+from hurcules.trials.runner import attempt_seed
+from hurcules.video import Frame, Painter, film
+
+__all__ = ["TrialOptions", "run_trial"]
+
+FILES = ("summary.json", "video.mp4", "report.html")
+
+
+@dataclass(frozen=True)
+class TrialOptions:
+    """What `hurcules run METHOD` was asked for."""
+
+    method: str
+    words: tuple[str, ...] = ()  # --PARAMETER VALUE ...
+    robot: str = "rescue"
+    repetitions: int = 10
+    seed: int = 0
+    speed: float | None = None  # [m/s]
+    workers: int = 1
+    out: Path = Path("out", "trial")
+    video: bool = True
+
+
+def run_trial(options: TrialOptions, console: Console) -> int:
+    """Runs a method and writes its results; Ctrl-C keeps what was done.
+
+    Args:
+        options: what to run and where to write.
+        console: progress and results go here.
+
+    Returns:
+        The exit code: DONE when passed, FAILED, or INTERRUPTED.
+
+    Raises:
+        Error: wrong usage.
+        WriteError: a file could not be written; those before it were.
+    """
+    chosen, settings = asked(options.method, options.words)
+    if options.robot not in robot_names():
+        known = ", ".join(robot_names())
+        raise Error(f"robot '{options.robot}' does not exist; there are: {known}")
+    with Interrupts() as interrupts:
+        output = Output(options.out, FILES)
+        started = perf_counter()
+        result = _run(options, chosen, settings, console, interrupts)
+        wall = perf_counter() - started
+        if not result.settings:
+            console.print("interrupted before a repetition had ended", style="bold")
+            return INTERRUPTED
+        success = all(one.passed for one in result.settings) if settings else result.passed
+        success = success and not (settings and result.interrupted)
+        summary = summarize(result, chosen, options, success, wall)
+        output.write_json("summary.json", summary)
+        picture, video = _show(options, chosen, result, output, console, interrupts)
+        output.write("report.html", lambda path: trial.write(path, summary, picture, video))
+        _tell(summary, output, console)
+        if interrupts.noted:
+            return INTERRUPTED
+    return DONE if success else FAILED
+
+
+def summarize(
+    result: Result, chosen: Method, options: TrialOptions, success: bool, wall: float
+) -> dict[str, Any]:
+    """Sums up a result for JSON."""
+    plain = result.as_dict()
+    for one in plain["settings"]:
+        one["shown"] = shown(chosen, one["setting"])
+    largest = shown(chosen, result.largest) if result.passed else "none"
+    reason = f"largest setting passed: {largest}"
+    return {
+        "mission": result.method,
+        "seed": options.seed,
+        "version": __version__,
+        "success": success,
+        "reason": f"interrupted; {reason}" if result.interrupted else reason,
+        "simulated_seconds": result.simulated_seconds,
+        "real_time_factor": result.simulated_seconds / wall if wall else None,
+        # the joints are on their brakes: no whole-body controller runs, no limit is commanded
+        "control_tick_us": {"median": None, "p99": None, "max": None},
+        "limit_violation": None,
+        "title": result.title,
+        "robot": result.robot,
+        "repetitions": options.repetitions,
+        "parameter": result.parameter,
+        "largest": result.largest,
+        "settings": plain["settings"],
+    }
+
+
+def _run(
+    options: TrialOptions,
+    chosen: Method,
+    settings: tuple[float, ...] | None,
+    console: Console,
+    interrupts: Interrupts,
+) -> Result:
+    with progress_bar(console) as bar:
+        task = bar.add_task(options.method, total=options.repetitions, note="")
+
+        def show(setting: float | None, done: int, failures: int) -> None:
+            note = f"{shown(chosen, setting)}: {done} of {options.repetitions}"
+            note += f", {failures} failed" if failures else ""
+            bar.update(task, completed=done, note=note)
+
+        return run_method(
+            chosen,
+            options.robot,
+            repetitions=options.repetitions,
+            seed=options.seed,
+            settings=settings,
+            speed=options.speed,
+            workers=options.workers,
+            progress=show,
+            stopped=lambda: interrupts.noted,
+        )
+
+
+def _show(
+    options: TrialOptions,
+    chosen: Method,
+    result: Result,
+    output: Output,
+    console: Console,
+    interrupts: Interrupts,
+) -> tuple[NDArray[np.uint8] | None, Path | str]:
+    """A picture of the scene, and the film of the last setting's first fault or repetition."""
+    last = result.settings[-1]
+    seed = last.faults[0].seed if last.faults else attempt_seed(options.seed, 0)
+    values = chosen.values(last.setting)
+    model = scenes.load(chosen.scene, options.robot, seed=seed, **values)
+    video: Path | str = "not asked for (--no-video)"
+    try:
+        with Painter(model, "overview") as painter:
+            start = mujoco.MjData(model)
+            mujoco.mj_resetDataKeyframe(model, start, model.key("drive").id)
+            picture = painter.view(start.qpos, _view(chosen, values))
+            if interrupts.noted:
+                video = "the run was interrupted"
+            elif options.video:
+                frames = _frames(options, chosen, last.setting, seed)
+                video = output.write(
+                    "video.mp4",
+                    lambda path: _film(painter, path, frames, lambda: interrupts.noted),
+                )
+    except RendererError as missing:
+        console.print(f"no pictures: {missing}", style="yellow", highlight=False)
+        return None, str(missing)
+    return picture, video
+
+
+def _frames(options: TrialOptions, chosen: Method, setting: float | None, seed: int) -> list[Frame]:
+    """The same repetition once more, as pictures."""
+    frames: list[Frame] = []
+
+    def watch(_: mujoco.MjModel, qpos: NDArray[np.float64], time: float) -> None:
+        if time >= len(frames) * SPEED / FPS:
+            frames.append(Frame(time, qpos.copy(), f"{options.method}, seed {seed}", ()))
+
+    repeat(chosen, setting, options.robot, seed, options.speed, None, Variation(), watch)
+    return frames
+
+
+def _film(painter: Painter, path: Path, frames: list[Frame], stopped: Any) -> None:
+    """Films all frames, or until it is stopped."""
+    note = f"{SPEED}x speed"
+    film(painter, path, frames, fps=FPS, note=note, progress=lambda n: None, stopped=stopped)
+
+
+def _view(chosen: Method, values: dict[str, Any]) -> mujoco.MjvCamera:
+    """A camera that sees robot and obstacle."""
+    end = min(8.0, max(2.0, scenes.scene(chosen.scene, **values).end))
+    camera = mujoco.MjvCamera()
+    camera.lookat[:] = (end / 2, 0.0, 0.5)
+    camera.distance, camera.azimuth, camera.elevation = 4.0 + end, 118.0, -16.0
+    return camera
+
+
+def _tell(summary: dict[str, Any], output: Output, console: Console) -> None:
+    """The end in plain figures, and where everything lies."""
+    table = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
+    for heading in trial.HEADINGS:
+        table.add_column(heading, justify="left" if heading == trial.HEADINGS[-1] else "right")
+    for row in trial.rows(summary):
+        table.add_row(*row)
+    colour = "bold green" if summary["success"] else "bold"
+    console.print(f"\n{summary['title']}: {summary['reason']}", style=colour)
+    console.print(table)
+    for path in output.saved:
+        console.print(f"  {path}", highlight=False, soft_wrap=True)

@@ -1,0 +1,166 @@
+"""One repetition of a test method: there, waiting if the method wants so, and back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules import scenes
+from hurcules._core import step
+from hurcules.trials.brakes import hold_joints
+from hurcules.trials.course import Course, make_course
+from hurcules.trials.drive import LineDriver
+from hurcules.trials.methods import Method
+from hurcules.trials.postures import PostureMover
+
+__all__ = ["Repetition", "Variation", "Watch", "repeat"]
+
+Driver = Callable[[mujoco.MjModel, mujoco.MjData, float], None]
+# called at each period with the model and its state: a film takes its pictures here
+Watch = Callable[[mujoco.MjModel, NDArray[np.float64], float], None]
+
+PERIOD = 2  # steps of 1 ms between two calls of the driver
+TIPPED = math.radians(60)
+PATIENCE = 2.5  # times the time that the way takes at the speed
+GRACE = 5.0  # [s] on top, and at most to come to a stop
+
+
+@dataclass(frozen=True)
+class Variation:
+    """What differs between repetitions; everything is drawn evenly from both sides."""
+
+    friction: tuple[float, float] = (0.8, 1.0)  # factor on the ground's own
+    payload: float = 20.0  # [kg] up to this on the trunk
+    offset: float = 0.05  # [m] of the start, left or right
+    yaw: float = 0.03  # [rad] of the start
+
+
+USUAL = Variation()
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """One attempt."""
+
+    seed: int
+    fault: str  # "" for none; "tip-over", "stuck", "off the lane", "slipped", "simulation"
+    seconds: float
+    x: float  # [m] where it ended
+    metres: float  # way of the base over ground, as far as it came
+    # [J] of mechanical work of both drives; what they brake does not come back
+    drive_energy: float
+
+
+def repeat(
+    chosen: Method,
+    setting: float | None,
+    robot: str,
+    seed: int,
+    speed: float | None = None,
+    driver: Driver | None = None,
+    variation: Variation = USUAL,
+    watch: Watch | None = None,
+) -> Repetition:
+    """Makes one attempt.
+
+    Args:
+        chosen: the method.
+        setting: of its parameter; None for terrain with one setting.
+        robot: one of `hurcules.models.names()`.
+        seed: draws friction, payload, start and terrain.
+        speed: [m/s] there, and back; by default the method's own.
+        driver: writes the torques of the drives; by default a `LineDriver`.
+        variation: what differs between repetitions.
+        watch: is shown every state.
+    """
+    rng = np.random.default_rng(seed)
+    values = chosen.values(setting)
+    scene = scenes.scene(chosen.scene, **values)
+    values["friction"] = scene.friction * rng.uniform(*variation.friction)
+    model = scenes.load(chosen.scene, robot, seed=seed, **values)
+    hold_joints(model)
+    model.body_mass[model.body("torso").id] += rng.uniform(0.0, variation.payload)
+    data = mujoco.MjData(model)
+    _place(model, data, rng, variation)
+    mover = PostureMover(model, data, chosen.postures, PERIOD)
+    mujoco.mj_forward(model, data)
+    course = make_course(chosen, setting, scene, speed)
+    operator = driver or LineDriver(model, PERIOD, course.path)
+    attempt = _Attempt(model, data, course, operator, mover, watch)
+    fault = attempt.make()
+    x = float(data.qpos[0])
+    return Repetition(seed, fault, float(data.time), x, attempt.metres, attempt.energy)
+
+
+class _Attempt:
+    """A robot under way."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        course: Course,
+        driver: Driver,
+        mover: PostureMover,
+        watch: Watch | None,
+    ) -> None:
+        self.model, self.data, self.course = model, data, course
+        self.driver, self.mover, self.watch = driver, mover, watch
+        self.metres = self.energy = 0.0
+        self._body = model.body("upper_legs").id
+        self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
+
+    def make(self) -> str:
+        """Drives the whole course; returns the fault, "" for none."""
+        for leg in self.course.legs:
+            limit = self.data.time + PATIENCE * leg.length / abs(leg.speed) + GRACE
+            while not leg.done(self.data.qpos):
+                if fault := self._tick(leg.speed):
+                    return fault
+                if self.data.time > limit:
+                    return "stuck"
+            if leg.hold and (fault := self._hold(leg.hold)):
+                return fault
+        return ""
+
+    def _hold(self, seconds: float) -> str:
+        """Stops and stands still; returns the fault, also when the robot does not stay."""
+        until = self.data.time + GRACE
+        while self.data.time < until and np.abs(self.data.qvel[:6]).max() > 0.02:
+            if fault := self._tick(0.0):
+                return fault
+        start, until = self.data.qpos[:2].copy(), self.data.time + seconds
+        while self.data.time < until:
+            if fault := self._tick(0.0):
+                return fault
+        return "slipped" if np.hypot(*(self.data.qpos[:2] - start)) > 0.1 else ""
+
+    def _tick(self, speed: float) -> str:
+        data, start = self.data, self.data.qpos[:2].copy()
+        self.driver(self.model, data, speed)
+        self.mover(data)
+        step(self.model, data, PERIOD)
+        self.metres += math.hypot(*(data.qpos[:2] - start))
+        power = data.actuator_force[self._motors] * data.actuator_velocity[self._motors]
+        self.energy += float(np.maximum(power, 0.0).sum()) * PERIOD * self.model.opt.timestep
+        if self.watch:
+            self.watch(self.model, data.qpos, data.time)
+        if any(warning.number for warning in data.warning):
+            return "simulation"
+        if data.xmat[self._body, 8] < math.cos(TIPPED):
+            return "tip-over"
+        return "" if self.course.on_lane(data.qpos) else "off the lane"
+
+
+def _place(
+    model: mujoco.MjModel, data: mujoco.MjData, rng: np.random.Generator, variation: Variation
+) -> None:
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    data.qpos[1] = rng.uniform(-variation.offset, variation.offset)
+    yaw = rng.uniform(-variation.yaw, variation.yaw)
+    data.qpos[3:7] = math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)

@@ -1,0 +1,230 @@
+// Strategy: the controller on the smallest tracked vehicle (support/track_plant.hpp), whose skid,
+// friction and slope are known, so that what comes out can be reckoned by hand. Not tested here:
+// the robot itself, whose physics tests/python/test_drive.py drives.
+#include "hurcules/control/drive_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+#include "support/track_plant.hpp"
+
+namespace {
+
+using namespace hurcules;
+using namespace hurcules_test;
+
+constexpr double kDt = 1e-3;
+
+// turns about the origin of its pose
+DriveOptions plain() {
+  DriveOptions options;
+  options.parking.turn_centre = 0.0;
+  return options;
+}
+
+struct Vehicle {
+  explicit Vehicle(const DriveOptions& options = plain()) : controller(options) {}
+  void run(double seconds) {
+    for (int i = 0; i < static_cast<int>(std::lround(seconds / kDt)); ++i) step();
+  }
+  void step() {
+    const double before = plant.state.speed;
+    torques = controller.compute(plant.state);
+    plant.step(torques, kDt);
+    hardest = std::max(hardest, std::abs(plant.state.speed - before) / kDt);
+  }
+  DriveController controller;
+  TrackPlant plant;
+  DriveTorques torques;
+  double hardest = 0.0;  // [m/s^2]
+};
+
+TEST(DriveController, ReachesTheSpeedThatIsAskedFor) {
+  for (const double speed : {0.5, -0.5, 5.0}) {
+    Vehicle vehicle;
+    vehicle.controller.drive({speed, 0.0});
+    vehicle.run(5.0);
+    EXPECT_NEAR(vehicle.plant.state.speed, speed, 0.01 * std::abs(speed));
+    EXPECT_LT(vehicle.hardest, 1.3 * vehicle.controller.options().forward.acceleration);
+    EXPECT_NEAR(vehicle.plant.state.yaw_rate, 0.0, 1e-6);
+  }
+}
+
+TEST(DriveController, StopsAndShutsTheBrakesWithoutTorque) {
+  Vehicle vehicle;
+  vehicle.controller.drive({0.5, 0.0});
+  vehicle.run(3.0);
+  EXPECT_FALSE(vehicle.torques.brake);
+  vehicle.controller.drive({});
+  vehicle.run(2.0);
+  EXPECT_TRUE(vehicle.torques.brake);
+  EXPECT_EQ(vehicle.torques.left, 0.0);
+  EXPECT_EQ(vehicle.torques.right, 0.0);
+  EXPECT_NEAR(vehicle.plant.state.speed, 0.0, 1e-3);
+}
+
+TEST(DriveController, LearnsTheEffectiveGaugeAndTurnsAsAsked) {
+  for (const double skid : {0.5, 0.75, 1.0}) {
+    Vehicle vehicle;
+    vehicle.plant.skid = skid;
+    vehicle.controller.drive({0.0, 0.6});
+    vehicle.run(5.0);
+    EXPECT_NEAR(vehicle.plant.state.yaw_rate, 0.6, 0.01);
+    EXPECT_NEAR(vehicle.controller.gauge(), 0.67 / skid, 0.01 * 0.67 / skid);
+  }
+}
+
+TEST(DriveController, KeepsABeltFromSpinningWhereItsSpeedIsNotTheGrounds) {
+  Vehicle vehicle;
+  vehicle.plant.stuck = true;
+  vehicle.controller.drive({1.0, 0.0});
+  vehicle.run(3.0);
+  EXPECT_TRUE(vehicle.controller.slipping());
+  // no faster than the slip limit, and pulling still
+  EXPECT_LE(0.14 * vehicle.plant.state.left, vehicle.controller.options().slip_speed + 0.01);
+  EXPECT_GT(vehicle.torques.left, 100.0);
+}
+
+TEST(DriveController, OnIceTheBeltsFollowTheGroundAndTheVehicleStillGoes) {
+  Vehicle vehicle;
+  vehicle.plant.friction = 0.05;
+  vehicle.controller.drive({2.0, 0.0});
+  double most = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    vehicle.step();
+    const DriveState& state = vehicle.plant.state;
+    most = std::max(most, 0.14 * state.left - state.speed);
+  }
+  EXPECT_LT(most, 0.2 + 0.1 * 2.0 + 0.02);
+  // all that friction gives: mu g t
+  EXPECT_NEAR(vehicle.plant.state.speed, 0.05 * 9.81 * 3.0, 0.15);
+}
+
+TEST(DriveController, OnASlopeItStartsWithoutRollingBack) {
+  Vehicle vehicle;
+  vehicle.plant.slope = 0.3;
+  vehicle.controller.drive({0.3, 0.0});
+  vehicle.run(3.0);
+  vehicle.controller.drive({});
+  vehicle.run(2.0);
+  ASSERT_TRUE(vehicle.torques.brake);
+  vehicle.controller.drive({0.3, 0.0});
+  double back = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    vehicle.step();
+    back = std::min(back, vehicle.plant.state.speed);
+  }
+  EXPECT_GT(back, -0.01);
+  EXPECT_GT(vehicle.plant.state.speed, 0.1);
+}
+
+TEST(DriveController, AFastVehicleThatIsToTurnSlowsDown) {
+  Vehicle vehicle;
+  vehicle.controller.drive({5.0, 1.0});
+  vehicle.run(8.0);
+  EXPECT_NEAR(vehicle.plant.state.speed, 2.5, 0.05);  // max_sideways / yaw rate
+  EXPECT_NEAR(vehicle.plant.state.yaw_rate, 1.0, 0.02);
+}
+
+TEST(DriveController, ParksAtPosesInAllDirections) {
+  constexpr double kPi = std::numbers::pi;
+  for (const PlanarPose& goal :
+       {PlanarPose{3.0, 0.5, 0.3}, PlanarPose{-2.0, 1.0, kPi}, PlanarPose{0.3, 0.0, 0.0},
+        PlanarPose{0.0, 1.5, kPi / 2}, PlanarPose{0.0, 0.05, 0.0}, PlanarPose{1.0, -2.0, -2.0}}) {
+    Vehicle vehicle;
+    vehicle.plant.sideways = 0.05;
+    vehicle.controller.park(goal);
+    const auto under_way = [&] { return vehicle.controller.parking_phase() < ParkingPhase::Done; };
+    for (int i = 0; i < 90000 && under_way(); ++i) vehicle.step();
+    vehicle.run(1.0);
+    const PlanarPose& pose = vehicle.plant.state.pose;
+    EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Done);
+    EXPECT_LT(std::hypot(pose.x - goal.x, pose.y - goal.y), 0.03) << goal.x << ' ' << goal.y;
+    EXPECT_LT(std::abs(wrap_angle(pose.yaw - goal.yaw)), 0.035) << goal.x << ' ' << goal.y;
+    EXPECT_TRUE(vehicle.torques.brake);
+  }
+}
+
+TEST(DriveController, ParkingThatCannotSucceedEnds) {
+  DriveOptions options = plain();
+  options.parking.max_offset = 1e-9;
+  options.parking.attempts = 2;
+  Vehicle vehicle(options);
+  vehicle.controller.park({2.0, 0.2, 0.1});
+  vehicle.run(60.0);
+  EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Failed);
+  EXPECT_TRUE(vehicle.torques.brake);
+}
+
+TEST(DriveController, ParkingThatComesToNoEndFails) {
+  Vehicle vehicle;
+  vehicle.plant.stuck = true;  // the line is never driven
+  vehicle.controller.park({2.0, 0.0, 0.0});
+  // patience times 1 m at 0.5 m/s, and 5 s
+  vehicle.run(10.9);
+  EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Approach);
+  vehicle.run(2.0);
+  EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Failed);
+  EXPECT_TRUE(vehicle.torques.brake);
+}
+
+TEST(DriveController, ACommandEndsTheParking) {
+  Vehicle vehicle;
+  vehicle.controller.park({2.0, 0.0, 0.0});
+  vehicle.run(1.0);
+  vehicle.controller.drive({0.2, 0.0});
+  EXPECT_EQ(vehicle.controller.parking_phase(), ParkingPhase::Off);
+}
+
+TEST(DriveController, GoesOnBitForBitFromASnapshot) {
+  Vehicle first, second;
+  first.controller.park({2.0, 0.7, 0.4});
+  first.run(3.3);
+  std::vector<double> kept;
+  StateWriter writer(kept);
+  first.controller.save(writer);
+  second.plant = first.plant;
+  StateReader reader(kept);
+  second.controller.restore(reader);
+  EXPECT_TRUE(reader.at_end());
+  for (int i = 0; i < 10000; ++i) {
+    first.step();
+    second.step();
+    ASSERT_EQ(first.torques.left, second.torques.left) << i;
+    ASSERT_EQ(first.torques.right, second.torques.right) << i;
+  }
+}
+
+TEST(DriveController, AMeasurementThatIsNotFiniteShutsTheBrakes) {
+  Vehicle vehicle;
+  vehicle.controller.drive({0.5, 0.0});
+  vehicle.run(1.0);
+  DriveState broken = vehicle.plant.state;
+  broken.yaw_rate = std::numeric_limits<double>::quiet_NaN();
+  const DriveTorques torques = vehicle.controller.compute(broken);
+  EXPECT_TRUE(torques.brake);
+  EXPECT_EQ(torques.left, 0.0);
+  vehicle.step();  // and goes on when it is back
+  EXPECT_FALSE(vehicle.torques.brake);
+}
+
+TEST(DriveController, RefusesOptionsAndCommandsOutOfRange) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  DriveOptions options;
+  options.gauge = 0.0;
+  EXPECT_THROW(DriveController{options}, Error);
+  options = {};
+  options.parking.run_in = nan;
+  EXPECT_THROW(DriveController{options}, Error);
+  DriveController controller;
+  EXPECT_THROW(controller.drive({nan, 0.0}), Error);
+  EXPECT_THROW(controller.park({0.0, nan, 0.0}), Error);
+}
+
+}  // namespace

@@ -1,0 +1,206 @@
+"""The drive controller in the physics of the robot: how fast, how smooth, where it stops.
+
+Strategy: commands as an operator gives them, measured in the simulation. Bounds come from the
+options (acceleration, jerk), from kinematics (stopping distance v^2 / 2a + v a / 2j) or from the
+task (parking within 3 cm and 2 degrees on the flat). Not tested: the law itself (C++ tests).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import scenes
+from hurcules.trials.brakes import hold_joints
+from hurcules.trials.drive import Chassis, drive_options
+
+STEPS = 2  # of 1 ms in one control period
+ENDED = (hurcules.ParkingPhase.Done, hurcules.ParkingPhase.Failed)
+A, J = 2.0, 8.0  # [m/s^2], [m/s^3] limits of the options
+
+
+@dataclass
+class Robot:
+    """A robot in drive pose on some ground, its joints braked."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    chassis: Chassis
+
+    def run(self, seconds: float) -> np.ndarray:
+        """Time, speed, yaw rate, x, y, yaw of each period (n, 6)."""
+        rows = []
+        for _ in range(round(seconds / STEPS * 1000)):
+            motion = self.chassis.sense(self.data)
+            self.chassis.act(self.data, motion)
+            hurcules.step(self.model, self.data, STEPS)
+            rows.append((self.data.time, motion.speed, motion.yaw_rate, *motion.pose))
+        return np.array(rows)
+
+
+def make(kind: str = "flat", **values: object) -> Robot:
+    model = scenes.load(kind, "rescue", **values)
+    hold_joints(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    mujoco.mj_forward(model, data)
+    return Robot(model, data, Chassis(model, drive_options(model, STEPS)))
+
+
+def smooth(values: np.ndarray, seconds: float = 0.05) -> np.ndarray:
+    """A mean over this time: what a passenger feels, not the contact solver."""
+    width = round(seconds * 1000 / STEPS)
+    return np.convolve(values, np.ones(width) / width, "valid")
+
+
+@pytest.mark.parametrize("speed", [0.5, pytest.param(5.0, marks=pytest.mark.slow)])
+def test_a_speed_is_reached_and_left_smoothly(speed: float) -> None:
+    robot = make()
+    controller = robot.chassis.controller
+    controller.drive(speed)
+    up = robot.run(speed / A + A / J + 0.5)
+    assert up[-1, 1] == pytest.approx(speed, rel=0.01)
+    assert up[:, 1].max() < 1.02 * speed
+    controller.drive(0.0)
+    down = robot.run(speed / A + A / J + 0.8)
+    distance = down[-1, 3] - down[0, 3]
+    ramp = min(A, math.sqrt(speed * J))  # a small step never reaches the full deceleration
+    theory = speed**2 / (2 * ramp) + speed * ramp / (2 * J)
+    assert distance == pytest.approx(theory, abs=0.03 + 0.02 * theory)
+    acceleration = np.diff(smooth(down[:, 1])) / (STEPS * 1e-3)
+    assert acceleration.min() > -1.1 * A
+    assert abs(np.diff(smooth(acceleration)) / (STEPS * 1e-3)).max() < 1.2 * J
+    assert down[:, 1].min() > -0.01  # no rocking back
+    assert controller.braked and not robot.data.ctrl.any()
+
+
+def test_an_arc_is_driven_as_asked_though_skid_steering_turns_less() -> None:
+    robot = make()
+    robot.chassis.controller.drive(0.5, 0.25)
+    log = robot.run(4.0)[-500:]
+    assert log[:, 2].mean() == pytest.approx(0.25, rel=0.02)
+    assert log[:, 1].mean() == pytest.approx(0.5, rel=0.03)
+    assert robot.chassis.controller.gauge > 1.1 * robot.chassis.controller.options.gauge
+
+
+@pytest.mark.slow
+def test_a_full_turn_in_place_stays_in_place() -> None:
+    robot = make()
+    robot.chassis.controller.drive(0.0, 0.8)
+    robot.run(2 * math.pi / 0.8)
+    robot.chassis.controller.drive(0.0)
+    robot.run(1.5)
+    turned = math.degrees(robot.chassis.sense(robot.data).pose[2])
+    # the start and the stop take half of yaw rate / acceleration each: as much is turned after
+    assert turned == pytest.approx(0.0, abs=5.0)
+    assert np.hypot(*robot.data.qpos[:2]) < 0.06
+
+
+def park(robot: Robot, x: float, y: float, yaw: float, seconds: float) -> tuple[float, float]:
+    """Parks; returns the offset [m] and the error of the heading [rad]."""
+    controller = robot.chassis.controller
+    controller.park(x, y, yaw)
+    until = robot.data.time + seconds
+    while controller.parking_phase not in ENDED and robot.data.time < until:
+        robot.run(0.2)
+    robot.run(0.5)
+    assert controller.parking_phase == hurcules.ParkingPhase.Done
+    assert controller.braked
+    pose = robot.chassis.sense(robot.data).pose
+    return math.hypot(pose[0] - x, pose[1] - y), math.remainder(pose[2] - yaw, 2 * math.pi)
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        (0.3, 0.0, 0.0),
+        pytest.param((3.0, 0.5, 0.3), marks=pytest.mark.slow),
+        pytest.param((-2.0, 1.0, math.pi), marks=pytest.mark.slow),
+        pytest.param((0.0, 1.5, math.pi / 2), marks=pytest.mark.slow),
+        pytest.param((1.0, -2.0, -2.0), marks=pytest.mark.slow),
+    ],
+)
+def test_on_the_flat_it_parks_within_3_cm_and_2_degrees(goal: tuple[float, float, float]) -> None:
+    offset, turned = park(make(), *goal, seconds=40.0)
+    assert offset < 0.03
+    assert abs(turned) < math.radians(2)
+
+
+@pytest.mark.slow
+def test_across_a_slope_of_15_degrees_it_parks_straight_ahead() -> None:
+    robot = make("slope", direction="across", angle=math.radians(15))
+    offset, turned = park(robot, 2.0, 0.0, 0.0, seconds=40.0)
+    assert offset < 0.05
+    assert abs(turned) < math.radians(3)
+
+
+@pytest.mark.slow
+def test_a_turn_that_traction_does_not_allow_ends_in_time_and_near_the_start() -> None:
+    # the uphill track bears 28 % of the weight: 0.9 x 0.28 x 6440 N x 0.67 m = 1.1 kN m turn it,
+    # mu W L / 4 = 1.2 kN m hold it
+    robot = make("slope", direction="across", angle=math.radians(15))
+    robot.chassis.controller.park(0.0, 2.0, math.pi / 2)
+    until = robot.data.time + 30.0
+    while robot.chassis.controller.parking_phase not in ENDED and robot.data.time < until:
+        robot.run(0.2)
+    assert robot.chassis.controller.parking_phase == hurcules.ParkingPhase.Failed
+    assert np.hypot(*robot.data.qpos[:2]) < 0.5
+
+
+def test_the_brakes_hold_the_robot_on_a_slope_of_30_degrees() -> None:
+    robot = make("slope", direction="up")
+    start = robot.run(0.3)[-1, 3]
+    assert robot.run(1.0)[-1, 3] == pytest.approx(start, abs=2e-3)
+
+
+def test_up_a_slope_it_starts_without_rolling_back() -> None:
+    robot = make("slope", direction="up", angle=math.radians(15))
+    robot.run(0.3)
+    start = robot.data.qpos[0]
+    robot.chassis.controller.drive(0.3)
+    log = robot.run(1.5)
+    assert log[:, 3].min() > start - 0.02
+    assert log[-1, 1] == pytest.approx(0.3, abs=0.03)
+
+
+WRONG = [
+    (lambda c: c.drive(math.nan), "drive wants a finite speed"),
+    (lambda c: c.park(0.0, math.inf, 0.0), "a pose to park at wants finite"),
+    (lambda c: c.compute(0.0, math.nan, 0.0, 0.0), "compute wants finite belt rates"),
+    (lambda c: hurcules.DriveController(hurcules.DriveOptions(gauge=0.0)), "gauge wants a number"),
+    (
+        lambda c: hurcules.DriveController(
+            hurcules.DriveOptions(parking=hurcules.ParkingOptions(run_in=-1.0))
+        ),
+        "run_in wants a positive number",
+    ),
+]
+
+
+@pytest.mark.parametrize(("call", "text"), WRONG)
+def test_wrong_input_says_what_was_wanted(call, text: str) -> None:
+    with pytest.raises(hurcules.Error) as error:
+        call(hurcules.DriveController())
+    assert text in str(error.value)
+
+
+def test_parking_wants_a_pose() -> None:
+    controller = hurcules.DriveController()
+    controller.park(1.0, 0.0, 0.0)
+    with pytest.raises(hurcules.Error, match="wants the pose"):
+        controller.compute(0.0, 0.0, 0.0, 0.0)
+
+
+def test_a_snapshot_goes_on_bit_for_bit() -> None:
+    first, second = hurcules.DriveController(), hurcules.DriveController()
+    first.drive(1.0, 0.2)
+    for i in range(50):
+        first.compute(0.05 * i, 0.06 * i, 0.001 * i, 0.005 * i)
+    second.restore(first.state())
+    same = [c.compute(2.0, 2.1, 0.1, 0.3) for c in (first, second)]
+    assert same[0] == same[1] and same[0][0] != 0.0
