@@ -1,4 +1,4 @@
-"""The command `hurcules`: run a mission, list what there is, examine the machine."""
+"""The command `hurcules`: run a mission, reproduce claims, list what there is, examine the machine."""
 
 from __future__ import annotations
 
@@ -157,6 +157,50 @@ def list_all() -> None:
     for kind, names in rows.items():
         table.add_row(f"[bold]{kind}", "\n".join(names))
     Console().print(table)
+
+
+@app.command()
+def reproduce(
+    ids: Annotated[
+        list[str] | None,
+        typer.Argument(help="M05, a beginning such as M or K1, a range such as R01-R10."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            parser=_folder,
+            metavar="<path>",
+            help="Folder for the results.",
+            show_default="out/reproduce",
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes.", show_default="one for each core")
+    ] = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Measure again what an earlier run finished.")
+    ] = False,
+) -> None:
+    """Measure the claims of the thesis; write `report.html` and `claims.json`.
+
+    Goes on where an earlier run with the same code was stopped. Exit status: 0 each claim was measured, and
+    holds or is explained; 1 one is pending, failed, or misses its number without a known reason; 2 wrong
+    usage; 130 Ctrl-C.
+
+    For example `hurcules reproduce`, or with more words:
+
+    - `hurcules reproduce R E M04-M10 --out /tmp/claims --workers 4`
+    """
+    from hurcules.reproduce import run as reproduction
+
+    console = Console()
+    results = reproduction.reproduce(
+        ids or (), out or reproduction.OUT, workers=workers, fresh=fresh, console=console
+    )
+    reproduction.tell(results, console)
+    if results.interrupted:
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(0 if results.done else FAILED)
 
 
 @app.command()

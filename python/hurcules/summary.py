@@ -14,7 +14,7 @@ from hurcules._version import __version__
 from hurcules.recording import Recording
 from hurcules.simulation import Simulation
 
-__all__ = ["summarize"]
+__all__ = ["processor", "summarize"]
 
 
 def summarize(
@@ -50,7 +50,7 @@ def summarize(
                 {"time_s": round(time, 6), "text": text} for time, text in simulation.events()
             ],
             "machine": {
-                "processor": _processor(),
+                "processor": processor(),
                 "system": platform.platform(),
                 "python": platform.python_version(),
                 "mujoco": mujoco.__version__,
@@ -81,7 +81,7 @@ def _statistics(values: NDArray[np.float64]) -> dict[str, float | None]:
     return {"median": float(median), "p99": float(p99), "max": float(np.max(values))}
 
 
-def _processor() -> str:
+def processor() -> str:
     """The name of the processor, where the system tells it."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as file:
