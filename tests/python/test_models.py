@@ -236,6 +236,8 @@ def test_links_have_the_mass_centre_and_inertia_of_the_table(robot):
     name, model, _ = robot
     for link, (mass, centre, inertia) in {**LINKS, **LOWER_ARMS[name]}.items():
         parts = [link] + [f"L_finger_{i}" for i in (1, 2)] * (link == "L_hand")
+        parts += ["L_upper_track", "R_upper_track"] * (link == "upper_legs")
+        parts += ["L_lower_track"] * (link == "lower_leg_L")
         m, c, tensor = composite(model, parts)
         assert m == pytest.approx(mass), link
         assert c == pytest.approx(centre, abs=1e-4), link
