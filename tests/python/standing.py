@@ -30,11 +30,16 @@ def motor_peak(model: mujoco.MjModel, joint: int) -> float:
 
 
 def brake(model: mujoco.MjModel, factor: float = 1.2) -> None:
-    """Holds all joints of the robot by friction of `factor` times their peak torque, belts too."""
+    """Holds all joints of the robot by friction of `factor` times their peak torque, belts too.
+
+    Not the springs of the suspension.
+    """
     root = model.body("upper_legs").id
     for joint in range(model.njnt):
         body = model.jnt_bodyid[joint]
         if model.body_rootid[body] != root or model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
+            continue
+        if "_spring" in model.joint(joint).name:  # the suspension has no brakes
             continue
         dof = model.jnt_dofadr[joint]
         belt = model.joint(joint).name.endswith("_belt")

@@ -29,6 +29,8 @@ LINKS = {
 # links that the table counts as one
 PARTS = {
     "L_hand": ["L_finger_1", "L_finger_2"],
+    "upper_legs": ["L_upper_track", "R_upper_track"],
+    "lower_leg_L": ["L_lower_track"],
     "transfer_bed": [f"{s}_bed_{i}" for s in "LR" for i in (1, 2)],
 }
 LOWER_ARMS = {

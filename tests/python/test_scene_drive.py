@@ -10,7 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import mujoco
-import numpy as np
 import pytest
 
 import hurcules
@@ -51,13 +50,14 @@ def ride(
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
     tilt = deepest = 0.0
-    for _ in range(round(seconds * 100)):
-        for side in "LR":
-            rate = data.joint(f"{side}_lower_belt").qvel[0]
-            data.actuator(f"{side}_drive").ctrl[0] = np.clip(
-                GAIN * (speed / RADIUS - rate), -PEAK, PEAK
-            )
-        hurcules.step(model, data, 10)
+    drives = [
+        (model.actuator(f"{s}_drive").id, model.joint(f"{s}_lower_belt").dofadr[0]) for s in "LR"
+    ]
+    for _ in range(round(seconds * 1000)):
+        for drive, belt in drives:
+            torque = GAIN * (speed / RADIUS - data.qvel[belt])
+            data.ctrl[drive] = min(max(torque, -PEAK), PEAK)
+        hurcules.step(model, data)
         tilt = max(tilt, math.acos(min(1.0, data.body("upper_legs").xmat[8])))
         deepest = max([deepest] + [-c.dist for c in data.contact[: data.ncon]])
     warnings = sum(int(w.number) for w in data.warning)

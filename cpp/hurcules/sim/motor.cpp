@@ -17,20 +17,14 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 // 1 ms does not make the lightest joint chatter
 constexpr double kNoLoad = 1.1;
 
-// the numeric MARKERjoint of the model, whatever prefix stands before both; inf without one
+// inf without one
 double find_limit(const mjModel* m, const std::string& marker, const std::string& joint) {
-  for (int i = 0; i < m->nnumeric; ++i) {
-    const char* const found = mj_id2name(m, mjOBJ_NUMERIC, i);
-    const std::string name = found ? found : "";
-    const std::size_t at = name.find(marker);
-    if (at == std::string::npos) continue;
-    if (name.substr(0, at) + name.substr(at + marker.size()) != joint) continue;
-    const double limit = m->numeric_data[m->numeric_adr[i]];
-    require(limit > 0.0,
-            "numeric '" + name + "' wants a number above 0, " + std::to_string(limit) + " came");
-    return limit;
-  }
-  return kNone;
+  const int numeric = find_numeric(m, marker, joint);
+  if (numeric < 0) return kNone;
+  const double limit = m->numeric_data[m->numeric_adr[numeric]];
+  require(limit > 0.0, "numeric '" + marker + joint + "' wants a number above 0, " +
+                           std::to_string(limit) + " came");
+  return limit;
 }
 
 bool moves_joint(const mjModel* m, int actuator) {
@@ -54,6 +48,17 @@ EffortRange MotorLimits::at(double velocity) const {
     driving *= std::max(left, 0.0);
   }
   return velocity >= 0.0 ? EffortRange{-peak, driving} : EffortRange{-driving, peak};
+}
+
+int find_numeric(const mjModel* m, const std::string& marker, const std::string& joint) {
+  for (int i = 0; i < m->nnumeric; ++i) {
+    const char* const found = mj_id2name(m, mjOBJ_NUMERIC, i);
+    const std::string name = found ? found : "";
+    const std::size_t at = name.find(marker);
+    if (at == std::string::npos) continue;
+    if (name.substr(0, at) + name.substr(at + marker.size()) == joint) return i;
+  }
+  return -1;
 }
 
 MotorLimits read_motor_limits(const mjModel* m, int actuator) {

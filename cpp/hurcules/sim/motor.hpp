@@ -33,6 +33,10 @@ struct MotorLosses {
   double heat_at_peak = 0.3;
 };
 
+// number of the numeric MARKERjoint of the model, whatever prefix stands before both; -1 without one
+[[nodiscard]] int find_numeric(const mjModel_* model, const std::string& marker,
+                               const std::string& joint);
+
 // The limits of the actuator's joint, which may have no others: peak from its forcerange, speed and
 // power from the model's numerics velocity_limit_JOINT and power_limit_JOINT. Without the latter
 // the power is that of peak and speed together. Throws Error for numbers that are not above 0.

@@ -38,6 +38,7 @@ Physics::Physics(ModelPtr model, mjData* borrowed)
       data_(own_or_borrow(model_.get(), borrowed)),
       tracks_(model_.get()),
       brakes_(model_.get()),
+      drive_train_(model_.get()),
       state_(Vector::Zero(mj_stateSize(model_.get(), kState))) {}
 
 int Physics::find_keyframe(const std::string& text) const {
@@ -56,16 +57,13 @@ void Physics::reset(int keyframe) {
   std::fill_n(data_->qvel, model_->nv, 0.0);
   std::fill_n(data_->ctrl, model_->nu, 0.0);
   brakes_.reset();
+  drive_train_.reset(data_.get());
   sound_ = looks_sound();
 }
 
 void Physics::step() {
   if (!sound_) return;
-  mj_step1(model_.get(), data_.get());
-  tracks_.add_belts(model_.get(), data_.get());
-  brakes_.tighten(data_.get());
-  mj_step2(model_.get(), data_.get());
-  brakes_.advance(data_.get());
+  hurcules::step(model_.get(), data_.get(), tracks_, {&brakes_, &drive_train_});
   check();
 }
 
@@ -100,6 +98,7 @@ void Physics::save(StateWriter& writer) const {
   writer.put(state_);
   writer.put(sound_ ? 1.0 : 0.0);
   brakes_.save(writer);
+  drive_train_.save(writer);
 }
 
 void Physics::restore(StateReader& reader) {
@@ -107,6 +106,7 @@ void Physics::restore(StateReader& reader) {
   mj_setState(model_.get(), data_.get(), state_.data(), kState);
   sound_ = reader.get() > 0.0;
   brakes_.restore(reader);
+  drive_train_.restore(reader);
   for (mjWarningStat& warning : data_->warning) {
     if (sound_) warning.number = 0;
   }

@@ -1,5 +1,5 @@
-// The simulated world: MuJoCo's model and data, the tracks, the brakes, and a look at whether it
-// still makes sense.
+// The simulated world: MuJoCo's model and data, the tracks, the brakes, the drive trains, and a
+// look at whether it still makes sense.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,7 @@
 
 #include "hurcules/base/state.hpp"
 #include "hurcules/robot/robot.hpp"
-#include "hurcules/sim/brakes.hpp"
-#include "hurcules/sim/tracks.hpp"
+#include "hurcules/sim/step.hpp"
 
 namespace hurcules {
 
@@ -36,12 +35,13 @@ class Physics {
   [[nodiscard]] const Tracks& tracks() const { return tracks_; }
   [[nodiscard]] Brakes& brakes() { return brakes_; }
   [[nodiscard]] const Brakes& brakes() const { return brakes_; }
+  [[nodiscard]] const DriveTrain& drive_train() const { return drive_train_; }
   [[nodiscard]] double dt() const;                      // [s]
   [[nodiscard]] Eigen::Map<Vector> qpos();              // (nq)
   [[nodiscard]] Eigen::Map<const Vector> qpos() const;  // (nq)
   [[nodiscard]] Eigen::Map<const Vector> qvel() const;  // (nv)
 
-  // MuJoCo's whole integration state, and the brakes
+  // MuJoCo's whole integration state, brakes and gears
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 
@@ -52,6 +52,7 @@ class Physics {
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   Tracks tracks_;
   Brakes brakes_;
+  DriveTrain drive_train_;
   bool sound_ = true;
   mutable Vector state_;  // scratch, mjSTATE_INTEGRATION
 };

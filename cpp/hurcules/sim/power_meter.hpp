@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hurcules/sim/brakes.hpp"
+#include "hurcules/sim/drive_train.hpp"
 #include "hurcules/sim/motor.hpp"
 
 struct mjModel_;
@@ -18,10 +19,11 @@ struct PowerOptions {
 
 class PowerMeter {
  public:
-  // every actuator of a joint is a motor; throws Error for options out of range
+  // Every actuator of a joint is a motor, behind its transmission if it has one. Throws Error for
+  // options out of range.
   explicit PowerMeter(const mjModel_* model, const PowerOptions& options = {});
   // after a step: what it took, reckoned with the speeds at its beginning
-  void read(const mjData_* data, const Brakes& brakes);
+  void read(const mjData_* data, const Brakes& brakes, const DriveTrain& train);
 
   [[nodiscard]] double mechanical() const { return mechanical_; }  // [W] of all motors, at joints
   [[nodiscard]] double motors() const { return motors_; }          // [W] electric

@@ -85,7 +85,7 @@ void Simulation::servo() {
 
 void Simulation::advance_physics() {
   physics_.step();
-  power_meter_.read(physics_.data(), physics_.brakes());
+  power_meter_.read(physics_.data(), physics_.brakes(), physics_.drive_train());
   battery_.draw(power_meter_.total(), dt());
   if (battery_.empty()) physics_.brakes().close();
   telemetry_.power = power_meter_.total();

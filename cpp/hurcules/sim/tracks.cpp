@@ -2,6 +2,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -35,16 +37,23 @@ bool on_covered_face(const mjModel* m, const mjData* d, const mjContact& contact
   return std::abs(mju_dot3(contact.frame, along)) > kMaxLean;
 }
 
-// adds the belt's motion to the two tangential rows of a contact; side: +1 for its second geom, -1
-// for its first
+// velocity of the belt's surface at unit belt speed, along the two tangents of a contact, as the
+// rows count it: + for the second geom, - for the first
+std::array<mjtNum, 2> belt_rows(const mjData* d, const mjContact& contact, int geom, int belt) {
+  const double side = contact.geom[1] == geom ? 1.0 : -1.0;
+  mjtNum arm[3], velocity[3];
+  mju_sub3(arm, contact.pos, d->geom_xpos + 3 * geom);
+  mju_cross(velocity, d->xaxis + 3 * belt, arm);
+  return {side * mju_dot3(velocity, contact.frame + 3),
+          side * mju_dot3(velocity, contact.frame + 6)};
+}
+
+// adds the belt's motion to the two tangential rows of a contact
 void add_belt(const mjModel* m, mjData* d, const mjContact& contact, int geom, int dof) {
   const int row = contact.efc_address;
-  const double side = contact.geom[1] == geom ? 1.0 : -1.0;
-  mjtNum arm[3], velocity[3];  // of the belt's surface at unit belt speed
-  mju_sub3(arm, contact.pos, d->geom_xpos + 3 * geom);
-  mju_cross(velocity, d->xaxis + 3 * m->dof_jntid[dof], arm);
+  const std::array<mjtNum, 2> rows = belt_rows(d, contact, geom, m->dof_jntid[dof]);
   for (int t = 1; t < 3; ++t) {
-    const mjtNum j = side * mju_dot3(velocity, contact.frame + 3 * t);
+    const mjtNum j = rows[static_cast<std::size_t>(t - 1)];
     d->efc_J[(row + t) * m->nv + dof] += j;
     d->efc_vel[row + t] += j * d->qvel[dof];
     d->efc_aref[row + t] -= d->efc_KBIP[4 * (row + t) + 1] * j * d->qvel[dof];
@@ -63,7 +72,7 @@ void keep_down(mjData* d, const mjContact& contact) {
 
 }  // namespace
 
-Tracks::Tracks(const mjModel* m) : belt_dof_(static_cast<std::size_t>(m->ngeom), -1) {
+Tracks::Tracks(const mjModel* m) : track_of_geom_(static_cast<std::size_t>(m->ngeom), -1) {
   for (int tuple = 0; tuple < m->ntuple; ++tuple) {
     const char* const found = mj_id2name(m, mjOBJ_TUPLE, tuple);
     const std::string name = found ? found : "";
@@ -72,11 +81,14 @@ Tracks::Tracks(const mjModel* m) : belt_dof_(static_cast<std::size_t>(m->ngeom),
     require(size >= 2 && m->tuple_objtype[first] == mjOBJ_JOINT &&
                 m->jnt_type[m->tuple_objid[first]] == mjJNT_HINGE,
             "tuple '" + name + "' wants a belt hinge and then at least one geom");
+    names_.push_back(name.substr(name.find("track_") + 6));
     belts_.push_back(m->tuple_objid[first]);
+    dof_.push_back(m->jnt_dofadr[belts_.back()]);
     for (int i = first + 1; i < first + size; ++i) {
       require(m->tuple_objtype[i] == mjOBJ_GEOM,
               "tuple '" + name + "' wants only geoms after its belt");
-      belt_dof_[static_cast<std::size_t>(m->tuple_objid[i])] = m->jnt_dofadr[belts_.back()];
+      track_of_geom_[static_cast<std::size_t>(m->tuple_objid[i])] =
+          static_cast<int>(belts_.size()) - 1;
     }
   }
   if (belts_.empty()) return;
@@ -92,20 +104,46 @@ void Tracks::add_belts(const mjModel* m, mjData* d) const {
     if (contact.efc_address < 0 || contact.dim < 3) continue;
     bool on_track = false;
     for (const int geom : contact.geom) {
-      const int dof = geom < 0 ? -1 : belt_dof_[static_cast<std::size_t>(geom)];
-      if (dof < 0) continue;
+      const int track = track_of(geom);
+      if (track < 0) continue;
       if (on_covered_face(m, d, contact, geom)) d->efc_aref[contact.efc_address] = kNoContact;
-      add_belt(m, d, contact, geom, dof);
+      add_belt(m, d, contact, geom, dof_[static_cast<std::size_t>(track)]);
       on_track = true;
     }
     if (on_track) keep_down(d, contact);
   }
 }
 
-void step(const mjModel* m, mjData* d, const Tracks& tracks) {
-  mj_step1(m, d);
-  tracks.add_belts(m, d);
-  mj_step2(m, d);
+std::size_t Tracks::find(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) throw Error(unknown_name("track", name, names_));
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+TrackReading Tracks::read(const mjModel* m, const mjData* d, std::size_t track) const {
+  TrackReading reading;
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0 || contact.dim < 3) continue;
+    const bool second = track_of(contact.geom[1]) == static_cast<int>(track);
+    if (!second && track_of(contact.geom[0]) != static_cast<int>(track)) continue;
+    const std::array<mjtNum, 2> rows =
+        belt_rows(d, contact, contact.geom[second ? 1 : 0], belts_[track]);
+    const mjtNum* const force = d->efc_force + contact.efc_address;
+    const mjtNum* const velocity = d->efc_vel + contact.efc_address;
+    const double unit = std::hypot(rows[0], rows[1]);  // [m] belt speed to surface speed
+    if (force[0] <= 0.0 || unit < mjMINVAL) continue;
+    // the lower run moves backward as the robot goes forward
+    reading.load += force[0];
+    reading.traction -= (force[1] * rows[0] + force[2] * rows[1]) / unit;
+    reading.slip += force[0] * (velocity[1] * rows[0] + velocity[2] * rows[1]) / unit;
+    reading.speed += force[0] * unit * d->qvel[m->jnt_dofadr[belts_[track]]];
+  }
+  if (reading.load > 0.0) {
+    reading.slip /= reading.load;
+    reading.speed /= reading.load;
+  }
+  return reading;
 }
 
 }  // namespace hurcules

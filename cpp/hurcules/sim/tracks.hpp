@@ -1,5 +1,4 @@
-// Tracks: rigid geoms whose surface moves with a belt, and one physics step that gives them
-// traction.
+// Tracks: rigid geoms whose surface moves with a belt, and the traction that it gives.
 //
 // A track is a tuple `track_NAME` (any prefix before it) of a belt hinge and then the geoms that
 // the belt runs around. Between mj_step1 and mj_step2 each contact row of such a geom
@@ -13,12 +12,21 @@
 // Measured against Coulomb's law to 2 % (mujoco-facts.md §4).
 #pragma once
 
+#include <string>
 #include <vector>
 
 struct mjModel_;
 struct mjData_;
 
 namespace hurcules {
+
+// What a track does on the ground, over its contact points; forward is what the belt drives to.
+struct TrackReading {
+  double load = 0.0;      // [N] of normal force
+  double traction = 0.0;  // [N] forward, on the robot
+  double slip = 0.0;      // [m/s] belt faster than ground, mean by load; 0 off the ground
+  double speed = 0.0;     // [m/s] of the belt's surface, mean by load; 0 off the ground
+};
 
 class Tracks {
  public:
@@ -31,13 +39,22 @@ class Tracks {
   [[nodiscard]] bool empty() const { return belts_.empty(); }
   // joint ids of the belts, a track each
   [[nodiscard]] const std::vector<int>& belts() const { return belts_; }
+  // throws Error with the names that exist; without prefix and `track_`
+  [[nodiscard]] std::size_t find(const std::string& name) const;
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  // after a step, of that step
+  [[nodiscard]] TrackReading read(const mjModel_* model, const mjData_* data,
+                                  std::size_t track) const;
 
  private:
-  std::vector<int> belts_;
-  std::vector<int> belt_dof_;  // a geom: velocity index of its belt, -1 for none
-};
+  [[nodiscard]] int track_of(int geom) const {
+    return geom < 0 ? -1 : track_of_geom_[static_cast<std::size_t>(geom)];
+  }
 
-// mj_step with the tracks' traction
-void step(const mjModel_* model, mjData_* data, const Tracks& tracks);
+  std::vector<std::string> names_;
+  std::vector<int> belts_;
+  std::vector<int> track_of_geom_;  // -1 for none
+  std::vector<int> dof_;            // of the belts
+};
 
 }  // namespace hurcules

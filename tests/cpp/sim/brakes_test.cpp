@@ -95,8 +95,7 @@ TEST(Brakes, CloseAndOpenOverTheirTime) {
 
 TEST(Brakes, AreWhereAMotorAndAFrictionRowAre) {
   const Brakes brakes(stretch_scene().get());
-  // all but the two belts, which have no friction on this ground
-  EXPECT_EQ(brakes.names().size(), static_cast<std::size_t>(stretch_scene()->nu) - 2);
+  EXPECT_EQ(brakes.names().size(), static_cast<std::size_t>(stretch_scene()->nu));
   EXPECT_EQ(brakes.max_load(brakes.find("LSP")), 1.2 * 800.0);
   EXPECT_TRUE(contains(error_text([&] { (void)brakes.find("LXP"); }),
                        "brake of joint 'LXP' does not exist; there are: "));

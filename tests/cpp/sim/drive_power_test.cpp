@@ -66,7 +66,7 @@ class Vehicle {
           std::clamp(300.0 * (speed / kRadius - velocity), range.lower, range.upper);
     }
     physics.step();
-    meter.read(physics.data(), physics.brakes());
+    meter.read(physics.data(), physics.brakes(), physics.drive_train());
     work += 1e-3 * meter.mechanical();
     electric += 1e-3 * meter.motors();
     energy += 1e-3 * meter.total();
@@ -114,7 +114,7 @@ double working_power() {
   for (int i = 0; i < 3000; ++i) {
     servo.act({place, rest}, physics.data());
     physics.step();
-    meter.read(physics.data(), physics.brakes());
+    meter.read(physics.data(), physics.brakes(), physics.drive_train());
   }
   return meter.total();
 }
@@ -134,7 +134,8 @@ TEST(DrivePower, OfAMissionIsFrictionAndDampingAndTwoHoursAreInTheBattery) {
   EXPECT_NEAR(vehicle.work, lost, 0.02 * lost);
   // what braking gives is burnt: more than the net work, and less than that and all of m v^2 / 2
   EXPECT_GT(vehicle.electric, lost / 0.9);
-  EXPECT_LT(vehicle.electric, (lost + 0.5 * 700.0 * kSpeed * kSpeed) / 0.9 + 5e3);
+  // through a transmission of 0.92, and 78 s with 36 of 200 N m heat the windings by 12 kJ
+  EXPECT_LT(vehicle.electric, (lost + 0.5 * 700.0 * kSpeed * kSpeed) / (0.9 * 0.92) + 15e3);
 
   Battery battery;
   const double working = working_power(), driving = 14.0 * vehicle.seconds;

@@ -113,7 +113,7 @@ TEST_F(Drive, GivesAsMuchWorkAsTheMeterCounts) {
   for (int i = 0; i < 1000; ++i) {
     data_->ctrl[0] = 100.0;
     mj_step(model_.get(), data_.get());
-    meter.read(data_.get(), brakes);
+    meter.read(data_.get(), brakes, DriveTrain(model_.get()));
     work += 1e-3 * meter.mechanical();
     lost += 1e-3 * data_->qvel[0] * (kFriction + kDamping * data_->qvel[0]);
   }

@@ -17,7 +17,7 @@ TEST(SimulationPower, ComesOutOfTheBatteryTickByTick) {
   double drawn = 0.0;
   for (int i = 0; i < 500; ++i) {
     simulation.step();
-    EXPECT_GT(simulation.telemetry().power, 300.0 + 14 * 12.0);  // standby, open brakes, motors
+    EXPECT_GT(simulation.telemetry().power, 300.0 + 16 * 12.0);  // standby, open brakes, motors
     drawn += 1e-3 * simulation.telemetry().power;
   }
   EXPECT_NEAR(simulation.battery().delivered(), drawn, 1e-9 * drawn);
@@ -51,8 +51,7 @@ TEST(SimulationPower, WithAnEmptyBatteryLeavesTheRobotStandingOnItsBrakes) {
   Simulation simulation(stretch_scene(), "stretch", options);
   simulation.step(1000);
   EXPECT_TRUE(simulation.battery().empty());
-  // the belts, which come last, have no brake on this ground: their servo goes on
-  EXPECT_EQ(simulation.telemetry().torque.head(14).norm(), 0.0);
+  EXPECT_EQ(simulation.telemetry().torque.norm(), 0.0);
   const Vector held = simulation.telemetry().q;
   simulation.step(500);
   EXPECT_TRUE(near(simulation.telemetry().q, held, 2e-5));

@@ -2,7 +2,7 @@
 // against what a hand computes: statics on a slope, kinematics straight ahead, Coulomb friction
 // with equal loads in a turn, energy, the braking distance of a sliding plate; edges of a few
 // millimetres to centimetres, on which it once stopped. Not tested: stairs.
-#include "hurcules/sim/tracks.hpp"
+#include "hurcules/sim/step.hpp"
 
 #include <mujoco/mujoco.h>
 

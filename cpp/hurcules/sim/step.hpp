@@ -1,0 +1,19 @@
+// One step of the physics: mj_step, and between its halves the traction of the tracks, the brakes
+// and the limits of the drives.
+#pragma once
+
+#include "hurcules/sim/brakes.hpp"
+#include "hurcules/sim/drive_train.hpp"
+#include "hurcules/sim/tracks.hpp"
+
+namespace hurcules {
+
+// null: without
+struct Drives {
+  Brakes* brakes = nullptr;
+  DriveTrain* train = nullptr;
+};
+
+void step(const mjModel_* model, mjData_* data, const Tracks& tracks, const Drives& drives = {});
+
+}  // namespace hurcules
