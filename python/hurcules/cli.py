@@ -1,4 +1,4 @@
-"""The command `hurcules`: run a mission, reproduce claims, list what there is, examine the machine."""
+"""The command `hurcules`: run a mission, reproduce claims, list what there is, and more."""
 
 from __future__ import annotations
 
@@ -183,9 +183,9 @@ def reproduce(
 ) -> None:
     """Measure the claims of the thesis; write `report.html` and `claims.json`.
 
-    Goes on where an earlier run with the same code was stopped. Exit status: 0 each claim was measured, and
-    holds or is explained; 1 one is pending, failed, or misses its number without a known reason; 2 wrong
-    usage; 130 Ctrl-C.
+    Goes on where an earlier run with the same code was stopped. Exit status: 0 each claim was
+    measured, and holds or is explained; 1 one is pending, failed, or misses its number without a
+    known reason; 2 wrong usage; 130 Ctrl-C.
 
     For example `hurcules reproduce`, or with more words:
 

@@ -20,7 +20,7 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str,
     return code, said.out, said.err
 
 
-@pytest.mark.parametrize("command", ["run", "list", "doctor"])
+@pytest.mark.parametrize("command", ["run", "reproduce", "list", "doctor"])
 def test_help_of_each_command_shows_an_example(
     capsys: pytest.CaptureFixture[str], command: str
 ) -> None:
@@ -33,7 +33,7 @@ def test_help_of_each_command_shows_an_example(
 def test_without_arguments_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys)
     assert (code, err) == (2, "")
-    assert all(command in out for command in ("run", "list", "doctor"))
+    assert all(command in out for command in ("run", "reproduce", "list", "doctor"))
 
 
 def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,7 +2,7 @@
 
 Strategy: the cascade shares nothing with the default (one dense dual program a level), so agreement
 on every class of difficulty says as much as the oracle. Not tested here: what Algorithm 1 answers
-(test_claims_*.py) and what every method keeps (C++, methods_test).
+(test_claims.py) and what every method keeps (C++, methods_test).
 """
 
 from __future__ import annotations

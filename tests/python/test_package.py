@@ -93,6 +93,7 @@ def test_import_with_another_mujoco_ends_with_that_message(tmp_path: Path, pin: 
         "hurcules.scenes",
         "hurcules.casualties",
         "hurcules.trials",
+        "hurcules.reproduce",
     ],
 )
 def test_all_names_exactly_what_is_there(name: str) -> None:

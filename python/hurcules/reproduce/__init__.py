@@ -1,7 +1,7 @@
 """The claims of the thesis, measured here: `hurcules reproduce`.
 
-`CLAIMS` is the list, 112 rows of data. `hurcules.reproduce.measures` holds one function a claim that
-measures and decides nothing. `judge` compares the two.
+`CLAIMS` is the list, 112 rows of data. `hurcules.reproduce.measures` holds one function a claim,
+which measures and decides nothing. `judge` compares the two.
 """
 
 from hurcules.reproduce.claim import Claim, Expected, Finding, Verdict

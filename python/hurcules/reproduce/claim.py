@@ -1,4 +1,4 @@
-"""What a claim of the thesis is: its words, the numbers that it is judged by, and what was found."""
+"""What a claim of the thesis is: its words, the numbers that judge it, and what was found."""
 
 from __future__ import annotations
 
@@ -187,7 +187,9 @@ def line(label: str, x: ArrayLike, y: ArrayLike, style: str = "line", points: in
         keep, _ = thin(np.arange(x_all.size, dtype=float), finite, points // 2)
         index = np.unique(keep.astype(int))
         x_all, y_all = x_all[index], y_all[index]
-    return Line(label, _short(x_all), [v if math.isfinite(v) else None for v in _short(y_all)], style)
+    return Line(
+        label, _short(x_all), [v if math.isfinite(v) else None for v in _short(y_all)], style
+    )
 
 
 def _short(values: Iterable[float]) -> list[float]:

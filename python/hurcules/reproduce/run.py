@@ -1,4 +1,4 @@
-"""`hurcules reproduce`: the claims of the thesis measured here, with report.html and claims.json."""
+"""`hurcules reproduce`: the claims of the thesis measured; report.html and claims.json."""
 
 from __future__ import annotations
 

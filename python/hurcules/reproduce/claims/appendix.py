@@ -15,7 +15,8 @@ APPENDIX = (
     Claim(
         "P01",
         "A.2.12",
-        "The robust PID tracks. An arm of two joints in a vertical plane with 30 kg at its end, lifted and lowered "
+        "The robust PID tracks. An arm of two joints in a vertical plane with 30 kg at its end, "
+        "lifted and lowered "
         "for 12 s.",
         {
             "law": most("largest difference of the torque from R^-1 B' P x, over its size", 1e-10),
@@ -51,8 +52,8 @@ APPENDIX = (
                 thesis="1/2",
                 figure=True,
                 ours=(0.1, 0.4),
-                why="K multiplies the whole law, so an error that a load makes falls with 1 / K, to a quarter "
-                "and less",
+                why="K multiplies the whole law, so an error that a load makes falls with 1 / K, "
+                "to a quarter and less",
             ),
             "square_root": most("largest error with 4 K over that with K, at most a half", 0.5),
         },
@@ -60,7 +61,8 @@ APPENDIX = (
     Claim(
         "P05",
         "Figs. A.1-A.2",
-        "The seven-joint arm moves through tuning postures: bounded errors. The left arm of the manipulation robot, "
+        "The seven-joint arm moves through tuning postures: bounded errors. The left arm of the "
+        "manipulation robot, "
         "in the physics, standing on its tracks.",
         {
             "error": most("largest joint error of the arm", _BOUND, "rad"),
@@ -76,7 +78,8 @@ APPENDIX = (
     Claim(
         "P07",
         "§4.2.1, §A.3",
-        "The same gains carry 0 to 120 kg without feed-forward. The rescue robot standing, its arms moving, the load "
+        "The same gains carry 0 to 120 kg without feed-forward. The rescue robot standing, its "
+        "arms moving, the load "
         "shared by both lower arms.",
         {
             "load_0": most("largest joint error, 0 kg", _BOUND, "rad", thesis="0.4 degrees"),
@@ -88,11 +91,14 @@ APPENDIX = (
     Claim(
         "P08",
         "§A.2",
-        "Bounded disturbance, bounded error (input-to-state stability); for moving references the error does "
+        "Bounded disturbance, bounded error (input-to-state stability); for moving references "
+        "the error does "
         "not vanish, and it tends to zero when the disturbance does.",
         {
             "growth": between("error under 100 N m over that under 50 N m", 1.8, 2.2),
-            "late": most("largest error of the last third over that of the second, disturbed", 1.05),
+            "late": most(
+                "largest error of the last third over that of the second, disturbed", 1.05
+            ),
             "moving": least("largest error while moving, undisturbed", 1e-5, "rad"),
             "after": most("error 5 s after disturbance and motion", 1e-5, "rad"),
         },

@@ -10,21 +10,24 @@ FIELD = (
     Claim(
         "F01",
         "§4.5, Fig. 4.27",
-        "Ordnance: twelve steps (drive, waist, both legs, stand, four of acquisition, lift and sit, waist and "
+        "Ordnance: twelve steps (drive, waist, both legs, stand, four of acquisition, lift and "
+        "sit, waist and "
         "right leg, waist and left leg, torso forward and lean).",
         pending=_WAITS,
     ),
     Claim(
         "F02",
         "Fig. 4.28",
-        "Casualty: twelve steps, with folded arms, penetration under the body, lift, one leg at a time, "
+        "Casualty: twelve steps, with folded arms, penetration under the body, lift, one leg at "
+        "a time, "
         "bed deployed, put down, arms pulled out.",
         pending=_WAITS,
     ),
     Claim(
         "F03",
         "§4.5",
-        "No self-collision in any transformation; legs rotated without turned waist and folded arms do "
+        "No self-collision in any transformation; legs rotated without turned waist and folded "
+        "arms do "
         "collide.",
         pending=_WAITS,
     ),

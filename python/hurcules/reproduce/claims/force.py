@@ -11,7 +11,8 @@ FORCE = (
     Claim(
         "K01",
         "5.4.28-31",
-        "Inner position loop with f = G (s - r): M s'' + L s' + K (I + C G) s = K C (f_d + G r); stable.",
+        "Inner position loop with f = G (s - r): M s'' + L s' + K (I + C G) s = K C (f_d + G r); "
+        "stable.",
     ),
     Claim(
         "K02",
@@ -54,20 +55,23 @@ FORCE = (
     Claim(
         "K11",
         "Figs. 5.11, 5.13",
-        "C_k = 0.05 and 0.10: force around -5 N; visible error at 0.05, less at 0.10; higher speeds at 0.10.",
+        "C_k = 0.05 and 0.10: force around -5 N; visible error at 0.05, less at 0.10; higher "
+        "speeds at 0.10.",
     ),
     Claim("K12", "5.7.64", "f_min = 2.5 N: the force task enters only when |f| > 2.5 N."),
     Claim("K13", "5.7.64", "f_max: emergency stop above it (its value is not given)."),
     Claim(
         "K14",
         "§5.6.3, §5.7.2",
-        "Lower bandwidth of the joint PID: unstable when the outer loop is not slower than the joint loop; "
+        "Lower bandwidth of the joint PID: unstable when the outer loop is not slower than the "
+        "joint loop; "
         "too small a C on stiff ground is worse.",
     ),
     Claim(
         "K15",
         "5.7.54-59",
-        "Velocity form: s' + C G s = C G r + C f_d, time constant 1 / (C G), no steady error; discrete bound "
+        "Velocity form: s' + C G s = C G r + C f_d, time constant 1 / (C G), no steady error; "
+        "discrete bound "
         "C G dt < 1 or so.",
     ),
     Claim("K16", "Fig. 5.16", "C swept: a larger C is faster."),
@@ -84,13 +88,15 @@ FORCE = (
     Claim(
         "K19",
         "Fig. 5.6",
-        "Twelve phases: drive, open arms, waist, fold, legs, ready, lowering, acquisition, confirm (motion "
+        "Twelve phases: drive, open arms, waist, fold, legs, ready, lowering, acquisition, "
+        "confirm (motion "
         "only), embrace, lift, lift.",
     ),
     Claim(
         "K20",
         "§5.7.2",
-        "No or too little contact with the ground: the casualty is pushed away instead of scooped; with force "
+        "No or too little contact with the ground: the casualty is pushed away instead of "
+        "scooped; with force "
         "control the arms penetrate, also on stiff ground.",
     ),
 )

@@ -1,8 +1,8 @@
-"""S01 to S06: the stretch, closed loop in the physics; 13 coordinates, rho = 0.1,
-joint < hpos (6) < hpitch (2) < pel (1) < gaze (2).
+"""S01 to S06: the stretch, closed loop in the physics.
 
-Times count from the start of the stretch. The thesis prints no geometry and no speed of the
-operator; ours are assumed (models/README.md), the speed so that the hip's time fits.
+13 coordinates, rho = 0.1, joint < hpos (6) < hpitch (2) < pel (1) < gaze (2). Times count from the
+start of the stretch. The thesis prints no geometry and no speed of the operator; ours are assumed
+(models/README.md), the speed so that the hip's time fits.
 """
 
 from hurcules.reproduce.claim import Claim, exactly, least, most, near
@@ -23,7 +23,8 @@ STRETCH = (
     Claim(
         "S02",
         "Figs. 4.25-26",
-        "About 15 s: the hip meets its limit and stops, the knee starts, the error of the pelvis task starts "
+        "About 15 s: the hip meets its limit and stops, the knee starts, the error of the pelvis "
+        "task starts "
         "to grow.",
         {
             "hip": near("hip at its limit", 15.0, 2.0, "s", thesis="15 s"),
@@ -36,7 +37,8 @@ STRETCH = (
     Claim(
         "S03",
         "Figs. 4.25-26",
-        "About 25 s: the shoulder pitch meets its limit, the hip's constraint is released and the hip moves "
+        "About 25 s: the shoulder pitch meets its limit, the hip's constraint is released and "
+        "the hip moves "
         "again.",
         {
             "shoulder": near("shoulder pitch at its limit", 25.0, 2.0, "s", thesis="25 s"),
@@ -58,7 +60,8 @@ STRETCH = (
     Claim(
         "S05",
         "§4.4",
-        "At the end the pelvis task has an error of 0.40 m; hand position and pitch errors are small.",
+        "At the end the pelvis task has an error of 0.40 m; hand position and pitch errors are "
+        "small.",
         {
             "pelvis": near("pelvis error at the end", 0.40, 0.02, "m", thesis="0.40 m"),
             "hand": most("largest hand error, commanded", 1e-3, "m"),
@@ -80,8 +83,9 @@ STRETCH = (
                 0,
                 figure=True,
                 ours=(0, 3),
-                why="a joint that turns around passes through its dry friction: the hip at 6.4 s; and "
-                "our bounds brake a joint before its limit, so that the stop of the hip is soft",
+                why="a joint that turns around passes through its dry friction: the hip at 6.4 "
+                "s; and our bounds brake a joint before its limit, so that the stop of the "
+                "hip is soft",
             ),
         },
     ),

@@ -15,9 +15,25 @@ from hurcules.reproduce.measures.marks import FUNCTIONS
 __all__ = ["ALONE", "MODULES", "bundles", "measure", "measured"]
 
 # the longest first, so that the workers end together
-MODULES = ("decomposition", "regularization", "active_set", "position_limits", "chapter3", "servo_theory", "servo_arm", "servo_robot", "hardware", "stretch")
+MODULES = (
+    "reach",
+    "stretch",
+    "bimanual",
+    "tasks",
+    "servo_robot",
+    "servo_arm",
+    "position_limits",
+    "decomposition",
+    "active_set",
+    "regularization",
+    "chapter3",
+    "servo_theory",
+    "hardware",
+    "solve_times",
+    "tick_times",
+)
 # those that measure time: nothing else runs beside them
-ALONE = ()
+ALONE = ("solve_times", "tick_times")
 
 
 def _load() -> None:

@@ -1,4 +1,4 @@
-"""R13 to R21: the modified active set. Algorithm 1 is the method `rhqp_thesis`; the default beside it."""
+"""R13 to R21: the modified active set; Algorithm 1 (`rhqp_thesis`), and the default beside it."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def feasible() -> Finding:
 
 @measures("R14")
 def violated() -> Finding:
-    """x <= -1 with a task that asks for x = -0.5."""
+    """Limit x <= -1 with a task that asks for x = -0.5."""
     limit = rhqp.Level(np.array([[1.0]]), np.array([-INF]), np.array([-1.0]))
     task = point([[1.0]], [-0.5], 0.0)
     unlimited = float(solver(1, "rhqp_thesis").solve([task]).x[0])
@@ -77,7 +77,7 @@ def violated() -> Finding:
 def classic_active_set(
     goal: Array, C: Array, d: Array, x: Array
 ) -> tuple[list[Array], list[tuple[str, int]]]:
-    """Min |x - goal|^2, C x <= d, by steps with a length from a feasible x; the way, the changes."""
+    """Min |x - goal|^2, C x <= d, by steps with a length from a feasible x: way and changes."""
     held: list[int] = []
     changes: list[tuple[str, int]] = []
     way = [x]
@@ -106,7 +106,7 @@ def classic_active_set(
 
 @measures("R15")
 def without_steps() -> Finding:
-    """A: 0.6 x + 0.8 y <= 1, B: x <= 1, goal (3, 0), start (0, 1): the figure's shape, own numbers."""
+    """A: 0.6 x + 0.8 y <= 1, B: x <= 1, goal (3, 0), start (0, 1): own numbers."""
     C, d, goal = np.array([[0.6, 0.8], [1.0, 0.0]]), np.ones(2), np.array([3.0, 0.0])
     way, changes = classic_active_set(goal, C, d, np.array([0.0, 1.0]))
     limits = rhqp.Level(C, np.full(2, -INF), d)
@@ -152,7 +152,7 @@ def warm() -> Finding:
 
 @measures("R17")
 def any_start() -> Finding:
-    """From the set of another goal: the plane of Figure 3.5, then 100 conflicts with other targets."""
+    """From the set of another goal: the plane of Figure 3.5, then 100 conflicts."""
     limits = rhqp.Level(np.array([[0.6, 0.8], [1.0, 0.0]]), np.full(2, -INF), np.ones(2))
     first, second = (point(np.eye(2), goal, 0.0) for goal in ([0.0, 9.0], [3.0, 0.0]))
     plane, same = {}, {"lexicographic": 0, "rhqp_thesis": 0}

@@ -46,7 +46,11 @@ def beyond(motion: Motion) -> Array:
 
 
 def picture(
-    title: str, motions: Sequence[Motion], value: Callable[[Motion], Array], label: str, log: str = ""
+    title: str,
+    motions: Sequence[Motion],
+    value: Callable[[Motion], Array],
+    label: str,
+    log: str = "",
 ) -> Plot:
     """A value of five runs over time."""
     lines = [line("", motion.time, value(motion)) for motion in motions]

@@ -16,7 +16,14 @@ import numpy as np
 from hurcules import rhqp
 from hurcules.reproduce.claim import Finding, Plot, line
 from hurcules.reproduce.measures.marks import measures
-from hurcules.reproduce.measures.problems import Array, largest, levels_with, point, solver, unit_rows
+from hurcules.reproduce.measures.problems import (
+    Array,
+    largest,
+    levels_with,
+    point,
+    solver,
+    unit_rows,
+)
 
 N, SEEDS = 9, 50
 METHODS = ("lexicographic", "rhqp_thesis")  # both: for equality levels they agree
@@ -32,7 +39,7 @@ def deficient(seed: int, rho: float) -> list[rhqp.Level]:
     return [point(M, rng.uniform(-1, 1, 3), rho) for M in (A, B, C)]
 
 
-RANKS = (3, 1, 2)  # of the levels of `deficient`, in the directions that are free for each
+RANKS = (3, 1, 2)  # of these levels, in the directions that are free for each
 
 
 def stacked(levels: Sequence[rhqp.Level]) -> Array:
@@ -84,9 +91,9 @@ def parts(seed: int, rho: float, method: str) -> Parts:
     return Parts(levels, P)
 
 
-def each(rho: float = 0.1) -> list[Parts]:
+def each() -> list[Parts]:
     """All problems, by both methods."""
-    return [parts(seed, rho, method) for method in METHODS for seed in range(SEEDS)]
+    return [parts(seed, 0.1, method) for method in METHODS for seed in range(SEEDS)]
 
 
 @measures("R01")
@@ -133,10 +140,10 @@ def strict_priority() -> Finding:
 
 @measures("R05")
 def resources() -> Finding:
-    """H_k = J'J + rho^2 Y Y', h_k' = y'J against the free directions; then a level that uses them."""
+    """H_k = J'J + rho^2 Y Y', h_k' = y'J on the free directions; then a level that uses them."""
     hessian, gradient, left = [], [], []
     rng = np.random.default_rng(0)
-    for one in each(0.1):
+    for one in each():
         for k, level in enumerate(one.levels):
             H = level.A.T @ level.A + level.rho**2 * one.Y2(k)
             hessian.append(H @ one.P[k + 1])
@@ -146,8 +153,9 @@ def resources() -> Finding:
             levels, wish = deficient(seed, 0.1), rng.uniform(-1, 1, N)
             x = solver(N, method).solve([*levels, point(np.eye(N), wish, 0.0)]).x
             left.append(parts(seed, 0.1, method).P[3] @ (x - wish))
-    values = {"hessian": largest(hessian), "gradient": largest(gradient), "left": largest(left)}
-    return Finding(values)
+    return Finding(
+        {"hessian": largest(hessian), "gradient": largest(gradient), "left": largest(left)}
+    )
 
 
 @measures("R06")
@@ -274,7 +282,7 @@ def bare_inverse() -> Finding:
 
 @measures("R12")
 def multipliers() -> Finding:
-    """The solver's recursion against 3.4.109, -J#' J_k' mu_k, with J# of the levels above at rho = 0."""
+    """The solver's recursion against 3.4.109, -J#' J_k' mu_k, J# of the levels above at rho = 0."""
     sizes, differences, wrong = [], [], 0
     for seed in range(SEEDS):
         levels = deficient(seed, 0.1)

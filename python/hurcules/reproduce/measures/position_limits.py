@@ -1,7 +1,7 @@
 """R25, R26: position limits as bounds on velocity and on acceleration.
 
-Joints driven against their limits as hard as seeded tasks can, by the default method, with the bounds
-as printed; then by the velocity controller, whose bounds also brake in time.
+Joints driven against their limits as hard as seeded tasks can, by the default method, with the
+bounds as printed; then by the velocity controller, whose bounds also brake in time.
 """
 
 from __future__ import annotations
@@ -75,8 +75,8 @@ def velocity_bounds() -> Finding:
             "controller_change": change,
         },
         plots=plots,
-        remark="With T = 1 a joint runs at full speed until one step before its limit and stands still in "
-        "the next: the jumps of Figures 4.15 to 4.18. Bounds that brake in time have none.",
+        remark="With T = 1 a joint runs at full speed until one step before its limit, and stands "
+        "in the next: the jumps of Figures 4.15 to 4.18. Bounds that brake in time have none.",
     )
 
 
@@ -104,7 +104,7 @@ def driven_by_controller() -> tuple[Array, float, float]:
 
 @measures("R26")
 def acceleration_bounds() -> Finding:
-    """q + q' dt + q'' dt^2 / 2 within the limits; as printed it brakes within one step."""
+    """Keeps q + q' dt + q'' dt^2 / 2 within the limits; as printed it brakes within one step."""
     peak, excess, short, shown = 0.0, 0.0, 0.0, []
     for seed in range(5):
         levels, solver = tasks(seed, 5.0), rhqp.Solver(N)

@@ -1,13 +1,14 @@
 """P01, P04, P08, P09: the servo on an arm of two joints in a vertical plane, in MuJoCo.
 
-Upper arm 0.4 m with 30 kg in its middle, lower arm 11.5 kg at 0.30 m, the load 0.44 m from the elbow,
-rotors 2.6 and 0.9 kg m^2: the shoulder pitch and the elbow of the rescue robot. No model and no
-feed-forward; gains for a triple pole at 30 and 50 rad/s of joints that feel 10 and 2.5 kg m^2.
+Upper arm 0.4 m with 30 kg in its middle, lower arm 11.5 kg at 0.30 m, the load 0.44 m from the
+elbow, rotors 2.6 and 0.9 kg m^2: the shoulder pitch and the elbow of the rescue robot. No model and
+no feed-forward; gains for a triple pole at 30 and 50 rad/s of joints that feel 10 and 2.5 kg m^2.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import mujoco
 import numpy as np
@@ -152,7 +153,9 @@ def twice_the_performance() -> Finding:
 def bounded() -> Finding:
     """A disturbance of 1 Hz on both joints for 12 s; motion and disturbance end, 5 s of rest."""
     runs = {
-        f"{torque:g} N m": run(gains(), seconds=17.0, moving=12.0, disturbance=torque, disturbed=12.0)
+        f"{torque:g} N m": run(
+            gains(), seconds=17.0, moving=12.0, disturbance=torque, disturbed=12.0
+        )
         for torque in (0.0, 50.0, 100.0)
     }
     free, half, full = runs.values()
@@ -181,7 +184,7 @@ def smaller_gamma() -> Finding:
     changed = max(float(np.abs(one.Q(gamma) - one.Q()).max()) for gamma in gammas)
     return Finding(
         {
-            "falling": sum(a <= b for a, b in zip(errors, errors[1:], strict=False)),
+            "falling": sum(a <= b for a, b in pairwise(errors)),
             "q_changed": changed / float(np.abs(one.Q()).max()),
             "ratio": errors[-1] / errors[0],
         },

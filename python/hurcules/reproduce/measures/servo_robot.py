@@ -83,7 +83,11 @@ def tuning_postures() -> Finding:
     arm = np.abs(run.of("LS", "LE", "LW"))
     others = np.abs(run.of("LKN", "RKN", "HIP", "WST"))[STAND:]
     return Finding(
-        {"error": arm[STAND:].max(), "end": arm[-1].max(), "saturated": int(run.saturated[STAND:].sum())},
+        {
+            "error": arm[STAND:].max(),
+            "end": arm[-1].max(),
+            "saturated": int(run.saturated[STAND:].sum()),
+        },
         [Note("largest error of knees, hip and waist", float(others.max()), "rad")],
         [picture("Left arm", {"": run}, "LS", "LE", "LW")],
     )

@@ -38,9 +38,11 @@ class Appendix:
     @property
     def A(self) -> Array:
         """Of the state equation (A.2.4), (9, 9)."""
-        inverse, O, I = np.linalg.inv(self.M), np.zeros((N, N)), np.eye(N)
+        inverse, zero, one = np.linalg.inv(self.M), np.zeros((N, N)), np.eye(N)
         last = [-inverse @ self.C @ self.K_I, -inverse @ self.C @ self.K_P - self.K_I]
-        return np.block([[O, I, O], [O, O, I], [*last, -inverse @ self.C - self.K_P]])
+        return np.block(
+            [[zero, one, zero], [zero, zero, one], [*last, -inverse @ self.C - self.K_P]]
+        )
 
     @property
     def B(self) -> Array:
@@ -63,16 +65,12 @@ class Appendix:
         """The state weight by the Riccati equation (A.2.10), with R = (K + I / gamma^2)^-1."""
         A, B, P = self.A, self.B, self.P
         R_inverse = self.K + np.eye(N) / gamma**2
-        return -(
-            A.T @ P + P @ A - P @ B @ R_inverse @ B.T @ P + P @ B @ B.T @ P / gamma**2
-        )
+        return -(A.T @ P + P @ A - P @ B @ R_inverse @ B.T @ P + P @ B @ B.T @ P / gamma**2)
 
 
 def pid(K: float, K_P: float, K_I: float, gamma: float = 1.0) -> hurcules.JointPid:
     """A servo of one joint; refuses gains outside the conditions."""
-    options = hurcules.JointPidOptions(
-        K=[K], K_P=[K_P], K_I=[K_I], gamma=gamma, max_torque=[1e9]
-    )
+    options = hurcules.JointPidOptions(K=[K], K_P=[K_P], K_I=[K_I], gamma=gamma, max_torque=[1e9])
     return hurcules.JointPid(options)
 
 
@@ -99,10 +97,14 @@ def state_weight() -> Finding:
     off = []
     for seed in range(ROBOTS):
         one = Appendix.random(seed)
-        O = np.zeros((N, N))
+        zero = np.zeros((N, N))
         middle = (one.K_P @ one.K_P - 2 * one.K_I) @ one.K
         wanted = np.block(
-            [[one.K_I @ one.K_I @ one.K, O, O], [O, middle, O], [O, O, one.K]]
+            [
+                [one.K_I @ one.K_I @ one.K, zero, zero],
+                [zero, middle, zero],
+                [zero, zero, one.K],
+            ]
         )
         off.append(np.abs(one.Q() - wanted).max() / np.abs(wanted).max())
     return Finding({"difference": float(max(off))})

@@ -122,16 +122,15 @@ def servo(drives: list[Drive]) -> hurcules.JointPid:
     return hurcules.JointPid(options)
 
 
-def led(
-    model: mujoco.MjModel, qpos: Array, drives: list[Drive], q: Array, qd: Array
-) -> Followed:
+def led(model: mujoco.MjModel, qpos: Array, drives: list[Drive], q: Array, qd: Array) -> Followed:
     """Leads the robot along a reference.
 
     Args:
         model: the robot, with what it carries.
         qpos: (nq,) where it starts, at rest.
         drives: its motors.
-        q: (ticks, n) [rad] and qd: (ticks, n) [rad/s], the reference.
+        q: (ticks, n) [rad] the reference.
+        qd: (ticks, n) [rad/s] its velocity.
     """
     data = mujoco.MjData(model)
     data.qpos[:] = qpos

@@ -2,8 +2,8 @@
 
   joint < lhpos < rhpos < lhor < rhor < {pel, body} < swivel < gaze, rho = 0.1, K = 5, dt = 1 ms
 
-`Body` holds robot, tasks and controller; `follow` moves it along a command and keeps every tick. As
-printed (`AS_PRINTED`) a limit is taken within one step, T = 1 of 4.3.9, which makes the thesis' jumps;
+`Body` holds robot, tasks and controller; `follow` moves it along a command and keeps every tick.
+`Setting.as_printed` takes a limit within one step, T = 1 of 4.3.9, which makes the thesis' jumps;
 the controller's own bounds brake in time.
 """
 
@@ -19,7 +19,7 @@ import hurcules
 from hurcules import Stack, StackLevel, rhqp
 from hurcules.reproduce.measures.problems import Array
 
-__all__ = ["AS_PRINTED", "DT", "LEVELS", "Body", "Log", "Setting", "follow"]
+__all__ = ["DT", "LEVELS", "Body", "Log", "Setting", "follow"]
 
 DT = 1e-3  # [s]
 LEVELS = ("joint", "lhpos", "rhpos", "lhor", "rhor", "pel", "swivel", "gaze")
@@ -126,9 +126,7 @@ def _tasks(robot: hurcules.Robot) -> dict[str, hurcules.Task]:
     ]
     for side in "LR":
         frames = {part: f"{side}_{part}" for part in ("shoulder", "elbow", "wrist")}
-        tasks.append(
-            hurcules.SwivelTask(f"{side.lower()}swivel", robot, torso="torso", **frames)
-        )
+        tasks.append(hurcules.SwivelTask(f"{side.lower()}swivel", robot, torso="torso", **frames))
     return {task.name: task for task in tasks}
 
 
@@ -226,7 +224,9 @@ def follow(body: Body, command: Command, seconds: float, stop_at: float = np.inf
         log.errors[i] = body.level_errors()
         q = new_q
         robot.set_configuration(q)
-        log.excess = max(log.excess, float(np.max(body.limits.lower - q)), float(np.max(q - body.limits.upper)))
+        log.excess = max(
+            log.excess, float(np.max(body.limits.lower - q)), float(np.max(q - body.limits.upper))
+        )
         if np.abs(velocity).max() > stop_at:
             return _cut(log, i + 1)
     return log

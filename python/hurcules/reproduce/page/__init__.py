@@ -1,4 +1,4 @@
-"""report.html of `hurcules reproduce`: every claim with its numbers, plots and verdict; one file."""
+"""report.html of `hurcules reproduce`: each claim with its numbers, plots and verdict; one file."""
 
 from __future__ import annotations
 

@@ -1,0 +1,33 @@
+"""The quick claims of the thesis, by the functions and numbers of `hurcules reproduce`.
+
+Strategy: each claim that takes seconds is measured and judged as the command does it; a number that
+is neither met nor explained fails. The verdicts of those that do not simply hold are stated here,
+so that none can change unseen. The slow ones (whole motions, physics, computation time) are run
+by the command alone. The decomposition inside the solver: C++, claims_decomposition_test.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from hurcules.reproduce import CLAIMS, Verdict
+from hurcules.reproduce.measures import measured
+from hurcules.reproduce.worker import examine
+
+QUICK = [name for name in CLAIMS if name[0] in "RE"] + ["H01", "H02", "H03", "P02", "P03"]
+OTHERWISE = {
+    "R13": Verdict.NOT,  # Algorithm 1 keeps rows with a negative multiplier
+    "R16": Verdict.ANOTHER_NUMBER,  # it forgets its set S: 97 of 100
+    "R17": Verdict.NOT,  # and does not forget it within a solve
+}
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_quick_claim_holds_or_is_explained(name: str) -> None:
+    result = examine(name)
+    assert result.done, f"{result.verdict}: {result.reason}"
+    assert result.verdict == OTHERWISE.get(name, Verdict.HOLDS)
+
+
+def test_every_quick_claim_is_measured() -> None:
+    assert [name for name in QUICK if name not in measured()] == []

@@ -1,0 +1,296 @@
+"""`hurcules reproduce`: the list, which claims are meant, the judge, workers, resuming, Ctrl-C.
+
+Strategy: the judge and the choice of ids on small examples; the command as a program of its own,
+with a handful of quick claims; a worker that dies, by a stand-in. What the claims measure:
+test_claims.py.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import hurcules
+from hurcules.reproduce import CLAIMS, Claim, Expected, Finding, Verdict, run
+from hurcules.reproduce.claim import Note, Plot, line, most
+from hurcules.reproduce.judge import judge
+from hurcules.reproduce.measures import measured
+from hurcules.reproduce.measures.marks import FUNCTIONS
+from hurcules.reproduce.result import dump, from_finding, load, without_finding
+from hurcules.reproduce.runner import Runner, kept
+from hurcules.reproduce.select import select
+from hurcules.reproduce.worker import examine, keep
+
+QUICK = ["R14", "R18", "R20", "R24"]
+COMMAND = [sys.executable, "-c", "import sys; from hurcules.cli import main; sys.exit(main())"]
+
+
+def call(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [*COMMAND, "reproduce", *arguments], capture_output=True, text=True, timeout=600
+    )
+
+
+def rows(out: Path) -> dict[str, dict[str, Any]]:
+    found = json.loads((out / "claims.json").read_text(encoding="utf-8"))["claims"]
+    return {one["id"]: one for one in found}
+
+
+# ---- the list
+
+
+def test_the_list_has_112_claims() -> None:
+    counts = Counter(name[0] for name in CLAIMS)
+    wanted = {"R": 26, "E": 5, "H": 19, "M": 20, "S": 6, "F": 7, "K": 20, "P": 9}
+    assert counts == wanted
+    assert [name for name, claim in CLAIMS.items() if claim.id != name] == []
+    assert all(claim.source and claim.statement for claim in CLAIMS.values())
+
+
+def test_what_is_measured_has_numbers_to_be_judged_by_and_the_other_way_round() -> None:
+    with_numbers = {name for name, claim in CLAIMS.items() if claim.expected}
+    assert set(measured()) == with_numbers
+    assert not any(name.startswith("F") for name in with_numbers)
+
+
+def test_a_number_that_is_explained_says_why_and_lies_elsewhere() -> None:
+    for claim in CLAIMS.values():
+        for one in claim.expected.values():
+            assert (one.ours is None) == (not one.why)
+            assert one.low <= one.high
+
+
+# ---- which claims are meant
+
+
+@pytest.mark.parametrize(
+    ("words", "ids"),
+    [
+        (["M05"], ["M05"]),
+        (["m05", "R01"], ["R01", "M05"]),
+        (["K1"], [f"K1{i}" for i in range(10)]),
+        (["R24-E02"], ["R24", "R25", "R26", "E01", "E02"]),
+        (["S01..03,P09"], ["S01", "S02", "S03", "P09"]),
+        ([], list(CLAIMS)),
+    ],
+)
+def test_ids_beginnings_and_ranges(words: list[str], ids: list[str]) -> None:
+    assert select(words, CLAIMS) == ids
+
+
+@pytest.mark.parametrize("word", ["X", "R99", "R05-R01", "R01-R99", "5", "-"])
+def test_what_means_nothing_is_refused_with_the_ids_that_exist(word: str) -> None:
+    with pytest.raises(hurcules.Error, match=r"R01-R26, E01-E05, .*P01-P09") as caught:
+        select([word], CLAIMS)
+    assert repr(word) in str(caught.value)
+
+
+# ---- the judge
+
+STATEMENT = most("statement", 1.0)
+FIGURE = Expected("figure", 0.9, 1.1, "s", figure=True, ours=(2.0, 3.0), why="other geometry")
+
+
+@pytest.mark.parametrize(
+    ("statement", "figure", "verdict", "explained"),
+    [
+        (0.5, 1.0, Verdict.HOLDS, True),
+        (0.5, 2.5, Verdict.ANOTHER_NUMBER, True),
+        (0.5, 4.0, Verdict.ANOTHER_NUMBER, False),
+        (1.5, 1.0, Verdict.NOT, False),
+        (float("nan"), 1.0, Verdict.NOT, False),
+        (0.5, float("nan"), Verdict.ANOTHER_NUMBER, False),
+    ],
+)
+def test_the_verdict_follows_from_the_numbers(
+    statement: float, figure: float, verdict: Verdict, explained: bool
+) -> None:
+    claim = Claim("X01", "here", "a claim", {"statement": STATEMENT, "figure": FIGURE})
+    found, reason, why = judge(claim, Finding({"statement": statement, "figure": figure}))
+    assert (found, why) == (verdict, explained)
+    assert (reason == "") == (verdict == Verdict.HOLDS)
+    assert ("other geometry" in reason) == (not FIGURE.met(figure))
+
+
+def test_values_under_other_names_are_refused() -> None:
+    claim = Claim("X01", "here", "a claim", {"a": STATEMENT})
+    with pytest.raises(hurcules.Error, match=r"wanted values for \['a'\], got \['b'\]"):
+        judge(claim, Finding({"b": 0.0}))
+
+
+# ---- keeping results
+
+
+def test_a_kept_result_comes_back_whole(tmp_path: Path) -> None:
+    plot = Plot("title", "x", "y", [line("", [0, 1], [1.0, float("nan")])], marks=(0.5,), log="y")
+    claim = Claim("X01", "here", "a claim", {"a": STATEMENT})
+    finding = Finding({"a": float("inf")}, [Note("n", 1.0, "s")], [plot], "remark")
+    result = from_finding(claim, finding, 1.5)
+    keep(result, tmp_path)
+    assert load(tmp_path / "X01.json") == result
+    assert result.verdict == Verdict.NOT and not result.done
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"fingerprint": "other"}'])
+def test_a_broken_or_older_file_counts_as_none(tmp_path: Path, text: str) -> None:
+    (tmp_path / "X01.json").write_text(text)
+    assert load(tmp_path / "X01.json") is None
+
+
+def test_errors_and_other_code_are_measured_again(tmp_path: Path) -> None:
+    keep(without_finding("A", Verdict.ERROR, "failed"), tmp_path)
+    keep(without_finding("B", Verdict.HOLDS, ""), tmp_path)
+    old = json.loads(dump(without_finding("C", Verdict.HOLDS, ""))) | {"fingerprint": "older"}
+    (tmp_path / "C.json").write_text(json.dumps(old))
+    assert kept(tmp_path, ["A", "B", "C", "D"], fresh=False) == ["B"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["B.json"]
+    assert kept(tmp_path, ["B"], fresh=True) == []
+
+
+# ---- claims that fail
+
+
+def test_a_claim_that_raises_becomes_an_error_with_its_place(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail() -> Finding:
+        raise RuntimeError("no such thing")
+
+    assert examine("R14").verdict == Verdict.HOLDS
+    monkeypatch.setitem(FUNCTIONS, "R14", fail)
+    result = examine("R14")
+    assert (result.verdict, result.done) == (Verdict.ERROR, False)
+    assert re.fullmatch(r"RuntimeError: no such thing \(test_reproduce.py:\d+\)", result.reason)
+
+
+def dying(names: Sequence[str], folder: Path) -> None:
+    """Stands in for a worker whose process dies with the claim R18."""
+    for name in names:
+        if name == "R18":
+            os._exit(9)
+        keep(without_finding(name, Verdict.HOLDS, ""), folder)
+
+
+def test_a_process_that_dies_costs_one_claim(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("hurcules.reproduce.runner.work", dying)
+    left: list[list[str]] = []
+    Runner(tmp_path, 2, lambda: False, left.append).run([*QUICK, "H01", "H02"])
+    results = {name: load(tmp_path / f"{name}.json") for name in [*QUICK, "H01", "H02"]}
+    verdicts = {name: result and result.verdict for name, result in results.items()}
+    assert verdicts == {
+        name: Verdict.ERROR if name == "R18" else Verdict.HOLDS for name in verdicts
+    }
+    assert left[-1] == []
+
+
+# ---- the command
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A first run of a handful of claims: its folder and what it said."""
+    out = tmp_path_factory.mktemp("reproduce") / "deep" / "out"
+    done = call(*QUICK, "--out", str(out), "--workers", "2")
+    assert done.returncode == 0, done.stderr
+    return out, done.stdout
+
+
+def test_a_run_writes_claims_and_report_and_says_where(first: tuple[Path, str]) -> None:
+    out, said = first
+    found = rows(out)
+    assert list(found) == QUICK
+    assert all(row["verdict"] == "holds" and row["seconds"] >= 0 for row in found.values())
+    assert found["R20"]["measured"]["x1"] == pytest.approx(-0.4975, abs=5e-5)
+    assert found["R20"]["expected"]["x1"]["low"] == pytest.approx(-0.49755)
+    assert {"source", "statement", "reason", "notes"} <= set(found["R20"])
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert all(f'id="{name}"' in page for name in QUICK)
+    assert "http" not in re.sub(r"http://www\.w3\.org\S*|http://purl\.org\S*", "", page)
+    assert str(out / "report.html") in said.replace("\n", "")
+
+
+def test_a_second_run_takes_over_what_is_finished(first: tuple[Path, str]) -> None:
+    out, _ = first
+    files = {name: (out / "claims" / f"{name}.json").stat().st_mtime_ns for name in QUICK}
+    (out / "claims" / "R14.json").write_text("broken")
+    done = call("R14", "R18", "--out", str(out))
+    assert done.returncode == 0
+    assert "2 claims" in done.stdout and "1 from an earlier run" in done.stdout
+    assert (out / "claims" / "R18.json").stat().st_mtime_ns == files["R18"]
+    assert call("R18", "--out", str(out), "--fresh").returncode == 0
+    assert (out / "claims" / "R18.json").stat().st_mtime_ns > files["R18"]
+
+
+def test_a_pending_claim_is_shown_as_such_and_ends_with_1(tmp_path: Path) -> None:
+    done = call("R14", "F01", "--out", str(tmp_path))
+    assert done.returncode == 1
+    assert rows(tmp_path)["F01"]["verdict"] == "pending"
+    assert rows(tmp_path)["F01"]["measured"] == {}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["X07"], "no claim is meant by 'X07'; there are: R01-R26, E01-E05, H01-H19"),
+        (["R14", "--workers", "0"], "--workers: wanted a whole number of 1 or more, got 0"),
+        (["R14", "--workers", "two"], "--workers"),
+        (["R14", "--out", ""], "'--out': wanted the name of a folder"),
+    ],
+)
+def test_wrong_use_gives_one_line_and_exit_code_2(
+    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from hurcules import cli
+
+    assert cli.main(["reproduce", *arguments]) == 2
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1
+    assert says in said.err
+
+
+def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) -> None:
+    # R13 to R21 in one worker: some are finished at once, R17 and R19 take a second or so
+    arguments = ["R13-R21", "--out", str(tmp_path), "--workers", "1"]
+    process = subprocess.Popen(
+        [*COMMAND, "reproduce", *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not (tmp_path / "claims" / "R13.json").exists() and time.monotonic() < deadline:
+        time.sleep(0.005)
+    os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the workers too
+    said, errors = process.communicate(timeout=60)
+    assert process.returncode == 130, errors
+    assert "Traceback" not in errors
+    assert "interrupted" in said
+    found = rows(tmp_path)
+    assert found["R13"]["verdict"] == "does not hold"
+    open_ones = [name for name, row in found.items() if row["verdict"] == "pending"]
+    assert open_ones and found[open_ones[0]]["reason"] == "interrupted before it was measured"
+    again = call(*arguments)
+    assert again.returncode == 0 and "from an earlier run" in again.stdout
+    assert [name for name, row in rows(tmp_path).items() if row["verdict"] == "pending"] == []
+
+
+def test_from_python_without_a_console(tmp_path: Path) -> None:
+    results = run.reproduce(["R14", "R24"], tmp_path, workers=1)
+    assert list(results) == ["R14", "R24"] and results.done
+    assert replace(results["R14"], seconds=0.0).verdict == Verdict.HOLDS
+    assert results.output.saved == [tmp_path / "claims.json", tmp_path / "report.html"]
