@@ -32,7 +32,7 @@ def tell(results):
     for r in results:
         print(
             f"{r.name:40} margin {r.margin:.2f} m, torque {r.worst_torque:.2f} of the peak,"
-            f" error {1e3 * r.worst_error:.1f} mrad"
+            f" speed {r.speed:.2f}, power {r.power:.2f}, error {1e3 * r.worst_error:.1f} mrad"
         )
 
 
