@@ -1,8 +1,8 @@
 """30 kg in each hand of the manipulation robot, at carry and at reach (H05).
 
-Strategy: the loads are tied to the hands in `carry`; the arms stretch forward and sideways and hold.
-Lifting them from the ground, and 120 kg with both arms of the rescue robot (H04, P06), is part
-of test_transformation.py. [F] = hurcules-facts.md A9, B3.
+Strategy: the loads are tied to the hands in `carry`; the arms stretch forward and sideways, and
+hold. Lifting them from the ground, and 120 kg with both arms of the rescue robot (H04, P06),
+is part of test_transformation.py. [F] = hurcules-facts.md A9, B3.
 """
 
 import mujoco
