@@ -84,7 +84,7 @@ def contacts():
     for robot in ("rescue", "manipulation"):
         model, data = posed(robot, "ready")
         with open_renderer(model, 2 * SIZE[0], SIZE[1]) as renderer:
-            camera = look((0.3, 0, 0.95), 2.9, 130)
+            camera = look((0.3, 0, 0.9), 3.5, 130)
             tiles.append(tile(renderer, data, camera, robot, option))
     return np.concatenate(tiles, axis=1)
 

@@ -83,7 +83,8 @@ def test_one_hand_lifts_30_kg_and_holds_it():  # H05
     print(f"slipped {1e3 * slipped:.1f} mm, at {data.body('case').xpos[2]:.2f} m")
     place = in_the_hand(data)
     player.wait(3.0)
-    assert slipped < 0.02 and np.linalg.norm(in_the_hand(data) - place) < 1e-3
+    # MuJoCo's friction creeps under load: 0.4 mm/s measured here, of 20 mm that the pad is wide
+    assert slipped < 0.01 and np.linalg.norm(in_the_hand(data) - place) < 1.5e-3
 
 
 def test_with_a_quarter_of_the_force_it_stays_on_the_ground():

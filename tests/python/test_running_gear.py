@@ -1,7 +1,7 @@
 """The tracks are seen to move: pads, sprockets and road wheels turn with their belts.
 
-Strategy: abstract scenes, as a renderer would draw them; no picture is made. Sizes as the meshes are
-made: models/assets/running_gear.py.
+Strategy: abstract scenes, as a renderer would draw them; no picture is made. Sizes as the meshes
+are made: models/assets/running_gear.py.
 """
 
 import mujoco

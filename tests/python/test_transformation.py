@@ -1,8 +1,8 @@
 """The pose transformation in the physics: drive, stand up, pick up, carry, sit, drive [F A9].
 
-Strategy: the scripts of hurcules.postures, played by the servo at every motor, watched for tip-over,
-self-collision, torque, speed and power; once each without turning the waist and without folding
-the arms, where legs and arms must collide (F03). Moves alone are tested without physics.
+Strategy: the scripts of hurcules.postures, played by the servo at every motor, watched for
+tip-over, self-collision, torque, speed and power; once each without turning the waist and without
+folding the arms, where legs and arms must collide (F03). Moves alone are tested without physics.
 [F] = hurcules-facts.md. 120 kg and 2 x 30 kg are tied to the arms: see lifting.py.
 """
 
@@ -32,7 +32,7 @@ def tell(results):
     for r in results:
         print(
             f"{r.name:40} margin {r.margin:.2f} m, torque {r.worst_torque:.2f} of the peak,"
-            f" error {1e3 * r.worst_error:.1f} mrad"
+            f" speed {r.speed:.2f}, power {r.power:.2f}, error {1e3 * r.worst_error:.1f} mrad"
         )
 
 

@@ -79,7 +79,7 @@ def fold_back(robot: str) -> list[Move]:
     """From `carry` to driving: sits down and folds one leg at a time on the side off the load."""
     b = 1.75 if _checked(robot) else 1.55
     return [
-        standing("sit down", 14, (0.35, 1.1, 0.5, -0.2, b), (0.7, 0.4, 0.9, -0.3, b),
+        standing("sit down", 17, (0.35, 1.1, 0.5, -0.2, b), (0.7, 0.4, 0.9, -0.3, b),
                  (1.0, 0.0, 0.9, -0.35, b)),
         standing("straighten the trunk", 5, (1.0, 0.0, 0.0, -0.2, b)),
         move("turn the waist to the left", 7, WST=pi / 2),
