@@ -187,13 +187,18 @@ double DriveController::within_slip(double reference, double ground) const {
 double DriveController::belt_torque(double reference, double rate, double& integral) const {
   const double error = reference / options_.radius - rate;
   const double feed = options_.mass * options_.radius * speed_.acceleration() / 2.0;
-  const double most =
+  // only a motor that drives is limited by its power; one that brakes has its full torque
+  const double driving =
       std::min(options_.max_torque, options_.max_power / std::max(std::abs(rate), 1e-3));
+  const double upper = rate > 0.0 ? driving : options_.max_torque;
+  const double lower = rate < 0.0 ? -driving : -options_.max_torque;
   const double next = integral + options_.integral_gain * error * options_.dt;
   const double demand = options_.gain * error + next + feed;
-  const double torque = std::clamp(demand, -most, most);
+  const double torque = std::clamp(demand, lower, upper);
   // a saturated drive keeps its integral unless the error leads back
-  if (torque == demand || (error > 0.0) != (demand > 0.0)) integral = std::clamp(next, -most, most);
+  if (torque == demand || (error > 0.0) != (demand > 0.0)) {
+    integral = std::clamp(next, lower, upper);
+  }
   return torque;
 }
 

@@ -82,7 +82,9 @@ DriveCommand Parking::command(const PlanarPose& measured, bool stopped) {
     const double wanted = phase_ == ParkingPhase::Face ? line_.yaw : goal_.yaw;
     const double error = wrap_angle(wanted - centre.yaw);
     if (lost_patience(std::abs(error) / options_.yaw_rate)) return {};
-    ending_ = std::abs(error) < kTurned;
+    // what the next line takes out by itself is not worth a turn
+    ending_ = std::abs(error) < (turning_ ? kTurned : options_.max_turn);
+    turning_ = !ending_;
     return ending_ ? DriveCommand{} : turn(error);
   }
   if (lost_patience(std::abs(remaining(centre)) / options_.speed)) return {};
@@ -92,7 +94,7 @@ DriveCommand Parking::command(const PlanarPose& measured, bool stopped) {
 
 void Parking::begin(ParkingPhase phase) {
   phase_ = phase;
-  ending_ = false;
+  ending_ = turning_ = false;
   left_ = -1.0;
 }
 
@@ -158,9 +160,9 @@ DriveCommand Parking::follow(const PlanarPose& centre) const {
 }
 
 void Parking::save(StateWriter& writer) const {
-  for (const double value :
-       {static_cast<double>(phase_), goal_.x, goal_.y, goal_.yaw, line_.x, line_.y, line_.yaw,
-        line_.direction, static_cast<double>(attempts_), left_, ending_ ? 1.0 : 0.0}) {
+  for (const double value : {static_cast<double>(phase_), goal_.x, goal_.y, goal_.yaw, line_.x,
+                             line_.y, line_.yaw, line_.direction, static_cast<double>(attempts_),
+                             left_, ending_ ? 1.0 : 0.0, turning_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -175,6 +177,7 @@ void Parking::restore(StateReader& reader) {
   attempts_ = static_cast<int>(reader.get_count(options_.attempts));
   left_ = reader.get();
   ending_ = reader.get_count(1) > 0;
+  turning_ = reader.get_count(1) > 0;
 }
 
 }  // namespace hurcules

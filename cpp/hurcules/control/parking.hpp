@@ -79,8 +79,9 @@ class Parking {
   PlanarPose goal_, goal_centre_;
   Line line_;
   int attempts_ = 0;
-  double left_ = -1.0;   // [s] of patience with this phase, < 0: it has not begun
-  bool ending_ = false;  // the phase only waits for the robot to stop
+  double left_ = -1.0;    // [s] of patience with this phase, < 0: it has not begun
+  bool turning_ = false;  // a turn in place has begun
+  bool ending_ = false;   // the phase only waits for the robot to stop
 };
 
 }  // namespace hurcules

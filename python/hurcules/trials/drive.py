@@ -18,8 +18,8 @@ from hurcules.trials.course import Path, Place, Straight
 
 __all__ = ["Chassis", "LineDriver", "Motion", "drive_options", "yaw_of"]
 
-CORNERING = 0.8  # of the sideways acceleration that the controller allows
-BRAKING = 0.6  # of its deceleration: the jerk limit and the controller's lag want room
+CORNERING = 0.7  # of the sideways acceleration that the controller allows
+BRAKING = 0.4  # of its deceleration: the jerk limit and the controller's lag want room
 
 # [m] of the drive pose: forward of the knee axis, where turns in place were measured to be about
 TURN_CENTRE = -0.42

@@ -17,7 +17,7 @@ from hurcules.trials.brakes import release_joint
 
 __all__ = ["FLAT", "Posture", "PostureMover"]
 
-RATE = 0.3  # [rad/s] half of the knees' peak speed
+RATE = 0.4  # [rad/s], below the peak speeds 0.5 and 0.6
 SETTLED = 0.005  # [rad] here a brake takes over
 
 

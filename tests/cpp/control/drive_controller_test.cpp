@@ -132,6 +132,19 @@ TEST(DriveController, AFastVehicleThatIsToTurnSlowsDown) {
   EXPECT_NEAR(vehicle.plant.state.yaw_rate, 1.0, 0.02);
 }
 
+TEST(DriveController, PowerLimitsDrivingAndNotBraking) {
+  Vehicle vehicle;
+  vehicle.controller.drive({5.0, 0.0});
+  vehicle.run(4.0);
+  DriveState state = vehicle.plant.state;
+  const double most = vehicle.controller.options().max_power / state.left;
+  state.left -= 10.0;   // far too slow
+  state.right += 10.0;  // far too fast
+  const DriveTorques torques = vehicle.controller.compute(state);
+  EXPECT_NEAR(torques.left, vehicle.controller.options().max_power / state.left, 1e-9);
+  EXPECT_LT(torques.right, -2.0 * most);
+}
+
 TEST(DriveController, ParksAtPosesInAllDirections) {
   constexpr double kPi = std::numbers::pi;
   for (const PlanarPose& goal :
