@@ -45,6 +45,8 @@ class Result:
 
 def from_finding(claim: Claim, finding: Finding, seconds: float) -> Result:
     """The result of a claim that was measured."""
+    finding.values = {name: float(value) for name, value in finding.values.items()}
+    finding.notes = [Note(note.what, float(note.value), note.unit) for note in finding.notes]
     verdict, reason, explained = judge(claim, finding)
     return Result(claim.id, verdict, reason, explained, finding, seconds)
 

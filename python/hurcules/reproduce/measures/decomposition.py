@@ -153,9 +153,8 @@ def resources() -> Finding:
             levels, wish = deficient(seed, 0.1), rng.uniform(-1, 1, N)
             x = solver(N, method).solve([*levels, point(np.eye(N), wish, 0.0)]).x
             left.append(parts(seed, 0.1, method).P[3] @ (x - wish))
-    return Finding(
-        {"hessian": largest(hessian), "gradient": largest(gradient), "left": largest(left)}
-    )
+    worst = [largest(values) for values in (hessian, gradient, left)]
+    return Finding(dict(zip(("hessian", "gradient", "left"), worst, strict=True)))
 
 
 @measures("R06")
