@@ -81,8 +81,8 @@ STRETCH = (
                 "change when the hip stops, over the usual (90 %)",
                 2.0,
                 ours=(0.5, 2.0),
-                why="our bounds brake a joint before its limit, so that the hip stops softly; taken "
-                "within one step, as printed, a limit does make a spike (M12)",
+                why="our bounds brake a joint before its limit, so that the hip stops softly; "
+                "taken within one step, as printed, a limit does make a spike (M12)",
             ),
         },
     ),

@@ -1,8 +1,7 @@
 """R01, R02, R05 to R10, R12: identities of sections 2.2, 3.3 and 3.4, asked of the solver itself.
 
-The solver shows no factors, but it answers: with y = e_i its answers are the columns of the stacked
-inverse J#, and a last level "x = e_i" without regularisation answers with the columns of P_k. The
-factors themselves are tested in C++, claims_decomposition_test.cpp.
+With y = e_i the solver's answers are the columns of the stacked inverse J#; with a last level
+"x = e_i", those of P_k. Its factors are tested in C++, claims_decomposition_test.cpp.
 """
 
 from __future__ import annotations
@@ -92,7 +91,7 @@ def parts(seed: int, rho: float, method: str) -> Parts:
 
 
 def each() -> list[Parts]:
-    """All problems, by both methods."""
+    """All problems by both methods."""
     return [parts(seed, 0.1, method) for method in METHODS for seed in range(SEEDS)]
 
 
