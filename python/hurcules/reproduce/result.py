@@ -116,7 +116,9 @@ def load(path: Path) -> Result | None:
 
 def _plot(plot: dict[str, Any]) -> Plot:
     lines = [Line(**line) for line in plot.pop("lines")]
-    sides = {name: tuple(plot.pop(name)) for name in ("marks", "thesis_marks", "levels")}
+    sides: dict[str, Any] = {
+        name: tuple(plot.pop(name)) for name in ("marks", "thesis_marks", "levels")
+    }
     return Plot(lines=lines, **sides, **plot)
 
 

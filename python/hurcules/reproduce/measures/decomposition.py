@@ -291,11 +291,7 @@ def multipliers() -> Finding:
             closed = -inverse(above, "rhqp_thesis").T @ (levels[k].A.T @ columns[k][k])
             differences.append(np.concatenate(columns[k][:k]) - closed)
             sizes.append(np.abs(closed).max())
-    plot = Plot(
-        "Recursion against the closed form",
-        "size of the multipliers",
-        "largest difference",
-        [line("", sizes, [largest([d]) + 1e-17 for d in differences], "dots")],
-        log="xy",
-    )
+    off = [largest([difference]) + 1e-17 for difference in differences]
+    labels = ("Recursion against the closed form", "size of the multipliers", "difference")
+    plot = Plot(*labels, [line("", sizes, off, "dots")], log="xy")
     return Finding({"difference": largest(differences), "triangular": wrong}, plots=[plot])

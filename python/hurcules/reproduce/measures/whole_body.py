@@ -10,10 +10,11 @@ the controller's own bounds brake in time.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 import hurcules
 from hurcules import Stack, StackLevel, rhqp
@@ -142,7 +143,8 @@ class Log:
         errors: of the levels below the limits, [m] or [rad].
         iterations: of the solve: changes of the working set + 1.
         capped: whether the solve ended at the limit of iterations.
-        excess: worst excess over a position limit, [rad]; one number.
+        excess: worst excess over a position limit [rad]; one number.
+        failed: ticks in which the solver gave up; one number.
     """
 
     names: list[str]
@@ -152,10 +154,9 @@ class Log:
     active: Array
     errors: Array
     iterations: Array
-    capped: Array
-    excess: float
+    capped: NDArray[np.bool_]
+    excess: float = 0.0
     failed: int = 0
-    _index: dict[str, int] = field(default_factory=dict)
 
     def of(self, name: str) -> int:
         """Column of a coordinate."""
@@ -195,13 +196,14 @@ def follow(body: Body, command: Command, seconds: float, stop_at: float = np.inf
     ticks = round(seconds / DT)
     n = robot.size
     log = Log(
-        robot.coordinate_names,
-        DT * np.arange(ticks),
-        *(np.zeros((ticks, n)) for _ in range(3)),
-        np.zeros((ticks, len(LEVELS) - 1)),
-        np.zeros(ticks),
-        np.zeros(ticks, dtype=bool),
-        0.0,
+        names=robot.coordinate_names,
+        time=np.asarray(DT * np.arange(ticks)),
+        q=np.zeros((ticks, n)),
+        qd=np.zeros((ticks, n)),
+        active=np.zeros((ticks, n)),
+        errors=np.zeros((ticks, len(LEVELS) - 1)),
+        iterations=np.zeros(ticks),
+        capped=np.zeros(ticks, dtype=bool),
     )
     q = robot.configuration
     bad = (rhqp.Status.InvalidInput, rhqp.Status.LostPrecision)
@@ -234,5 +236,4 @@ def follow(body: Body, command: Command, seconds: float, stop_at: float = np.inf
 
 def _cut(log: Log, ticks: int) -> Log:
     names = ("time", "q", "qd", "active", "errors", "iterations", "capped")
-    parts = {name: getattr(log, name)[:ticks] for name in names}
-    return Log(log.names, *parts.values(), log.excess, log.failed)
+    return replace(log, **{name: getattr(log, name)[:ticks] for name in names})
