@@ -47,7 +47,7 @@ BIMANUAL = (
             ),
             "shoulder": between("RSR at its limit, default", 0.0, 20.0, "s"),
             "rhqp_iterations": most("most iterations, RHQP", 3, thesis="2"),
-            "changes": most("most changes of the working set, default", 3),
+            "changes": most("most changes of the working set, default, from 0.1 s on", 3),
             "dls_later": least(
                 "DLS-HQP leaves it later than the default by",
                 5.0,

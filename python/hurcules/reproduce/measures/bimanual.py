@@ -118,7 +118,7 @@ def taken_and_left() -> Finding:
             "rhqp_off": off["RHQP"],
             "shoulder": logs["default"].first("RSR", -1),
             "rhqp_iterations": float(logs["RHQP"].iterations.max()),
-            "changes": float(logs["default"].iterations.max()) - 1.0,
+            "changes": logs["default"].changes(),
             "dls_later": off["DLS-HQP"] - off["default"],
             "dls_capped": float(logs["DLS-HQP"].capped.sum()),
             "excess": max(log.excess for log in logs.values()),

@@ -178,6 +178,10 @@ class Log:
         columns = [i for i, name in enumerate(self.names) if name.startswith("L")]
         return np.asarray(np.abs(self.qd[:, columns]).max(axis=1))
 
+    def changes(self, start: float = 0.1) -> float:
+        """Most changes of the working set in a tick after the start, a phase change of its own."""
+        return float(self.iterations[self.time >= start].max()) - 1.0
+
     def speed(self, *names: str) -> Array:
         """Largest speed of some coordinates, (ticks,) [rad/s]."""
         return np.asarray(np.abs(self.qd[:, [self.of(name) for name in names]]).max(axis=1))
