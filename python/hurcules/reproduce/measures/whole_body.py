@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,7 +79,8 @@ class Body:
         if not setting.clamped:
             for name in names:
                 self.limits.set_max_velocity(name, NO_LIMIT)
-        self.tasks = _tasks(robot)
+        # of many kinds: value, target and orientation are asked of those that have them
+        self.tasks: dict[str, Any] = dict(_tasks(robot))
         self.setting = setting
         self.controller = hurcules.VelocityController(robot, setting.options)
         self.controller.set_stack(self.stack())
