@@ -178,7 +178,9 @@ def split(one: Parts, k: int) -> tuple[Array, Array, Array]:
 @measures("R07")
 def errors() -> Finding:
     """The solver's own report of each level against the formulas of the thesis."""
-    sums, v_off, u_off, u_bare, u_least, v_regular = [], [], [], [], [], []
+    sums, v_off, u_off, v_regular = [], [], [], []
+    u_bare: list[float] = []
+    u_least: list[float] = []
     for rho in (0.0, 0.1, 1.0):
         for seed in range(SEEDS):
             one = parts(seed, rho, "lexicographic")
