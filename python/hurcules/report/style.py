@@ -15,6 +15,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
+from hurcules.thinning import thin
+
 __all__ = [
     "ACCENT",
     "GREY",
@@ -81,23 +83,6 @@ def mark(plot: Axes, times: Iterable[float]) -> None:
     """Fine upright lines where something happened [s]."""
     for time in times:
         plot.axvline(time, color=ACCENT, linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.7, zorder=1)
-
-
-def thin(time: Array, values: Array, buckets: int = 500) -> tuple[Array, Array]:
-    """Fewer points with the same picture: the least and the greatest of each stretch of time.
-
-    Args:
-        time: (ticks,) [s].
-        values: (ticks,).
-        buckets: stretches, each of which leaves two points.
-    """
-    if len(time) <= 2 * buckets:
-        return time, values
-    kept = []
-    for part in np.array_split(np.arange(len(time)), buckets):
-        kept += sorted({part[np.argmin(values[part])], part[np.argmax(values[part])]})
-    index = np.array([0, *kept, len(time) - 1])
-    return time[index], values[index]
 
 
 def svg(figure: Figure) -> str:

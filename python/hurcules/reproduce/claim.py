@@ -10,7 +10,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hurcules.report.style import thin
+from hurcules.thinning import thin
 
 __all__ = [
     "Claim",

@@ -45,6 +45,8 @@ class Result:
 
 def from_finding(claim: Claim, finding: Finding, seconds: float) -> Result:
     """The result of a claim that was measured."""
+    finding.values = {name: float(value) for name, value in finding.values.items()}
+    finding.notes = [Note(note.what, float(note.value), note.unit) for note in finding.notes]
     verdict, reason, explained = judge(claim, finding)
     return Result(claim.id, verdict, reason, explained, finding, seconds)
 
@@ -114,7 +116,9 @@ def load(path: Path) -> Result | None:
 
 def _plot(plot: dict[str, Any]) -> Plot:
     lines = [Line(**line) for line in plot.pop("lines")]
-    sides = {name: tuple(plot.pop(name)) for name in ("marks", "thesis_marks", "levels")}
+    sides: dict[str, Any] = {
+        name: tuple(plot.pop(name)) for name in ("marks", "thesis_marks", "levels")
+    }
     return Plot(lines=lines, **sides, **plot)
 
 

@@ -16,7 +16,6 @@ from rich.table import Table
 from hurcules._core import Error
 from hurcules.interrupts import Interrupts
 from hurcules.output import Output, WriteError
-from hurcules.reproduce import page
 from hurcules.reproduce.claim import Verdict
 from hurcules.reproduce.claims import CLAIMS
 from hurcules.reproduce.measures import measured
@@ -78,6 +77,8 @@ def reproduce(
         Error: an id that means nothing, fewer than one worker, a folder that cannot be written.
         WriteError: a file could not be written.
     """
+    from hurcules.reproduce import page  # with matplotlib, which no worker needs
+
     names = select(ids, CLAIMS)
     count = len(os.sched_getaffinity(0)) if workers is None else workers
     if count < 1:

@@ -19,8 +19,9 @@ BIMANUAL = (
         "singularity, and the speeds stay bounded.",
         {
             "bend": most("least bend of the left wrist", 1e-3, "rad"),
-            "rhqp": most("largest speed of that wrist within 1 s, RHQP", 2.0, "rad/s"),
-            "default": most("largest speed of that wrist within 1 s, default", 2.0, "rad/s"),
+            # their speed limit
+            "rhqp": most("largest speed of that wrist within 1 s, RHQP", 2.5, "rad/s"),
+            "default": most("largest speed of that wrist within 1 s, default", 2.5, "rad/s"),
             "largest": most("largest speed of any joint in the whole motion", 2.5, "rad/s"),
         },
     ),
@@ -44,9 +45,9 @@ BIMANUAL = (
                 ours=(13.0, 17.0),
                 why="its set S keeps the limit a while longer (R17)",
             ),
-            "shoulder": between("RSR at its limit, default", 0.0, 22.0, "s"),
+            "shoulder": between("RSR at its limit, default", 0.0, 20.0, "s"),
             "rhqp_iterations": most("most iterations, RHQP", 3, thesis="2"),
-            "changes": most("most changes of the working set, default", 3),
+            "changes": most("most changes of the working set, default, from 0.1 s on", 3),
             "dls_later": least(
                 "DLS-HQP leaves it later than the default by",
                 5.0,

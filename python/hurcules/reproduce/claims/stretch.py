@@ -75,17 +75,14 @@ STRETCH = (
         "Fig. 4.26 b",
         "The joint control errors spike exactly at the switching times.",
         {
-            "stop": least("change when the hip stops, over the usual (90 %)", 1.5),
             "release": least("change when the hip is released, over the usual (90 %)", 5.0),
             "largest": least("that over the largest elsewhere", 1.0),
-            "others": exactly(
-                "changes elsewhere as large as the smaller of these",
-                0,
-                figure=True,
-                ours=(0, 3),
-                why="a joint that turns around passes through its dry friction: the hip at 6.4 "
-                "s; and our bounds brake a joint before its limit, so that the stop of the "
-                "hip is soft",
+            "stop": least(
+                "change when the hip stops, over the usual (90 %)",
+                2.0,
+                ours=(0.5, 2.0),
+                why="our bounds brake a joint before its limit, so that the hip stops softly; "
+                "taken within one step, as printed, a limit does make a spike (M12)",
             ),
         },
     ),

@@ -250,8 +250,8 @@ def cycling() -> Finding:
     box = rhqp.Level(np.eye(4), np.full(4, -0.5), np.full(4, 0.5), rho=0.1)
     levels = [
         box,
-        point([[1, 0, 1, 2], [1, -0.1, 1.2, 2]], [-2.0, -2.0], 0.1),
-        point([[-2, 2, -1, -2], [-2, 2, 1, 2]], [-2.0, 2.0], 0.1),
+        point(np.array([[1, 0, 1, 2], [1, -0.1, 1.2, 2]]), [-2.0, -2.0], 0.1),
+        point(np.array([[-2, 2, -1, -2], [-2, 2, 1, 2]]), [-2.0, 2.0], 0.1),
     ]
     thesis = solver(4, "rhqp_thesis").solve(levels)
     caps = {}

@@ -23,9 +23,9 @@ def posture(SP: float, SR: float, EB: float, WP: float = 0.0) -> dict[str, float
     return body | {side + joint: angle for side in "LR" for joint, angle in arms.items()}
 
 
-ASIDE = posture(0.5, 0.3, 2.35, -0.2)
+ASIDE = posture(0.5, 0.3, 2.35)
 ASIDE_SPEED = np.array([-0.0083, 0.0167, 0.0])  # [m/s]
-ASIDE_SECONDS = 22.0
+ASIDE_SECONDS = 20.0
 TO_BODY = posture(0.9, 0.3, 2.2)
 OTHER = posture(0.6, 0.3, 2.2)  # of the two, the one in which Algorithm 1 keeps the elbows
 PULL = np.array([-0.03, 0.0, 0.0])  # [m/s]
@@ -76,7 +76,7 @@ def wrist_speed(log: Log, window: float = 1.0) -> tuple[float, float, float]:
 
 @measures("M13")
 def internal_singularity() -> Finding:
-    """The wrist's bend passes zero, so that both roll axes align."""
+    """The wrist's bend is zero, so that both roll axes align."""
     ours, printed = aside("default"), aside("RHQP")
     bend, time, speed = wrist_speed(printed)
     hqp = wrist_speed(aside("HQP"))
@@ -118,7 +118,7 @@ def taken_and_left() -> Finding:
             "rhqp_off": off["RHQP"],
             "shoulder": logs["default"].first("RSR", -1),
             "rhqp_iterations": float(logs["RHQP"].iterations.max()),
-            "changes": float(logs["default"].iterations.max()) - 1.0,
+            "changes": logs["default"].changes(),
             "dls_later": off["DLS-HQP"] - off["default"],
             "dls_capped": float(logs["DLS-HQP"].capped.sum()),
             "excess": max(log.excess for log in logs.values()),

@@ -1,8 +1,7 @@
 """R01, R02, R05 to R10, R12: identities of sections 2.2, 3.3 and 3.4, asked of the solver itself.
 
-The solver shows no factors, but it answers: with y = e_i its answers are the columns of the stacked
-inverse J#, and a last level "x = e_i" without regularisation answers with the columns of P_k. The
-factors themselves are tested in C++, claims_decomposition_test.cpp.
+With y = e_i the solver's answers are the columns of the stacked inverse J#; with a last level
+"x = e_i", those of P_k. Its factors are tested in C++, claims_decomposition_test.cpp.
 """
 
 from __future__ import annotations
@@ -92,7 +91,7 @@ def parts(seed: int, rho: float, method: str) -> Parts:
 
 
 def each() -> list[Parts]:
-    """All problems, by both methods."""
+    """All problems by both methods."""
     return [parts(seed, 0.1, method) for method in METHODS for seed in range(SEEDS)]
 
 
@@ -153,9 +152,8 @@ def resources() -> Finding:
             levels, wish = deficient(seed, 0.1), rng.uniform(-1, 1, N)
             x = solver(N, method).solve([*levels, point(np.eye(N), wish, 0.0)]).x
             left.append(parts(seed, 0.1, method).P[3] @ (x - wish))
-    return Finding(
-        {"hessian": largest(hessian), "gradient": largest(gradient), "left": largest(left)}
-    )
+    worst = [largest(values) for values in (hessian, gradient, left)]
+    return Finding(dict(zip(("hessian", "gradient", "left"), worst, strict=True)))
 
 
 @measures("R06")
@@ -180,7 +178,9 @@ def split(one: Parts, k: int) -> tuple[Array, Array, Array]:
 @measures("R07")
 def errors() -> Finding:
     """The solver's own report of each level against the formulas of the thesis."""
-    sums, v_off, u_off, u_bare, u_least, v_regular = [], [], [], [], [], []
+    sums, v_off, u_off, v_regular = [], [], [], []
+    u_bare: list[float] = []
+    u_least: list[float] = []
     for rho in (0.0, 0.1, 1.0):
         for seed in range(SEEDS):
             one = parts(seed, rho, "lexicographic")
@@ -293,11 +293,7 @@ def multipliers() -> Finding:
             closed = -inverse(above, "rhqp_thesis").T @ (levels[k].A.T @ columns[k][k])
             differences.append(np.concatenate(columns[k][:k]) - closed)
             sizes.append(np.abs(closed).max())
-    plot = Plot(
-        "Recursion against the closed form",
-        "size of the multipliers",
-        "largest difference",
-        [line("", sizes, [largest([d]) + 1e-17 for d in differences], "dots")],
-        log="xy",
-    )
+    off = [largest([difference]) + 1e-17 for difference in differences]
+    labels = ("Recursion against the closed form", "size of the multipliers", "difference")
+    plot = Plot(*labels, [line("", sizes, off, "dots")], log="xy")
     return Finding({"difference": largest(differences), "triangular": wrong}, plots=[plot])

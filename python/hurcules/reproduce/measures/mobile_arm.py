@@ -79,4 +79,6 @@ def move(levels: Levels, start: Start, method: str, seconds: float = 10.0) -> Mo
     for _ in range(round(seconds / DT)):
         velocity.append(solver.solve(levels(q[-1])).x)
         q.append(q[-1] + DT * velocity[-1])
-    return Motion(DT * np.arange(len(q)), np.array(q), np.array(velocity))
+    return Motion(
+        np.asarray(DT * np.arange(len(q)), dtype=np.float64), np.array(q), np.array(velocity)
+    )

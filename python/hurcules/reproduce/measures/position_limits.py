@@ -40,7 +40,8 @@ def tasks(seed: int, size: float) -> list[rhqp.Level]:
 @measures("R25")
 def velocity_bounds() -> Finding:
     """J q' <= T / dt (s_u - s) with T <= 1, and the controller's bounds."""
-    excess, shares, ways = 0.0, [], {}
+    excess, shares = 0.0, []
+    ways: dict[float, Array] = {}
     for horizon in (1.0, 0.5):
         for seed in range(5):
             levels, solver = tasks(seed, 5.0), rhqp.Solver(N)
@@ -54,7 +55,7 @@ def velocity_bounds() -> Finding:
                 at_limit += bool(np.abs(q).max() > RANGE - 1e-6)
             shares.append(at_limit / STEPS)
             ways.setdefault(horizon, np.array(way))
-    way, controller_excess, change = driven_by_controller()
+    led, controller_excess, change = driven_by_controller()
     time = DT * np.arange(400)
     lines = [line(f"as printed, T = {T:g}", time, ways[T][:400, 0]) for T in (1.0, 0.5)]
     plots = [
@@ -63,7 +64,7 @@ def velocity_bounds() -> Finding:
             "The controller, two joints",
             "time [s]",
             "q [rad]",
-            [line(f"q{i + 1}", time, way[:400, i]) for i in range(2)],
+            [line(f"q{i + 1}", time, led[:400, i]) for i in range(2)],
             levels=(RANGE, -RANGE),
         ),
     ]

@@ -169,8 +169,9 @@ def few_iterations() -> Finding:
     return Finding(
         {
             "iterations": float(log.iterations.max()),
-            "default": float(default.iterations.max()) - 1.0,
+            "default": default.changes(),
         },
+        [Note("the same in the first ticks, from rest", default.changes(0.0))],
         plots=[Plot("Iterations", "time [s]", "", lines)],
     )
 
@@ -264,13 +265,11 @@ def control_errors(name: str, start: float) -> tuple[Array, Array, list[str], fl
     """Time [s], errors [rad] and joints of the physics that follows a motion; ticks saturated."""
     log = run(name)
     body = Body(START)
-    part = slice(at(log, start), None)
-    q, qd = log.q[part], log.qd[part]
+    q, qd = log.q[at(log, start) :], log.qd[at(log, start) :]
     drives = drives_of(body.robot, body.model, q)
     body.robot.set_configuration(q[0])
     followed = led(body.model, body.robot.qpos, drives, q, qd)
-    settled = round(2.0 / DT)
-    late = followed.saturated[settled:].sum()
+    late = followed.saturated[round(2.0 / DT) :].sum()
     return start + followed.time, followed.error, followed.names, float(late)
 
 

@@ -94,7 +94,7 @@ def run(
     data = mujoco.MjData(model)
     pid = hurcules.JointPid(options)
     data.qpos[:], data.qvel[:] = moved(0.0, moving)
-    time = DT * np.arange(round(seconds / DT))
+    time = np.asarray(DT * np.arange(round(seconds / DT)), dtype=np.float64)
     errors = np.zeros((time.size, 2))
     for i, t in enumerate(time):
         q, qd = moved(float(t), moving)

@@ -154,4 +154,6 @@ def led(model: mujoco.MjModel, qpos: Array, drives: list[Drive], q: Array, qd: A
         hurcules.step(model, data)
     slipped = float(np.linalg.norm(data.qpos[:2] - start))
     names = [drive.name for drive in drives]
-    return Followed(names, DT * np.arange(len(q)), errors, saturated, slipped)
+    return Followed(
+        names, np.asarray(DT * np.arange(len(q)), dtype=np.float64), errors, saturated, slipped
+    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 
@@ -164,15 +163,12 @@ def spikes() -> Finding:
     # the start of the motion is a switch of its own
     elsewhere = ~np.any(near, axis=0) & (time > 1.0)
     sizes = [float(change[part].max()) for part in near]
-    others = np.flatnonzero(elsewhere & (change >= min(sizes)))
-    groups = int(others.size > 0) + sum(b - a > 300 for a, b in pairwise(others))
     usual = float(np.percentile(change[elsewhere], 90))
     shown = {"joint_error/HIP": "HIP", "joint_error/LKN": "LKN", "joint_error/LSP": "LSP"}
     return Finding(
         {
             "stop": sizes[0] / usual,
             "release": sizes[1] / usual,
-            "others": groups,
             "largest": sizes[1] / float(change[elsewhere].max()),
         },
         [Note("largest control error", figures["joint_error_max_rad"], "rad")],

@@ -28,7 +28,7 @@ def loop() -> Finding:
     """The smallest of three runs, tick by tick."""
     runs = [timings() for _ in range(3)]
     stages = {name: 1e3 * np.min([run[name] for run, _ in runs], axis=0) for name in STAGES}
-    tick = 1e3 * np.min([sum(run[name] for name in STAGES) for run, _ in runs], axis=0)
+    tick = 1e3 * np.min([np.sum([run[name] for name in STAGES], axis=0) for run, _ in runs], axis=0)
     time = runs[0][0]["time"]
     lines = [line(name, time, values) for name, values in stages.items()]
     return Finding(

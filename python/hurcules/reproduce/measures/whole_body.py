@@ -10,10 +10,12 @@ the controller's own bounds brake in time.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 import hurcules
 from hurcules import Stack, StackLevel, rhqp
@@ -77,7 +79,8 @@ class Body:
         if not setting.clamped:
             for name in names:
                 self.limits.set_max_velocity(name, NO_LIMIT)
-        self.tasks = _tasks(robot)
+        # of many kinds: value, target and orientation are asked of those that have them
+        self.tasks: dict[str, Any] = dict(_tasks(robot))
         self.setting = setting
         self.controller = hurcules.VelocityController(robot, setting.options)
         self.controller.set_stack(self.stack())
@@ -142,7 +145,8 @@ class Log:
         errors: of the levels below the limits, [m] or [rad].
         iterations: of the solve: changes of the working set + 1.
         capped: whether the solve ended at the limit of iterations.
-        excess: worst excess over a position limit, [rad]; one number.
+        excess: worst excess over a position limit [rad]; one number.
+        failed: ticks in which the solver gave up; one number.
     """
 
     names: list[str]
@@ -152,10 +156,9 @@ class Log:
     active: Array
     errors: Array
     iterations: Array
-    capped: Array
-    excess: float
+    capped: NDArray[np.bool_]
+    excess: float = 0.0
     failed: int = 0
-    _index: dict[str, int] = field(default_factory=dict)
 
     def of(self, name: str) -> int:
         """Column of a coordinate."""
@@ -177,6 +180,10 @@ class Log:
         columns = [i for i, name in enumerate(self.names) if name.startswith("L")]
         return np.asarray(np.abs(self.qd[:, columns]).max(axis=1))
 
+    def changes(self, start: float = 0.1) -> float:
+        """Most changes of the working set in a tick after the start, a phase change of its own."""
+        return float(self.iterations[self.time >= start].max()) - 1.0
+
     def speed(self, *names: str) -> Array:
         """Largest speed of some coordinates, (ticks,) [rad/s]."""
         return np.asarray(np.abs(self.qd[:, [self.of(name) for name in names]]).max(axis=1))
@@ -195,13 +202,14 @@ def follow(body: Body, command: Command, seconds: float, stop_at: float = np.inf
     ticks = round(seconds / DT)
     n = robot.size
     log = Log(
-        robot.coordinate_names,
-        DT * np.arange(ticks),
-        *(np.zeros((ticks, n)) for _ in range(3)),
-        np.zeros((ticks, len(LEVELS) - 1)),
-        np.zeros(ticks),
-        np.zeros(ticks, dtype=bool),
-        0.0,
+        names=robot.coordinate_names,
+        time=np.asarray(DT * np.arange(ticks)),
+        q=np.zeros((ticks, n)),
+        qd=np.zeros((ticks, n)),
+        active=np.zeros((ticks, n)),
+        errors=np.zeros((ticks, len(LEVELS) - 1)),
+        iterations=np.zeros(ticks),
+        capped=np.zeros(ticks, dtype=bool),
     )
     q = robot.configuration
     bad = (rhqp.Status.InvalidInput, rhqp.Status.LostPrecision)
@@ -234,5 +242,4 @@ def follow(body: Body, command: Command, seconds: float, stop_at: float = np.inf
 
 def _cut(log: Log, ticks: int) -> Log:
     names = ("time", "q", "qd", "active", "errors", "iterations", "capped")
-    parts = {name: getattr(log, name)[:ticks] for name in names}
-    return Log(log.names, *parts.values(), log.excess, log.failed)
+    return replace(log, **{name: getattr(log, name)[:ticks] for name in names})

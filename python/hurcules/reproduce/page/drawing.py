@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,7 @@ from hurcules.reproduce.claim import Plot
 
 __all__ = ["draw"]
 
-_STYLES: dict[str, dict[str, object]] = {
+_STYLES: dict[str, dict[str, Any]] = {
     "line": {},
     "dots": {"linestyle": "", "marker": "o", "markersize": 3.5},
     "dashed": {"linestyle": (0, (5, 2)), "linewidth": 1.1},
@@ -34,7 +35,7 @@ def draw(plots: Sequence[Plot]) -> str:
 def _draw(place: Axes, plot: Plot) -> None:
     for one, colour in zip(plot.lines, _colours(len(plot.lines)), strict=True):
         y = np.array([np.nan if value is None else value for value in one.y])
-        place.plot(one.x, y, color=colour, label=one.label, **_STYLES[one.style])  # type: ignore[arg-type]
+        place.plot(one.x, y, color=colour, label=one.label, **_STYLES[one.style])
     for level in plot.levels:
         place.axhline(level, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
     for time in plot.thesis_marks:
