@@ -1,9 +1,8 @@
 // Strategy: the rescue robot drives a mission of 400 m at 20 km/h on flat ground with every joint
 // but the belts braked (F05, H06, H12): its work against friction and damping as a hand computes
 // them, and then the battery over the 2 h of F04 with seven such missions there and back (H13).
-// Boards of 4 cm on the way for the brakes of the arms; those of neck and knees slip there, for the
-// tracks are rigid: suspension is to come. The drive here is a plain speed loop. Not tested:
-// slopes, loads, turning.
+// Boards of 4 cm on the way for the brakes of the arms; those of neck and knees slip there. The
+// drive here is a plain speed loop. Not tested: slopes, loads, turning.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -160,8 +159,8 @@ TEST(DrivePower, IsNoneForTheArmsOverBoards) {
     vehicle.step(std::min(1e-3 * i, 1.0));
     jolt = std::max(jolt, vehicle.physics.data()->qacc[2]);
   }
-  EXPECT_GT(vehicle.physics.qpos()[0], 4.3);  // it went over both, on rigid tracks
-  EXPECT_GT(jolt, 50.0);
+  EXPECT_GT(vehicle.physics.qpos()[0], 4.3);  // it went over both
+  EXPECT_GT(jolt, 20.0);                      // 45, on rigid tracks 135
   std::printf("boards: arms moved %.1e rad, all %.1e rad, jolt %.0f m/s^2\n", vehicle.moved(true),
               vehicle.moved(), jolt);
   EXPECT_LT(vehicle.moved(true), 1e-3);
