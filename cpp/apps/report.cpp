@@ -76,7 +76,7 @@ void print_figures(const Simulation& simulation, std::ostream& out) {
   std::array<char, 120> line{};
   std::snprintf(line.data(), line.size(), "%-36s %12s %12s\n", "figure", "here", "thesis");
   out << line.data();
-  for (const hurcules::Figure& figure : simulation.mission().figures()) {
+  for (const hurcules::Figure& figure : simulation.figures()) {
     const std::string value = std::isnan(figure.value) ? "-" : text("%.6g", figure.value);
     const std::string thesis = std::isnan(figure.thesis) ? "" : text("%.6g", figure.thesis);
     std::snprintf(line.data(), line.size(), "%-36s %12s %12s\n", figure.name.c_str(), value.c_str(),
@@ -113,7 +113,7 @@ void write_json(const Run& run, std::ostream& out) {
       << json(simulation.limits().commanded()) << "}}";
   {
     Members figures(out, "figures");
-    for (const hurcules::Figure& figure : simulation.mission().figures()) {
+    for (const hurcules::Figure& figure : simulation.figures()) {
       figures.add(figure.name, json(figure.value));
     }
   }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "bind_sensors.hpp"
 #include "bind_sim_docs.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/simulation.hpp"
@@ -102,7 +103,7 @@ py::dict limit_violation(const Simulation& self) {
 
 py::dict figures(const Simulation& self) {
   py::dict result;
-  for (const Figure& figure : self.mission().figures()) result[py::str(figure.name)] = figure.value;
+  for (const Figure& figure : self.figures()) result[py::str(figure.name)] = figure.value;
   return result;
 }
 
@@ -181,7 +182,8 @@ void bind_options(py::module_& module) {
       .value("Sensed", BaseSource::Sensed, "where it is now");
   py::class_<Options>(module, "SimulationOptions", kOptions)
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
-                       bool timed, BaseSource base) {
+                       bool timed, BaseSource base, SensorOptions sensors,
+                       const MonitorOptions& monitors) {
              Options options;
              options.seed = seed;
              options.variation = variation;
@@ -189,11 +191,14 @@ void bind_options(py::module_& module) {
              options.record = record;
              options.clock = timed ? now : nullptr;
              options.base = base;
+             options.sensors = std::move(sensors);
+             options.monitors = monitors;
              return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
            "method"_a = defaults.method, "record"_a = defaults.record,
-           "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base)
+           "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
+           "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors)
       .def_readwrite("seed", &Options::seed)
       .def_readwrite("variation", &Options::variation)
       .def_readwrite("method", &Options::method)
@@ -201,7 +206,9 @@ void bind_options(py::module_& module) {
       .def_property(
           "timed", [](const Options& self) { return self.clock != nullptr; },
           [](Options& self, bool timed) { self.clock = timed ? now : nullptr; })
-      .def_readwrite("base", &Options::base);
+      .def_readwrite("base", &Options::base)
+      .def_readwrite("sensors", &Options::sensors)
+      .def_readwrite("monitors", &Options::monitors);
 }
 
 void bind_run(py::class_<Simulation>& simulation) {
@@ -260,10 +267,12 @@ void bind_sim(py::module_& module) {
       "mission"_a, kMissionScene);
   module.def("servo_table", &servo_table, "robot"_a, kServoTable);
   module.def("mode_ranges", &mode_ranges, "mode"_a, kModeRanges);
+  bind_sensors(module);
   bind_options(module);
   py::class_<Simulation> simulation(module, "Simulation", kSimulation);
   simulation.def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",
                  "options"_a = SimulationOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
   bind_run(simulation);
   bind_results(simulation);
+  bind_sensor_results(simulation);
 }

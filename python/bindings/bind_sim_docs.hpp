@@ -49,6 +49,8 @@ Args:
   record: keep the time series.
   timed: keep the time of each stage of each tick.
   base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.
+  sensors: SensorOptions; ideal by default.
+  monitors: MonitorOptions.
 )";
 inline constexpr const char* kSimulation =
     R"(The closed loop of a mission at 1 kHz, in C++, on a model and data that Python owns.
@@ -99,7 +101,8 @@ inline constexpr const char* kSolver =
 inline constexpr const char* kLog = "Every recorded channel over time: dict of name to (ticks,).";
 inline constexpr const char* kTimings =
     "Seconds that each stage of each tick took: dict of (ticks,).";
-inline constexpr const char* kFigures = "The mission's own figures; NaN for what has not happened.";
+inline constexpr const char* kFigures =
+    "The mission's own figures and the worst that the monitors saw; NaN: has not happened.";
 inline constexpr const char* kThesisFigures =
     "What the thesis reports for those figures that it gives.";
 inline constexpr const char* kEvents = "(time [s], text) of phases, and of limits met and left.";

@@ -1,7 +1,7 @@
 """The compiled part of hurcules: float64 arrays, all copies but those of Level; shapes beside."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, ClassVar, NoReturn, overload, type_check_only
 
 import mujoco
@@ -598,6 +598,89 @@ class BaseSource(_Enum):
     Sensed: ClassVar[BaseSource]
     __members__: ClassVar[dict[str, BaseSource]]
 
+class SensorModel:
+    noise: float
+    bias: float
+    drift: float
+    delay: int  # [samples]
+    step: float
+    def __init__(
+        self,
+        *,
+        noise: float = 0.0,
+        bias: float = 0.0,
+        drift: float = 0.0,
+        delay: int = 0,
+        step: float = 0.0,
+    ) -> None: ...
+
+class RangeFinder:
+    rays: int
+    period: int  # [ticks]
+    angle: float  # [rad]
+    min_range: float  # [m]
+    max_range: float  # [m]
+    model: SensorModel  # [m]
+    site: str
+    def __init__(
+        self,
+        *,
+        rays: int = 0,
+        period: int = 25,
+        angle: float = 4.71238898038469,
+        min_range: float = 0.1,
+        max_range: float = 30.0,
+        model: SensorModel = ...,
+        site: str = "lidar",
+    ) -> None: ...
+
+class FaultKind(_Enum):
+    NotANumber: ClassVar[FaultKind]
+    Frozen: ClassVar[FaultKind]
+    __members__: ClassVar[dict[str, FaultKind]]
+
+class SensorFault:
+    entry: str
+    kind: FaultKind
+    start: float  # [s]
+    def __init__(self, entry: str, kind: FaultKind = ..., start: float = 0.0) -> None: ...
+
+class SensorOptions:
+    models: dict[str, SensorModel]
+    range: RangeFinder
+    faults: list[SensorFault]
+    hold_seconds: float  # [s]
+    def __init__(
+        self,
+        *,
+        models: Mapping[str, SensorModel] = ...,
+        range: RangeFinder = ...,
+        faults: Sequence[SensorFault] = ...,
+        hold_seconds: float = 1.0,
+    ) -> None: ...
+
+class MonitorOptions:
+    on: bool
+    min_distance: float  # [m]
+    min_margin: float  # [m]
+    min_pressure_margin: float  # [m]
+    min_tip_angle: float  # [rad]
+    min_energy: float  # [J]
+    max_temperature: float  # [deg C]
+    max_power: float  # [W]
+    def __init__(
+        self,
+        *,
+        on: bool = True,
+        min_distance: float = 0.01,
+        min_margin: float = 0.05,
+        min_pressure_margin: float = 0.0,
+        min_tip_angle: float = 0.05,
+        min_energy: float = 0.0,
+        max_temperature: float = 120.0,
+        max_power: float = 20000.0,
+    ) -> None: ...
+
 class SimulationOptions:
     seed: int
     variation: float
@@ -605,6 +688,8 @@ class SimulationOptions:
     record: bool
     timed: bool
     base: BaseSource
+    sensors: SensorOptions
+    monitors: MonitorOptions
     def __init__(
         self,
         *,
@@ -614,6 +699,8 @@ class SimulationOptions:
         record: bool = True,
         timed: bool = False,
         base: BaseSource = ...,
+        sensors: SensorOptions = ...,
+        monitors: MonitorOptions = ...,
     ) -> None: ...
 
 class Simulation:
@@ -663,3 +750,12 @@ class Simulation:
     def thesis_figures(self) -> dict[str, float]: ...
     def events(self) -> list[tuple[float, str]]: ...  # [s]
     def limit_violation(self) -> dict[str, Any]: ...
+    def sensors(self) -> dict[str, _Vector]: ...  # (m,) each
+    def sensor_entries(self) -> dict[str, tuple[str, list[str]]]: ...
+    def ray_angles(self) -> _Vector: ...  # (rays,) [rad]
+    def monitors(self) -> dict[str, float]: ...
+    def motor_temperatures(self) -> dict[str, float]: ...  # [deg C]
+    def self_collision_pairs(self) -> list[tuple[str, str]]: ...
+    def nearest_pair(self) -> tuple[str, str] | None: ...
+    @property
+    def held(self) -> bool: ...

@@ -41,6 +41,14 @@ FIGURES = {
     "torque_excess_max_nm": Figure("torque asked for above a motor's limit"),
     "energy_J": Figure("energy from the battery, standby included"),
     "battery_share": Figure("share of the battery that was used"),
+    # of the monitors: the worst of the run
+    "self_collision_distance_m": Figure("nearest that the robot came to itself", "§4.2.1"),
+    "static_margin_m": Figure("centre of mass inside its support by, least", "§4.2.1"),
+    "pressure_margin_m": Figure("centre of pressure inside the support by, least"),
+    "tip_angle_rad": Figure("angle to tipping over, least"),
+    "energy_margin_J": Figure("work to tip it over, least"),
+    "motor_temperature_C": Figure("hottest motor winding"),
+    "power_W": Figure("largest power from the battery"),
 }
 
 # suffix of a name: unit, then (below this magnitude, factor, smaller unit)
@@ -50,6 +58,9 @@ _UNITS = {
     "_rad": ("rad", (0.1, 1e3, "mrad")),
     "_us": ("µs", (0.0, 1.0, "µs")),
     "_N": ("N", (0.0, 1.0, "N")),
+    "_J": ("J", (0.0, 1.0, "J")),
+    "_W": ("W", (0.0, 1.0, "W")),
+    "_C": ("°C", (0.0, 1.0, "°C")),
     "_nm": ("N m", (0.0, 1.0, "N m")),
 }
 

@@ -31,6 +31,7 @@ CHANNELS = (
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
+    ("monitor/M", "what monitor M saw, its unit in its name: self_collision_distance_m, ..."),
     ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
 )
 # What timing.npz holds, (ticks,) each [s]. It is a file of its own: log.npz is the same for a seed.

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from hurcules import _core, models
-from hurcules._core import Error
+from hurcules._core import Error, MonitorOptions, SensorOptions
 
 __all__ = ["Simulation"]
 
@@ -37,6 +37,8 @@ class Simulation(_core.Simulation):
         method: str = "lexicographic",
         record: bool = True,
         timed: bool = False,
+        sensors: SensorOptions | None = None,
+        monitors: MonitorOptions | None = None,
     ) -> None:
         """Loads the mission's scene and stands at its start.
 
@@ -47,9 +49,13 @@ class Simulation(_core.Simulation):
             method: how the hierarchy is solved, see `rhqp.SolverOptions`.
             record: keeps every signal of every tick for `log`.
             timed: keeps the time of each stage of each tick for `timings`.
+            sensors: what the control loop sees of the physics; None: all of it, exactly. See
+                `hurcules.sensors.realistic`.
+            monitors: thresholds of the alarms; None: those of `MonitorOptions`.
 
         Raises:
-            Error: no such mission or method (the text names those that exist), or a bad number.
+            Error: no such mission, method or sensor (the text names those that exist), or a bad
+                number.
         """
         if mission not in _core.missions():
             known = ", ".join(_core.missions())
@@ -60,6 +66,8 @@ class Simulation(_core.Simulation):
             method=method,
             record=record,
             timed=timed,
+            sensors=sensors or SensorOptions(),
+            monitors=monitors or MonitorOptions(),
         )
         self.mission = mission
         self.model = models.load(mission=mission)

@@ -18,6 +18,7 @@ import hurcules
 
 MODULES = [
     "hurcules",
+    "hurcules.cameras",
     "hurcules.figures",
     "hurcules.opengl",
     "hurcules.output",
@@ -26,6 +27,7 @@ MODULES = [
     "hurcules.report",
     "hurcules.rhqp",
     "hurcules.run",
+    "hurcules.sensors",
     "hurcules.simulation",
     "hurcules.summary",
     "hurcules.video",

@@ -8,12 +8,12 @@
 
 namespace hurcules {
 
-enum class EventKind { PhaseStarted, LimitMet, LimitReleased };
+enum class EventKind { PhaseStarted, LimitMet, LimitReleased, AlarmRaised, AlarmFell };
 
 struct Event {
   double time = 0.0;  // [s]
   EventKind kind = EventKind::PhaseStarted;
-  Index what = 0;  // phase or coordinate
+  Index what = 0;  // phase, coordinate, or quantity of the monitors
   int side = 0;    // -1 lower, 1 upper limit
 };
 

@@ -48,6 +48,8 @@ class MotorPower {
   explicit MotorPower(const MotorLimits& limits, const MotorLosses& losses = {});
   // [W] taken from the supply, negative when power comes back; braking joints never take extra
   [[nodiscard]] double at(double effort, double velocity) const;
+  // [W] in the windings; 0 for a motor without limits
+  [[nodiscard]] double heat(double effort) const { return resistance_ * effort * effort; }
 
  private:
   MotorLosses losses_;

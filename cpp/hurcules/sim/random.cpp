@@ -36,4 +36,23 @@ double Random::symmetric() {
   return static_cast<double>(next() >> 11) * 0x1.0p-52 - 1.0;
 }
 
+double Random::normal() {
+  // twelve numbers of 16 bits out of three words: mean 12 * 32767.5, variance 65536^2 - 1
+  std::int64_t sum = 0;
+  for (int word = 0; word < 3; ++word) {
+    for (std::uint64_t bits = next(), part = 0; part < 4; ++part, bits >>= 16) {
+      sum += static_cast<std::int64_t>(bits & 0xffff);
+    }
+  }
+  return static_cast<double>(sum - 393210) / 65536.0;
+}
+
+void Random::save(StateWriter& writer) const {
+  for (const std::uint64_t word : state_) writer.put_bits(word);
+}
+
+void Random::restore(StateReader& reader) {
+  for (std::uint64_t& word : state_) word = reader.get_bits();
+}
+
 }  // namespace hurcules

@@ -72,7 +72,15 @@ void Servo::mind(const Brakes& brakes) {
 }
 
 void Servo::act(const Reference& reference, mjData* data) {
-  measure(reference, data);
+  act(reference, data->qpos, data->qvel, data);
+}
+
+void Servo::act(const Reference& reference, const Sensed& sensed, mjData* data) {
+  act(reference, sensed.qpos.data(), sensed.qvel.data(), data);
+}
+
+void Servo::act(const Reference& reference, const double* qpos, const double* qvel, mjData* data) {
+  measure(reference, qpos, qvel);
   set_limits(data);
   const Vector& torque = pid_.compute(error_);
   for (Index i = 0; i < pid_.size(); ++i) {
@@ -82,17 +90,17 @@ void Servo::act(const Reference& reference, mjData* data) {
 }
 
 // errors of the joints; what held its place behind a brake holds where the brake left it
-void Servo::measure(const Reference& reference, const mjData* data) {
+void Servo::measure(const Reference& reference, const double* qpos, const double* qvel) {
   for (Index i = 0; i < pid_.size(); ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     const bool driven = motor.coordinate >= 0;
     const Rest& rest = rests_[static_cast<std::size_t>(i)];
-    if (rest.on || rest.over) place_[i] = data->qpos[motor.qpos];
+    if (rest.on || rest.over) place_[i] = qpos[motor.qpos];
     const double position =
         driven ? motor.factor * reference.position[motor.coordinate] : place_[i];
     const double velocity = driven ? motor.factor * reference.velocity[motor.coordinate] : 0.0;
-    error_.position[i] = position - data->qpos[motor.qpos];
-    error_.velocity[i] = velocity - data->qvel[motor.dof];
+    error_.position[i] = position - qpos[motor.qpos];
+    error_.velocity[i] = velocity - qvel[motor.dof];
   }
 }
 

@@ -28,6 +28,12 @@ class Servo {
     const Vector& velocity;
   };
   void act(const Reference& reference, mjData_* data);
+  // the same, acting on what sensors say of the joints; the motors' limits go by the real speed
+  struct Sensed {
+    const Vector& qpos;  // (nq)
+    const Vector& qvel;  // (nv)
+  };
+  void act(const Reference& reference, const Sensed& sensed, mjData_* data);
   // before act: a motor whose brake is shut rests; one whose brake opens takes over what it bore
   void mind(const Brakes& brakes);
   // at rest and without memory; the motors that no coordinate drives hold where `data` has them
@@ -62,7 +68,8 @@ class Servo {
     bool over = false;    // this tick the motor takes over
     double torque = 0.0;  // [N m] at the joint, what it takes over
   };
-  void measure(const Reference& reference, const mjData_* data);
+  void act(const Reference& reference, const double* qpos, const double* qvel, mjData_* data);
+  void measure(const Reference& reference, const double* qpos, const double* qvel);
   void set_limits(const mjData_* data);
 
   std::vector<Motor> motors_;

@@ -25,14 +25,9 @@ int Simulation::step(int n, const Vector* command) {
 void Simulation::tick(const Vector* command) {
   StageTimer timer(options_.clock, stage_seconds_);
   sense();
+  check_sensors();
   timer.done(Stage::Sense);
-  kinematics();
-  timer.done(Stage::Kinematics);
-  hierarchy(command);
-  timer.done(Stage::Problem);
-  solve();
-  timer.done(Stage::Solve);
-  integrate();
+  think(command, timer);
   servo();
   timer.done(Stage::Servo);
   advance_physics();
@@ -43,16 +38,38 @@ void Simulation::tick(const Vector* command) {
   judge();
 }
 
+// from what is seen to the reference; one who is held has no other thought than to stay
+void Simulation::think(const Vector* command, StageTimer& timer) {
+  if (held()) {
+    telemetry_.qd_des.setZero();
+    for (const Stage stage : {Stage::Kinematics, Stage::Problem, Stage::Solve}) timer.done(stage);
+    return;
+  }
+  kinematics();
+  timer.done(Stage::Kinematics);
+  hierarchy(command);
+  timer.done(Stage::Problem);
+  solve();
+  timer.done(Stage::Solve);
+  integrate();
+}
+
 // what the joint encoders and the base say
 void Simulation::sense() {
-  world_.set_qpos(std::as_const(physics_).qpos());
+  seen_qpos_ = std::as_const(physics_).qpos();
+  seen_qvel_ = std::as_const(physics_).qvel();
+  world_.set_qpos(seen_qpos_);
+  if (seen_) {
+    sensors_.overwrite(seen_qpos_, seen_qvel_);
+    seen_->set_qpos(seen_qpos_);
+  }
   sense_coordinates();
   sense_base();
 }
 
 // the reference configuration, on its support
 void Simulation::kinematics() {
-  if (options_.base == BaseSource::Sensed) plan_.set_qpos(world_.qpos());
+  if (options_.base == BaseSource::Sensed) plan_.set_qpos(seen().qpos());
   plan_.set_configuration(telemetry_.q_des);
 }
 
@@ -77,7 +94,7 @@ void Simulation::integrate() {
 // torques  [T A.2.12]
 void Simulation::servo() {
   servo_.mind(physics_.brakes());
-  servo_.act({telemetry_.q_des, telemetry_.qd_des}, physics_.data());
+  servo_.act({telemetry_.q_des, telemetry_.qd_des}, {seen_qpos_, seen_qvel_}, physics_.data());
   telemetry_.torque = servo_.torque();
   telemetry_.demand = servo_.demand();
   telemetry_.joint_error = servo_.error().position;
@@ -90,6 +107,9 @@ void Simulation::advance_physics() {
   if (battery_.empty()) physics_.brakes().close();
   telemetry_.power = power_meter_.total();
   telemetry_.charge = battery_.charge();
+  if (!physics_.is_sound()) return;
+  sensors_.sample(physics_.model(), physics_.data(), static_cast<double>(ticks_ + 1) * dt());
+  monitors_.look(physics_.model(), physics_.data(), telemetry_.power);
 }
 
 // figures, limits and the row of the log; the tasks are left as measured at the real motion
@@ -103,6 +123,7 @@ void Simulation::record() {
   measure_actual();
   mission_->note_measured(report);
   note_events();
+  note_alarms();
   telemetry_.tick_us = 1e6 * stage_seconds_.head<5>().sum();  // sense to servo
   if (options_.record) log_.record();
 }
@@ -115,11 +136,17 @@ void Simulation::judge() {
   if (controller_->solution().status == SolverStatus::InvalidInput) {
     return end(Ending::SolverFailed, now);
   }
-  const double height = world_.position(pelvis_).z() - telemetry_.base_position.z();
+  const double height = world_.position(pelvis_).z() - world_.position(support_).z();
   if (fall_watch_.fell(world_.orientation(support_), height)) {
     return end(Ending::Fell, now);
   }
   if (telemetry_.time >= mission_->setup().max_seconds) return end(Ending::TimeUp, now);
+  if (held()) {
+    ++held_ticks_;
+    const double held_for = static_cast<double>(held_ticks_) * dt();
+    if (held_for >= options_.sensors.hold_seconds) end(Ending::Held, now);
+    return;
+  }
   const std::size_t phase = mission_->phase();
   if (!mission_->select_phase(plan_, telemetry_.time)) {
     return end(mission_->verdict().empty() ? Ending::Completed : Ending::Missed, now);

@@ -3,8 +3,10 @@
 //
 // The planner works on the reference, not on what was sensed: q* is integrated from the solver's
 // velocities [T 4.3.7], and the robot follows by its joint servos alone. See BaseSource for where
-// it thinks it stands. Same seed, same bits. A run that leaves the numbers' range, or falls, ends
-// with a reason; it never throws.
+// it thinks it stands. The servos act on what the sensors say (sensors.hpp), which is the truth
+// unless a model or a fault is given. Where they cannot be believed the robot is held: its
+// reference stops, its brakes close. Same seed, same bits. A run that leaves the numbers' range,
+// or falls, or is held, ends with a reason; it never throws.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +19,11 @@
 #include "hurcules/mission/mission.hpp"
 #include "hurcules/sim/battery.hpp"
 #include "hurcules/sim/events.hpp"
+#include "hurcules/sim/monitors.hpp"
 #include "hurcules/sim/physics.hpp"
 #include "hurcules/sim/power_meter.hpp"
 #include "hurcules/sim/recorder.hpp"
+#include "hurcules/sim/sensors.hpp"
 #include "hurcules/sim/servo.hpp"
 #include "hurcules/sim/stage_timer.hpp"
 #include "hurcules/sim/telemetry.hpp"
@@ -46,10 +50,12 @@ struct SimulationOptions {
   BaseSource base = BaseSource::Held;
   PowerOptions power;      // what the robot takes
   BatteryOptions battery;  // from where
+  SensorOptions sensors;   // ideal without models
+  MonitorOptions monitors;
 };
 
 // Why a run is over.
-enum class Ending { Running, Completed, Missed, TimeUp, Fell, Diverged, SolverFailed };
+enum class Ending { Running, Completed, Missed, TimeUp, Fell, Diverged, SolverFailed, Held };
 
 class Simulation {
  public:
@@ -72,6 +78,8 @@ class Simulation {
   [[nodiscard]] bool finished() const { return ending_ != Ending::Running; }
   [[nodiscard]] bool success() const { return ending_ == Ending::Completed; }
   [[nodiscard]] std::string reason() const;  // "" while running
+  // its sensors cannot be believed: it stands behind its brakes until the run ends
+  [[nodiscard]] bool held() const { return finding_.trouble != SensorWatch::Trouble::None; }
   [[nodiscard]] const Mission& mission() const { return *mission_; }
   [[nodiscard]] Vector operator_command();  // of the next tick, (k)
 
@@ -92,6 +100,10 @@ class Simulation {
   [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] const Robot& plan() const { return plan_; }
   [[nodiscard]] const VelocityController& controller() const { return *controller_; }
+  [[nodiscard]] const Sensors& sensors() const { return sensors_; }
+  [[nodiscard]] const Monitors& monitors() const { return monitors_; }
+  // the mission's, then the worst that the monitors saw
+  [[nodiscard]] std::vector<Figure> figures() const;
 
  private:
   // where the telemetry keeps the levels of a stack, and the first of their task rows
@@ -101,7 +113,9 @@ class Simulation {
   };
 
   void tick(const Vector* command);
+  void think(const Vector* command, StageTimer& timer);
   void sense();
+  void check_sensors();
   void kinematics();
   void hierarchy(const Vector* command);
   void solve();
@@ -118,7 +132,9 @@ class Simulation {
   void enter_phase();
   void sense_coordinates();
   void sense_base();
+  [[nodiscard]] const Robot& seen() const { return seen_ ? *seen_ : world_; }
   void observe();
+  void note_alarms();
   void note_solution();
   void note_events();
   void measure_actual();
@@ -127,8 +143,9 @@ class Simulation {
 
   SimulationOptions options_;
   Physics physics_;
-  Robot world_;  // as sensed
-  Robot plan_;   // at the reference, standing on its support
+  Robot world_;                  // as it is
+  Robot plan_;                   // at the reference, standing on its support
+  std::unique_ptr<Robot> seen_;  // as sensed; null where that is as it is
   std::unique_ptr<Mission> mission_;
   std::vector<std::unique_ptr<VelocityController>> controllers_;  // one for each stack
   std::vector<std::size_t> controller_of_phase_;
@@ -137,15 +154,21 @@ class Simulation {
   Servo servo_;
   PowerMeter power_meter_;
   Battery battery_;
+  Sensors sensors_;
+  Monitors monitors_;
   LimitWatch limit_watch_;
   FallWatch fall_watch_;
   TelemetryNames names_;
   Telemetry telemetry_;
   Recorder log_, timings_, observation_;
   EventList events_;
-  Vector stage_seconds_;    // (kStages)
-  Vector start_qpos_;       // (nq) where the plan's support stands
-  Vector previous_active_;  // (n), for events
+  Vector stage_seconds_;          // (kStages)
+  Vector start_qpos_;             // (nq) where the plan's support stands
+  Vector previous_active_;        // (n), for events
+  Vector previous_alarm_;         // (Monitors::kQuantities), for events
+  Vector seen_qpos_, seen_qvel_;  // (nq), (nv) as sensed
+  SensorWatch::Finding finding_;  // why it is held
+  std::int64_t held_ticks_ = 0;
   Frame support_, pelvis_;
   int casualty_qpos_ = -1;  // free joint, -1 for none
   std::optional<Frame> casualty_;

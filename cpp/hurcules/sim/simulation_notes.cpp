@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "hurcules/base/pose.hpp"
@@ -17,33 +18,59 @@ std::string seconds(double time) {
   return text;
 }
 
+std::string number(double value) {
+  std::string text(32, '\0');
+  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%g", value)));
+  return text;
+}
+
 }  // namespace
+
+std::vector<Figure> Simulation::figures() const {
+  std::vector<Figure> figures = mission_->figures();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (Index i = 0; i < Monitors::kQuantities; ++i) {
+    figures.push_back({Monitors::names()[static_cast<std::size_t>(i)], monitors_.worst(i), none});
+  }
+  return figures;
+}
 
 void Simulation::sense_coordinates() {
   telemetry_.q = world_.configuration();
+  telemetry_.seen_q = seen().configuration();
   const auto qvel = std::as_const(physics_).qvel();
   for (Index i = 0; i < world_.size(); ++i) {
     const DrivenJoint& joint = world_.coordinates()[static_cast<std::size_t>(i)].joints.front();
     telemetry_.qd[i] = qvel[joint.dof] / joint.factor;
+    telemetry_.seen_qd[i] = seen_qvel_[joint.dof] / joint.factor;
   }
   if (const Task* const limits = controller_->limits()) {
     telemetry_.limit_lower = limits->lower();
     telemetry_.limit_upper = limits->upper();
   }
-  telemetry_.lag = telemetry_.q_des - telemetry_.q;
-  telemetry_.to_lower = telemetry_.q - telemetry_.limit_lower;
-  telemetry_.to_upper = telemetry_.limit_upper - telemetry_.q;
+  telemetry_.lag = telemetry_.q_des - telemetry_.seen_q;
+  telemetry_.to_lower = telemetry_.seen_q - telemetry_.limit_lower;
+  telemetry_.to_upper = telemetry_.limit_upper - telemetry_.seen_q;
 }
 
 void Simulation::sense_base() {
-  const Matrix3 R = world_.orientation(support_);
-  const Vector3 p = world_.position(support_);
-  const Twist twist = world_.twist(support_, std::as_const(physics_).qvel());
-  telemetry_.base_position = p;
-  telemetry_.base_rotation = rotation_log(R);
+  telemetry_.base_position = world_.position(support_);
+  telemetry_.base_rotation = rotation_log(world_.orientation(support_));
+  const Matrix3 R = seen().orientation(support_);
+  const Vector3 p = seen().position(support_);
+  const Twist twist = seen().twist(support_, seen_qvel_);
+  telemetry_.seen_base_position = p;
+  telemetry_.seen_base_rotation = rotation_log(R);
   telemetry_.base_velocity = twist.linear;
   telemetry_.base_spin = twist.angular;
   if (casualty_) telemetry_.target_in_base = R.transpose() * (world_.position(*casualty_) - p);
+}
+
+// an encoder that cannot be believed holds the robot for good: all brakes close, behind which the
+// motors rest
+void Simulation::check_sensors() {
+  if (!held()) finding_ = sensors_.watch(telemetry_.q_des);
+  if (held()) physics_.brakes().close();
 }
 
 // what somebody outside sees between two calls: the state as it is now
@@ -105,7 +132,23 @@ void Simulation::note_events() {
   previous_active_ = telemetry_.active;
 }
 
+void Simulation::note_alarms() {
+  for (Index i = 0; i < Monitors::kQuantities; ++i) {
+    const double alarm = monitors_.alarm(i) ? 1.0 : 0.0;
+    if (alarm == previous_alarm_[i]) continue;
+    events_.add({telemetry_.time, alarm > 0.0 ? EventKind::AlarmRaised : EventKind::AlarmFell, i,
+                 Monitors::falls(i) ? -1 : 1});
+    previous_alarm_[i] = alarm;
+  }
+}
+
 std::string Simulation::text(const Event& event) const {
+  if (event.kind == EventKind::AlarmRaised || event.kind == EventKind::AlarmFell) {
+    const std::string& quantity = Monitors::names()[static_cast<std::size_t>(event.what)];
+    const std::string side = event.side > 0 ? " above " : " below ";
+    return (event.kind == EventKind::AlarmRaised ? "alarm: " : "alarm over: ") + quantity + side +
+           number(monitors_.threshold(event.what));
+  }
   if (event.kind == EventKind::PhaseStarted) {
     return "phase " + mission_->phases()[static_cast<std::size_t>(event.what)].name;
   }
@@ -136,6 +179,10 @@ std::string Simulation::reason() const {
       return "diverged at " + seconds(ending_time_);
     case Ending::SolverFailed:
       return "the solver refused its input at " + seconds(ending_time_);
+    case Ending::Held: {
+      const double since = ending_time_ - static_cast<double>(held_ticks_ - 1) * dt();
+      return "held since " + seconds(since) + ": " + sensors_.text(finding_);
+    }
   }
   return "";
 }

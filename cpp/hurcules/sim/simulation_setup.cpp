@@ -46,6 +46,12 @@ int other_free_joint(const mjModel* m, int robot_root) {
   return -1;
 }
 
+// body at the root of the robot's tree
+int root_of(const Robot& robot) {
+  const mjModel* const m = robot.model().get();
+  return m->body_rootid[m->jnt_bodyid[robot.coordinates().front().joints.front().joint]];
+}
+
 }  // namespace
 
 Simulation::Simulation(ModelPtr model, const std::string& mission, SimulationOptions options,
@@ -58,6 +64,8 @@ Simulation::Simulation(ModelPtr model, const std::string& mission, SimulationOpt
       servo_(world_, mission_->setup().servo, physics_.dt()),
       power_meter_(physics_.model(), options_.power),
       battery_(options_.battery),
+      sensors_(world_, root_of(world_), options_.sensors),
+      monitors_(physics_.model(), root_of(world_), options_.power.motors, options_.monitors),
       limit_watch_(world_, servo_.pid().options().max_torque),
       fall_watch_({mission_->setup().min_height, mission_->setup().max_tilt}),
       names_(names_of(*mission_, plan_, servo_)),
@@ -65,17 +73,22 @@ Simulation::Simulation(ModelPtr model, const std::string& mission, SimulationOpt
       stage_seconds_(Vector::Zero(kStages)),
       start_qpos_(plan_.qpos()),
       previous_active_(Vector::Zero(plan_.size())),
+      previous_alarm_(Vector::Zero(Monitors::kQuantities)),
+      seen_qpos_(world_.qpos()),
+      seen_qvel_(Vector::Zero(physics_.model()->nv)),
       support_(plan_.frame(mission_->setup().support)),
       pelvis_(plan_.frame("pelvis")) {
   require(options_.variation >= 0.0 && std::isfinite(options_.variation),
           "variation wants a number >= 0");
   const mjModel* const m = physics_.model();
-  const int root = m->body_rootid[m->jnt_bodyid[world_.coordinates().front().joints.front().joint]];
-  casualty_qpos_ = other_free_joint(m, root);
+  casualty_qpos_ = other_free_joint(m, root_of(world_));
   if (mj_name2id(m, mjOBJ_SITE, "casualty_chest") >= 0) casualty_ = world_.frame("casualty_chest");
   plan_.stand_on(mission_->setup().support);
+  if (sensors_.alter_state()) seen_ = std::make_unique<Robot>(physics_.model_ptr());
   make_controllers();
   telemetry_.add_log_channels(names_, options_.clock != nullptr, log_);
+  monitors_.add_log_channels(log_);
+  sensors_.add_log_channels(log_);
   telemetry_.add_observation_channels(names_, observation_);
   timings_.add("time", &telemetry_.time);
   for (Index i = 0; i < kStages; ++i) timings_.add(stage_names()[i], stage_seconds_.data() + i);

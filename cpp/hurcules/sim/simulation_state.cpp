@@ -1,4 +1,6 @@
 // How a simulation starts over, and how it is saved and restored.
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
 
 #include "hurcules/base/error.hpp"
@@ -26,6 +28,11 @@ void Simulation::reset(std::uint64_t seed) {
   servo_.reset(physics_.data());
   for (const auto& controller : controllers_) controller->reset();
   limit_watch_.reset();
+  monitors_.reset();
+  sensors_.reset(physics_.data(), seed);
+  finding_ = {};
+  held_ticks_ = 0;
+  previous_alarm_.setZero();
   fall_watch_.reset(world_.orientation(support_));
   previous_active_.setZero();
   mission_->reset(plan_, world_);
@@ -81,8 +88,15 @@ std::vector<double> Simulation::state() const {
   battery_.save(writer);
   limit_watch_.save(writer);
   fall_watch_.save(writer);
-  for (const Vector* vector : {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active,
-                               &telemetry_.level_active, &start_qpos_, &previous_active_}) {
+  monitors_.save(writer);
+  sensors_.save(writer);
+  writer.put(static_cast<double>(static_cast<int>(finding_.trouble)));
+  writer.put(static_cast<double>(finding_.entry));
+  writer.put(finding_.speed ? 1.0 : 0.0);
+  writer.put(static_cast<double>(held_ticks_));
+  for (const Vector* vector :
+       {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active, &telemetry_.level_active,
+        &start_qpos_, &previous_active_, &previous_alarm_}) {
     writer.put(*vector);
   }
   return values;
@@ -101,7 +115,7 @@ void Simulation::restore(const std::vector<double>& values) {
 void Simulation::read(const std::vector<double>& values) {
   StateReader reader(values);
   ticks_ = reader.get_count(kMostTicks);
-  ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::SolverFailed)));
+  ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::Held)));
   ending_time_ = reader.get();
   physics_.restore(reader);
   mission_->restore(reader);
@@ -110,8 +124,16 @@ void Simulation::read(const std::vector<double>& values) {
   battery_.restore(reader);
   limit_watch_.restore(reader);
   fall_watch_.restore(reader);
-  for (Vector* vector : {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active,
-                         &telemetry_.level_active, &start_qpos_, &previous_active_}) {
+  monitors_.restore(reader);
+  sensors_.restore(reader);
+  finding_.trouble = static_cast<SensorWatch::Trouble>(
+      reader.get_count(static_cast<Index>(SensorWatch::Trouble::Disagrees)));
+  finding_.entry = reader.get_count(physics_.model()->nu);
+  finding_.speed = reader.get_count(1) > 0;
+  held_ticks_ = reader.get_count(kMostTicks);
+  for (Vector* vector :
+       {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active, &telemetry_.level_active,
+        &start_qpos_, &previous_active_, &previous_alarm_}) {
     reader.get(*vector);
   }
   plan_.set_qpos(start_qpos_);

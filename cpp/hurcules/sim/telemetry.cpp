@@ -16,8 +16,8 @@ Vector zeros(const std::vector<std::string>& names) {
 }  // namespace
 
 Telemetry::Telemetry(const TelemetryNames& names) {
-  for (Vector* values : {&q, &qd, &q_des, &qd_des, &lag, &limit_lower, &limit_upper, &to_lower,
-                         &to_upper, &active}) {
+  for (Vector* values : {&q, &qd, &seen_q, &seen_qd, &q_des, &qd_des, &lag, &limit_lower,
+                         &limit_upper, &to_lower, &to_upper, &active}) {
     *values = zeros(names.coordinates);
   }
   for (Vector* values : {&torque, &demand, &joint_error}) *values = zeros(names.joints);
@@ -25,8 +25,8 @@ Telemetry::Telemetry(const TelemetryNames& names) {
     *values = zeros(names.levels);
   }
   for (Vector* values : {&task_error, &task_error_measured}) *values = zeros(names.task_rows);
-  for (Vector* values :
-       {&base_position, &base_rotation, &base_velocity, &base_spin, &target_in_base}) {
+  for (Vector* values : {&base_position, &base_rotation, &seen_base_position, &seen_base_rotation,
+                         &base_velocity, &base_spin, &target_in_base}) {
     *values = zeros(axes());
   }
   command = zeros(names.commands);
@@ -35,6 +35,8 @@ Telemetry::Telemetry(const TelemetryNames& names) {
 void Telemetry::clear() {
   for (Vector* values : {&q,
                          &qd,
+                         &seen_q,
+                         &seen_qd,
                          &q_des,
                          &qd_des,
                          &lag,
@@ -54,6 +56,8 @@ void Telemetry::clear() {
                          &command,
                          &base_position,
                          &base_rotation,
+                         &seen_base_position,
+                         &seen_base_rotation,
                          &base_velocity,
                          &base_spin,
                          &target_in_base}) {
@@ -95,15 +99,15 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
 }
 
 void Telemetry::add_observation_channels(const TelemetryNames& names, Recorder& recorder) const {
-  recorder.add("q", names.coordinates, q);
-  recorder.add("qd", names.coordinates, qd);
+  recorder.add("q", names.coordinates, seen_q);
+  recorder.add("qd", names.coordinates, seen_qd);
   recorder.add("lag", names.coordinates, lag);
   recorder.add("to_lower", names.coordinates, to_lower);
   recorder.add("to_upper", names.coordinates, to_upper);
   recorder.add("task_error", names.task_rows, task_error_measured);
   recorder.add("active_rows", names.levels, level_active);
-  recorder.add("base", axes(), base_position);
-  recorder.add("base_rotation", axes(), base_rotation);
+  recorder.add("base", axes(), seen_base_position);
+  recorder.add("base_rotation", axes(), seen_base_rotation);
   recorder.add("base_velocity", axes(), base_velocity);
   recorder.add("base_spin", axes(), base_spin);
   recorder.add("target_in_base", axes(), target_in_base);

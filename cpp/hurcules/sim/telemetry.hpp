@@ -28,11 +28,12 @@ struct Telemetry {
 
   double time = 0.0;                         // [s] since reset
   double phase = 0.0;                        // number of the phase
-  Vector q, qd;                              // [rad], [rad/s] (n) measured
+  Vector q, qd;                              // [rad], [rad/s] (n) measured in the physics
+  Vector seen_q, seen_qd;                    // (n) as the sensors say
   Vector q_des, qd_des;                      // (n) commanded
-  Vector lag;                                // [rad] (n) commanded minus measured
+  Vector lag;                                // [rad] (n) commanded minus seen
   Vector limit_lower, limit_upper;           // [rad] (n) of the present mode
-  Vector to_lower, to_upper;                 // [rad] (n) measured distance to them, negative beyond
+  Vector to_lower, to_upper;                 // [rad] (n) seen distance to them, negative beyond
   Vector active;                             // (n) -1 0 1: held back by a position limit
   Vector torque, demand;                     // [N m] (m) applied, and asked for
   Vector joint_error;                        // [rad] (m)
@@ -41,7 +42,8 @@ struct Telemetry {
   Vector task_error, task_error_measured;    // (r)
   Vector command;                            // [m/s] or [rad/s] (k)
   Vector base_position, base_rotation;       // [m], rotation vector [rad] (3) of the support in W
-  Vector base_velocity, base_spin;           // [m/s], [rad/s] (3)
+  Vector seen_base_position, seen_base_rotation;  // the same as the sensors say
+  Vector base_velocity, base_spin;                // [m/s], [rad/s] (3) as the sensors say
   Vector target_in_base;  // [m] (3) the casualty, seen from the support; zero without one
   double factorizations = 0.0, changes = 0.0, iterations = 0.0, status = 0.0, optimality = 0.0;
   double power = 0.0, charge = 0.0;  // [W] from the battery; what is left in it, 0 to 1

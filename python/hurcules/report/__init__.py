@@ -110,6 +110,7 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
         (plots.control_errors, later, "Control errors", _ERRORS),
         (plots.task_errors, later, "Task errors", _TASKS),
         (plots.active_limits, log, "Active limits", _LIMITS),
+        (plots.monitors, log, "Monitors", _MONITORS),
         (plots.solver_work, log, "Work of the solver", _SOLVER),
         (plots.tick_times, log, "Time of a control tick", _TIMES),
     )
@@ -133,5 +134,10 @@ _ERRORS = (
 )
 _TASKS = "The error of each level of the commanded motion, in decreasing priority."
 _LIMITS = "Which position limit holds which coordinate, and when."
+_MONITORS = (
+    "What runs beside the controller (§4.2.1): distance of the robot to itself (0.25 m stands for "
+    "more), centre of mass and centre of pressure against the edge of the support, angle and work "
+    "to tipping over, temperature of the hottest motor. Dashed: where the alarm is raised."
+)
 _SOLVER = "Level factorizations and working-set changes of each solve; the least is one a level."
 _TIMES = "Sensing to servo without physics, on the machine above."

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from hurcules._core import MonitorOptions
 from hurcules.report.style import ACCENT, GREY, INK, LINES, axes, grid, mark, svg, thin
 
 __all__ = [
@@ -16,6 +17,7 @@ __all__ = [
     "control_errors",
     "joint_positions",
     "joint_velocities",
+    "monitors",
     "solver_work",
     "task_errors",
     "tick_times",
@@ -88,6 +90,38 @@ def active_limits(log: Log, events: Sequence[float]) -> str:
     plot.set_ylim(max(1, len(names)) - 0.4, -0.6)
     plot.set_xlim(log["time"][0], log["time"][-1])
     plot.set_xlabel("time [s]    (orange: upper limit, grey: lower limit)")
+    return svg(figure)
+
+
+# of the monitors: what is drawn, its title, and the threshold of its alarm (MonitorOptions)
+_MONITORS = (
+    ("self_collision_distance_m", "distance to itself [m]", "min_distance"),
+    ("static_margin_m", "static margin [m]", "min_margin"),
+    ("pressure_margin_m", "pressure margin [m]", ""),
+    ("tip_angle_rad", "tip angle [rad]", "min_tip_angle"),
+    ("energy_margin_J", "energy margin [J]", ""),
+    ("motor_temperature_C", "hottest motor [°C]", "max_temperature"),
+)
+
+
+def monitors(log: Log, events: Sequence[float]) -> str:
+    """What the monitors saw, with the thresholds of their alarms where these are near."""
+    figure, plots = grid(2, 3, 1.9)
+    defaults = MonitorOptions()
+    for plot, (name, title, threshold) in zip(plots, _MONITORS, strict=True):
+        values = log[f"monitor/{name}"]
+        plot.plot(*thin(log["time"], values), color=INK)
+        mark(plot, events)
+        plot.set_title(title)
+        if not threshold:
+            continue
+        limit = getattr(defaults, threshold)
+        low, high = float(np.min(values)), float(np.max(values))
+        # zero, or the threshold where it is in sight, belongs into the picture
+        if low - 3 * (high - low) - abs(limit) <= limit <= high + 3 * (high - low):
+            plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+    for plot in plots[3:]:
+        plot.set_xlabel("time [s]")
     return svg(figure)
 
 

@@ -10,8 +10,7 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
-TEST(Tick, AllocatesNothing) {
-  SimulationOptions options;
+void expect_no_allocation(SimulationOptions options) {
   options.clock = [] { return 0.0; };
   Simulation simulation(stretch_scene(), "stretch", options);
   const Vector command = Vector::Constant(11, 0.01);
@@ -22,6 +21,20 @@ TEST(Tick, AllocatesNothing) {
   simulation.step(200);  // the stretch begins
   simulation.step(200, &command);
   EXPECT_EQ(guard.count(), 0U);
+}
+
+TEST(Tick, AllocatesNothing) {
+  expect_no_allocation({});
+}
+
+TEST(Tick, AllocatesNothingWithNoisySensorsAScannerAndAFault) {
+  SimulationOptions options;
+  options.sensors.models["encoder_position"] = {.noise = 1e-5, .delay = 2, .step = 1e-5};
+  options.sensors.models["pose_rotation"] = {.noise = 1e-4, .bias = 1e-4, .drift = 1e-4};
+  options.sensors.models["imu_rate"] = {.noise = 1e-3};
+  options.sensors.range.rays = 361;
+  options.sensors.faults = {{"imu_rate/x", FaultKind::NotANumber, 0.5}};
+  expect_no_allocation(options);
 }
 
 }  // namespace

@@ -1,0 +1,141 @@
+#include "hurcules/sim/self_distance.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+struct Box {
+  Vector3 centre, half;  // [m]
+  Matrix3 axes;          // columns
+};
+
+Box box_of(const mjModel* m, const mjData* d, int geom) {
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Box box;
+  const mjtNum* const aabb = m->geom_aabb + 6 * geom;  // in the geom's own frame
+  box.axes = Eigen::Map<const RowMajor>(d->geom_xmat + 9 * geom);
+  box.centre = Eigen::Map<const Vector3>(d->geom_xpos + 3 * geom) +
+               box.axes * Eigen::Map<const Vector3>(aabb);
+  box.half = Eigen::Map<const Vector3>(aabb + 3);
+  return box;
+}
+
+bool collides(const mjModel* m, int a, int b) {
+  const int body_a = m->geom_bodyid[a], body_b = m->geom_bodyid[b];
+  if (m->body_weldid[body_a] == m->body_weldid[body_b]) return false;
+  return (m->geom_contype[a] & m->geom_conaffinity[b]) != 0 ||
+         (m->geom_contype[b] & m->geom_conaffinity[a]) != 0;
+}
+
+// joints on the way from one body to the other through the tree
+int joints_between(const mjModel* m, int a, int b) {
+  int joints = 0;
+  while (a != b) {  // parents have smaller numbers
+    int& lower = a > b ? a : b;
+    joints += m->body_jntnum[lower];
+    lower = m->body_parentid[lower];
+  }
+  return joints;
+}
+
+double sphere_gap(const mjModel* m, const mjData* d, int a, int b) {
+  const double between = mju_dist3(d->geom_xpos + 3 * a, d->geom_xpos + 3 * b);
+  return between - m->geom_rbound[a] - m->geom_rbound[b];
+}
+
+std::string name_of(const mjModel* m, int geom) {
+  const char* const name = mj_id2name(m, mjOBJ_GEOM, geom);
+  return name ? name : "geom " + std::to_string(geom);
+}
+
+}  // namespace
+
+double box_gap(const mjModel* m, const mjData* d, int first, int second) {
+  const Box a = box_of(m, d, first), b = box_of(m, d, second);
+  const Matrix3 R = a.axes.transpose() * b.axes, size = R.cwiseAbs();
+  const Vector3 t = a.axes.transpose() * (b.centre - a.centre);
+  // along the axes of a, then along those of b
+  const Vector3 along_a = t.cwiseAbs() - a.half - size * b.half;
+  const Vector3 along_b = (R.transpose() * t).cwiseAbs() - b.half - size.transpose() * a.half;
+  double gap = std::max(along_a.maxCoeff(), along_b.maxCoeff());
+  // across an edge of each
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Vector3 axis = Vector3::Unit(i).cross(R.col(j));
+      const double length = axis.norm();
+      if (length < 1e-6) continue;  // parallel edges: the axes above tell
+      const double reach =
+          axis.cwiseAbs().dot(a.half) + (R.transpose() * axis).cwiseAbs().dot(b.half);
+      gap = std::max(gap, (std::abs(axis.dot(t)) - reach) / length);
+    }
+  }
+  return gap;
+}
+
+SelfDistance::SelfDistance(const mjModel* m, int root, const SelfDistanceOptions& options)
+    : options_(options) {
+  require(options_.joints >= 1, "self-collision: joints wants a number >= 1");
+  require(std::isfinite(options_.near) && options_.near >= 0.0,
+          "self-collision: near wants a distance >= 0 [m]");
+  require(std::isfinite(options_.cutoff) && options_.cutoff > 0.0,
+          "self-collision: cutoff wants a distance > 0 [m]");
+  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(m), mj_deleteData);
+  require(data != nullptr, "MuJoCo has no memory for this model");
+  mj_kinematics(m, data.get());
+  for (int a = 0; a < m->ngeom; ++a) {
+    if (m->body_rootid[m->geom_bodyid[a]] != root) continue;
+    for (int b = a + 1; b < m->ngeom; ++b) {
+      if (m->body_rootid[m->geom_bodyid[b]] != root || !collides(m, a, b)) continue;
+      const int joints = joints_between(m, m->geom_bodyid[a], m->geom_bodyid[b]);
+      const auto is_near = [&] {
+        return mj_geomDistance(m, data.get(), a, b, 2.0 * options_.near, nullptr) < options_.near;
+      };
+      if (joints < options_.joints || (joints == options_.joints && is_near())) continue;
+      pairs_.push_back({a, b});
+    }
+  }
+}
+
+double SelfDistance::measure(const mjModel* m, mjData* d) {
+  double least = options_.cutoff;
+  const Index last = nearest_;
+  nearest_ = -1;
+  const auto look = [&](Index index) {
+    const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+    if (sphere_gap(m, d, pair.first, pair.second) >= least) return;
+    if (box_gap(m, d, pair.first, pair.second) >= least) return;
+    const double distance = mj_geomDistance(m, d, pair.first, pair.second, least, nullptr);
+    if (distance >= least) return;
+    least = distance;
+    nearest_ = index;
+  };
+  if (last >= 0) look(last);
+  for (Index i = 0; i < pairs(); ++i) {
+    if (i != last) look(i);
+  }
+  return least;
+}
+
+std::vector<std::pair<std::string, std::string>> SelfDistance::names(const mjModel* m) const {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const Pair& pair : pairs_) {
+    names.emplace_back(name_of(m, pair.first), name_of(m, pair.second));
+  }
+  return names;
+}
+
+void SelfDistance::restore(StateReader& reader) {
+  nearest_ = static_cast<Index>(reader.get());
+  require(nearest_ >= -1 && nearest_ < pairs(), "the snapshot belongs to another model or mission");
+}
+
+}  // namespace hurcules
