@@ -20,10 +20,6 @@ SharedArray copy_of(const hurcules::Vector& v) {
   return SharedArray(v.size(), v.data());
 }
 
-bool is_readable(const SharedArray& array, py::ssize_t dimensions) {
-  return array.ndim() == dimensions && (array.flags() & py::array::c_style) != 0;
-}
-
 Eigen::Map<const hurcules::Vector> map_of(const SharedArray& array) {
   return {array.data(), array.shape(0)};
 }
@@ -43,6 +39,10 @@ SharedArray shared_array(const py::object& value, py::ssize_t dimensions, const 
     if (aligned && array.ndim() == dimensions) return array;
   }
   return SharedArray::ensure(array_of(value, dimensions, name, shape));
+}
+
+bool is_readable(const SharedArray& array, py::ssize_t dimensions) {
+  return array.ndim() == dimensions && (array.flags() & py::array::c_style) != 0;
 }
 
 double number_of(const py::object& rho) {
@@ -131,9 +131,11 @@ Index HeldLevels::unknowns() const {
   return unknowns;
 }
 
-void HeldLevels::refuse(Index unknowns) const {
-  for (std::size_t k = 0; k < views_.size(); ++k) check(views_[k], unknowns, name_of(k));
-  throw Error(name_ + "a number changed to NaN, infinity or lower > upper during the solve");
+void refuse(hurcules::HierarchyView levels, Index unknowns, const std::string& name) {
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    check(levels[k], unknowns, name + "level " + std::to_string(k));
+  }
+  throw Error(name + "a number changed to NaN, infinity or lower > upper during the solve");
 }
 
 }  // namespace hurcules_bindings

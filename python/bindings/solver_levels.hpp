@@ -19,7 +19,12 @@ using SharedArray =
 // `value` with this number of axes, as it stands when it can; `name` and `shape` for the text
 [[nodiscard]] SharedArray shared_array(const pybind11::object& value, pybind11::ssize_t dimensions,
                                        const std::string& name, const std::string& shape);
+// it still has this number of axes, in C order
+[[nodiscard]] bool is_readable(const SharedArray& array, pybind11::ssize_t dimensions);
 [[nodiscard]] double number_of(const pybind11::object& rho);
+// throws the Error of what the solver refused; `name` comes before "level 2"
+[[noreturn]] void refuse(hurcules::HierarchyView levels, hurcules::Index unknowns,
+                         const std::string& name);
 
 struct ArrayLevel {
   SharedArray A;             // (m, n); (0, 0) for simple bounds
@@ -50,7 +55,9 @@ class HeldLevels {
   // of the first level: the others must fit
   [[nodiscard]] hurcules::Index unknowns() const;
   // throws the Error of what the solver refused
-  [[noreturn]] void refuse(hurcules::Index unknowns) const;
+  [[noreturn]] void refuse(hurcules::Index unknowns) const {
+    hurcules_bindings::refuse(views_, unknowns, name_);
+  }
 
  private:
   [[nodiscard]] std::string name_of(std::size_t level) const;

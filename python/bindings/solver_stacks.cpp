@@ -35,9 +35,8 @@ const double* slice(const SharedArray& array, py::ssize_t dimensions, py::ssize_
   return array.data() + i * (array.size() / std::max<py::ssize_t>(1, array.shape(0)));
 }
 
-bool has_layout(const SharedArray& array, py::ssize_t dimensions) {
-  return (array.ndim() == dimensions || array.ndim() == dimensions + 1) &&
-         (array.flags() & py::array::c_style) != 0;
+bool is_stackable(const SharedArray& array, py::ssize_t dimensions) {
+  return is_readable(array, dimensions) || is_readable(array, dimensions + 1);
 }
 
 std::string shape_of(const SharedArray& array) {
@@ -89,7 +88,7 @@ LevelView ArrayStack::view(py::ssize_t i) const {
 }
 
 bool ArrayStack::is_readable() const {
-  if (!has_layout(A, 2) || !has_layout(lower, 1) || !has_layout(upper, 1)) return false;
+  if (!is_stackable(A, 2) || !is_stackable(lower, 1) || !is_stackable(upper, 1)) return false;
   // one slice for all, or as many as the others
   const auto fits = [this](py::ssize_t own) { return own == 1 || own == count(); };
   return (bounds || fits(slices(A, 2))) && fits(slices(lower, 1)) && fits(slices(upper, 1));
@@ -145,11 +144,8 @@ HeldStacks::HeldStacks(const py::tuple& stacks) : kept_(stacks) {
 
 void HeldStacks::refuse(std::size_t problem) const {
   const BatchProblem& refused = problems_[problem];
-  const std::string name = "problem " + std::to_string(problem) + ", ";
-  for (std::size_t k = 0; k < refused.levels.size(); ++k) {
-    check(refused.levels[k], refused.unknowns, name + "level " + std::to_string(k));
-  }
-  throw Error(name + "a number changed to NaN, infinity or lower > upper during the solve");
+  hurcules_bindings::refuse(refused.levels, refused.unknowns,
+                            "problem " + std::to_string(problem) + ", ");
 }
 
 }  // namespace hurcules_bindings

@@ -69,16 +69,11 @@ bool KeptLevel::factor(std::span<const KeptRow> kept) {
 }
 
 bool KeptLevel::find_multipliers() {
-  double* multiplier = multiplier_.data();
-  double largest = 0.0, most = 0.0, least = 0.0;
+  factor_.find_multipliers(g_.data(), multiplier_.data());
+  double most = 0.0, least = 0.0;
   for (Index i = 0; i < size_; ++i) {
-    multiplier[i] = -g_[i];
-    largest = std::max(largest, std::abs(g_[i]));
-  }
-  factor_.solve_transposed(multiplier, tolerance::kNoise * largest);
-  for (Index i = 0; i < size_; ++i) {
-    most = std::max(most, multiplier[i]);
-    least = std::min(least, multiplier[i]);
+    most = std::max(most, multiplier_[i]);
+    least = std::min(least, multiplier_[i]);
   }
   return least >= -tolerance::kNegativeWarm * most;
 }
@@ -104,9 +99,7 @@ double KeptLevel::largest_miss() {
 void KeptLevel::refine(double x_scale, double* x) {
   for (int pass = 0; pass < kMostCorrections; ++pass) {
     if (largest_miss() <= tolerance::kMiss * x_scale) return;
-    factor_.solve(change_.data());
-    kernels::chosen->axpys(factor_.direction(0), size_, factor_.stride(), change_.data(),
-                           y_.data());
+    factor_.correct(change_.data(), y_.data());
     evaluate(x);
   }
 }

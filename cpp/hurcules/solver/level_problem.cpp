@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "hurcules/solver/kernels.hpp"
 #include "hurcules/solver/tolerances.hpp"
@@ -15,6 +16,22 @@ namespace {
 constexpr double kMostCondition = 100.0;
 // of a level that is not factored yet
 constexpr double kNoRho = -1.0;
+
+// f with a size that the compiler knows where it is a usual one, 0 where it is another: so the
+// inner loops keep all in registers
+template <class F>
+void with_size(Index size, F f) {
+  switch (size) {
+    case 1:
+      return f(std::integral_constant<int, 1>());
+    case 2:
+      return f(std::integral_constant<int, 2>());
+    case 3:
+      return f(std::integral_constant<int, 3>());
+    default:
+      return f(std::integral_constant<int, 0>());
+  }
+}
 
 }  // namespace
 
@@ -86,7 +103,6 @@ double LevelProblem::largest_coordinate() const {
   return largest;
 }
 
-// q known to the compiler for the usual sizes, so that it keeps all in registers; 0: any
 template <int fixed>
 void LevelProblem::factor_by_cholesky() {
   constexpr int kSize = fixed > 0 ? fixed : 1;
@@ -160,18 +176,7 @@ void LevelProblem::solve_triangular(double scale, const double* b) {
 }
 
 void LevelProblem::solve_triangular(double scale, const double* b) {
-  switch (own_) {
-    case 0:
-      return;
-    case 1:
-      return solve_triangular<1>(scale, b);
-    case 2:
-      return solve_triangular<2>(scale, b);
-    case 3:
-      return solve_triangular<3>(scale, b);
-    default:
-      return solve_triangular<0>(scale, b);
-  }
+  if (own_ > 0) with_size(own_, [&](auto size) { solve_triangular<size>(scale, b); });
 }
 
 template <int fixed>
@@ -194,19 +199,7 @@ void LevelProblem::factor(double rho) {
   // no coordinate is larger than its row
   if (rho > 0.0 &&
       (own_norm_ < kMostCondition * rho || largest_coordinate() < kMostCondition * rho)) {
-    switch (own_) {
-      case 1:
-        factor_by_cholesky<1>();
-        break;
-      case 2:
-        factor_by_cholesky<2>();
-        break;
-      case 3:
-        factor_by_cholesky<3>();
-        break;
-      default:
-        factor_by_cholesky<0>();
-    }
+    with_size(own_, [&](auto size) { factor_by_cholesky<size>(); });
   } else {
     factor_by_householder();
   }
@@ -237,21 +230,7 @@ void LevelProblem::image(const Row& row, double sign, double* m) const {
   if (end < body_) m[end] = 0.0;
   if (end + 1 < body_) m[end + 1] = 0.0;
   if (end + 2 < body_) m[end + 2] = 0.0;
-  switch (own_) {
-    case 0:
-      break;
-    case 1:
-      solve_transposed<1>(rho_, m + lead_);
-      break;
-    case 2:
-      solve_transposed<2>(rho_, m + lead_);
-      break;
-    case 3:
-      solve_transposed<3>(rho_, m + lead_);
-      break;
-    default:
-      solve_transposed<0>(rho_, m + lead_);
-  }
+  if (own_ > 0) with_size(own_, [&](auto size) { solve_transposed<size>(rho_, m + lead_); });
   if (slacks_ == 0) return;
   std::fill_n(m + body_, padded(slacks_), 0.0);
   if (has_slack(row)) m[body_ + slack_of(row)] = sign * rho_;

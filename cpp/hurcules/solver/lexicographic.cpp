@@ -59,11 +59,9 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   settled_level_.reserve(unknowns_, reserved_rows_);
   careful_level_.reserve(unknowns_, reserved_rows_);
   optimality_.reserve(unknowns_, reserved_rows_);
+  certificate_.reserve(unknowns_, reserved_rows_);
   records_.resize(reserved_levels_);
-  for (LevelRecord& record : records_) {
-    record.x.reserve(padded(unknowns_));
-    record.gradient.reserve(padded(unknowns_));
-  }
+  for (LevelRecord& record : records_) record.x.reserve(padded(unknowns_));
   // every level may hold every row, once for its violation and once for its smallest step
   held_.reserve(2 * reserved_levels_ * reserved_rows_);
   kept_.reserve(2 * reserved_levels_ * reserved_rows_);
@@ -126,17 +124,9 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
   const double rho = regularization(level.rho, k);
   bool done = true;
   double residual = 0.0;
-  if (satisfied(k)) {
-    take(x_above_);
-    residual = prove(Way::Warm, rho, k);
-  } else if (level.bounds && rows_.begin(k) == 0) {
-    solve_first_bounds(k);
-    residual = prove(Way::Warm, rho, k);
-  } else if (!has_kept(k) && solve_free(rho)) {
-    residual = prove(Way::Warm, rho, k);
-  } else {
-    residual = try_ways(rho, k, done);
-  }
+  const bool at_once = solve_at_once(level, rho, k);
+  if (at_once) residual = prove(Way::Warm, rho, k);
+  if (!at_once || residual > tolerance::kProven) residual = try_ways(rho, k, done);
   solution_.optimality = std::max(solution_.optimality, residual);
   if (!std::isfinite(residual) || !std::isfinite(x_scale_)) {
     lose_precision(k);
@@ -155,6 +145,18 @@ bool Lexicographic::solve_level(const LevelView& level, int k) {
     solution_.status = SolverStatus::ReducedAccuracy;
   }
   return done;
+}
+
+bool Lexicographic::solve_at_once(const LevelView& level, double rho, int k) {
+  if (satisfied(k)) {
+    take(x_above_);
+    return true;
+  }
+  if (level.bounds && rows_.begin(k) == 0) {
+    solve_first_bounds(k);
+    return true;
+  }
+  return !has_kept(k) && solve_free(rho);
 }
 
 double Lexicographic::regularization(double rho, int k) {
@@ -215,12 +217,25 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
     if (way == Way::Warm && !has_kept(k)) continue;
     // the usual way of a level with a small rho
     if (way == Way::Settled && !least_distance) continue;
+    if (way == Way::Careful && proven_to_stay(rho, k, residual)) {
+      done = true;
+      return residual;
+    }
     go(way);
     if (budget_.spent() || (proven && harm <= tolerance::kHarm)) return residual;
     if (proven) second_best = way;
   }
   if (!proven && second_best != Way::Careful) go(second_best);
   return residual;
+}
+
+bool Lexicographic::proven_to_stay(double rho, int k, double& residual) {
+  start_way();
+  take(x_above_);
+  const double staying = prove(Way::Careful, rho, k);
+  if (!(staying <= tolerance::kProven)) return false;
+  residual = staying;
+  return true;
 }
 
 void Lexicographic::start_way() {

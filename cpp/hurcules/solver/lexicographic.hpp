@@ -9,6 +9,7 @@
 #include "hurcules/solver/active_set.hpp"
 #include "hurcules/solver/candidates.hpp"
 #include "hurcules/solver/careful_level.hpp"
+#include "hurcules/solver/certificate.hpp"
 #include "hurcules/solver/chain_segments.hpp"
 #include "hurcules/solver/kept_level.hpp"
 #include "hurcules/solver/level_problem.hpp"
@@ -46,6 +47,8 @@ class Lexicographic : public Method {
   [[nodiscard]] SingularRules rules() const;
   // rho of level k, constant or adapted to its singular values
   double regularization(double rho, int k);
+  // where there is nothing to do, or no limit in the way
+  bool solve_at_once(const LevelView& level, double rho, int k);
   [[nodiscard]] bool satisfied(int k) const;
   // simple bounds with nothing above: every coordinate by itself
   void solve_first_bounds(int k);
@@ -53,6 +56,9 @@ class Lexicographic : public Method {
   bool solve_free(double rho);
   // the first way whose answer proves itself: its worst residual; `done` when it came to an end
   double try_ways(double rho, int k, bool& done);
+  // Limits of rows above that are nearly parallel may leave a level no way but rounding: then
+  // x_above_ is its answer. `residual` when that is proven.
+  bool proven_to_stay(double rho, int k, double& residual);
   bool solve(Way way, double rho, int k);
   bool solve_regularized(Way way, double rho, int k);
   // with the rows of the last solve, if they are the working set
@@ -78,6 +84,10 @@ class Lexicographic : public Method {
   void start_way();
   // the record of a level, and its proof: the worst residual
   double prove(Way way, double rho, int k);
+  // the rows that are held -> the record
+  void list_held(LevelRecord& record);
+  // multipliers sought anew, where those that the way found prove nothing; the worst residual
+  double prove_anew(double residual, int k);
   // no proof was asked for, and the way is usually right
   [[nodiscard]] bool believed(Way way) const;
   // by how much rows above moved or got worse, relative to |a| |x|
@@ -108,6 +118,7 @@ class Lexicographic : public Method {
   SettledLevel settled_level_;
   CarefulLevel careful_level_;
   Optimality optimality_;
+  Certificate certificate_;
   Budget budget_;
   Chain* chain_ = nullptr;           // of the level
   double* x_ = nullptr;              // answer of the level, in its record

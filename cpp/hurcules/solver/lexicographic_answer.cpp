@@ -26,20 +26,43 @@ const Solution& Lexicographic::refuse() {
   return solution_;
 }
 
-double Lexicographic::prove(Way way, double rho, int k) {
-  LevelRecord& record = records_[k];
-  record.rho = rho;
-  record.own_norm = problem_.own_norm();
+void Lexicographic::list_held(LevelRecord& record) {
   record.first_held = static_cast<int>(begin_held_);
   record.held = begin_norm_ - record.first_held;
   record.first_norm = begin_norm_;
   record.norm = static_cast<int>(held_.size()) - begin_norm_;
+}
+
+double Lexicographic::prove(Way way, double rho, int k) {
+  LevelRecord& record = records_[k];
+  record.rho = rho;
+  record.own_norm = problem_.own_norm();
+  list_held(record);
   if (!values_known_) rows_.values(k + 1, x_, candidates_.value.data());
   values_known_ = true;
   x_scale_ = kernels::chosen->largest(rows_.stride(), x_);
   if (!(x_scale_ > 1.0) && x_scale_ == x_scale_) x_scale_ = 1.0;
   if (believed(way)) return 0.0 * x_scale_;  // NaN where x is
-  return optimality_.residual(rows_, *chain_, candidates_, k, x_above_, x_scale_, record, held_);
+  const double residual =
+      optimality_.residual(rows_, *chain_, candidates_, k, x_above_, x_scale_, record, held_);
+  return residual <= tolerance::kProven ? residual : prove_anew(residual, k);
+}
+
+double Lexicographic::prove_anew(double residual, int k) {
+  LevelRecord& record = records_[k];
+  // where it is not the multipliers there is nothing to gain; behind a hand-over only combinations
+  // of rows above hold x
+  if (!std::isfinite(residual) || record.worsened > tolerance::kProven ||
+      !chain_->basis().whole()) {
+    return residual;
+  }
+  const double anew =
+      std::max(record.worsened, certificate_.find(rows_, *chain_, k, x_above_, x_scale_, record));
+  if (!(anew < residual)) return residual;
+  held_.resize(begin_held_);
+  certificate_.keep(held_, begin_norm_);
+  list_held(record);
+  return anew;
 }
 
 void Lexicographic::check_kept() {

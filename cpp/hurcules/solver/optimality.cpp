@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hurcules/solver/tolerances.hpp"
+
 namespace hurcules {
 
 namespace {
 
-// forces below this part of |a|^2 |x| are not told from rounding
-constexpr double kLeastForce = 1e-3;
-// the forces of a level balance to rounding of x and of their sum, relative to their size
-constexpr double kRounding = 1e-14;
-// a limit pulls at the step when it does by more than this part of x ...
+// a limit pulls at the step when it does by more than this part of x
 constexpr double kNoPull = 1e-10;
-// ... and no push is smaller
-constexpr double kLeastPush = 1e-300;
+
+// What an imbalance is measured against: `size`, and the rounding of the multipliers. Where that
+// would count for more, it is for the second look to say (certificate.hpp): large multipliers may
+// be needless. Behind a hand-over there is none.
+double with_rounding(double size, double multipliers, bool whole) {
+  if (!whole) return size + multipliers;
+  return size + std::min(size, tolerance::kForceRounding * multipliers);
+}
 
 double norm_of(Index size, const double* v) {
   return std::sqrt(kernels::chosen->dot(size, v, v));
@@ -23,7 +27,7 @@ double norm_of(Index size, const double* v) {
 }  // namespace
 
 void Optimality::reserve(Index unknowns, Index rows) {
-  for (PaddedVector* v : {&work_, &step_}) v->reserve(padded(unknowns));
+  for (PaddedVector* v : {&g_, &work_, &step_}) v->reserve(padded(unknowns));
   for (PaddedVector* v : {&violation_, &settled_, &push_}) v->reserve(rows + 4);
 }
 
@@ -55,27 +59,26 @@ double Optimality::residual(const RowTable& rows, Chain& chain, const Candidates
                             const double* x_above, double x_scale, LevelRecord& record,
                             const std::vector<HeldRow>& held) {
   const double* x = record.x.data();
-  double* g = record.gradient.data();
+  double* g = g_.data();
   const Index size = rows.stride();
   const double rho2 = record.rho * record.rho;
   double scale = std::sqrt(kernels::chosen->scaled_difference(size, rho2, x, x_above, g));
   scale += add_own_rows(rows, candidates, k, x, g);
   const Forces forces = add_held_rows(rows, candidates, k, record, held, g);
-  scale += forces.scale;
   const double unbalanced = unbalanced_force(chain, k, x_above, x, rho2, g);
   // what is left against the forces that balance; a level that is met has none, only the rounding
   // of its rows
-  const double least = kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
-  double worst = scale > 0.0 ? unbalanced / std::max(scale, least) : 0.0;
-  if (forces.largest > 0.0) {
-    worst = std::max(worst, std::max(forces.pull, forces.apart / x_scale) / forces.largest);
-  }
+  const double least =
+      tolerance::kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
+  const bool none = scale == 0.0 && forces.scale == 0.0;
+  const double measure = with_rounding(std::max(scale, least), forces.scale, chain.basis().whole());
+  double worst = none ? 0.0 : std::max(unbalanced, forces.pull) / measure;
+  if (forces.largest > 0.0) worst = std::max(worst, forces.apart / (x_scale * forces.largest));
   record.worsened = worsened(rows, candidates, k) / x_scale;
   worst = std::max(worst, record.worsened);
   if (!chain.basis().whole()) worst = std::max(worst, moved(rows, chain, k, x_above, x) / x_scale);
-  const double rounding = kRounding * std::max(scale, record.own_norm * record.own_norm * x_scale);
-  return std::max(worst, norm_residual(rows, chain, k, x_above, record, held,
-                                       std::max(0.0, unbalanced - rounding)));
+  const Balance violations = {unbalanced, tolerance::kProven * measure};
+  return std::max(worst, norm_residual(rows, chain, k, x_above, record, held, violations));
 }
 
 // the part of g in the free directions of level k; behind a hand-over as an error of x
@@ -100,7 +103,7 @@ Optimality::Forces Optimality::add_held_rows(const RowTable& rows, const Candida
     const bool up = held[h].side == Side::Upper;
     const double multiplier = held[h].multiplier, size = std::abs(multiplier);
     forces.largest = std::max(forces.largest, size);
-    forces.pull = std::max(forces.pull, -multiplier);
+    forces.pull = std::max(forces.pull, -multiplier * row.norm);
     if (row.level == k) continue;
     forces.scale += size * row.norm;
     rows.add_to(held[h].row, up ? multiplier : -multiplier, g);
@@ -160,44 +163,51 @@ double Optimality::worsened(const RowTable& rows, const Candidates& candidates, 
 
 // How often the balance of the violations has to be added to that of the step so that no limit
 // pulls: a limit that pushes against the violations, mu > 0, may pull at the step, nu < 0, as long
-// as nu + often mu >= 0.
+// as nu + often mu >= 0. A push that is not told from none allows no pull: what is left of the
+// balance then.
 double Optimality::repeats(const RowTable& rows, const LevelRecord& record,
-                           const std::vector<HeldRow>& held) {
+                           const std::vector<HeldRow>& held, const Balance& violations) {
   const int end = record.first_norm + record.norm;
   for (int h = record.first_norm; h < end; ++h) push_[held[h].row] = 0.0;
   for (int h = record.first_held; h < record.first_norm; ++h) {
     push_[held[h].row] = held[h].multiplier;
   }
-  double often = 0.0;
+  double often = 0.0, pulls = 0.0;
   const double none = kNoPull * norm_of(rows.stride(), record.x.data());
   for (int h = record.first_norm; h < end; ++h) {
     const double pull = -held[h].multiplier;
-    if (pull * rows[held[h].row].norm <= none) continue;
-    often = std::max(often, pull / std::max(push_[held[h].row], kLeastPush));
+    const double norm = rows[held[h].row].norm, push = push_[held[h].row];
+    if (pull * norm <= none) continue;
+    if (push * norm <= violations.told) {
+      pulls = std::max(pulls, pull * norm);
+    } else {
+      often = std::max(often, pull / push);
+    }
   }
-  return often;
+  return pulls + often * violations.unbalanced;
 }
 
 // rho = 0: among all minimisers the step is the smallest, t + sum nu side a = 0 on what the level
 // left free
 double Optimality::norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                                  const LevelRecord& record, const std::vector<HeldRow>& held,
-                                 double unbalanced) {
+                                 const Balance& violations) {
   if (record.norm == 0) return 0.0;
   const Index size = rows.stride();
   const bool whole = chain.basis().whole();
   for (Index j = 0; j < size; ++j) step_[j] = record.x[j] - x_above[j];
   for (Index j = 0; j < size; ++j) work_[j] = whole ? step_[j] : 0.0;
   // what is left is an error of x, so x is its scale
-  double scale = std::max(1.0, norm_of(size, record.x.data()));
+  const double x_size = std::max(1.0, norm_of(size, record.x.data()));
+  double multipliers = 0.0;
   for (int h = record.first_norm; h < record.first_norm + record.norm; ++h) {
     rows.add_to(held[h].row, static_cast<double>(held[h].side) * held[h].multiplier, work_.data());
-    scale += std::abs(held[h].multiplier) * rows[held[h].row].norm;
+    multipliers += std::abs(held[h].multiplier) * rows[held[h].row].norm;
   }
   chain.remove_first(chain.rank_before(k + 1), work_.data());
   if (!whole) chain.add_free_part(chain.rank_before(k + 1), step_.data(), work_.data());
-  const double often = repeats(rows, record, held);
-  return (norm_of(size, work_.data()) + often * unbalanced) / scale;
+  return (norm_of(size, work_.data()) + repeats(rows, record, held, violations)) /
+         with_rounding(x_size, multipliers, whole);
 }
 
 }  // namespace hurcules

@@ -23,12 +23,10 @@ namespace hurcules {
 
 // what a solved level leaves behind
 struct LevelRecord {
-  double rho = 0.0;        // that was used
-  double asked_rho = 0.0;  // of the level as it came; of levels without an answer, too
-  double own_norm = 0.0;   // largest |a| of its rows
-  PaddedVector x;          // (n), after this level
-  // (n), rho^2 (x_k - x_{k-1}) + J' v + mu: multipliers of the equality rows above
-  PaddedVector gradient;
+  double rho = 0.0;              // that was used
+  double asked_rho = 0.0;        // of the level as it came; of levels without an answer, too
+  double own_norm = 0.0;         // largest |a| of its rows
+  PaddedVector x;                // (n), after this level
   double worsened = 0.0;         // by how much rows above got worse, relative to |a| max(1, |x|)
   int first_held = 0, held = 0;  // its rows in the list of held rows
   int first_norm = 0, norm = 0;  // rows that hold only the smallest step (rho = 0)
@@ -53,7 +51,7 @@ class Optimality {
  public:
   void reserve(Index unknowns, Index rows);
   // Worst relative residual of level k, from x_above and with the values of all candidates there
-  // (above) and at record.x (value); x_scale = max(1, |x|). Fills record.gradient.
+  // (above) and at record.x (value); x_scale = max(1, |x|). Fills record.worsened.
   double residual(const RowTable& rows, Chain& chain, const Candidates& candidates, int k,
                   const double* x_above, double x_scale, LevelRecord& record,
                   const std::vector<HeldRow>& held);
@@ -78,21 +76,26 @@ class Optimality {
   struct Forces {
     double scale = 0.0;    // sum mu |a| of rows above
     double largest = 0.0;  // multiplier
-    double pull = 0.0;     // the most negative multiplier
+    double pull = 0.0;     // the most negative of them
     double apart = 0.0;    // the largest mu times distance from the limit, relative to |a|
   };
   static Forces add_held_rows(const RowTable& rows, const Candidates& candidates, int k,
                               const LevelRecord& record, const std::vector<HeldRow>& held,
                               double* g);
+  // of the violations: what is left of it, and the forces that are told from none
+  struct Balance {
+    double unbalanced, told;
+  };
   double norm_residual(const RowTable& rows, Chain& chain, int k, const double* x_above,
                        const LevelRecord& record, const std::vector<HeldRow>& held,
-                       double unbalanced);
-  double repeats(const RowTable& rows, const LevelRecord& record, const std::vector<HeldRow>& held);
+                       const Balance& violations);
+  double repeats(const RowTable& rows, const LevelRecord& record, const std::vector<HeldRow>& held,
+                 const Balance& violations);
 
-  PaddedVector push_;         // (rows) against the violations
-  PaddedVector work_, step_;  // (n)
-  PaddedVector violation_;    // (rows)
-  PaddedVector settled_;      // (equality rows), values when their level was proven
+  PaddedVector push_;             // (rows) against the violations
+  PaddedVector g_, work_, step_;  // (n)
+  PaddedVector violation_;        // (rows)
+  PaddedVector settled_;          // (equality rows), values when their level was proven
 };
 
 }  // namespace hurcules

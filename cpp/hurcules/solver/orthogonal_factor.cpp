@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hurcules/solver/tolerances.hpp"
+
 namespace hurcules {
 
 namespace {
@@ -145,6 +147,20 @@ void OrthogonalFactor::solve_transposed(double* b, double noise) const {
     b[i] = std::abs(b[i]) > noise ? b[i] / l[i] : 0.0;
     for (Index j = 0; j < i; ++j) b[j] -= l[j] * b[i];
   }
+}
+
+void OrthogonalFactor::find_multipliers(const double* g, double* multiplier) const {
+  double largest = 0.0;
+  for (Index i = 0; i < rank_; ++i) {
+    multiplier[i] = -g[i];
+    largest = std::max(largest, std::abs(g[i]));
+  }
+  solve_transposed(multiplier, tolerance::kNoise * largest);
+}
+
+void OrthogonalFactor::correct(double* change, double* y) const {
+  solve(change);
+  kernels::chosen->axpys(direction(0), rank_, stride(), change, y);
 }
 
 }  // namespace hurcules

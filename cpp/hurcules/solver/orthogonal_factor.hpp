@@ -40,6 +40,12 @@ class OrthogonalFactor {
   // counts as nothing: divided by a short row it would not.
   void solve(double* b) const;
   void solve_transposed(double* b, double noise = 0.0) const;
+  // multipliers = -L^-T g, the push of every row in y = Q' g; what is within rounding of the
+  // largest of g counts as nothing on the way
+  void find_multipliers(const double* g, double* multiplier) const;
+  // moves y by the least that changes every row by its entry of `change`, which becomes the change
+  // of g
+  void correct(double* change, double* y) const;
 
   [[nodiscard]] Index rank() const { return rank_; }
   [[nodiscard]] Index columns() const { return columns_; }

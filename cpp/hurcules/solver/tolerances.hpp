@@ -39,6 +39,11 @@ inline constexpr double kHarm = 1e-12;
 inline constexpr double kStays = 1e-10;
 // a level is proven when its optimality residual is below this
 inline constexpr double kProven = 1e-9;
+// what a multiplier counts for in the forces that an imbalance is measured against: its rounding is
+// 1e-15 of it, and kProven what is allowed
+inline constexpr double kForceRounding = 1e-6;
+// forces below this part of |a|^2 max(1, |x|) are not told from rounding
+inline constexpr double kLeastForce = 1e-3;
 // the regularisation with which the working set of a level with less is first sought, relative to
 // max |a|
 inline constexpr double kProximal = 1e-4;

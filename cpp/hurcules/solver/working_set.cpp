@@ -143,19 +143,13 @@ void WorkingSet::add_newest(double* y) const {
 }
 
 void WorkingSet::find_multipliers() {
-  double largest = 0.0;
-  for (Index i = 0; i < size(); ++i) {
-    work_[i] = -g_[i];
-    largest = std::max(largest, std::abs(g_[i]));
-  }
-  factor_.solve_transposed(work_.data(), tolerance::kNoise * largest);
+  factor_.find_multipliers(g_.data(), work_.data());
   for (Index i = 0; i < size(); ++i) slots_[i].multiplier = work_[i];
 }
 
 void WorkingSet::correct(double* change, double* y) {
   for (Index i = 0; i < size(); ++i) change[i] *= static_cast<double>(slots_[i].side);
-  factor_.solve(change);
-  kernels::chosen->axpys(factor_.direction(0), size(), factor_.stride(), change, y);
+  factor_.correct(change, y);
   for (Index i = 0; i < size(); ++i) g_[i] += change[i];
 }
 

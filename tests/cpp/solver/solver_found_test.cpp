@@ -1,12 +1,14 @@
 // Inputs that once broke a promise, found by fuzzing (tests/fuzz) and by bulk runs
 // (benchmarks/solver_proof.cpp), shortened. Each is solved cold and warm, and has to be Solved,
-// proven, and optimal by the definition alone.
+// proven, and optimal by the definition alone. Those whose answers lie far away are in
+// solver_far_test.cpp.
 #include <gtest/gtest.h>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/solver/solver.hpp"
 #include "support/answers_by_level.hpp"
 #include "support/draw.hpp"
+#include "support/hierarchy_classes.hpp"
 #include "support/optimality_judge.hpp"
 
 namespace hurcules {
@@ -162,6 +164,32 @@ TEST(SolverFound, AWarmSolveEqualsTheColdOneBesideLockedBounds) {
   Solver solver(8);
   const Vector cold = solver.solve(levels).x;
   EXPECT_LE((solver.solve(levels).x - cold).norm(), 1e-9);
+}
+
+TEST(SolverFound, AVertexWithManySetsOfMultipliersIsProven) {
+  // solver_proof: x was right, but its working set stood for multipliers that prove nothing
+  struct Seeded {
+    double rho;
+    unsigned long long seed;
+  };
+  for (const Seeded& problem : {Seeded{0.0, 2873}, Seeded{0.0, 3965}, Seeded{1e-6, 3965}}) {
+    Draw draw(problem.seed);
+    const Hierarchy levels = near_singular(draw, problem.rho);
+    expect_solved(levels, unknowns_of(levels));
+  }
+}
+
+TEST(SolverFound, CopiesOfARowEachMetToRoundingAreNotMetTogether) {
+  // every copy is broken by less than counts as broken, by the regularisation of the level above
+  const Matrix row{{-0.03, 0.0, 0.0, 0.001, 0.001, 0.5, 0.5}};
+  const Level copies = interval(row.replicate(4, 1), Vector::Constant(4, 0.5),
+                                Vector::Constant(4, 0.5 + 1e-9), 1e-6);
+  expect_solved({copies, copies}, 7);
+  expect_solved({copies, copies, copies,
+                 equality(Matrix{{3.0, 0.0, 1.0, 1.0, 0.001, 0.001, 0.001},
+                                 {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                          Vector{{0.001, 0.001}}, 0.0)},
+                7);
 }
 
 TEST(SolverFound, AnInterruptedSolveStaysInsideTheBoundsAbove) {

@@ -112,7 +112,9 @@ TEST(SolverSingular, AnswerIsThatOfTheDefinition) {
           limits.conservativeResize(limits.rows() + 1, Eigen::NoChange);
           limits.row(limits.rows() - 1) = std::copysign(1.0, x[i]) * B.row(i);
         }
-        EXPECT_LE(NonnegativeLeastSquares(limits, force).residual().norm(), 1e-8);
+        const NonnegativeLeastSquares balance(limits.cast<long double>(),
+                                              force.cast<long double>());
+        EXPECT_LE(balance.residual().norm(), 1e-8L);
         if (!sweep.boxed()) {
           EXPECT_TRUE(near(x, x_above + reference.step(levels[k], x_above), 1e-9));
         }

@@ -52,29 +52,28 @@ class OptimalityJudge {
   }
 
  private:
-  using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
   // an orthonormal basis of the rows taken so far
   struct Basis {
     std::vector<LongVector> q;
     double weakest = 1.0;  // by how much a row stood out from those before it, relative to |a|
 
-    hurcules::Vector remove(const hurcules::Vector& y) const {
-      LongVector rest = y.cast<long double>();
+    LongVector remove(const LongVector& y) const {
+      LongVector rest = y;
       for (int pass = 0; pass < 2; ++pass) {
         for (const LongVector& direction : q) rest -= direction.dot(rest) * direction;
       }
-      return rest.cast<double>();
+      return rest;
     }
     void add(const hurcules::Vector& a, double least = kRank) {
-      const hurcules::Vector rest = remove(a);
-      if (rest.norm() <= least * a.norm()) return;
-      weakest = std::min(weakest, rest.norm() / a.norm());
-      q.push_back(rest.cast<long double>().normalized());
+      const LongVector rest = remove(a.cast<long double>());
+      const double left = static_cast<double>(rest.norm()) / a.norm();
+      if (!(left > least)) return;
+      weakest = std::min(weakest, left);
+      q.push_back(rest.normalized());
     }
   };
 
-  static constexpr double kRank = 1e-10;  // solver.md §1
+  static constexpr double kRank = 1e-10;      // solver.md §1
   static constexpr double kDistinct = 1e-13;  // less is rounding
   static constexpr double kAtLimit =
       1e-9;  // a row stands at its limit, relative to |a| max(1, |x|)
@@ -95,14 +94,14 @@ class OptimalityJudge {
     for (std::size_t j = 0; j < k; ++j) {
       for (hurcules::Index i = 0; i < levels_[j].rows(); ++i) look_above(j, i, verdict);
     }
-    const hurcules::Vector step = x_ - x_above_;
-    hurcules::Vector force = level.rho * level.rho * step;
-    double forces = force.norm(), largest = 0.0;
+    const LongVector step = x_.cast<long double>() - x_above_.cast<long double>();
+    LongVector force = level.rho * level.rho * step;
+    double forces = static_cast<double>(force.norm()), largest = 0.0;
     std::vector<hurcules::Vector> touching;
     for (hurcules::Index i = 0; i < level.rows(); ++i) {
       const hurcules::Vector a = row(k, i);
       const double v = violation(k, i, a);
-      force += v * a;
+      force += v * a.cast<long double>();
       forces += std::abs(v) * a.norm();
       largest = std::max(largest, a.norm());
       const double at_limit = kAtLimit * a.norm() * scale_;
@@ -150,20 +149,21 @@ class OptimalityJudge {
   }
 
   // what of y no nonnegative weights on `pushing` balance outside the basis, relative to `scale`
-  static double left_over(const Basis& basis, const hurcules::Vector& y,
+  static double left_over(const Basis& basis, const LongVector& y,
                           const std::vector<hurcules::Vector>& pushing, double scale) {
     double weakest = basis.weakest;
-    hurcules::Matrix C(0, y.size());
+    LongMatrix C(0, y.size());
     for (const hurcules::Vector& a : pushing) {
-      const hurcules::Vector free = basis.remove(a);
+      const LongVector free = basis.remove(a.cast<long double>());
       if (free.norm() <= kRank) continue;
-      weakest = std::min(weakest, free.norm());
+      weakest = std::min(weakest, static_cast<double>(free.norm()));
       C.conservativeResize(C.rows() + 1, y.size());
       C.row(C.rows() - 1) = free.transpose();
     }
     const NonnegativeLeastSquares balance(C, basis.remove(y));
-    const double rounding = kRounding * balance.weights().sum();
-    return balance.residual().norm() / ((scale + rounding) * (1.0 + kRounding / weakest));
+    const double rounding = kRounding * static_cast<double>(balance.weights().sum());
+    return static_cast<double>(balance.residual().norm()) /
+           ((scale + rounding) * (1.0 + kRounding / weakest));
   }
 
   static constexpr double kRounding = 1e-6;  // 1e-15 counts as 1e-9

@@ -1,0 +1,175 @@
+// Inputs found by fuzzing (tests/fuzz) whose answers lie far away, x of 1e6 to 1e12, or whose rows
+// stand out from others by 1e-6 to 1e-10 of their length. What is called Solved has to be optimal
+// by the definition alone, cold and warm; where precision is lost the status says so.
+#include <gtest/gtest.h>
+
+#include "hurcules/solver/solver.hpp"
+#include "support/answers_by_level.hpp"
+#include "support/draw.hpp"
+#include "support/optimality_judge.hpp"
+
+namespace hurcules {
+namespace {
+
+using namespace hurcules_test;
+
+constexpr double kInf = kNoLimit;
+
+// solved: whether it has to be, or may say that it is not proven
+void expect_honest(const Hierarchy& levels, Index unknowns, bool solved) {
+  Solver solver(unknowns);
+  bool judged = false;
+  for (const char* start : {"cold", "warm"}) {
+    const Solution& solution = solver.solve(levels);
+    const bool proven = solution.status == SolverStatus::Solved;
+    EXPECT_TRUE(solution.x.allFinite()) << start;
+    EXPECT_EQ(proven, solution.optimality <= 1e-9) << start;
+    EXPECT_TRUE(proven || !solved) << start << ": " << to_string(solution.status);
+    judged |= proven;
+  }
+  if (!judged) return;
+  const Verdict verdict = OptimalityJudge(levels).judge(answers_by_level(levels, unknowns));
+  EXPECT_LE(verdict.feasibility, 1e-9);
+  EXPECT_LE(verdict.stationarity, 1e-9);
+  EXPECT_LE(verdict.smallest, 1e-9);
+}
+
+TEST(SolverFar, LimitsThatAreNearlyOppositeDoNotTakeXToInfinity) {
+  expect_honest(
+      {interval(Matrix{{-1000.0, -1000.0, 2.0, 0.001, 0.001, 0.0, 2.0, -1000.0}}, Vector{{-kInf}},
+                Vector{{-998.0}}, 1e-07),
+       interval(Matrix{{-2999.999, -3000.0, 6.0, 0.003, 0.003, 0.0, 6.0, -3000.0}},
+                Vector{{0.048095703125}}, Vector{{1.048095703125}}, 1e-08),
+       interval(Matrix{{0.001, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                       {0.001, 0.001, 2.0, 2.0, -1000.0, -1000.0, 2.0, -1000.0},
+                       {2.0, -1000.0, -1000.0, 0.0, 1.999755859375, -1.75, 0.001, 0.001},
+                       {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                Vector{{0.001, -kInf, 0.001, 0.001}}, Vector{{0.001, -998.0, 0.001, 0.001}}, 0.0)},
+      8, true);
+}
+
+TEST(SolverFar, AStepAlongNearlyOppositeLimitsIsNotCalledTheSmallest) {
+  expect_honest({interval(Matrix{{-1000.0, -1000.0, -1000.0, -1000.0}}, Vector{{-kInf}},
+                          Vector{{-998.0}}, 1e-08),
+                 interval(Matrix{{-3000.0, -2999.999, -3000.0, -3000.0}}, Vector{{0.0}},
+                          Vector{{1e-09}}, 1e-08),
+                 make_bounds(Vector{{-kInf, -1000.0, -kInf, -kInf}},
+                             Vector{{-998.0, -1000.0, -998.0, -998.0}}),
+                 equality(Matrix{{-1000.0, -1000.0, 1.960693359375, -0.001}}, Vector{{0.0}}, 1e-08),
+                 make_bounds(Vector{{-1.35595703125, 3.0, 0.5, 1.000000001}},
+                             Vector{{0.64404296875, kInf, 0.50000000000001, 1.0000000020000002}})},
+                4, true);
+}
+
+TEST(SolverFar, AnOwnRowMetToRoundingDoesNotPullAtTheStep) {
+  expect_honest(
+      {interval(Matrix{{0.0, 1.999755859375, 1.999755859375, 1.999755859375},
+                       {0.0, 3.87989741563797, 3.87989741563797, 3.87999741563797},
+                       {-1000.0, -1000.0, -1000.0, -1000.0}},
+                Vector{{1.999755859375, -kInf, -kInf}},
+                Vector{{1.999755860375, -998.0, 0.001000001}}, 0.0),
+       make_bounds(Vector{{1.937255859375, 3.0, 1.999755859375, 1.999755859375}},
+                   Vector{{1.937255860375, 3.000000001, 1.999755860375, 1.999755860375}}),
+       make_bounds(Vector{{1.999755859375, -0.5, -kInf, 1.9375}},
+                   Vector{{1.999755860375, 0.5, 1.999755860375, 2.4375}}),
+       make_bounds(Vector{{0.5, -0.5, 0.001, 0.001}}, Vector{{0.500000001, 0.5, 0.001, 0.001}})},
+      4, true);
+}
+
+TEST(SolverFar, ARowAboveOfAThousandthTakesXFarAway) {
+  expect_honest({interval(Matrix{{-1000.0, -1000.0, 0.0, 0.0, 0.0, 0.001, 2.0, 1.999755859375}},
+                          Vector{{-kInf}}, Vector{{2.9375}}, 1e-07),
+                 make_bounds(Vector{{2.0, -kInf, -kInf, -kInf, -kInf, -kInf, 2.0, 0.001}},
+                             Vector{{2.0, -998.0, -998.0, -998.0, 4.0, 1e-09, 2.000000001, 1.001}}),
+                 equality(Matrix{{-1000.0, -1000.0, 2.0, 2.0, 2.0, -1000.0, 0.001, 0.0}},
+                          Vector{{2.0}}, 1e-08),
+                 interval(Matrix{{-1000.0, 2.0, 2.0, -1000.0, 0.001, 0.001, 0.001, 0.001},
+                                 {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                          Vector{{0.001, 0.001}}, Vector{{1.001, 0.001}}, 1e-08)},
+                8, true);
+}
+
+TEST(SolverFar, AFarAnswerBelowAWeakRowIsOptimal) {
+  expect_honest(
+      {make_bounds(Vector{{3.0, 1.0, 1.9375, 0.001, 0.001, -kInf, -kInf, -kInf}},
+                   Vector{{3.0, 1.0, 2.4375, 0.001, kInf, -998.0, -998.0, -998.0}}),
+       interval(Matrix{{0.001, 0.001, 0.001, 0.999999999999, -1000.0, -1000.0, -1.0, 0.0}},
+                Vector{{-kInf}}, Vector{{5.0}}, 1e-08),
+       interval(Matrix{{1.0, 1.999755859375, 0.001, -0.001, 0.001, 0.001, 1.000000001, 0.001},
+                       {0.0, 0.001, 1000.0, 0.0, 0.001, 0.0, 0.001, 0.001}},
+                Vector{{2.0, 0.001}}, Vector{{kInf, 0.001}}, 0.0001),
+       make_bounds(Vector{{0.001, 0.001, 0.001, 0.001, 0.001, -kInf, -kInf, -kInf}},
+                   Vector{{0.001, 0.001, 0.001, 0.001, 0.001, -998.0, -998.0, -998.0}})},
+      8, true);
+}
+
+TEST(SolverFar, NearlyOppositeLimitsLeaveNoWayButRounding) {
+  expect_honest({interval(Matrix{{0.0, 1.0, 0.5, -1000.0},
+                                 {0.001, 3.0, 1.5, -3000.0},
+                                 {-1.5703125, 0.0, -2.0, -0.001}},
+                          Vector{{-kInf, 0.001, 0.001}}, Vector{{-998.0, kInf, 1.001}}, 0.01),
+                 make_bounds(Vector{{0.001, 0.001, 1.0, 0.001}}, Vector{{kInf, kInf, 1.0, 1.001}}),
+                 make_bounds(Vector{{1.9619140625, 0.001, 0.001, 0.001}},
+                             Vector{{2.9619140625, kInf, kInf, 0.001}})},
+                4, false);
+}
+
+TEST(SolverFar, NearlyEqualRowsOverThreeLevels) {
+  expect_honest(
+      {interval(Matrix{{-1000.0, -1000.0, -1000.0, -1000.0}}, Vector{{-kInf}}, Vector{{-998.0}},
+                1e-08),
+       interval(Matrix{{-2999.999, -3000.0, -3000.0, -3000.0}}, Vector{{0.007568359375}},
+                Vector{{0.507568359375}}, 1e-08),
+       interval(Matrix{{-8999.997, -9000.0, -9000.0, -8999.9999}}, Vector{{-2.0}}, Vector{{0.0}},
+                0.0001),
+       interval(Matrix{{1.0, 0.5, 3.0, 0.0}}, Vector{{1.0}}, Vector{{1.000000001}}, 0.0),
+       make_bounds(Vector{{0.0, -0.001, 0.001, 0.001}}, Vector{{0.0, 0.999, 0.001, 0.001}}),
+       make_bounds(Vector{{0.001, 0.744384765625, 3.0, 0.001}}, Vector{{0.501, kInf, 3.0, 0.002}})},
+      4, true);
+}
+
+TEST(SolverFar, ForcesOfTenToTheTwentyHideNothing) {
+  expect_honest(
+      {interval(Matrix{{-1000.0, -1000.0, 0.0, 0.0, 0.0, 0.001, 2.0, 1.999755859375}},
+                Vector{{-kInf}}, Vector{{2.9375}}, 1e-07),
+       make_bounds(Vector{{0.001, -kInf, -kInf, -kInf, -kInf, 2.0, 1.0, 1.0}},
+                   Vector{{0.001, -998.0, -999.999999999, -998.0, -998.0, 4.0, 1.0, 1.0}}),
+       interval(Matrix{{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0},
+                       {1.0, 1.0, 1.0, 2.0, -1000.0, -1000.0, 0.001, 0.0},
+                       {1.947998046875, 1.947998046875, 1.947998046875, 3.89599609375,
+                        -1947.998046875, -1947.998046875, 0.001947998046875, 0.0}},
+                Vector{{1.0, 0.001, 0.0}}, Vector{{1.0, 0.001, 1.0}}, 1e-06),
+       equality(Matrix{{0.001, 0.001, 0.0, 0.001, 0.001, 0.001, 0.001, 0.001}}, Vector{{0.001}},
+                0.1)},
+      8, true);
+}
+
+TEST(SolverFar, NearlyParallelRowsInThreeLevels) {
+  expect_honest(
+      {interval(Matrix{{1.999755859375, 1.0, -1.0, 1.999755859375, 1.999755859375, 2.0},
+                       {-1.0, 1.999755859375, 1.999755859375, 2.0, 3.0, 3.0},
+                       {-3.0, 5.999267578125, 5.999267578125, 6.0, 9.0, 9.000001}},
+                Vector{{1.0, 3.0, 3.0}}, Vector{{1.5, 5.0, 5.0}}, 0.001),
+       interval(
+           Matrix{{-8.999999, 17.997802734375, 17.997802734375, 18.0, 27.0, 27.000003},
+                  {-17.99780073461914, 35.9912114739418, 35.9912114739418, 35.99560547875,
+                   53.993408203125, 53.99341420239258},
+                  {17.999998, -35.99560546875, -35.99560546875, -36.0, -54.0, -54.000005999999}},
+           Vector{{3.0, 3.0, 0.0}}, Vector{{5.0, 5.0, kInf}}, 1e-08),
+       interval(Matrix{{53.999994, -107.98681640625, -107.98681640625, -108.0, -162.0,
+                        -162.000016999997},
+                       {-9.0, 17.997802734375, 17.997802734375, 18.0, 27.0, 27.000004},
+                       {-27.0, 53.993408203125, 53.993408203125, 54.0, 81.0, 81.000013},
+                       {-17.99780073461914, 35.9912114739418, 35.9912114739418, 35.99560546875,
+                        53.993408203125, 53.993415202392576}},
+                Vector{{3.0, 3.0, -kInf, 3.0}}, Vector{{5.0, 5.0, -0.312744139625, 4.0}}, 1e-06),
+       equality(Matrix{{0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                       {0.001, 0.001, 0.001, 0.001, 0.001, 0.001},
+                       {0.001, 0.001, 0.001, 0.001, 0.001, 0.001},
+                       {0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                Vector{{0.001, 0.001, 0.001, 0.001}}, 0.0001)},
+      6, false);
+}
+
+}  // namespace
+}  // namespace hurcules
