@@ -333,7 +333,7 @@ def test_a_track_is_declared_with_its_belt_and_all_its_contact_geoms(robot):
         boxes = [g for g in geoms if model.geom_type[g] == mujoco.mjtGeom.mjGEOM_BOX]
         assert len(boxes) >= 2 and all(sizes[g][2] == TRACK_RADIUS for g in boxes)  # [M 4.1]
         assert all(
-            sizes[g][0] == pytest.approx(TRACK_RADIUS - 0.003) for g in set(geoms) - set(boxes)
+            sizes[g][0] == pytest.approx(TRACK_RADIUS - 0.001) for g in set(geoms) - set(boxes)
         )
     for side in "LR":  # [F A3] an axle behind the knee would be pressed into the ground
         heel, knee = data.geom(f"{side}_lower_heel").xpos, data.joint(f"{side}KN").xanchor

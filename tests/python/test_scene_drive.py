@@ -6,6 +6,7 @@ are for the test methods to find. [F] = hurcules-facts.md.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import mujoco
@@ -32,8 +33,16 @@ class Ride:
     warnings: int
 
 
-def ride(kind: str, seconds: float, speed: float = 0.6, **values: object) -> Ride:
-    model = scenes.load(kind, "rescue", **values)
+def ride(
+    kind: str,
+    seconds: float,
+    speed: float = 0.6,
+    change: Callable[[mujoco.MjSpec], None] = lambda spec: None,
+    **values: object,
+) -> Ride:
+    spec = scenes.make(kind, robot="rescue", **values)
+    change(spec)
+    model = spec.compile()
     loss = model.dof_frictionloss.copy()
     brake(model)
     belts = [j for j in range(model.njnt) if model.joint(j).name.endswith("_belt")]
@@ -84,9 +93,21 @@ def test_with_too_little_friction_it_is_not():  # tan 30 = 0.577
     assert run.z < 1.0
 
 
-def test_a_low_hurdle_is_climbed():
-    run = ride("hurdle", 8.0, height=0.06)
+@pytest.mark.parametrize("height", [0.06, 0.1])
+def test_a_low_hurdle_is_climbed(height):
+    run = ride("hurdle", 8.0, height=height)
     assert run.x > 3.8 and run.warnings == 0
+
+
+@pytest.mark.parametrize("height", [0.005, 0.02, 0.05])
+def test_no_sharp_edge_stops_the_robot_at_a_crawl(height):
+    def add_step(spec):
+        box, kind = mujoco.mjtGeom.mjGEOM_BOX, spec.find_default("terrain")
+        size, pos = [5, 1.5, height / 2], [5.5, 0, height / 2]
+        spec.worldbody.add_geom(kind, type=box, size=size, pos=pos)
+
+    run = ride("flat", 12.0, speed=0.15, change=add_step)
+    assert run.x > 1.6 and run.z == pytest.approx(RADIUS + height, abs=2e-3)
 
 
 @pytest.mark.parametrize("kind", ["rough_road", "gravel", "sand"])

@@ -15,11 +15,24 @@ namespace {
 // [m/s^2] cap on the tangential reference: above mu g, else braking is too weak; without it sinkage
 // grows with slip
 constexpr mjtNum kMaxReference = 15.0;
+// a run is smooth with the cylinders at its ends, so that no normal on it leans further along it
+constexpr mjtNum kMaxLean = 0.2;
+// [m/s^2] a normal reference that asks for no force
+constexpr mjtNum kNoContact = -1e9;
 
 bool is_track(std::string_view tuple) {
   const std::size_t at = tuple.find("track_");
   return at == 0 || (at != std::string_view::npos && tuple[at - 1] == '_') ||
          (at != std::string_view::npos && tuple[at - 1] == '/');
+}
+
+// a box that is touched on its front or rear face, which the cylinder there covers: a step's edge
+// that passes from the cylinder to the box would hook there
+bool on_covered_face(const mjModel* m, const mjData* d, const mjContact& contact, int geom) {
+  if (m->geom_type[geom] != mjGEOM_BOX) return false;
+  const mjtNum* const axes = d->geom_xmat + 9 * geom;
+  const mjtNum along[3] = {axes[0], axes[3], axes[6]};
+  return std::abs(mju_dot3(contact.frame, along)) > kMaxLean;
 }
 
 // adds the belt's motion to the two tangential rows of a contact; side: +1 for its second geom, -1
@@ -81,6 +94,7 @@ void Tracks::add_belts(const mjModel* m, mjData* d) const {
     for (const int geom : contact.geom) {
       const int dof = geom < 0 ? -1 : belt_dof_[static_cast<std::size_t>(geom)];
       if (dof < 0) continue;
+      if (on_covered_face(m, d, contact, geom)) d->efc_aref[contact.efc_address] = kNoContact;
       add_belt(m, d, contact, geom, dof);
       on_track = true;
     }

@@ -7,7 +7,9 @@
 //   with no lag;
 //   - is kept from hopping: MuJoCo's friction cone pushes a sliding contact apart by mu |tangential
 //   reference|, which is
-//     taken off the normal reference (de Saxce), after the tangential one was capped.
+//     taken off the normal reference (de Saxce), after the tangential one was capped;
+//   - counts for nothing where a box, a straight run with x along the belt, is touched on its front
+//   or rear face: the cylinder there stands before it, and an edge of the ground would hook.
 // Measured against Coulomb's law to 2 % (mujoco-facts.md §4).
 #pragma once
 
