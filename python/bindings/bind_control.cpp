@@ -43,6 +43,7 @@ Args:
   horizon: [s] a position limit is approached no faster than distance / horizon.
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
+  transition: [s] in which the velocity goes over to a stack that was set in motion; 0 for none.
   solver: SolverOptions; the default is SolverOptions(handover="smooth"), so that no velocity jumps
     where a task loses a direction.
 )";
@@ -209,17 +210,19 @@ void bind_controller(py::module_& module) {
   const Options defaults;
   py::class_<Options>(module, "VelocityControllerOptions", kOptions)
       .def(py::init([](double dt, double gain, double horizon, double max_acceleration,
-                       double return_speed, const SolverOptions& solver) {
-             return Options{dt, gain, horizon, max_acceleration, return_speed, solver};
+                       double return_speed, double transition, const SolverOptions& solver) {
+             return Options{dt, gain, horizon, max_acceleration, return_speed, transition, solver};
            }),
            py::kw_only(), "dt"_a = defaults.dt, "gain"_a = defaults.gain,
            "horizon"_a = defaults.horizon, "max_acceleration"_a = defaults.max_acceleration,
-           "return_speed"_a = defaults.return_speed, "solver"_a = defaults.solver)
+           "return_speed"_a = defaults.return_speed, "transition"_a = defaults.transition,
+           "solver"_a = defaults.solver)
       .def_readwrite("dt", &Options::dt, "[s]")
       .def_readwrite("gain", &Options::gain, "[1/s]")
       .def_readwrite("horizon", &Options::horizon, "[s]")
       .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
       .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
+      .def_readwrite("transition", &Options::transition, "[s]")
       .def_readwrite("solver", &Options::solver, "SolverOptions");
   // the stack is kept beside the controller, as set_stack got it
   const auto set_stack = [](VelocityController& self, const HeldStack& stack) {

@@ -395,6 +395,7 @@ class VelocityControllerOptions:
     horizon: float  # [s]
     max_acceleration: float  # [rad/s^2]
     return_speed: float  # [rad/s]
+    transition: float  # [s]
     solver: SolverOptions
     def __init__(
         self,
@@ -404,6 +405,7 @@ class VelocityControllerOptions:
         horizon: float = 0.05,
         max_acceleration: float = 20.0,
         return_speed: float = 0.2,
+        transition: float = 0.2,
         solver: SolverOptions = ...,
     ) -> None: ...
 

@@ -77,17 +77,24 @@ void JointPid::take_over(Index i, const JointError& error, double torque) {
 }
 
 const Vector& JointPid::compute(const JointError& error) {
-  for (Index i = 0; i < size(); ++i) {
-    const double e = error.position[i];
-    const double integral = integral_[i] + e * options_.dt;
-    demand_[i] = gain_[i] * (error.velocity[i] + options_.K_P[i] * e +
-                             options_.K_I[i] * integral);  // [T A.2.12], tau = -u
-    torque_[i] = std::clamp(demand_[i], lower_[i], upper_[i]);
-    // a saturated joint keeps its integral unless the error leads back
-    const bool deeper = torque_[i] != demand_[i] && (e > 0.0) == (demand_[i] > 0.0);
-    if (!deeper) integral_[i] = integral;
-  }
+  for (Index i = 0; i < size(); ++i) compute_joint(i, error, 0.0);
   return torque_;
+}
+
+const Vector& JointPid::compute(const JointError& error, const ConstVectorRef& feed_forward) {
+  for (Index i = 0; i < size(); ++i) compute_joint(i, error, feed_forward[i]);
+  return torque_;
+}
+
+void JointPid::compute_joint(Index i, const JointError& error, double feed_forward) {
+  const double e = error.position[i];
+  const double integral = integral_[i] + e * options_.dt;
+  demand_[i] = feed_forward + gain_[i] * (error.velocity[i] + options_.K_P[i] * e +
+                                          options_.K_I[i] * integral);  // [T A.2.12], tau = -u
+  torque_[i] = std::clamp(demand_[i], lower_[i], upper_[i]);
+  // a saturated joint keeps its integral unless the error leads back
+  const bool deeper = torque_[i] != demand_[i] && (e > 0.0) == (demand_[i] > 0.0);
+  if (!deeper) integral_[i] = integral;
 }
 
 void JointPid::reset() {

@@ -4,8 +4,10 @@
 //   tau = -u
 //
 // It needs no model and no gravity: whatever the robot carries is a disturbance that the L2 gain
-// gamma bounds. The torque saturates joint by joint. Anti-windup is conditional integration: while
-// a torque is saturated, an error that would push it further is not integrated. It needs no gain of
+// gamma bounds. Where a model is there, the torque that it tells (gravity alone, or the whole
+// inverse dynamics: Robot::inverse_dynamics) can be fed forward; the law then bears what the model
+// misses. The torque saturates joint by joint. Anti-windup is conditional integration: while a
+// torque is saturated, an error that would push it further is not integrated. It needs no gain of
 // its own, and it leaves the law untouched below saturation.
 #pragma once
 
@@ -53,6 +55,8 @@ class JointPid {
   explicit JointPid(JointPidOptions options);
   // [N m], (m); the reference stays valid until the next compute
   const Vector& compute(const JointError& error);
+  // the same beside a torque that a model tells, [N m], (m); both saturate together
+  const Vector& compute(const JointError& error, const ConstVectorRef& feed_forward);
   // saturation of joint i from now on, never beyond max_torque; 0 to 0 for a drive that is off
   void limit(Index i, const EffortRange& range);
   // goes on from a torque that somebody else gave: at this error joint i's next demand is `torque`
@@ -70,6 +74,8 @@ class JointPid {
   void restore(StateReader& reader);
 
  private:
+  void compute_joint(Index i, const JointError& error, double feed_forward);
+
   JointPidOptions options_;
   Vector gain_;  // K + I / gamma^2
   Vector integral_, demand_, torque_;

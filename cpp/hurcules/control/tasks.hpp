@@ -2,10 +2,14 @@
 #pragma once
 
 #include "hurcules/tasks/angle_task.hpp"
+#include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
+#include "hurcules/tasks/distance_task.hpp"
+#include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
+#include "hurcules/tasks/torque_limits.hpp"

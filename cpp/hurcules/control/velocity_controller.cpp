@@ -13,8 +13,6 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
 void check(const VelocityControllerOptions& options) {
   require(std::isfinite(options.dt) && options.dt > 0.0, "dt wants a positive time [s]");
   require(std::isfinite(options.gain) && options.gain >= 0.0, "gain wants a number >= 0 [1/s]");
@@ -23,22 +21,8 @@ void check(const VelocityControllerOptions& options) {
               std::to_string(options.horizon) + " s");
   require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
   require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
-}
-
-bool is_bounds(const StackLevel& level) {
-  return level.tasks.size() == 1 && level.tasks.front()->bounds_coordinates();
-}
-
-Level sized_level(const StackLevel& source, Index n) {
-  Index rows = 0;
-  for (const Task* task : source.tasks) rows += task->rows();
-  Level level;
-  level.bounds = is_bounds(source);
-  level.rho = level.bounds ? 0.0 : source.rho;
-  level.lower = Vector::Constant(rows, -kNone);
-  level.upper = Vector::Constant(rows, kNone);
-  if (!level.bounds) level.A = Matrix::Zero(rows, n);
-  return level;
+  require(std::isfinite(options.transition) && options.transition >= 0.0,
+          "transition wants a time >= 0 [s]");
 }
 
 // velocity that brings the error to this side of its interval; no side stays no side
@@ -50,45 +34,29 @@ double wanted_rate(double side, double error, double velocity_des, double gain) 
 }  // namespace
 
 VelocityController::VelocityController(const Robot& robot, VelocityControllerOptions options)
-    : options_(std::move(options)), solver_(robot.size(), options_.solver) {
+    : options_(std::move(options)), problem_(robot.size()), solver_(robot.size(), options_.solver) {
   check(options_);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
                             options_.max_acceleration, options_.return_speed});
   }
-  velocity_ = Vector::Zero(robot.size());
-  next_ = Vector::Zero(robot.size());
+  velocity_ = next_ = offset_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(rate_limits_.size());
 }
 
 void VelocityController::set_stack(const Stack& stack) {
-  const Index n = velocity_.size();
-  Hierarchy hierarchy;
-  const Task* bounds_task = nullptr;
-  int bounds_level = -1;
   for (const StackLevel& level : stack.levels()) {
     for (const Task* task : level.tasks) {
-      require(task->jacobian().cols() == n, "task '" + task->name() + "' is for " +
-                                                std::to_string(task->jacobian().cols()) +
-                                                " coordinates, the robot has " + std::to_string(n));
+      require(!task->commands_acceleration(),
+              "task '" + task->name() +
+                  "' commands accelerations: it wants an acceleration controller");
     }
-    if (is_bounds(level)) {
-      require(bounds_task == nullptr, "a stack wants at most one level of coordinate limits");
-      require(level.tasks.front()->rows() == n,
-              "task '" + level.tasks.front()->name() + "' wants one row a coordinate");
-      bounds_task = level.tasks.front();
-      bounds_level = static_cast<int>(hierarchy.size());
-    }
-    hierarchy.push_back(sized_level(level, n));
   }
-  stack_ = stack;
-  hierarchy_ = std::move(hierarchy);
-  bounds_task_ = bounds_task;
-  joint_limits_ = dynamic_cast<const JointLimits*>(bounds_task);
-  bounds_level_ = bounds_level;
+  problem_.set_stack(stack);
+  begin_transition();
   active_limits_.setZero();
-  solver_.reserve(hierarchy_);
+  solver_.reserve(problem_.hierarchy());
   solver_.reset();
 }
 
@@ -98,39 +66,41 @@ const Vector& VelocityController::compute(const Robot& robot) {
 }
 
 void VelocityController::measure(const Robot& robot) {
-  for (std::size_t k = 0; k < hierarchy_.size(); ++k) {
-    const StackLevel& source = stack_.levels()[k];
+  Hierarchy& hierarchy = problem_.hierarchy();
+  for (std::size_t k = 0; k < hierarchy.size(); ++k) {
+    const StackLevel& source = stack().levels()[k];
     for (Task* task : source.tasks) task->update(robot);
-    if (hierarchy_[k].bounds) {
-      fill_bounds(*source.tasks.front(), hierarchy_[k]);
+    if (hierarchy[k].bounds) {
+      fill_bounds(*source.tasks.front(), hierarchy[k]);
     } else {
-      fill_rows(source, hierarchy_[k]);
+      fill_rows(source, hierarchy[k]);
     }
   }
 }
 
 const Vector& VelocityController::solve() {
-  velocity_ = solver_.solve(hierarchy_).x;  // [T 4.3.3]
+  if (fading_ && age_ < 0.0) offset_ = velocity_;
+  velocity_ = solver_.solve(problem_.hierarchy()).x;  // [T 4.3.3]
+  const bool solved = solver_.solution().status != SolverStatus::InvalidInput;
+  if (fading_ && solved) add_transition();
   // bounds hold but for rounding: hold them exactly
-  if (bounds_level_ >= 0 && solver_.solution().status != SolverStatus::InvalidInput) {
-    const Level& bounds = hierarchy_[static_cast<std::size_t>(bounds_level_)];
+  if (limits() && solved) {
+    const Level& bounds = problem_.bounds();
     velocity_ = velocity_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
   }
-  find_active_limits();
+  const auto is_limit = [this](std::size_t i, bool upper) {
+    return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
+  };
+  find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
   return velocity_;
 }
 
 void VelocityController::integrate(VectorRef q) const {
-  const Vector* const error = bounds_task_ ? &bounds_task_->error() : nullptr;
   for (Index i = 0; i < q.size(); ++i) {
-    double step = velocity_[i] * options_.dt;
-    if (error) {
-      // inside the limits the step ends at the limit at most; outside it may only lead back
-      const double to_lower = bounds_task_->lower()[i] - (*error)[i];
-      const double to_upper = bounds_task_->upper()[i] - (*error)[i];
-      step = std::clamp(step, std::min(to_lower, 0.0), std::max(to_upper, 0.0));
-    }
-    q[i] += step;
+    const double step = velocity_[i] * options_.dt;
+    const Task* const task = limits();
+    const double e = task ? task->error()[i] : 0.0;
+    q[i] += task ? held_step(step, task->lower()[i] - e, task->upper()[i] - e) : step;
   }
 }
 
@@ -142,7 +112,29 @@ const Vector& VelocityController::step(Robot& robot) {
   return next_;
 }
 
+void VelocityController::begin_transition() {
+  fading_ = options_.transition > 0.0 && (velocity_.array() != 0.0).any();
+  age_ = -1.0;
+}
+
+// what is left of the velocity before, on top of what the stack asks for
+void VelocityController::add_transition() {
+  if (age_ < 0.0) {
+    offset_ -= velocity_;
+    age_ = 0.0;
+  }
+  const double u = age_ / options_.transition;
+  velocity_ += (1.0 - u * u * (3.0 - 2.0 * u)) * offset_;
+  age_ += options_.dt;
+  fading_ = age_ < options_.transition;
+}
+
+std::vector<LevelNote> VelocityController::notes(const Robot& robot) const {
+  return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_});
+}
+
 void VelocityController::reset() {
+  fading_ = false;
   velocity_.setZero();
   active_limits_.setZero();
   solver_.reset();
@@ -151,16 +143,23 @@ void VelocityController::reset() {
 void VelocityController::take_over(const VelocityController& previous) {
   reset();
   velocity_ = previous.velocity_;
+  begin_transition();
 }
 
 void VelocityController::save(StateWriter& writer) const {
   writer.put(velocity_);
+  writer.put(offset_);
+  writer.put(age_);
+  writer.put(fading_ ? 1.0 : 0.0);
   for (Index i = 0; i < active_limits_.size(); ++i) writer.put(active_limits_[i]);
   solver_.save(writer);
 }
 
 void VelocityController::restore(StateReader& reader) {
   reader.get(velocity_);
+  reader.get(offset_);
+  age_ = reader.get();
+  fading_ = reader.get_count(1) > 0;
   for (Index i = 0; i < active_limits_.size(); ++i) {
     active_limits_[i] = static_cast<int>(reader.get());
   }
@@ -172,7 +171,8 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
     const RateState state{limits.lower()[i] - limits.error()[i],
                           limits.upper()[i] - limits.error()[i], velocity_[i]};
     RateLimits& rates = rate_limits_[static_cast<std::size_t>(i)];
-    if (joint_limits_) rates.max_velocity = joint_limits_->max_velocity()[i];
+    if (const JointLimits* const own = problem_.joint_limits())
+      rates.max_velocity = own->max_velocity()[i];
     RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
     interval = rate_interval(state, rates);
     level.lower[i] = interval.lower;
@@ -189,18 +189,6 @@ void VelocityController::fill_rows(const StackLevel& source, Level& level) const
       const double velocity_des = task->velocity_des()[i];
       level.lower[row] = wanted_rate(task->lower()[i], error, velocity_des, options_.gain);
       level.upper[row] = wanted_rate(task->upper()[i], error, velocity_des, options_.gain);
-    }
-  }
-}
-
-void VelocityController::find_active_limits() {
-  active_limits_.setZero();
-  for (const ActiveRow& active : solver_.solution().working_set) {
-    if (active.level != bounds_level_) continue;
-    const RateInterval& interval = intervals_[static_cast<std::size_t>(active.row)];
-    const bool upper = active.side == Side::Upper;
-    if (upper ? interval.upper_is_limit : interval.lower_is_limit) {
-      active_limits_[active.row] = upper ? 1 : -1;
     }
   }
 }

@@ -13,13 +13,11 @@
 
 #include <vector>
 
+#include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/rate_interval.hpp"
-#include "hurcules/control/stack.hpp"
-#include "hurcules/solver/solver.hpp"
+#include "hurcules/control/stack_problem.hpp"
 
 namespace hurcules {
-
-class JointLimits;
 
 struct VelocityControllerOptions {
   double dt = 1e-3;       // [s] control period
@@ -27,6 +25,10 @@ struct VelocityControllerOptions {
   double horizon = 0.05;  // [s] T of [T 4.3.9]: a limit is approached at distance / T at most
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
   double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
+  // [s] after set_stack or take_over in motion: what the velocity was, less what the new stack asks
+  // for, fades out in this time, inside the limits; meanwhile it disturbs every task. 0: none, the
+  // velocity then changes as fast as max_acceleration lets it, at once where no level has limits.
+  double transition = 0.2;
   // smooth: the commanded velocity does not jump where a task loses a direction
   SolverOptions solver = {.handover = Handover::Smooth};
 };
@@ -34,7 +36,8 @@ struct VelocityControllerOptions {
 class VelocityController {
  public:
   VelocityController(const Robot& robot, VelocityControllerOptions options = {});
-  // takes over another stack; the memory for its hierarchy is made here, never in compute
+  // takes over another stack, in motion too (transition); the memory for its hierarchy is made
+  // here, never in compute
   void set_stack(const Stack& stack);
   // measures the tasks at the robot's configuration, builds the levels, solves: qdot* (n) [rad/s]
   const Vector& compute(const Robot& robot);
@@ -46,17 +49,19 @@ class VelocityController {
   // compute, then moves the robot by one period, q* = integrate(q*): (n) [rad]
   const Vector& step(Robot& robot);
 
-  [[nodiscard]] const Stack& stack() const { return stack_; }
-  [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
+  [[nodiscard]] const Stack& stack() const { return problem_.stack(); }
+  [[nodiscard]] const Hierarchy& hierarchy() const { return problem_.hierarchy(); }
   [[nodiscard]] const Solution& solution() const { return solver_.solution(); }
   [[nodiscard]] const Vector& velocity() const { return velocity_; }  // the last qdot*
   [[nodiscard]] const VelocityControllerOptions& options() const { return options_; }
+  // what each level fell short of at the last compute, and why; makes its texts when asked
+  [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const;
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
   // the coordinate limits of the stack, null when it has none
-  [[nodiscard]] const Task* limits() const { return bounds_task_; }
+  [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
   void reset();  // at rest, cold
-  // goes on at the velocity of another controller of the same robot, cold
+  // goes on at the velocity of another controller of the same robot, cold, with a transition
   void take_over(const VelocityController& previous);
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
@@ -64,18 +69,18 @@ class VelocityController {
  private:
   void fill_bounds(const Task& limits, Level& level);
   void fill_rows(const StackLevel& source, Level& level) const;
-  void find_active_limits();
+  void begin_transition();
+  void add_transition();
 
   VelocityControllerOptions options_;
   std::vector<RateLimits> rate_limits_;  // (n)
-  Stack stack_;
-  Hierarchy hierarchy_;
+  StackProblem problem_;
   Solver solver_;
   Vector velocity_;
-  Vector next_;  // [rad], (n): q* after a step
-  const Task* bounds_task_ = nullptr;          // null when the stack has none
-  const JointLimits* joint_limits_ = nullptr;  // the same, when it is this kind of task
-  int bounds_level_ = -1;
+  Vector next_;        // [rad], (n): q* after a step
+  Vector offset_;      // [rad/s] (n) of the transition, at its start
+  double age_ = -1.0;  // [s] of the transition; < 0: it begins with the next solve
+  bool fading_ = false;
   std::vector<RateInterval> intervals_;  // (n), of the last measure
   Eigen::VectorXi active_limits_;
 };

@@ -58,6 +58,7 @@ Robot::Robot(ModelPtr model) : model_(std::move(model)), data_(nullptr, mj_delet
   turn_ = Matrix::Zero(3, m.nv);
   inertia_ = Matrix::Zero(m.nv, m.nv);
   momentum_ = Vector::Zero(m.nv);
+  efforts_ = Vector::Zero(m.nv);
   if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
   set_keyframe("");
 }

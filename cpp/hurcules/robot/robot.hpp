@@ -124,6 +124,10 @@ class Robot {
   [[nodiscard]] Vector3 com_drift() const;
   // inertia of the coordinates with armature, standing as stand_on says: (n, n) [kg m^2] (hinges)
   void mass_matrix(MatrixRef M) const;
+  // torque that the coordinates take at this acceleration and the velocity of set_velocity,
+  // standing as stand_on says: inertia with armature, gravity, centrifugal and Coriolis terms,
+  // springs and dampers of the model; without dry friction and contacts. [rad/s^2] (n) -> [N m] (n)
+  void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
 
  private:
   void update();
@@ -154,6 +158,7 @@ class Robot {
   mutable Matrix turn_;      // the same, for those of the support
   mutable Matrix inertia_;   // scratch for the mass matrix, (nv, nv)
   mutable Vector momentum_;  // (nv)
+  mutable Vector efforts_;   // scratch for inverse dynamics, (nv)
 };
 
 }  // namespace hurcules

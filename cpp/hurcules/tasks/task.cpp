@@ -11,6 +11,7 @@ Task::Task(std::string name, Index rows, Index coordinates)
       error_(Vector::Zero(rows)),
       drift_(Vector::Zero(rows)),
       velocity_des_(Vector::Zero(rows)),
+      acceleration_des_(Vector::Zero(rows)),
       lower_(Vector::Zero(rows)),
       upper_(Vector::Zero(rows)),
       jacobian_(Matrix::Zero(rows, coordinates)),
@@ -23,12 +24,14 @@ Task::Task(std::string name, Index rows, const Robot& robot)
 
 void Task::save(StateWriter& writer) const {
   writer.put(velocity_des_);
+  writer.put(acceleration_des_);
   writer.put(lower_);
   writer.put(upper_);
 }
 
 void Task::restore(StateReader& reader) {
   reader.get(velocity_des_);
+  reader.get(acceleration_des_);
   reader.get(lower_);
   reader.get(upper_);
 }

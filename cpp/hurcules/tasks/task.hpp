@@ -30,7 +30,7 @@ class Task {
   // moves the target by velocity * dt and feeds the velocity forward until the next advance or
   // hold; (m), unit/s; dt [s]. The error follows at the next update.
   virtual void advance(const ConstVectorRef& velocity, double dt) = 0;
-  // what must be kept between ticks: the target, the feed-forward and the interval
+  // what must be kept between ticks: the target, the feed-forwards and the interval
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
 
@@ -43,10 +43,14 @@ class Task {
   [[nodiscard]] const Matrix& jacobian() const { return jacobian_; }          // (m, n)
   [[nodiscard]] const Vector& drift() const { return drift_; }                // (m), Jdot qdot
   [[nodiscard]] const Vector& velocity_des() const { return velocity_des_; }  // (m)
-  [[nodiscard]] const Vector& lower() const { return lower_; }                // (m), of the error
-  [[nodiscard]] const Vector& upper() const { return upper_; }                // (m)
+  [[nodiscard]] const Vector& acceleration_des() const { return acceleration_des_; }  // (m)
+  [[nodiscard]] const Vector& lower() const { return lower_; }  // (m), of the error
+  [[nodiscard]] const Vector& upper() const { return upper_; }  // (m)
   // limits of the coordinates themselves: J is the identity, the solver takes them as simple bounds
   [[nodiscard]] virtual bool bounds_coordinates() const { return false; }
+  // a law of its own for controllers of acceleration, no other takes it:
+  //   lower <= J qddot + drift - acceleration_des <= upper
+  [[nodiscard]] virtual bool commands_acceleration() const { return false; }
 
  protected:
   Task(std::string name, Index rows, Index coordinates);
@@ -59,7 +63,7 @@ class Task {
   void require_time(double dt) const;  // Error unless finite
 
   std::string name_;
-  Vector error_, drift_, velocity_des_, lower_, upper_;
+  Vector error_, drift_, velocity_des_, acceleration_des_, lower_, upper_;
   Matrix jacobian_;
 
  private:

@@ -23,12 +23,14 @@ void ValueTask::hold(const Robot& robot) {
   target_ = value_;
   error_.setZero();
   velocity_des_.setZero();
+  acceleration_des_.setZero();
 }
 
 void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
   velocity_des_ = velocity;
+  acceleration_des_.setZero();
   target_ += velocity * dt;
 }
 
@@ -36,6 +38,17 @@ void ValueTask::set_target(const ConstVectorRef& target) {
   require_rows(target, "target");
   target_ = target;
   velocity_des_.setZero();
+  acceleration_des_.setZero();
+}
+
+void ValueTask::set_reference(const ConstVectorRef& target, const ConstVectorRef& velocity,
+                              const ConstVectorRef& acceleration) {
+  require_rows(target, "target");
+  require_rows(velocity, "velocity");
+  require_rows(acceleration, "acceleration");
+  target_ = target;
+  velocity_des_ = velocity;
+  acceleration_des_ = acceleration;
 }
 
 void ValueTask::save(StateWriter& writer) const {

@@ -20,6 +20,10 @@ class ValueTask : public Task {
   [[nodiscard]] const Vector& target() const { return target_; }  // s_des (m)
   // at rest; seen at the next update
   void set_target(const ConstVectorRef& target);
+  // where a trajectory is now: value, its velocity and its acceleration, fed forward until the next
+  // call that moves the target; (m), task unit, unit/s, unit/s^2
+  void set_reference(const ConstVectorRef& target, const ConstVectorRef& velocity,
+                     const ConstVectorRef& acceleration);
 
  protected:
   // The last line of a constructor of a derived class is hold(robot).

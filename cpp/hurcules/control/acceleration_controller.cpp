@@ -1,0 +1,156 @@
+#include "hurcules/control/acceleration_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/tasks/joint_limits.hpp"
+
+namespace hurcules {
+
+namespace {
+
+void check(const AccelerationControllerOptions& options) {
+  const double dt = options.dt, K = options.stiffness, L = options.damping;
+  require(std::isfinite(dt) && dt > 0.0, "dt wants a positive time [s]");
+  require(std::isfinite(K) && K >= 0.0, "stiffness wants a number >= 0 [1/s^2]");
+  require(std::isfinite(L) && L > 0.0, "damping wants a positive number [1/s]");
+  // held for dt, an acceleration turns the speed beyond L dt = 2; a third of it leaves room
+  require(L * dt < 0.66 && K * dt * dt < 0.1,
+          "stiffness and damping are too high for a control period of " + std::to_string(dt) +
+              " s: damping * dt < 0.66 and stiffness * dt^2 < 0.1 are wanted");
+  require(std::isfinite(options.horizon) && options.horizon >= dt,
+          "horizon wants a time of at least one control period, else a limit is passed; got " +
+              std::to_string(options.horizon) + " s");
+  require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
+  require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
+}
+
+}  // namespace
+
+AccelerationController::AccelerationController(const Robot& robot,
+                                               AccelerationControllerOptions options)
+    : options_(std::move(options)), problem_(robot.size()), solver_(robot.size(), options_.solver) {
+  check(options_);
+  for (const Coordinate& coordinate : robot.coordinates()) {
+    rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
+                            options_.max_acceleration, options_.return_speed});
+  }
+  acceleration_ = Vector::Zero(robot.size());
+  active_limits_ = Eigen::VectorXi::Zero(robot.size());
+  intervals_.resize(rate_limits_.size());
+}
+
+void AccelerationController::set_stack(const Stack& stack) {
+  problem_.set_stack(stack);
+  Index rows = 0;
+  for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
+  rate_ = Vector::Zero(rows);
+  active_limits_.setZero();
+  solver_.reserve(problem_.hierarchy());
+  solver_.reset();
+}
+
+const Vector& AccelerationController::compute(const Robot& robot) {
+  measure(robot);
+  return solve();
+}
+
+void AccelerationController::measure(const Robot& robot) {
+  Hierarchy& hierarchy = problem_.hierarchy();
+  for (std::size_t k = 0; k < hierarchy.size(); ++k) {
+    const StackLevel& source = stack().levels()[k];
+    for (Task* task : source.tasks) task->update(robot);
+    if (hierarchy[k].bounds) {
+      fill_bounds(robot, *source.tasks.front(), hierarchy[k]);
+    } else {
+      fill_rows(robot, source, hierarchy[k]);
+    }
+  }
+}
+
+const Vector& AccelerationController::solve() {
+  acceleration_ = solver_.solve(problem_.hierarchy()).x;  // [T 5.3.18]
+  // bounds hold but for rounding: hold them exactly
+  if (limits() && solver_.solution().status != SolverStatus::InvalidInput) {
+    const Level& bounds = problem_.bounds();
+    acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
+  }
+  const auto is_limit = [this](std::size_t i, bool upper) {
+    return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
+  };
+  find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
+  return acceleration_;
+}
+
+void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
+  const double dt = options_.dt;
+  for (Index i = 0; i < q.size(); ++i) {
+    const double next = velocity[i] + acceleration_[i] * dt;
+    const double step = 0.5 * (velocity[i] + next) * dt;  // [T 5.6.50]
+    const Task* const task = limits();
+    const double e = task ? task->error()[i] : 0.0;
+    q[i] += task ? held_step(step, task->lower()[i] - e, task->upper()[i] - e) : step;
+    velocity[i] = next;
+  }
+}
+
+void AccelerationController::reset() {
+  acceleration_.setZero();
+  active_limits_.setZero();
+  solver_.reset();
+}
+
+void AccelerationController::save(StateWriter& writer) const {
+  writer.put(acceleration_);
+  for (Index i = 0; i < active_limits_.size(); ++i) writer.put(active_limits_[i]);
+  solver_.save(writer);
+}
+
+void AccelerationController::restore(StateReader& reader) {
+  reader.get(acceleration_);
+  for (Index i = 0; i < active_limits_.size(); ++i) {
+    active_limits_[i] = static_cast<int>(reader.get());
+  }
+  solver_.restore(reader);
+}
+
+void AccelerationController::fill_bounds(const Robot& robot, const Task& task, Level& level) {
+  for (Index i = 0; i < level.rows(); ++i) {
+    const RateState state{task.lower()[i] - task.error()[i], task.upper()[i] - task.error()[i],
+                          robot.velocity()[i]};
+    RateLimits& rates = rate_limits_[static_cast<std::size_t>(i)];
+    if (const JointLimits* const own = problem_.joint_limits())
+      rates.max_velocity = own->max_velocity()[i];
+    AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
+    interval = acceleration_interval(state, rates);
+    level.lower[i] = interval.lower;
+    level.upper[i] = interval.upper;
+  }
+}
+
+void AccelerationController::fill_rows(const Robot& robot, const StackLevel& source, Level& level) {
+  Index row = 0;
+  for (const Task* task : source.tasks) {
+    level.A.middleRows(row, task->rows()) = task->jacobian();
+    auto rate = rate_.head(task->rows());
+    rate.noalias() = task->jacobian() * robot.velocity();
+    rate -= task->velocity_des();  // dg/dt
+    const bool own = task->commands_acceleration();
+    for (Index i = 0; i < task->rows(); ++i, ++row) {
+      const double held = task->acceleration_des()[i] - task->drift()[i];
+      const double damped = own ? held : held - options_.damping * rate[i];
+      const auto wanted = [&](double side) {
+        if (std::abs(side) >= kInfinity) return side;
+        if (own) return damped + side;
+        return damped + options_.stiffness * (side - task->error()[i]);  // [T 5.3.17]
+      };
+      level.lower[row] = wanted(task->lower()[i]);
+      level.upper[row] = wanted(task->upper()[i]);
+    }
+  }
+}
+
+}  // namespace hurcules

@@ -1,0 +1,82 @@
+// From a stack to coordinate accelerations: second-order closed-loop inverse kinematics, for joint
+// servos (integrated) or for drives that take torques (inverse dynamics) [T §5.3].
+//
+//   y_k = -L dg_k/dt - K g_k + d2s_des/dt2 - dJ/dt qdot             [T 5.3.17], its dot restored
+//   qddot* = lexicographic minimum of the levels                    [T 5.3.18]
+//   qdot* += qddot* dt,  q* += qdot* dt + qddot* dt^2 / 2           [T 5.6.50]
+//
+// A level made of one task that bounds the coordinates becomes simple bounds that brake in time
+// (acceleration_interval.hpp). A task that commands accelerations has a law of its own: torque
+// limits, force control. A row with a side above or below asks for  -L dg/dt + K (side - g):
+// critically damped, it comes from inside to its side without passing it.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/control/acceleration_interval.hpp"
+#include "hurcules/control/level_notes.hpp"
+#include "hurcules/control/stack_problem.hpp"
+
+namespace hurcules {
+
+struct AccelerationControllerOptions {
+  double dt = 1e-3;                // [s] control period
+  double stiffness = 100;          // [1/s^2] K of [T 5.3.13]
+  double damping = 20;             // [1/s] L of [T 5.3.13]; 2 sqrt(K) is critical
+  double horizon = 0.05;           // [s] T of acceleration_interval.hpp
+  double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
+  double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
+  // smooth: the commanded acceleration does not jump where a task loses a direction
+  SolverOptions solver = {.handover = Handover::Smooth};
+};
+
+class AccelerationController {
+ public:
+  AccelerationController(const Robot& robot, AccelerationControllerOptions options = {});
+  // takes over another stack; the memory for its hierarchy is made here, never in compute
+  void set_stack(const Stack& stack);
+  // measures the tasks at the robot's configuration and velocity, builds the levels, solves:
+  // qddot* (n) [rad/s^2]. The robot is the reference (servos) or the real one (torques).
+  const Vector& compute(const Robot& robot);
+  // the two parts of compute, for those who time them
+  void measure(const Robot& robot);  // tasks -> hierarchy
+  const Vector& solve();             // hierarchy -> qddot*
+  // one dt further, (n) [rad], (n) [rad/s]; rounding never carries a coordinate over its limit
+  void integrate(VectorRef q, VectorRef velocity) const;
+  // inverse dynamics: what the drives must give for qddot*, (n) [N m]
+  void torque(const Robot& robot, VectorRef torque) const {
+    robot.inverse_dynamics(acceleration_, torque);
+  }
+
+  [[nodiscard]] const Stack& stack() const { return problem_.stack(); }
+  [[nodiscard]] const Hierarchy& hierarchy() const { return problem_.hierarchy(); }
+  [[nodiscard]] const Solution& solution() const { return solver_.solution(); }
+  [[nodiscard]] const Vector& acceleration() const { return acceleration_; }  // the last qddot*
+  [[nodiscard]] const AccelerationControllerOptions& options() const { return options_; }
+  // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
+  [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
+  // the coordinate limits of the stack, null when it has none
+  [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
+  // what each level fell short of at the last compute, and why; makes its texts when asked
+  [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const {
+    return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_});
+  }
+  void reset();  // cold
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  void fill_bounds(const Robot& robot, const Task& limits, Level& level);
+  void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
+
+  AccelerationControllerOptions options_;
+  std::vector<RateLimits> rate_limits_;  // (n)
+  StackProblem problem_;
+  Solver solver_;
+  Vector acceleration_;
+  Vector rate_;                                  // scratch, de/dt of a level
+  std::vector<AccelerationInterval> intervals_;  // (n), of the last measure
+  Eigen::VectorXi active_limits_;
+};
+
+}  // namespace hurcules

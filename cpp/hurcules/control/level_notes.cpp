@@ -1,0 +1,120 @@
+#include "hurcules/control/level_notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "hurcules/tasks/point_task.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kSmall = 1e-3;  // [m] or [rad] errors below it are nobody's concern
+constexpr double kShare = 0.1;   // of what a task asks for; regularisation leaves less than that
+
+const char* unit_of(const Task& task) {
+  return dynamic_cast<const PointTask*>(&task) ? "m" : "rad";
+}
+
+double outside(const Task& task) {
+  const Vector& e = task.error();
+  return (e - e.cwiseMax(task.lower()).cwiseMin(task.upper())).norm();
+}
+
+// which task of a level a row belongs to
+const Task& task_of(const StackLevel& level, Index row) {
+  for (const Task* task : level.tasks) {
+    if (row < task->rows()) return *task;
+    row -= task->rows();
+  }
+  return *level.tasks.back();
+}
+
+std::string holder(const SolvedStack& solved, const ActiveRow& active) {
+  const StackLevel& level = solved.problem.stack().levels()[static_cast<std::size_t>(active.level)];
+  if (active.level != solved.problem.bounds_level()) return task_of(level, active.row).name();
+  const auto i = static_cast<std::size_t>(active.row);
+  const std::string side = active.side == Side::Upper ? " upper" : " lower";
+  const bool limit = solved.active_limits[active.row] != 0;
+  return solved.robot.coordinates()[i].name + (limit ? side + " limit" : " speed or acceleration");
+}
+
+// what pushes back on level k
+std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelReport* report) {
+  std::vector<std::string> names;
+  for (const ActiveRow& active : solved.solution.working_set) {
+    if (active.held_by != k || active.multiplier <= 0.0) continue;
+    const std::string name = holder(solved, active);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (report && report->rank < solved.problem.hierarchy()[static_cast<std::size_t>(k)].rows()) {
+    names.emplace_back("tasks above");
+  } else if (report && report->singular_values.size() > 0 &&
+             report->singular_values.minCoeff() < std::max(report->rho, 1e-6)) {
+    names.emplace_back("a singular posture");
+  }
+  return names;
+}
+
+// the largest that the rows of a task ask for, and their violation
+bool is_kept_from(const Level& level, const Vector& violation, Index row, Index rows) {
+  double asked = 0.0;
+  for (Index i = row; i < row + rows; ++i) {
+    if (level.lower[i] > 0.0) asked = std::max(asked, level.lower[i]);
+    if (level.upper[i] < 0.0) asked = std::max(asked, -level.upper[i]);
+  }
+  return violation.segment(row, rows).cwiseAbs().maxCoeff() > kShare * asked && asked > 0.0;
+}
+
+LevelNote note(const SolvedStack& solved, std::size_t k) {
+  const StackLevel& source = solved.problem.stack().levels()[k];
+  LevelNote made;
+  made.level = source.name;
+  const LevelReport* const report = k < solved.reports.size() ? &solved.reports[k] : nullptr;
+  if (report && report->singular_values.size() > 0) {
+    made.smallest_singular_value = report->singular_values.minCoeff();
+    made.manipulability = report->singular_values.prod();
+  }
+  Index row = 0;
+  for (const Task* task : source.tasks) {
+    const Index first = row;
+    row += task->rows();
+    if (task->bounds_coordinates() || k >= solved.solution.violations.size()) continue;
+    const double short_by = outside(*task);
+    if (short_by < kSmall || !is_kept_from(solved.problem.hierarchy()[k],
+                                           solved.solution.violations[k], first, task->rows())) {
+      continue;
+    }
+    made.shorts.push_back(
+        {task->name(), short_by, unit_of(*task), holders(solved, static_cast<int>(k), report)});
+  }
+  return made;
+}
+
+}  // namespace
+
+std::string ShortTask::text() const {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.3g", short_by);
+  std::string line = task + ": " + number + " " + unit + " short";
+  for (std::size_t i = 0; i < held_by.size(); ++i) {
+    line += i == 0 ? ", held by " : i + 1 < held_by.size() ? ", " : " and ";
+    line += held_by[i];
+  }
+  return line;
+}
+
+std::vector<LevelReport> reports_of(const Solver& solver) {
+  if (!solver.solved()) return {};
+  return solver.reports();
+}
+
+std::vector<LevelNote> level_notes(const SolvedStack& solved) {
+  std::vector<LevelNote> notes;
+  for (std::size_t k = 0; k < solved.problem.hierarchy().size(); ++k)
+    notes.push_back(note(solved, k));
+  return notes;
+}
+
+}  // namespace hurcules

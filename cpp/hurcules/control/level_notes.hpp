@@ -1,0 +1,45 @@
+// What each level of a stack fell short of and why, in plain words, for operators and logs:
+//
+//   left hand: 0.12 m short, held by HIP upper limit and LSP upper limit
+// and how near each level is to a singularity.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/control/stack_problem.hpp"
+#include "hurcules/solver/level_report.hpp"
+
+namespace hurcules {
+
+// A task that is off its interval and is not being brought back as it asks.
+struct ShortTask {
+  std::string task;
+  double short_by = 0.0;             // [unit] length of the error outside its interval
+  std::string unit;                  // "m" or "rad"
+  std::vector<std::string> held_by;  // limits, other tasks, or a direction that is missing
+  [[nodiscard]] std::string text() const;
+};
+
+struct LevelNote {
+  std::string level;
+  // of the level's equality rows on the directions that the levels above left: the smallest is the
+  // distance to singularity, the product the manipulability; unit of the rows, 1 without such rows
+  double smallest_singular_value = 1.0;
+  double manipulability = 1.0;
+  std::vector<ShortTask> shorts;  // empty: all is well
+};
+
+// What a controller knows after a solve.
+struct SolvedStack {
+  const Robot& robot;
+  const StackProblem& problem;
+  const Solution& solution;
+  std::vector<LevelReport> reports;      // of the final levels
+  const Eigen::VectorXi& active_limits;  // (n)
+};
+// none where the solver's method makes no reports
+[[nodiscard]] std::vector<LevelReport> reports_of(const Solver& solver);
+[[nodiscard]] std::vector<LevelNote> level_notes(const SolvedStack& solved);
+
+}  // namespace hurcules

@@ -1,0 +1,44 @@
+// Inverse dynamics of the coordinates.
+//
+//   all joints: qvel = S v, qacc = S a + dS/dt v      S: joints and root by coordinate
+//   torque = S' (M qacc + c(qpos, qvel) - passive)    what holds the support drops out: S' sees
+//                                                      no force where nothing moves
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "hurcules/robot/robot.hpp"
+
+namespace hurcules {
+
+void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const {
+  assert(acceleration.size() == size() && torque.size() == size());
+  const mjModel& m = *model_;
+  mjData* const d = data_.get();
+  std::fill_n(d->qacc, m.nv, 0.0);
+  Eigen::Map<Vector> qacc(d->qacc, m.nv);
+  for (Index i = 0; i < size(); ++i) {
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      qacc[joint.dof] = joint.factor * acceleration[i];
+    if (support_ >= 0) qacc.segment<6>(root_dof_) += acceleration[i] * root_motion_.col(i);
+  }
+  if (support_ >= 0 && moving_) {
+    // what the root accelerates with when the coordinates do not
+    const Frame root{mjOBJ_BODY, tree_};
+    qacc.segment<3>(root_dof_) += position_drift(root);
+    qacc.segment<3>(root_dof_ + 3) += orientation(root).transpose() * rotation_drift(root);
+  }
+  mj_comVel(&m, d);
+  mj_rne(&m, d, 1, efforts_.data());
+  mj_passive(&m, d);
+  for (int dof = 0; dof < m.nv; ++dof)
+    efforts_[dof] += m.dof_armature[dof] * d->qacc[dof] - d->qfrc_passive[dof];
+  for (Index i = 0; i < size(); ++i) {
+    torque[i] = support_ >= 0 ? root_motion_.col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      torque[i] += joint.factor * efforts_[joint.dof];
+  }
+}
+
+}  // namespace hurcules

@@ -1,0 +1,37 @@
+// The centre of mass stays over a polygon: an inequality a side.
+//
+//   e_i = n_i . (c - p_i) [m] (k),   J = n_i' J_com (k, n);   margin <= e_i
+// c: centre of mass of the whole tree, p_i: corners, n_i: level inward normals, both in the axes of
+// the reference (the world, or the body that the robot stands on), whose z is taken as up.
+#pragma once
+
+#include "hurcules/tasks/reference.hpp"
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+struct BalanceTaskOptions {
+  Matrix polygon;              // (k, 2) [m] corners of a convex polygon, in either turn
+  double margin = 0.05;        // [m] kept from its sides
+  std::string reference = "";  // frame whose axes the corners are in, "" = the world
+};
+
+class BalanceTask : public Task {
+ public:
+  BalanceTask(std::string name, const Robot& robot, const BalanceTaskOptions& options);
+
+  void update(const Robot& robot) override;
+  // there is no target: hold and advance change nothing
+  void hold(const Robot& robot) override { update(robot); }
+  void advance(const ConstVectorRef& velocity, double dt) override;
+  void save(StateWriter& writer) const override { Task::save(writer); }
+  void restore(StateReader& reader) override { Task::restore(reader); }
+
+ private:
+  Matrix normals_;  // (k, 2)
+  Vector offsets_;  // (k) n_i . p_i
+  Reference reference_;
+  PointMotion com_;
+};
+
+}  // namespace hurcules

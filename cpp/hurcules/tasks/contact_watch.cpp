@@ -1,0 +1,78 @@
+#include "hurcules/tasks/contact_watch.hpp"
+
+#include <cmath>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+std::string to_string(ContactState state) {
+  switch (state) {
+    case ContactState::Free:
+      return "free";
+    case ContactState::Contact:
+      return "contact";
+    case ContactState::Stopped:
+      return "stopped: force above f_max";
+    case ContactState::SensorLost:
+      return "stopped: no force reading";
+  }
+  return "";
+}
+
+ContactWatch::ContactWatch(const ContactOptions& options, const std::string& task)
+    : options_(options) {
+  const std::string of = " of force task '" + task + "' ";
+  require(std::isfinite(options.f_min) && options.f_min > 0.0,
+          "f_min" + of + "wants a positive number [N]");
+  require(options.f_max > options.f_min, "f_max" + of + "wants to be above f_min [N]");
+  require(options.release_time >= 0.0 && options.patience >= 0.0 && options.frozen_move >= 0.0,
+          "release_time, patience and frozen_move" + of + "want numbers >= 0");
+  require(std::isfinite(options.dt) && options.dt > 0.0, "dt" + of + "wants a positive time [s]");
+}
+
+ContactState ContactWatch::look(double reading, double position) {
+  if (state_ == ContactState::Stopped || state_ == ContactState::SensorLost) return state_;
+  const double dt = options_.dt;
+  if (!std::isfinite(reading)) {
+    missing_ += dt;
+    if (missing_ > options_.patience) state_ = ContactState::SensorLost;
+    return state_;
+  }
+  missing_ = 0.0;
+  if (reading != force_) changed_at_ = position;
+  force_ = reading;
+  const double size = std::abs(reading);
+  if (size > options_.f_max) return state_ = ContactState::Stopped;
+  if (state_ == ContactState::Free) {
+    quiet_ = 0.0;
+    if (size >= options_.f_min) state_ = ContactState::Contact;  // [T 5.7.64]
+    return state_;
+  }
+  const double moved = std::abs(position - changed_at_);
+  const bool pressed = size >= 0.5 * options_.f_min;
+  if (pressed && options_.frozen_move > 0.0 && moved > options_.frozen_move)
+    return state_ = ContactState::SensorLost;
+  quiet_ = size < 0.5 * options_.f_min ? quiet_ + dt : 0.0;
+  if (quiet_ > options_.release_time) state_ = ContactState::Free;
+  return state_;
+}
+
+void ContactWatch::reset() {
+  state_ = ContactState::Free;
+  force_ = quiet_ = missing_ = 0.0;
+}
+
+void ContactWatch::save(StateWriter& writer) const {
+  for (const double value :
+       {static_cast<double>(static_cast<int>(state_)), force_, quiet_, missing_, changed_at_}) {
+    writer.put(value);
+  }
+}
+
+void ContactWatch::restore(StateReader& reader) {
+  state_ = static_cast<ContactState>(reader.get_count(3));
+  for (double* value : {&force_, &quiet_, &missing_, &changed_at_}) *value = reader.get();
+}
+
+}  // namespace hurcules

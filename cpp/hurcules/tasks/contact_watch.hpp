@@ -1,0 +1,50 @@
+// Tells from force readings, one a tick, whether there is contact, too much of it, or no sensor.
+//
+//   Free -> Contact       at |f| >= f_min                                    [T 5.7.64]
+//   Contact -> Free       after |f| < f_min / 2 for release_time
+//   any -> Stopped        at |f| > f_max, until reset                        [T 5.7.64]
+//   any -> SensorLost     no finite reading for patience, or in contact a reading that keeps its
+//                         bits while the frame moves by frozen_move; until reset
+// A sensor that reads a constant 0 in the air cannot be told from no contact.
+#pragma once
+
+#include <string>
+
+#include "hurcules/base/state.hpp"
+
+namespace hurcules {
+
+enum class ContactState { Free, Contact, Stopped, SensorLost };
+[[nodiscard]] std::string to_string(ContactState state);
+
+struct ContactOptions {
+  double f_min = 2.5;          // [N] > 0 [T §5.7.2]
+  double f_max = 150.0;        // [N] > f_min; no value in the thesis
+  double release_time = 0.05;  // [s]
+  double patience = 0.01;      // [s] the last reading stands for those that are missing
+  double frozen_move = 5e-4;   // [m] along the axis; 0: not looked for (a sensor with coarse steps)
+  double dt = 1e-3;            // [s]
+};
+
+class ContactWatch {
+ public:
+  // throws Error, naming the task
+  ContactWatch(const ContactOptions& options, const std::string& task);
+  // a reading [N], any number, with the frame at this place along the axis [m]
+  ContactState look(double reading, double position);
+  [[nodiscard]] ContactState state() const { return state_; }
+  [[nodiscard]] double force() const { return force_; }  // [N] the last one that was read
+  // out of Stopped and SensorLost
+  void reset();
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  ContactOptions options_;
+  ContactState state_ = ContactState::Free;
+  double force_ = 0.0;
+  double quiet_ = 0.0, missing_ = 0.0;  // [s] for how long
+  double changed_at_ = 0.0;             // [m] where the reading changed last
+};
+
+}  // namespace hurcules

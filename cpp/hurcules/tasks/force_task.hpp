@@ -1,0 +1,85 @@
+// The contact force along one axis, as a row of a stack: joint < {hpos, force} < ...  [T §5.6.1]
+//
+// In the air it is a position task of one row: e = s - s_des, s = axis . p_RF. In contact a force
+// law moves the same row (force_law.hpp); f is what the robot exerts on the environment along the
+// axis, so pressing down with 5 N is -5 N along z [T 5.4.27]. The row never comes or goes: what
+// changes is what it asks for, and it goes over from the speed that the frame has within the blend
+// time, so that no joint speed jumps as in [T Fig. 5.17]; with blend = 0 it jumps. When f_max is
+// passed or the sensor is lost the row holds its place until reset, and lets itself be led away from
+// the contact only; the mission decides what else stops.
+//
+// Each tick: sense(robot, f), then the controller. FirstOrder is a row for both controllers, the
+// other laws for one of accelerations.
+#pragma once
+
+#include "hurcules/tasks/contact_watch.hpp"
+#include "hurcules/tasks/force_law.hpp"
+#include "hurcules/tasks/position_task.hpp"
+#include "hurcules/tasks/stiffness_estimate.hpp"
+
+namespace hurcules {
+
+struct ForceTaskOptions {
+  std::string reference = "";       // frame that the axis belongs to, "" = the world
+  Vector3 axis = Vector3::UnitZ();  // made a unit vector
+  double force_des = -5.0;          // [N] f_d [T §5.6.2]
+  double blend = 0.1;               // [s] from motion to force and back; 0: at once
+  double environment = 0.0;         // [N/m] G where it is known; 0: learnt in contact
+  double max_rate = 50.0;           // [1/s] where G is learnt, the compliance is held so low that a
+                                    // force error vanishes no faster
+  ForceGains gains = {};            // their dt holds for all of the task
+  ContactOptions contact = {};      // its dt is not read
+  StiffnessOptions stiffness = {};  // of the estimate
+};
+
+class ForceTask : public PositionTask {
+ public:
+  // throws Error for gains that are unstable with this environment
+  ForceTask(std::string name, const Robot& robot, const std::string& frame,
+            const ForceTaskOptions& options = {});
+
+  // one tick: the reading f [N] (NaN: none), the robot where the controller will see it
+  void sense(const Robot& robot, double force);
+  void update(const Robot& robot) override;
+  void hold(const Robot& robot) override;
+  // moves the motion reference along the axis; the laws without one ignore it in contact
+  void advance(const ConstVectorRef& velocity, double dt) override;
+  [[nodiscard]] bool commands_acceleration() const override { return law_.commands_acceleration(); }
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+
+  void set_force(double force_des);  // [N] f_d
+  // false: motion alone, whatever is read; readings are still watched
+  void enable(bool on) { enabled_ = on; }
+  // out of Stopped and SensorLost, at rest where the frame is
+  void reset(const Robot& robot);
+
+  [[nodiscard]] ContactState state() const { return watch_.state(); }
+  [[nodiscard]] double force() const { return watch_.force(); }  // [N] last reading
+  [[nodiscard]] double force_des() const { return force_des_; }  // [N]
+  [[nodiscard]] double stiffness() const;                        // [N/m] given or learnt
+  [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
+
+ private:
+  enum class Mode { Motion, Force, Hold };
+  [[nodiscard]] Mode mode() const;
+  [[nodiscard]] double wish(Mode mode);  // of the row, without the blend
+  void begin(Mode mode, double rate);
+  void show();  // the row as the controller sees it
+
+  ForceTaskOptions options_;
+  ForceLaw law_;
+  ContactWatch watch_;
+  StiffnessEstimate estimate_;
+  double force_des_;
+  bool enabled_ = true;
+  Mode mode_ = Mode::Motion;
+  double motion_ = 0.0;  // [m/s] of the reference
+  double wish_ = 0.0;    // [m/s] or [m/s^2], blend included
+  double offset_ = 0.0, age_ = 0.0;
+  double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
+  double last_ = 0.0;  // [m] s at the last sense
+  bool sensed_ = false;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,28 @@
+// What the drives of the coordinates can give, as rows of a level: for controllers of acceleration.
+//
+//   lower <= M qddot + h <= upper  [N m] or [N] (n)        M qddot + h: Robot::inverse_dynamics
+// jacobian = M, drift = h. Contacts beside the support, and dry friction, are not in it.
+#pragma once
+
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+class TorqueLimits : public Task {
+ public:
+  // starts with the efforts of the robot's coordinates, inf where it has none
+  TorqueLimits(std::string name, const Robot& robot);
+
+  // at the robot's configuration and velocity; error() is the torque at constant velocity, h
+  void update(const Robot& robot) override;
+  void hold(const Robot& robot) override { update(robot); }
+  void advance(const ConstVectorRef& velocity, double dt) override;
+  [[nodiscard]] bool commands_acceleration() const override { return true; }
+  void save(StateWriter& writer) const override { Task::save(writer); }
+  void restore(StateReader& reader) override { Task::restore(reader); }
+
+ private:
+  Vector still_;  // (n) zero
+};
+
+}  // namespace hurcules

@@ -1,0 +1,106 @@
+// Strategy: an arm of two joints whose every case can be drawn on paper: within reach nothing is
+// said; out of reach, at a limit, behind another task, the words and the lengths of the notes; the
+// singular value of its stretched posture.
+#include "hurcules/control/level_notes.hpp"
+
+#include <cmath>
+
+#include "hurcules/control/tasks.hpp"
+#include "hurcules/control/velocity_controller.hpp"
+#include "support/expect.hpp"
+
+namespace {
+
+using namespace hurcules;
+using namespace hurcules_test;
+
+// upper and lower arm of 0.5 m in a plane
+constexpr const char* kElbow = R"(
+<mujoco>
+  <compiler angle="radian"/>
+  <worldbody>
+    <body name="upper">
+      <joint name="SH" axis="0 0 1" range="-1 1" limited="true"/><geom size="0.1" mass="1"/>
+      <body name="lower" pos="0.5 0 0">
+        <joint name="EL" axis="0 0 1" range="-2.5 2.5" limited="true"/><geom size="0.1" mass="1"/>
+        <site name="tip" pos="0.5 0 0"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="SH"/><motor joint="EL"/></actuator>
+</mujoco>)";
+
+class Notes : public testing::Test {
+ protected:
+  Notes() {
+    robot_.set_configuration(Vector{{0.6, 0.9}});
+    for (Task* task : std::initializer_list<Task*>{&limits_, &hand_, &posture_}) task->hold(robot_);
+  }
+  std::vector<LevelNote> settle(const Stack& stack, int ticks = 6000) {
+    controller_.set_stack(stack);
+    for (int i = 0; i < ticks; ++i) {
+      controller_.compute(robot_);
+      Vector q = robot_.configuration();
+      controller_.integrate(q);
+      robot_.set_configuration(q);
+    }
+    return controller_.notes(robot_);
+  }
+  static PositionTaskOptions plane() {
+    PositionTaskOptions options;
+    options.axes = Matrix3::Identity().topRows(2);
+    return options;
+  }
+
+  Robot robot_{load_model_text(kElbow)};
+  JointLimits limits_{"limits", robot_};
+  PositionTask hand_{"left hand", robot_, "tip", plane()};
+  PostureTask posture_{"posture", robot_};
+  VelocityController controller_{robot_};
+};
+
+TEST_F(Notes, SayNothingWhereAllIsWell) {
+  hand_.set_target(Vector{{0.5, 0.5}});
+  const std::vector<LevelNote> notes = settle(limits_ < hand_);
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_TRUE(notes[0].shorts.empty());
+  EXPECT_TRUE(notes[1].shorts.empty());
+}
+
+TEST_F(Notes, NameTheLimitThatHoldsATaskBack) {
+  // the tip on the y axis, 0.8 m away, wants the shoulder at pi/2 - acos(0.8) = 0.93 or 2.2:
+  // within; at 0.5 m behind it wants 1.5 or more: the shoulder stops at 1
+  hand_.set_target(Vector{{-0.3, 0.8}});
+  const std::vector<LevelNote> notes = settle(limits_ < hand_);
+  ASSERT_EQ(notes[1].shorts.size(), 1U);
+  const ShortTask& left = notes[1].shorts[0];
+  EXPECT_EQ(left.held_by, std::vector<std::string>{"SH upper limit"}) << left.text();
+  EXPECT_TRUE(contains(left.text(), "left hand: ")) << left.text();
+  EXPECT_TRUE(contains(left.text(), " m short, held by SH upper limit")) << left.text();
+  // the best tip: from the elbow at (0.5 cos 1, 0.5 sin 1) 0.5 m towards the target
+  const double distance = std::hypot(-0.3 - 0.5 * std::cos(1.0), 0.8 - 0.5 * std::sin(1.0));
+  EXPECT_NEAR(left.short_by, std::abs(distance - 0.5), 2e-3);
+}
+
+TEST_F(Notes, NameTheTaskAboveThatTakesTheDirections) {
+  hand_.set_target(Vector{{0.5, 0.5}});
+  const std::vector<LevelNote> notes = settle(limits_ < hand_ < posture_);
+  ASSERT_EQ(notes[2].shorts.size(), 1U);
+  EXPECT_EQ(notes[2].shorts[0].held_by, std::vector<std::string>{"tasks above"});
+  EXPECT_TRUE(contains(notes[2].shorts[0].text(), " rad short, held by tasks above"));
+}
+
+TEST_F(Notes, TellHowNearTheStretchedArmIsToSingularity) {
+  const double before = settle(Stack({hand_}), 1)[0].smallest_singular_value;
+  hand_.set_target(Vector{{1.2, 0.0}});  // beyond its 1 m
+  const LevelNote note = settle(Stack({hand_}), 20000)[0];
+  // at (0.6, 0.9): product 0.25 sin 0.9, sum of squares 0.75 + 0.5 cos 0.9
+  EXPECT_NEAR(before, 0.1936, 1e-3);
+  EXPECT_LT(note.smallest_singular_value, 0.06);
+  EXPECT_LT(note.manipulability, 0.06);
+  ASSERT_EQ(note.shorts.size(), 1U);
+  EXPECT_NEAR(note.shorts[0].short_by, 0.2, 0.02);
+  EXPECT_EQ(note.shorts[0].held_by, std::vector<std::string>{"a singular posture"});
+}
+
+}  // namespace
