@@ -84,7 +84,7 @@ def test_the_first_hand_arrives_whatever_the_others_are_asked_for(
     for _ in range(6000):
         q = controller.step(robot)
         worst = max(worst, np.max(limits.lower - q), np.max(q - limits.upper))
-        assert controller.solution.status is rhqp.Status.Solved
+        assert controller.solution.status == rhqp.Status.Solved
     assert worst <= 0.0
     assert np.linalg.norm(robot.position(subject.hands[0]) - wanted) < 1e-3
 

@@ -55,7 +55,7 @@ RangeFinder::RangeFinder(const mjModel* m, const RangeFinderOptions& options) : 
 }
 
 void RangeFinder::reset(std::uint64_t seed) {
-  random_ = Random(seed);
+  random_ = Random(options_.model.ideal() ? 0 : seed);  // ideal, it draws nothing
   bias_ = options_.model.bias > 0.0 ? options_.model.bias * random_.normal() : 0.0;
   next_ = oldest_ = 0;
   for (Vector* values : {&scan_, &reading_}) values->setConstant(kNothing);

@@ -36,12 +36,22 @@ bool collides(const mjModel* m, int a, int b) {
          (m->geom_contype[b] & m->geom_conaffinity[a]) != 0;
 }
 
-// joints on the way from one body to the other through the tree
+// joints that turn the body: not slides, along which parts of one thing move, nor springs
+int turning_joints(const mjModel* m, int body) {
+  int joints = 0;
+  for (int i = 0; i < m->body_jntnum[body]; ++i) {
+    const int j = m->body_jntadr[body] + i;
+    joints += m->jnt_type[j] == mjJNT_HINGE && m->jnt_stiffness[j] == 0.0 ? 1 : 0;
+  }
+  return joints;
+}
+
+// such joints on the way from one body to the other through the tree
 int joints_between(const mjModel* m, int a, int b) {
   int joints = 0;
   while (a != b) {  // parents have smaller numbers
     int& lower = a > b ? a : b;
-    joints += m->body_jntnum[lower];
+    joints += turning_joints(m, lower);
     lower = m->body_parentid[lower];
   }
   return joints;

@@ -1,6 +1,6 @@
 // How near the robot comes to itself: the smallest distance of chosen pairs of its contact shapes.
 //
-// Chosen are the pairs that the physics would let collide, with at least `joints` joints between
+// Chosen are the pairs that the physics would let collide, with at least `joints` turning joints between
 // them; those with no more than that only if they lie apart by `near` in the model's initial
 // posture. What has fewer joints between it is kept apart by joint ranges; what lies near by
 // construction (an upper arm beside the torso) would hide all else. Boxes around the shapes rule
@@ -21,7 +21,7 @@ struct mjData_;
 namespace hurcules {
 
 struct SelfDistanceOptions {
-  int joints = 3;
+  int joints = 3;        // hinges that no spring holds
   double near = 0.05;    // [m]
   double cutoff = 0.25;  // [m] what is further apart counts as this
 };

@@ -49,7 +49,7 @@ Sensor::Sensor(SensorSetup setup, const SensorModel& model, double dt)
 }
 
 void Sensor::reset(const mjData* data, std::uint64_t seed) {
-  random_ = Random(seed);
+  random_ = Random(model_.ideal() ? 0 : seed);  // draws nothing: the same state for every seed
   read(data);
   for (double& bias : bias_) bias = model_.bias > 0.0 ? model_.bias * random_.normal() : 0.0;
   past_.rowwise() = truth_.transpose();

@@ -57,7 +57,7 @@ TEST_F(SensorsTest, AreThoseOfTheRobotAndNotOfTheCasualty) {
       "encoder_position", "encoder_speed", "imu_acceleration", "imu_rate",      "load",
       "track_speed",      "pose_position", "pose_rotation",    "pose_velocity", "pose_rate"};
   EXPECT_EQ(sensors.names(), wanted);
-  EXPECT_EQ(find(sensors, "encoder_position").size(), 16);  // 14 joints, 2 drives
+  EXPECT_EQ(find(sensors, "encoder_position").size(), 19);  // 14 joints, 3 of the bed, 2 drives
   EXPECT_EQ(find(sensors, "load").size(), 12);              // a force each track
   EXPECT_EQ(find(sensors, "track_speed").size(), 4);
   EXPECT_FALSE(sensors.alter_state());
@@ -106,7 +106,7 @@ TEST_F(SensorsTest, OnlyWhatHasAModelAltersTheState) {
   sensors.overwrite(qpos, qvel);
   EXPECT_EQ(qvel, std::as_const(physics_).qvel());
   const Vector change = qpos - physics_.qpos();
-  EXPECT_EQ((change.array() != 0.0).count(), 16);
+  EXPECT_EQ((change.array() != 0.0).count(), 19);
   EXPECT_LT(change.cwiseAbs().maxCoeff(), 0.05);
 }
 
