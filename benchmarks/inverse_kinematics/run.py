@@ -39,7 +39,7 @@ class Entry:
     option: dict[str, object] = field(default_factory=dict)
 
 
-MINK = ("mink==1.3.0", "mujoco==3.17.0", "daqp==0.11.0", DATA)
+MINK = ("mink==1.3.0", f"mujoco=={mujoco.__version__}", "daqp==0.11.0", DATA)
 PINK = ("pin-pink==4.4.0", "pin==4.1.0", "daqp==0.11.0", DATA)
 PLACO = ("placo==0.10.2", "example-robot-data==5.0.0")
 ROBOPLAN = ("roboplan[all]==0.7.0", DATA)
@@ -62,7 +62,7 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="also write the figures here")
     arguments = parser.parse_args()
     entries = [entry for entry in ENTRIES if entry.peer in (*arguments.peers, "hurcules")]
-    console = Console()
+    console = Console(width=150)
     with console.status("making the peers' environments"):
         for entry in entries:
             _interpreter(entry)
@@ -163,7 +163,7 @@ def _table(scenario: str, rows: list[dict[str, object]]) -> Table:
             f"{row['median_us']:.1f}",
             f"{row['p99_over_median']:.1f}",
             f"{row['median_us'] / placo:.2f}",
-            *(f"{row[f'{side}_{unit}']:.2f}" for side in ("right", "left") for unit in ("mm", "deg")),
+            *(f"{row[key]:.2f}" for key in ("right_mm", "right_deg", "left_mm", "left_deg")),
             str(row["failed"]),
             f"{row['position_excess']:.1e}",
             f"{row['speed_excess']:.1e}",

@@ -59,8 +59,10 @@ def find(model: mujoco.MjModel, name: str) -> Camera:
         width, height = model.vis.global_.offwidth, model.vis.global_.offheight
     sensor = model.cam_sensorsize[camera]
     if sensor[1] > 0:
-        focal = model.cam_intrinsic[camera, :2] / sensor * (width, height)
-        centre = np.array((width, height)) / 2 + model.cam_intrinsic[camera, 2:]
+        pixels = (width, height) / sensor  # a metre on the sensor
+        focal = model.cam_intrinsic[camera, :2] * pixels
+        # the principal point moves the picture to the left and upward
+        centre = np.array((width, height)) / 2 - model.cam_intrinsic[camera, 2:] * pixels
     else:
         # square pixels, the centre in the middle
         focal = np.full(2, height / 2 / math.tan(math.radians(model.cam_fovy[camera]) / 2))

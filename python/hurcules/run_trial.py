@@ -90,7 +90,7 @@ def summarize(
     result: Result, chosen: Method, options: TrialOptions, success: bool, wall: float
 ) -> dict[str, Any]:
     """Sums up a result for JSON."""
-    plain = result.as_dict()
+    plain: dict[str, Any] = result.as_dict()
     for one in plain["settings"]:
         one["shown"] = shown(chosen, one["setting"])
     largest = shown(chosen, result.largest) if result.passed else "none"

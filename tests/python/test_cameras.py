@@ -21,7 +21,7 @@ BALL = """
   <worldbody>
     <camera name="eye" pos="0 0 1" xyaxes="0 -1 0 0 0 1" fovy="40" resolution="320 200"/>
     <camera name="lens" pos="0 0 1" xyaxes="0 -1 0 0 0 1" resolution="320 200"
-            sensorsize="0.0032 0.0020" focal="0.003 0.003" principal="0.0002 0"/>
+            sensorsize="0.0032 0.0020" focal="0.003 0.003" principal="0.0002 0.0001"/>
     <geom name="ball" pos="2 0.3 1.2" size="0.03" rgba="1 0 0 1"/>
     <geom name="wall" type="box" pos="4.1 0 1" size="0.1 9 9" rgba="0 0 1 1"/>
   </worldbody>

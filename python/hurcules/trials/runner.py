@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
+from functools import partial
 
 import numpy as np
 
@@ -108,7 +109,7 @@ def run(
                 (chosen, setting, robot, attempt_seed(seed, i), speed, driver, variation)
                 for i in range(repetitions)
             ]
-            tries = _all(jobs, pool, lambda n, f, s=setting: progress(s, n, f), stopped)
+            tries = _all(jobs, pool, partial(progress, setting), stopped)
             if tries:
                 results.append(_sum_up(setting, tries, repetitions))
                 seconds += sum(one.seconds for one in tries)
