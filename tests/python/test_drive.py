@@ -132,14 +132,6 @@ def test_on_the_flat_it_parks_within_3_cm_and_2_degrees(goal: tuple[float, float
 
 
 @pytest.mark.slow
-def test_across_a_slope_of_15_degrees_it_parks_straight_ahead() -> None:
-    robot = make("slope", direction="across", angle=math.radians(15))
-    offset, turned = park(robot, 2.0, 0.0, 0.0, seconds=40.0)
-    assert offset < 0.05
-    assert abs(turned) < math.radians(3)
-
-
-@pytest.mark.slow
 def test_a_turn_that_traction_does_not_allow_ends_in_time() -> None:
     # the uphill track bears 28 % of the weight: 0.9 x 0.28 x 6440 N x 0.67 m = 1.1 kN m turn it,
     # mu W L / 4 = 1.2 kN m hold it
