@@ -104,7 +104,7 @@ class Judge:
             "failed": run["failed"],
             "position_excess": _excess(q, self.joints, "position"),
             "speed_excess": _excess(speed, self.joints, "speed"),
-            "acceleration": float(np.abs(np.diff(speed, axis=0)).max()),
+            "acceleration": float(np.abs(np.diff(speed, axis=0)).max() / DT),
         }
         self.data.qpos[:] = q[-1]
         mujoco.mj_kinematics(self.model, self.data)
