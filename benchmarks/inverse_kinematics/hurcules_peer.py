@@ -13,7 +13,7 @@ __all__ = ["Peer"]
 
 
 class Peer:
-    """limits < right hand < left hand < right turn < left turn [< waist] < centre of mass < posture.
+    """limits < right hand < left hand < right turn < left turn [< waist] < mass centre < posture.
 
     Args:
         urdf: the robot as text.
@@ -48,14 +48,17 @@ class Peer:
         self.q = self.robot.configuration
 
     def start_poses(self) -> dict[str, Pose]:
+        """Where the hands are."""
         return {hand: (self.robot.orientation(hand), self.robot.position(hand)) for hand in HANDS}
 
     def aim(self, wanted: dict[str, Pose]) -> None:
+        """Tells where the hands shall be."""
         for hand, (rotation, place) in wanted.items():
             self.places[hand].set_target(place)
             self.turns[hand].set_target(rotation)
 
     def tick(self) -> bool:
+        """Moves the robot by one DT; whether there was an answer."""
         self.q = self.controller.step(self.robot)
         return bool(np.isfinite(self.q).all())
 

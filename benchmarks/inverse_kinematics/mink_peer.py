@@ -34,9 +34,11 @@ class Peer:
 
     @property
     def q(self) -> np.ndarray:
+        """The 19 joints, (n,) [rad] or [m]."""
         return self.configuration.q
 
     def start_poses(self) -> dict[str, Pose]:
+        """Where the hands are."""
         poses = {}
         for hand in HANDS:
             pose = self.configuration.get_transform_frame_to_world(hand, "body")
@@ -44,11 +46,13 @@ class Peer:
         return poses
 
     def aim(self, wanted: dict[str, Pose]) -> None:
+        """Tells where the hands shall be."""
         for hand, (rotation, place) in wanted.items():
             turn = mink.SO3.from_matrix(rotation)
             self.hands[hand].set_target(mink.SE3.from_rotation_and_translation(turn, place))
 
     def tick(self) -> bool:
+        """Moves the robot by one DT; whether there was an answer."""
         try:
             velocity = mink.solve_ik(
                 self.configuration, self.tasks, DT, "daqp", damping=1e-9, limits=self.limits

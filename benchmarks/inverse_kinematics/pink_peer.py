@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pinocchio
 import pink
+import pinocchio
 from pink.tasks import ComTask, FrameTask, PostureTask
 from problem import DT, HANDS, Joint, Pose
 
@@ -35,9 +35,11 @@ class Peer:
 
     @property
     def q(self) -> np.ndarray:
+        """The 19 joints, (n,) [rad] or [m]."""
         return self.configuration.q[self.order]
 
     def start_poses(self) -> dict[str, Pose]:
+        """Where the hands are."""
         poses = {}
         for hand in HANDS:
             pose = self.configuration.get_transform_frame_to_world(hand)
@@ -45,10 +47,12 @@ class Peer:
         return poses
 
     def aim(self, wanted: dict[str, Pose]) -> None:
+        """Tells where the hands shall be."""
         for hand, (rotation, place) in wanted.items():
             self.hands[hand].set_target(pinocchio.SE3(rotation, place))
 
     def tick(self) -> bool:
+        """Moves the robot by one DT; whether there was an answer."""
         try:
             velocity = pink.solve_ik(self.configuration, self.tasks, DT, solver="daqp")
         except (pink.exceptions.PinkError, RuntimeError):

@@ -42,18 +42,22 @@ class Peer:
 
     @property
     def q(self) -> np.ndarray:
+        """The 19 joints, (n,) [rad] or [m]."""
         return np.array([self.robot.get_joint(name) for name in self.names])
 
     def start_poses(self) -> dict[str, Pose]:
+        """Where the hands are."""
         poses = {hand: self.robot.get_T_world_frame(hand) for hand in HANDS}
         return {hand: (pose[:3, :3].copy(), pose[:3, 3].copy()) for hand, pose in poses.items()}
 
     def aim(self, wanted: dict[str, Pose]) -> None:
+        """Tells where the hands shall be."""
         for hand, (rotation, place) in wanted.items():
             self.pose[:3, :3], self.pose[:3, 3] = rotation, place
             self.hands[hand].T_world_frame = self.pose
 
     def tick(self) -> bool:
+        """Moves the robot by one DT; whether there was an answer."""
         try:
             self.solver.solve(True)
         except RuntimeError:

@@ -49,18 +49,22 @@ class Peer:
 
     @property
     def q(self) -> np.ndarray:
+        """The 19 joints, (n,) [rad] or [m]."""
         return self.full[self.order]
 
     def start_poses(self) -> dict[str, Pose]:
+        """Where the hands are."""
         poses = {hand: self.scene.forwardKinematics(self.full, hand) for hand in HANDS}
         return {hand: (pose[:3, :3].copy(), pose[:3, 3].copy()) for hand, pose in poses.items()}
 
     def aim(self, wanted: dict[str, Pose]) -> None:
+        """Tells where the hands shall be."""
         for hand, (rotation, place) in wanted.items():
             self._fill(rotation, place)
             self.hands[hand].setTargetFrameTransform(self.pose)
 
     def tick(self) -> bool:
+        """Moves the robot by one DT; whether there was an answer."""
         try:
             self.oink.solveIk(self.scene, self.tasks, self.limits, [], self.step)
         except RuntimeError:

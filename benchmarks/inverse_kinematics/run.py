@@ -53,6 +53,7 @@ ENTRIES = [
 
 
 def main() -> None:
+    """Runs what the command line asks for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     names = sorted({entry.peer for entry in ENTRIES})
     parser.add_argument("--peers", nargs="+", choices=names, default=names)
@@ -95,6 +96,7 @@ class Judge:
         self.data = mujoco.MjData(self.model)
 
     def figures(self, run: dict[str, object]) -> dict[str, object]:
+        """Sums up what a worker printed."""
         times, q = np.array(run["microseconds"]), np.array(run["q"])
         speed = np.diff(q, axis=0) / DT
         row = {

@@ -15,6 +15,7 @@ from problem import DT, SCENARIOS, robot_description, targets
 
 
 def main() -> None:
+    """Runs what the command line asks for."""
     parser = argparse.ArgumentParser()
     parser.add_argument("peer", help="module NAME_peer.py")
     parser.add_argument("scenario", choices=SCENARIOS)

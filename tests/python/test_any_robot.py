@@ -30,6 +30,7 @@ class Subject:
     hands: tuple[str, ...]
 
     def robot(self) -> hurcules.Robot:
+        """Loads it."""
         spec = importlib.util.find_spec(self.package)
         assert spec is not None and spec.origin is not None, self.package
         path = Path(spec.origin).parent / self.file
