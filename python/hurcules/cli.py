@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -43,6 +43,13 @@ def _folder(text: str) -> Path:
     return Path(text)
 
 
+def _results_in(default: str) -> Any:
+    """The option --out."""
+    return typer.Option(
+        parser=_folder, metavar="<path>", help="Folder for the results.", show_default=default
+    )
+
+
 @app.callback()
 def _options(
     version: Annotated[
@@ -62,15 +69,7 @@ def run_mission(
         str, typer.Argument(help="A mission or a test method of `hurcules list`.")
     ] = "stretch",
     seed: Annotated[int, typer.Option(help="Draws what differs between runs.")] = 0,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            parser=_folder,
-            metavar="<path>",
-            help="Folder for the results.",
-            show_default="out/MISSION",
-        ),
-    ] = None,
+    out: Annotated[Path | None, _results_in("out/MISSION")] = None,
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this time [s].", show_default="to the end")
     ] = None,
@@ -165,15 +164,7 @@ def reproduce(
         list[str] | None,
         typer.Argument(help="M05, a beginning such as M or K1, a range such as R01-R10."),
     ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            parser=_folder,
-            metavar="<path>",
-            help="Folder for the results.",
-            show_default="out/reproduce",
-        ),
-    ] = None,
+    out: Annotated[Path | None, _results_in("out/reproduce")] = None,
     workers: Annotated[
         int | None, typer.Option(help="Processes.", show_default="one for each core")
     ] = None,

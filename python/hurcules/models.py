@@ -13,6 +13,7 @@ import mujoco
 
 from hurcules import _core
 from hurcules._core import Error
+from hurcules.known import require_known
 
 __all__ = ["folder", "load", "names", "parse", "path", "scenes"]
 
@@ -125,8 +126,7 @@ def _stems(kind: str) -> list[str]:
 
 
 def _existing(kind: str, name: str, noun: str, known: list[str]) -> Path:
-    if name not in known:
-        raise Error(f"{noun} '{name}' does not exist; there are: {', '.join(known)}")
+    require_known(noun, name, known)
     return folder() / kind / f"{name}.xml"
 
 

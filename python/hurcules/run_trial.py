@@ -14,9 +14,9 @@ from rich.console import Console
 from rich.table import Table
 
 from hurcules import scenes
-from hurcules._core import Error
 from hurcules._version import __version__
 from hurcules.interrupts import Interrupts
+from hurcules.known import require_known
 from hurcules.models import names as robot_names
 from hurcules.output import Output
 from hurcules.rendering import RendererError
@@ -63,9 +63,7 @@ def run_trial(options: TrialOptions, console: Console) -> int:
         WriteError: a file could not be written; those before it were.
     """
     chosen, settings = asked(options.method, options.words)
-    if options.robot not in robot_names():
-        known = ", ".join(robot_names())
-        raise Error(f"robot '{options.robot}' does not exist; there are: {known}")
+    require_known("robot", options.robot, robot_names())
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
         started = perf_counter()

@@ -13,6 +13,7 @@ import numpy as np
 
 from hurcules import _core, models
 from hurcules._core import Error, MonitorOptions, SensorOptions
+from hurcules.known import require_known
 
 __all__ = ["Simulation"]
 
@@ -57,9 +58,7 @@ class Simulation(_core.Simulation):
             Error: no such mission, method or sensor (the text names those that exist), or a bad
                 number.
         """
-        if mission not in _core.missions():
-            known = ", ".join(_core.missions())
-            raise Error(f"mission '{mission}' does not exist; there are: {known}")
+        require_known("mission", mission, _core.missions())
         options = _core.SimulationOptions(
             seed=_seed(seed),
             variation=_variation(variation),

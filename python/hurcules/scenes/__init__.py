@@ -14,6 +14,7 @@ import numpy as np
 
 from hurcules import models
 from hurcules._core import Error
+from hurcules.known import require_known
 from hurcules.scenes.casualty import Casualty
 from hurcules.scenes.flat import Flat, Pylons
 from hurcules.scenes.gap import Gap, Trench
@@ -102,8 +103,8 @@ def make(name: str, *, robot: str | None = None, seed: int = 0, **values: Any) -
     whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
     if not whole or seed < 0:
         raise Error(f"{name}: seed wants a whole number >= 0, got {seed!r}")
-    if robot is not None and robot not in models.names():
-        raise Error(f"robot '{robot}' does not exist; there are: {', '.join(models.names())}")
+    if robot is not None:
+        require_known("robot", robot, models.names())
     ground = Ground(robot, wanted.friction, seed)
     ground.spec.modelname = name if robot is None else f"{robot} in {name}"
     wanted.build(ground)

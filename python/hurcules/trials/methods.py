@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from hurcules._core import Error
+from hurcules.known import require_known
 from hurcules.trials.postures import FLAT, Posture
 
 __all__ = ["METHODS", "Method", "Way", "method"]
@@ -109,6 +109,5 @@ def method(name: str) -> Method:
     Raises:
         Error: no such method; the text lists those that exist.
     """
-    if name not in METHODS:
-        raise Error(f"method '{name}' does not exist; there are: {', '.join(METHODS)}")
+    require_known("method", name, METHODS)
     return METHODS[name]

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "support/expect.hpp"
+#include "support/usual_limits.hpp"
 
 namespace {
 
@@ -17,16 +18,6 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-RateLimits usual() {
-  RateLimits limits;
-  limits.dt = 1e-3;
-  limits.horizon = 0.05;
-  limits.max_velocity = 2.0;
-  limits.max_acceleration = 20.0;
-  limits.return_speed = 0.2;
-  return limits;
-}
 
 // a coordinate between -1 and 1
 struct Coordinate1 {

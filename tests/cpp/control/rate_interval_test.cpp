@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/expect.hpp"
+#include "support/usual_limits.hpp"
 
 namespace {
 
@@ -15,16 +16,6 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-RateLimits usual() {
-  RateLimits limits;
-  limits.dt = 1e-3;
-  limits.horizon = 0.05;
-  limits.max_velocity = 2.0;
-  limits.max_acceleration = 20.0;
-  limits.return_speed = 0.2;
-  return limits;
-}
 
 RateInterval at(double q, double velocity, const RateLimits& limits) {
   return rate_interval({-1.0 - q, 1.0 - q, velocity}, limits);
