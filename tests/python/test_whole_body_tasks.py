@@ -174,7 +174,7 @@ def test_notes_say_what_holds_a_hand(
     assert short.task == "hand"
     assert short.short_by == pytest.approx(float(abs(hand.error[0])), rel=1e-6)
     assert short.held_by == held_by
-    assert str(short) == f"hand: {short.short_by:.2g} m short, held by {' and '.join(held_by)}"
+    assert str(short) == f"hand: {short.short_by:.3g} m short, held by {' and '.join(held_by)}"
 
 
 def test_a_brake_holds_what_falls_without_it() -> None:
