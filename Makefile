@@ -27,8 +27,9 @@ test: ctest pytest
 ctest: setup
 	$(BIN)/ctest --test-dir $(BUILD) --output-on-failure --parallel $(shell nproc)
 
+# a file of tests stays in one process: its tests share what is slow to make
 pytest: setup
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses $(shell nproc) --dist loadfile
 
 # the C++ tests again: debug build, asserts, address and undefined-behaviour sanitizers, Eigen's allocation guard
 sanitize: setup

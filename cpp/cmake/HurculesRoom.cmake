@@ -7,6 +7,12 @@ function(hurcules_warnings target)
   endif()
 endfunction()
 
+# hurcules_precompile(TARGET HEADER ...): headers that are read once, not once a file; for the tests, whose
+# headers are large. The library does without, so that its files include what they use.
+function(hurcules_precompile target)
+  target_precompile_headers(${target} PRIVATE ${HURCULES_GUARD} ${ARGN})
+endfunction()
+
 # hurcules_room(NAME [LINKS room or target ...]): every source in cpp/hurcules/NAME
 function(hurcules_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})

@@ -14,5 +14,6 @@ endif()
 if(HURCULES_TESTS)
   # tests forbid allocation in a tick; this arms Eigen's guard in optimised builds too
   add_compile_definitions(EIGEN_RUNTIME_NO_MALLOC)
-  add_compile_options(-include "${PROJECT_SOURCE_DIR}/tests/cpp/support/malloc_guard.hpp")
+  set(HURCULES_GUARD "${PROJECT_SOURCE_DIR}/tests/cpp/support/malloc_guard.hpp")
+  add_compile_options("$<$<NOT:$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS>>>:SHELL:-include ${HURCULES_GUARD}>")
 endif()
