@@ -1,0 +1,199 @@
+"""An hour of simulated time with random commands: what goes wrong, and where the energy goes.
+
+Two halves: the stretch, whose hands, pelvis and gaze an operator without sense moves (runs from
+seed to seed), and a robot that is driven about on the flat. Commands are uniform within their
+bounds and change every 0.1 to 2 s.
+
+Each step, with f of the step and the mean of the velocities before and after it (exact for the
+kinetic energy at constant inertia):
+    stored energy (kinetic, gravity, springs) = drives + dampers + constraints + rest
+Constraints are contacts, friction, brakes, stops and the tracks' traction; dampers and constraints
+may only take. The rest is what the integrator makes or loses. A hand that is sent into the ground
+is not held back here: its servo then wants more torque than its motor gives (commanded torque).
+
+    python benchmarks/soak.py [--seconds 3600] [--seed 0]
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+import hurcules
+from hurcules import scenes
+from hurcules.trials.attempt import hold_joints
+from hurcules.trials.drive import Chassis, drive_options
+
+DT = 1e-3
+HOLD = (0.1, 2.0)  # [s] of a command
+SPEED, YAW_RATE = 1.5, 0.6  # [m/s], [rad/s] of the drive at most
+
+
+@dataclass
+class Ledger:
+    """Energies [J] of all steps so far, and what went wrong."""
+
+    seconds: float = 0.0
+    drives: float = 0.0
+    dampers: float = 0.0
+    constraints: float = 0.0
+    stored: float = 0.0
+    turned_over: float = 0.0  # |power| of the drives, integrated: the measure of the rest
+    runs: int = 0
+    warnings: dict[str, int] = field(default_factory=dict)
+    not_finite: int = 0
+    excess: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def rest(self) -> float:
+        """What the terms do not explain."""
+        return self.stored - self.drives - self.dampers - self.constraints
+
+
+class Accountant:
+    """Keeps a ledger of one physics, step by step."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, ledger: Ledger) -> None:
+        model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+        self.model, self.data, self.ledger = model, data, ledger
+        self.begin()
+
+    def begin(self) -> None:
+        """A run begins: what is stored now is nobody's work."""
+        mujoco.mj_forward(self.model, self.data)
+        self._velocity = self.data.qvel.copy()
+        self._stored = float(self.data.energy.sum())
+        self.ledger.runs += 1
+
+    def step(self, step: Callable[[], object]) -> None:
+        """Takes one step and books it."""
+        data, ledger = self.data, self.ledger
+        step()
+        mean = 0.5 * (self._velocity + data.qvel)
+        drives = float(data.qfrc_actuator @ mean) * DT
+        ledger.drives += drives
+        ledger.turned_over += abs(drives)
+        ledger.dampers += float(data.qfrc_damper @ mean) * DT
+        ledger.constraints += float(data.qfrc_constraint @ mean) * DT
+        self._velocity[:] = data.qvel
+        ledger.seconds += DT
+        ledger.not_finite += not np.isfinite(data.qvel).all()
+
+    def end(self) -> None:
+        """A run ends."""
+        mujoco.mj_forward(self.model, self.data)
+        self.ledger.stored += float(self.data.energy.sum()) - self._stored
+        for kind in range(mujoco.mjtWarning.mjNWARNING):
+            count = int(self.data.warning[kind].number)
+            if count:
+                name = mujoco.mjtWarning(kind).name
+                self.ledger.warnings[name] = self.ledger.warnings.get(name, 0) + count
+
+
+class Whim:
+    """A command that is uniform in -1 .. 1 and changes now and then."""
+
+    def __init__(self, rng: np.random.Generator, size: int) -> None:
+        self._rng, self._left = rng, 0.0
+        self.value = np.zeros(size)
+
+    def tick(self) -> NDArray[np.float64]:
+        """The command of this tick."""
+        self._left -= DT
+        if self._left <= 0.0:
+            self._left = self._rng.uniform(*HOLD)
+            self.value = self._rng.uniform(-1.0, 1.0, self.value.size)
+        return self.value
+
+
+def stretch(seconds: float, seed: int) -> Ledger:
+    """The controller in command of the whole body, an operator without sense in command of it."""
+    rng, ledger = np.random.default_rng(seed), Ledger()
+    simulation = hurcules.Simulation("stretch", seed, record=False)
+    whim = Whim(rng, len(simulation.command_names))
+    accountant = Accountant(simulation.model, simulation.data, ledger)
+    for _ in track(range(round(seconds / DT)), "stretch"):
+        command = whim.tick() * simulation.command_scale
+        accountant.step(lambda command=command: simulation.step(1, command))
+        if simulation.finished:
+            _note_excess(ledger, simulation)
+            accountant.end()
+            seed += 1
+            simulation.reset(seed)
+            accountant.begin()
+    _note_excess(ledger, simulation)
+    accountant.end()
+    return ledger
+
+
+def _note_excess(ledger: Ledger, simulation: hurcules.Simulation) -> None:
+    violation = simulation.limit_violation()
+    commanded = violation.pop("commanded")
+    for prefix, excess in (("", violation), ("commanded ", commanded)):
+        for name, value in excess.items():
+            key = prefix + name
+            ledger.excess[key] = max(ledger.excess.get(key, 0.0), float(value))
+
+
+def drive(seconds: float, seed: int) -> Ledger:
+    """The rescue robot driven about on the flat, joints on their brakes."""
+    ledger = Ledger()
+    model = scenes.load("flat", "rescue")
+    hold_joints(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    mujoco.mj_forward(model, data)
+    chassis = Chassis(model, drive_options(model))
+    whim = Whim(np.random.default_rng(seed), 2)
+    accountant = Accountant(model, data, ledger)
+    for _ in track(range(round(seconds / DT)), "drive"):
+        speed, yaw_rate = whim.tick() * (SPEED, YAW_RATE)
+        chassis.controller.drive(speed, yaw_rate)
+        chassis.act(data, chassis.sense(data))
+        accountant.step(lambda: hurcules.step(model, data))
+    accountant.end()
+    return ledger
+
+
+def show(ledgers: dict[str, Ledger]) -> None:
+    """Prints the ledgers side by side."""
+    table = Table("", *ledgers)
+    rows: dict[str, Callable[[Ledger], str]] = {
+        "simulated in s": lambda one: f"{one.seconds:.0f}",
+        "runs": lambda one: str(one.runs),
+        "steps that were not finite": lambda one: str(one.not_finite),
+        "warnings of MuJoCo": lambda one: str(one.warnings or "none"),
+        "worst excess over limits": lambda one: (
+            ", ".join(f"{name} {value:.2g}" for name, value in one.excess.items()) or "not watched"
+        ),
+        "drives gave in kJ": lambda one: f"{one.drives / 1e3:.2f}",
+        "dampers took in kJ": lambda one: f"{-one.dampers / 1e3:.2f}",
+        "constraints took in kJ": lambda one: f"{-one.constraints / 1e3:.2f}",
+        "stored in kJ": lambda one: f"{one.stored / 1e3:.2f}",
+        "rest / work of the drives": lambda one: f"{one.rest / one.turned_over:.2%}",
+    }
+    for name, text in rows.items():
+        table.add_row(name, *(text(ledger) for ledger in ledgers.values()))
+    Console().print(table)
+
+
+def main() -> None:
+    """Both halves."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=float, default=3600.0, help="simulated, in all")
+    parser.add_argument("--seed", type=int, default=0)
+    arguments = parser.parse_args()
+    half = arguments.seconds / 2
+    show({"stretch": stretch(half, arguments.seed), "drive": drive(half, arguments.seed)})
+
+
+if __name__ == "__main__":
+    main()
