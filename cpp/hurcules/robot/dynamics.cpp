@@ -29,6 +29,7 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
     qacc.segment<3>(root_dof_) += position_drift(root);
     qacc.segment<3>(root_dof_ + 3) += orientation(root).transpose() * rotation_drift(root);
   }
+  need_com();
   mj_comVel(&m, d);
   mj_rne(&m, d, 1, efforts_.data());
   mj_passive(&m, d);

@@ -9,32 +9,6 @@
 namespace hurcules {
 namespace {
 
-// Pose of a frame in W and the body that carries it.
-struct Placement {
-  const double* position;     // [m], (3)
-  const double* orientation;  // (3, 3) by rows
-  int body;
-};
-
-Placement placement(const mjModel& m, const mjData& d, Frame frame) {
-  const int i = frame.id;
-  assert(i >= 0);
-  switch (frame.type) {
-    case mjOBJ_SITE:
-      assert(i < m.nsite);
-      return {d.site_xpos + 3 * i, d.site_xmat + 9 * i, m.site_bodyid[i]};
-    case mjOBJ_CAMERA:
-      assert(i < m.ncam);
-      return {d.cam_xpos + 3 * i, d.cam_xmat + 9 * i, m.cam_bodyid[i]};
-    case mjOBJ_GEOM:
-      assert(i < m.ngeom);
-      return {d.geom_xpos + 3 * i, d.geom_xmat + 9 * i, m.geom_bodyid[i]};
-    default:
-      assert(frame.type == mjOBJ_BODY && i < m.nbody);
-      return {d.xpos + 3 * i, d.xmat + 9 * i, i};
-  }
-}
-
 Vector3 vector(const double* values) {
   return Eigen::Map<const Vector3>(values);
 }
@@ -43,14 +17,51 @@ Matrix3 matrix(const double* rows) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows);
 }
 
+int body_of(const mjModel& m, Frame frame) {
+  const int i = frame.id;
+  switch (frame.type) {
+    case mjOBJ_SITE:
+      assert(i >= 0 && i < m.nsite);
+      return m.site_bodyid[i];
+    case mjOBJ_CAMERA:
+      assert(i >= 0 && i < m.ncam);
+      return m.cam_bodyid[i];
+    case mjOBJ_GEOM:
+      assert(i >= 0 && i < m.ngeom);
+      return m.geom_bodyid[i];
+    default:
+      assert(frame.type == mjOBJ_BODY && i >= 0 && i < m.nbody);
+      return i;
+  }
+}
+
+// of a camera or geom in its body
+struct Local {
+  const double* position;    // [m], (3)
+  const double* quaternion;  // (4)
+};
+Local local(const mjModel& m, Frame frame) {
+  if (frame.type == mjOBJ_CAMERA) return {m.cam_pos + 3 * frame.id, m.cam_quat + 4 * frame.id};
+  return {m.geom_pos + 3 * frame.id, m.geom_quat + 4 * frame.id};
+}
+
 }  // namespace
 
 Vector3 Robot::position(Frame frame) const {
-  return vector(placement(*model_, *data_, frame).position);
+  if (frame.type == mjOBJ_SITE) return vector(data_->site_xpos + 3 * frame.id);
+  const int body = body_of(*model_, frame);
+  const Vector3 carrier = vector(data_->xpos + 3 * body);
+  if (frame.type == mjOBJ_BODY) return carrier;
+  return carrier + matrix(data_->xmat + 9 * body) * vector(local(*model_, frame).position);
 }
 
 Matrix3 Robot::orientation(Frame frame) const {
-  return matrix(placement(*model_, *data_, frame).orientation);
+  if (frame.type == mjOBJ_SITE) return matrix(data_->site_xmat + 9 * frame.id);
+  const int body = body_of(*model_, frame);
+  const Matrix3 carrier = matrix(data_->xmat + 9 * body);
+  if (frame.type == mjOBJ_BODY) return carrier;
+  const double* const q = local(*model_, frame).quaternion;
+  return carrier * Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
 Matrix3 Robot::view_orientation(Frame frame) const {
@@ -64,8 +75,9 @@ Matrix3 Robot::view_orientation(Frame frame) const {
 
 Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
   assert(qvel.size() == model_->nv);
-  const Placement at = placement(*model_, *data_, frame);
-  mj_jac(model_.get(), data_.get(), full_.data(), turn_.data(), at.position, at.body);
+  need_com();
+  const Vector3 at = position(frame);
+  mj_jac(model_.get(), data_.get(), full_.data(), turn_.data(), at.data(), body_of(*model_, frame));
   Twist twist;
   for (int dof = 0; dof < model_->nv; ++dof) {
     twist.linear += qvel[dof] * full_.col(dof);
@@ -75,36 +87,42 @@ Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
 }
 
 void Robot::position_jacobian(Frame frame, MatrixRef J) const {
-  const Placement at = placement(*model_, *data_, frame);
-  mj_jac(model_.get(), data_.get(), full_.data(), nullptr, at.position, at.body);
-  reduce(full_, J);
+  assert(J.rows() == 3 && J.cols() == size());
+  const int body = body_of(*model_, frame);
+  const Vector3 r = position(frame) - origin(body);
+  for (Index i = 0; i < size(); ++i) {
+    const Screw twist = screw(i, body);
+    J.col(i) = twist.tail<3>() + Vector3(twist.head<3>()).cross(r);
+  }
 }
 
 void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {
-  const Placement at = placement(*model_, *data_, frame);
-  mj_jac(model_.get(), data_.get(), nullptr, full_.data(), at.position, at.body);
-  reduce(full_, J);
+  assert(J.rows() == 3 && J.cols() == size());
+  const int body = body_of(*model_, frame);
+  for (Index i = 0; i < size(); ++i) J.col(i) = screw(i, body).head<3>();
 }
 
 Vector3 Robot::position_drift(Frame frame) const {
   if (!moving_) return Vector3::Zero();
-  const Placement at = placement(*model_, *data_, frame);
-  mj_jacDot(model_.get(), data_.get(), full_.data(), nullptr, at.position, at.body);
-  return drift(full_) - support_drift(vector(at.position), at.body);
+  return point_drift(position(frame), body_of(*model_, frame));
 }
 
 Vector3 Robot::rotation_drift(Frame frame) const {
   if (!moving_) return Vector3::Zero();
-  const Placement at = placement(*model_, *data_, frame);
-  mj_jacDot(model_.get(), data_.get(), nullptr, full_.data(), at.position, at.body);
-  return drift(full_) - support_rotation_drift(at.body);
+  const int body = body_of(*model_, frame);
+  Screw rate = stands(body) ? root_rate_ : Screw::Zero();
+  for (Index j = 0; j < driven(); ++j)
+    if (moves(j, body)) rate += rates_.col(j);
+  return rate.head<3>();
 }
 
 Vector3 Robot::com() const {
+  need_com();
   return vector(data_->subtree_com + 3 * tree_);
 }
 
 void Robot::com_jacobian(MatrixRef J) const {
+  need_com();
   mj_jacSubtreeCom(model_.get(), data_.get(), full_.data(), tree_);
   reduce(full_, J);
 }
@@ -115,14 +133,14 @@ Vector3 Robot::com_drift() const {
   if (!moving_ || m.body_subtreemass[tree_] == 0) return force;
   for (int body = tree_; body < m.nbody; ++body) {
     if (m.body_rootid[body] != tree_ || m.body_mass[body] == 0) continue;
-    mj_jacDot(&m, data_.get(), full_.data(), nullptr, data_->xipos + 3 * body, body);
-    force += m.body_mass[body] * drift(full_);
+    force += m.body_mass[body] * point_drift(vector(data_->xipos + 3 * body), body);
   }
-  return force / m.body_subtreemass[tree_] - support_drift(com(), tree_);
+  return force / m.body_subtreemass[tree_];
 }
 
 void Robot::mass_matrix(MatrixRef M) const {
   assert(M.rows() == size() && M.cols() == size());
+  need_com();
   mj_crb(model_.get(), data_.get());
   mj_fullM(model_.get(), data_.get(), inertia_.data());
   // M = S' inertia S, S the motion of all joints by coordinate
@@ -143,20 +161,15 @@ void Robot::mass_matrix(MatrixRef M) const {
 
 void Robot::reduce(const Matrix& full, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
+  Eigen::Matrix<double, 3, 6> root = Eigen::Matrix<double, 3, 6>::Zero();
+  if (support_ >= 0) root = full.middleCols<6>(root_dof_);
   for (Index i = 0; i < size(); ++i) {
-    J.col(i).setZero();
-    for (const DrivenJoint& joint : coordinates_[i].joints)
-      J.col(i) += joint.factor * full.col(joint.dof);
-    if (support_ < 0) continue;
-    for (Index r = 0; r < 6; ++r) J.col(i) += root_motion_(r, i) * full.col(root_dof_ + r);
+    Vector3 column = Vector3::Zero();
+    if (support_ >= 0) column = root * root_motion_.col(i);
+    for (const DrivenJoint& joint : coordinates_[static_cast<std::size_t>(i)].joints)
+      column += joint.factor * full.col(joint.dof);
+    J.col(i) = column;
   }
-}
-
-Vector3 Robot::drift(const Matrix& jacobian_rate) const {
-  Vector3 acceleration = Vector3::Zero();
-  for (int dof = 0; dof < model_->nv; ++dof)
-    acceleration += data_->qvel[dof] * jacobian_rate.col(dof);
-  return acceleration;
 }
 
 }  // namespace hurcules

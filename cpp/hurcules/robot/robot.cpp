@@ -44,10 +44,19 @@ void require_values(const ConstVectorRef& values, Index size, const char* what) 
       throw Error(std::string(what) + ": value " + std::to_string(i) + " is not finite");
 }
 
+// The struct alone, pointing into the model: MuJoCo's kinematics then leave the geoms out, which
+// are most of its work.
+std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjModel* model) {
+  require(model != nullptr, "a robot wants a model, none came");
+  auto* const lean = new mjModel(*model);
+  lean->ngeom = 0;
+  return {lean, [](const mjModel* m) { delete m; }};
+}
+
 }  // namespace
 
-Robot::Robot(ModelPtr model) : model_(std::move(model)), data_(nullptr, mj_deleteData) {
-  require(model_ != nullptr, "a robot wants a model, none came");
+Robot::Robot(ModelPtr model)
+    : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;
   coordinates_ = find_coordinates(m);
   data_.reset(mj_makeData(&m));
@@ -60,6 +69,7 @@ Robot::Robot(ModelPtr model) : model_(std::move(model)), data_(nullptr, mj_delet
   momentum_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);
   if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
+  find_driven();
   set_keyframe("");
 }
 
@@ -106,9 +116,8 @@ void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
-  lift_root();
-  update();
   keep_support();
+  update();
 }
 
 void Robot::set_velocity(const ConstVectorRef& velocity) {
@@ -119,7 +128,7 @@ void Robot::set_velocity(const ConstVectorRef& velocity) {
     for (const DrivenJoint& joint : coordinates_[i].joints)
       data_->qvel[joint.dof] = joint.factor * v_[i];
   note_root_speed();
-  if (moving_) mj_comVel(model_.get(), data_.get());
+  note_rates();
 }
 
 void Robot::set_keyframe(const std::string& name) {
@@ -144,12 +153,18 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
 
 void Robot::update() {
   std::copy(qpos_.begin(), qpos_.end(), data_->qpos);
-  mj_kinematics(model_.get(), data_.get());
-  mj_comPos(model_.get(), data_.get());
-  mj_camlight(model_.get(), data_.get());
+  mj_kinematics(lean_.get(), data_.get());
+  com_ = false;
+  note_screws();
   note_root_speed();
-  if (moving_) mj_comVel(model_.get(), data_.get());
+  note_rates();
   coordinates_of(qpos_, q_);
+}
+
+void Robot::need_com() const {
+  if (com_) return;
+  mj_comPos(model_.get(), data_.get());
+  com_ = true;
 }
 
 }  // namespace hurcules

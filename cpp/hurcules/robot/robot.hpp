@@ -130,20 +130,40 @@ class Robot {
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
 
  private:
+  // Angular and linear velocity in W of what is fixed to a body, the linear one of the point that
+  // is at the origin of the body's tree at this moment; or their rates.
+  using Screw = Eigen::Matrix<double, 6, 1>;
+  using Screws = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  // one joint of one coordinate
+  struct Driven {
+    Index coordinate;
+    int dof, joint, body;
+    double factor;
+  };
+
+  void find_driven();
   void update();
   void keep_support();     // moves the root so that the support stands where it stood
-  void lift_root();        // to the origin: what keep_support finds is then the joints' doing alone
-  void note_support();     // where the support stands, and how the root moves with the coordinates
+  void note_support();     // where the support stands
+  void note_screws();      // of the configuration
   void note_root_speed();  // of the velocity
+  void note_rates();       // of the screws, of the velocity
+  void need_com() const;   // what MuJoCo keeps about centres of mass, of the configuration
+  [[nodiscard]] Index driven() const { return static_cast<Index>(driven_.size()); }
+  // whether a driven joint moves a body
+  [[nodiscard]] bool moves(Index joint, int body) const {
+    return moves_[static_cast<std::size_t>(body * driven() + joint)];
+  }
+  [[nodiscard]] Vector3 origin(int body) const;  // of its tree
+  [[nodiscard]] Screw screw(Index coordinate, int body) const;
+  // what a point of a body accelerates with when the coordinates do not
+  [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;
   // (3, nv) of the model -> (3, n) of the coordinates
   void reduce(const Matrix& full, MatrixRef J) const;
-  [[nodiscard]] Vector3 drift(const Matrix& jacobian_rate) const;
-  // what a point of a body's tree would accelerate with, fixed to the support, if the root did not
-  [[nodiscard]] Vector3 support_drift(const Vector3& point, int body) const;
-  [[nodiscard]] Vector3 support_rotation_drift(int body) const;
   [[nodiscard]] bool stands(int body) const;  // its tree stands on something else than the root
 
   ModelPtr model_;
+  std::unique_ptr<const mjModel_, void (*)(const mjModel_*)> lean_;  // the same without geoms
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
@@ -152,13 +172,21 @@ class Robot {
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
   Vector3 p_WS_ = Vector3::Zero();      // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
-  Eigen::Matrix<double, 6, Eigen::Dynamic> root_motion_;  // qvel of the root by coordinate, (6, n)
-  bool moving_ = false;      // some coordinate has a velocity: only then is there a drift
-  mutable Matrix full_;      // scratch for Jacobians, (3, nv)
-  mutable Matrix turn_;      // the same, for those of the support
-  mutable Matrix inertia_;   // scratch for the mass matrix, (nv, nv)
-  mutable Vector momentum_;  // (nv)
-  mutable Vector efforts_;   // scratch for inverse dynamics, (nv)
+  // of the driven joints (d), by the coordinate's velocity 1, and their rates at its velocity
+  std::vector<Driven> driven_;                 // in the order of the model's joints
+  std::vector<bool> moves_;                    // (nbody, d)
+  std::vector<std::vector<Index>> joints_of_;  // (n) which are the coordinate's
+  Screws screws_, rates_;                      // (6, d)
+  Screws root_screws_;                         // (6, n) of a root that stands on another body
+  Screw root_rate_ = Screw::Zero();            // and what it accelerates with
+  Screws root_motion_;                         // (6, n) the same as qvel of the root
+  bool moving_ = false;       // some coordinate has a velocity: only then is there a drift
+  mutable bool com_ = false;  // need_com was there
+  mutable Matrix full_;       // scratch for Jacobians, (3, nv)
+  mutable Matrix turn_;       // the same
+  mutable Matrix inertia_;    // scratch for the mass matrix, (nv, nv)
+  mutable Vector momentum_;   // (nv)
+  mutable Vector efforts_;    // scratch for inverse dynamics, (nv)
 };
 
 }  // namespace hurcules

@@ -1,7 +1,7 @@
 // A robot that stands on one of its bodies: its free root moves so that this body does not.
 //
-//   qvel of the root = root_motion v,   root_motion = -(twist of the support by the coordinates,
-//   seen at the root)
+// Where the root goes: X_WR = X_WS (where the support stood) X_SR (as the joints are now), X_SR by
+// the joints between them alone. How it moves: screws.cpp.
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +10,41 @@
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
+namespace {
+
+Eigen::Quaterniond quaternion(const double* q) {
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+}
+
+// the pose of a body in its parent, by its own joints
+Eigen::Isometry3d placed(const mjModel& m, int body, const double* qpos) {
+  Vector3 p = Eigen::Map<const Vector3>(m.body_pos + 3 * body);
+  Eigen::Quaterniond R = quaternion(m.body_quat + 4 * body);
+  const int first = m.body_jntadr[body], end = first + m.body_jntnum[body];
+  for (int joint = first; joint < end; ++joint) {
+    const Eigen::Map<const Vector3> anchor(m.jnt_pos + 3 * joint), axis(m.jnt_axis + 3 * joint);
+    const double* const q = qpos + m.jnt_qposadr[joint];
+    if (m.jnt_type[joint] == mjJNT_SLIDE) {
+      p += R * axis * (q[0] - m.qpos0[m.jnt_qposadr[joint]]);
+      continue;
+    }
+    // about its anchor, which stays
+    const Eigen::Quaterniond turn = m.jnt_type[joint] == mjJNT_BALL
+                                        ? quaternion(q)
+                                        : Eigen::Quaterniond(Eigen::AngleAxisd(
+                                              q[0] - m.qpos0[m.jnt_qposadr[joint]], Vector3(axis)));
+    const Vector3 stays = p + R * anchor;
+    R = R * turn;
+    p = stays - R * anchor;
+  }
+  Eigen::Isometry3d X;
+  X.linear() = R.toRotationMatrix();
+  X.translation() = p;
+  X.makeAffine();
+  return X;
+}
+
+}  // namespace
 
 void Robot::stand_on(const std::string& body) {
   const mjModel& m = *model_;
@@ -26,6 +61,7 @@ void Robot::stand_on(const std::string& body) {
   root_qpos_ = m.jnt_qposadr[joint];
   root_dof_ = m.jnt_dofadr[joint];
   root_motion_.setZero(6, size());
+  update();
   note_support();
 }
 
@@ -36,61 +72,25 @@ void Robot::note_support() {
   R_WS_ = orientation(support);
 }
 
-void Robot::lift_root() {
-  if (support_ < 0) return;
-  qpos_.segment<7>(root_qpos_) << 0, 0, 0, 1, 0, 0, 0;
-}
-
 void Robot::keep_support() {
   if (support_ < 0) return;
-  const Frame support{mjOBJ_BODY, support_}, root{mjOBJ_BODY, tree_};
-  // X_WR := X_WS (where it stood) X_SR (as the joints are now)
-  const Matrix3 turn = R_WS_ * orientation(support).transpose();
-  const Vector3 p = p_WS_ + turn * (position(root) - position(support));
-  const Eigen::Quaterniond R(Matrix3(turn * orientation(root)));
-  qpos_.segment<3>(root_qpos_) = p;
+  const mjModel& m = *model_;
+  // X_RS, outward from the support to the root
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  for (int body = support_; body != tree_; body = m.body_parentid[body])
+    X = placed(m, body, qpos_.data()) * X;
+  Eigen::Isometry3d stood;
+  stood.linear() = R_WS_;
+  stood.translation() = p_WS_;
+  stood.makeAffine();
+  const Eigen::Isometry3d root = stood * X.inverse();
+  const Eigen::Quaterniond R(root.linear());
+  qpos_.segment<3>(root_qpos_) = root.translation();
   qpos_.segment<4>(root_qpos_ + 3) << R.w(), R.x(), R.y(), R.z();
-  update();
-}
-
-void Robot::note_root_speed() {
-  if (support_ < 0) return;
-  const Frame root{mjOBJ_BODY, tree_};
-  const Vector3 arm = position(root) - position({mjOBJ_BODY, support_});
-  const Matrix3 R_RW = orientation(root).transpose();
-  mj_jacBody(model_.get(), data_.get(), full_.data(), turn_.data(), support_);
-  for (Index i = 0; i < size(); ++i) {
-    Vector3 v = Vector3::Zero(), w = Vector3::Zero();
-    for (const DrivenJoint& joint : coordinates_[static_cast<std::size_t>(i)].joints) {
-      v += joint.factor * full_.col(joint.dof);
-      w += joint.factor * turn_.col(joint.dof);
-    }
-    // a free joint's qvel: velocity of the origin in W, angular velocity in its own axes
-    root_motion_.col(i) << -(v + w.cross(arm)), -(R_RW * w);
-  }
-  Eigen::Map<Vector> root_speed(data_->qvel + root_dof_, 6);
-  root_speed.setZero();
-  for (Index i = 0; i < size(); ++i) root_speed += v_[i] * root_motion_.col(i);
 }
 
 bool Robot::stands(int body) const {
   return support_ >= 0 && model_->body_rootid[body] == tree_;
-}
-
-Vector3 Robot::support_drift(const Vector3& point, int body) const {
-  if (!stands(body)) return Vector3::Zero();
-  const double* origin = data_->xpos + 3 * support_;
-  mj_jacDot(model_.get(), data_.get(), turn_.data(), nullptr, origin, support_);
-  const Vector3 linear = drift(turn_);
-  const Vector3 arm = point - Eigen::Map<const Vector3>(origin);
-  return linear + support_rotation_drift(body).cross(arm);
-}
-
-Vector3 Robot::support_rotation_drift(int body) const {
-  if (!stands(body)) return Vector3::Zero();
-  const double* origin = data_->xpos + 3 * support_;
-  mj_jacDot(model_.get(), data_.get(), nullptr, turn_.data(), origin, support_);
-  return drift(turn_);
 }
 
 }  // namespace hurcules
