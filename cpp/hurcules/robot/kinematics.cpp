@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cassert>
+#include <utility>
 
 #include "hurcules/robot/robot.hpp"
 
@@ -11,10 +12,6 @@ namespace {
 
 Vector3 vector(const double* values) {
   return Eigen::Map<const Vector3>(values);
-}
-
-Matrix3 matrix(const double* rows) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows);
 }
 
 int body_of(const mjModel& m, Frame frame) {
@@ -35,33 +32,36 @@ int body_of(const mjModel& m, Frame frame) {
   }
 }
 
-// of a camera or geom in its body
-struct Local {
-  const double* position;    // [m], (3)
-  const double* quaternion;  // (4)
-};
-Local local(const mjModel& m, Frame frame) {
-  if (frame.type == mjOBJ_CAMERA) return {m.cam_pos + 3 * frame.id, m.cam_quat + 4 * frame.id};
-  return {m.geom_pos + 3 * frame.id, m.geom_quat + 4 * frame.id};
+// in its body: position (3) [m] and quaternion (4)
+std::pair<const double*, const double*> local(const mjModel& m, Frame frame) {
+  const int i = frame.id;
+  if (frame.type == mjOBJ_SITE) return {m.site_pos + 3 * i, m.site_quat + 4 * i};
+  if (frame.type == mjOBJ_CAMERA) return {m.cam_pos + 3 * i, m.cam_quat + 4 * i};
+  return {m.geom_pos + 3 * i, m.geom_quat + 4 * i};
 }
 
 }  // namespace
 
-Vector3 Robot::position(Frame frame) const {
-  if (frame.type == mjOBJ_SITE) return vector(data_->site_xpos + 3 * frame.id);
-  const int body = body_of(*model_, frame);
-  const Vector3 carrier = vector(data_->xpos + 3 * body);
+Skeleton::Pose Robot::pose(int body) const {
+  return skeleton_->pose(body);
+}
+
+Skeleton::Pose Robot::pose(Frame frame) const {
+  const Skeleton::Pose carrier = pose(body_of(*model_, frame));
   if (frame.type == mjOBJ_BODY) return carrier;
-  return carrier + matrix(data_->xmat + 9 * body) * vector(local(*model_, frame).position);
+  const auto [p, q] = local(*model_, frame);
+  return carrier *
+         Skeleton::Pose{vector(p), Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix()};
+}
+
+Vector3 Robot::position(Frame frame) const {
+  const Skeleton::Pose carrier = pose(body_of(*model_, frame));
+  if (frame.type == mjOBJ_BODY) return carrier.p;
+  return carrier.p + carrier.R * vector(local(*model_, frame).first);
 }
 
 Matrix3 Robot::orientation(Frame frame) const {
-  if (frame.type == mjOBJ_SITE) return matrix(data_->site_xmat + 9 * frame.id);
-  const int body = body_of(*model_, frame);
-  const Matrix3 carrier = matrix(data_->xmat + 9 * body);
-  if (frame.type == mjOBJ_BODY) return carrier;
-  const double* const q = local(*model_, frame).quaternion;
-  return carrier * Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  return pose(frame).R;
 }
 
 Matrix3 Robot::view_orientation(Frame frame) const {
@@ -90,16 +90,28 @@ void Robot::position_jacobian(Frame frame, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
   const int body = body_of(*model_, frame);
   const Vector3 r = position(frame) - origin(body);
-  for (Index i = 0; i < size(); ++i) {
-    const Screw twist = screw(i, body);
-    J.col(i) = twist.tail<3>() + Vector3(twist.head<3>()).cross(r);
+  const auto at = [&](const auto& screw) {
+    return Vector3(screw.template tail<3>() + Vector3(screw.template head<3>()).cross(r));
+  };
+  if (stands(body)) {
+    for (Index i = 0; i < size(); ++i) J.col(i) = at(root_screws_.col(i));
+  } else {
+    J.setZero();
   }
+  for (const Index j : above(body))
+    J.col(driven_[static_cast<std::size_t>(j)].coordinate) += at(screws_.col(j));
 }
 
 void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
   const int body = body_of(*model_, frame);
-  for (Index i = 0; i < size(); ++i) J.col(i) = screw(i, body).head<3>();
+  if (stands(body)) {
+    J = root_screws_.topRows<3>();
+  } else {
+    J.setZero();
+  }
+  for (const Index j : above(body))
+    J.col(driven_[static_cast<std::size_t>(j)].coordinate) += screws_.col(j).head<3>();
 }
 
 Vector3 Robot::position_drift(Frame frame) const {
@@ -109,11 +121,7 @@ Vector3 Robot::position_drift(Frame frame) const {
 
 Vector3 Robot::rotation_drift(Frame frame) const {
   if (!moving_) return Vector3::Zero();
-  const int body = body_of(*model_, frame);
-  Screw rate = stands(body) ? root_rate_ : Screw::Zero();
-  for (Index j = 0; j < driven(); ++j)
-    if (moves(j, body)) rate += rates_.col(j);
-  return rate.head<3>();
+  return rate_of(body_of(*model_, frame)).head<3>();
 }
 
 Vector3 Robot::com() const {
@@ -130,6 +138,7 @@ void Robot::com_jacobian(MatrixRef J) const {
 Vector3 Robot::com_drift() const {
   const mjModel& m = *model_;
   Vector3 force = Vector3::Zero();
+  need_kinematics();
   if (!moving_ || m.body_subtreemass[tree_] == 0) return force;
   for (int body = tree_; body < m.nbody; ++body) {
     if (m.body_rootid[body] != tree_ || m.body_mass[body] == 0) continue;

@@ -108,8 +108,7 @@ ModelIdentity Robot::identity() const {
 void Robot::set_qpos(const ConstVectorRef& qpos) {
   require_values(qpos, model_->nq, "set_qpos");
   qpos_ = qpos;
-  update();
-  note_support();
+  read_qpos();
 }
 
 void Robot::set_configuration(const ConstVectorRef& q) {
@@ -117,7 +116,9 @@ void Robot::set_configuration(const ConstVectorRef& q) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
   keep_support();
-  update();
+  skeleton_->place(*model_, qpos_.data());
+  fresh_ = com_ = false;
+  note_motion();
 }
 
 void Robot::set_velocity(const ConstVectorRef& velocity) {
@@ -127,7 +128,6 @@ void Robot::set_velocity(const ConstVectorRef& velocity) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       data_->qvel[joint.dof] = joint.factor * v_[i];
-  note_root_speed();
   note_rates();
 }
 
@@ -136,8 +136,7 @@ void Robot::set_keyframe(const std::string& name) {
   const int key = name.empty() ? -1 : mj_name2id(&m, mjOBJ_KEY, name.c_str());
   if (key < 0 && !name.empty()) throw Error(unknown_name("keyframe", name, names(m, {mjOBJ_KEY})));
   qpos_ = Eigen::Map<const Vector>(key < 0 ? m.qpos0 : m.key_qpos + key * m.nq, m.nq);
-  update();
-  note_support();
+  read_qpos();
 }
 
 void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
@@ -151,17 +150,29 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
   }
 }
 
-void Robot::update() {
+void Robot::read_qpos() {
+  skeleton_->note(*model_, qpos_.data());
+  skeleton_->place(*model_, qpos_.data());
+  fresh_ = com_ = false;
+  note_support();
+  note_motion();
+}
+
+void Robot::note_motion() {
+  coordinates_of(qpos_, q_);
+  note_screws();
+  note_rates();
+}
+
+void Robot::need_kinematics() const {
+  if (fresh_) return;
   std::copy(qpos_.begin(), qpos_.end(), data_->qpos);
   mj_kinematics(lean_.get(), data_.get());
-  com_ = false;
-  note_screws();
-  note_root_speed();
-  note_rates();
-  coordinates_of(qpos_, q_);
+  fresh_ = true;
 }
 
 void Robot::need_com() const {
+  need_kinematics();
   if (com_) return;
   mj_comPos(model_.get(), data_.get());
   com_ = true;

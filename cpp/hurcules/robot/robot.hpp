@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hurcules/base/types.hpp"
+#include "hurcules/robot/skeleton.hpp"
 
 struct mjModel_;
 struct mjData_;
@@ -142,20 +143,25 @@ class Robot {
   };
 
   void find_driven();
-  void update();
-  void keep_support();     // moves the root so that the support stands where it stood
-  void note_support();     // where the support stands
-  void note_screws();      // of the configuration
-  void note_root_speed();  // of the velocity
-  void note_rates();       // of the screws, of the velocity
-  void need_com() const;   // what MuJoCo keeps about centres of mass, of the configuration
+  void read_qpos();     // all of it, after a change
+  void keep_support();  // moves the root so that the support stands where it stood
+  void note_support();  // where the support stands
+  void note_motion();   // of configuration and velocity
+  void note_screws();
+  void note_rates();
+  // what MuJoCo keeps about the configuration: poses of all bodies; centres of mass
+  void need_kinematics() const;
+  void need_com() const;
   [[nodiscard]] Index driven() const { return static_cast<Index>(driven_.size()); }
-  // whether a driven joint moves a body
-  [[nodiscard]] bool moves(Index joint, int body) const {
-    return moves_[static_cast<std::size_t>(body * driven() + joint)];
+  [[nodiscard]] const std::vector<Index>& above(int body) const {
+    return above_[static_cast<std::size_t>(body)];
   }
+  [[nodiscard]] Skeleton::Pose pose(int body) const;
+  [[nodiscard]] Skeleton::Pose pose(Frame frame) const;
   [[nodiscard]] Vector3 origin(int body) const;  // of its tree
-  [[nodiscard]] Screw screw(Index coordinate, int body) const;
+  // of what is fixed to a body, by all coordinates
+  [[nodiscard]] Screw velocity_of(int body) const;
+  [[nodiscard]] Screw rate_of(int body) const;
   // what a point of a body accelerates with when the coordinates do not
   [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;
   // (3, nv) of the model -> (3, n) of the coordinates
@@ -165,6 +171,7 @@ class Robot {
   ModelPtr model_;
   std::unique_ptr<const mjModel_, void (*)(const mjModel_*)> lean_;  // the same without geoms
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
+  std::unique_ptr<Skeleton> skeleton_;
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
   int tree_ = 0;      // body at the root of the tree that holds the first coordinate
@@ -173,20 +180,19 @@ class Robot {
   Vector3 p_WS_ = Vector3::Zero();      // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
   // of the driven joints (d), by the coordinate's velocity 1, and their rates at its velocity
-  std::vector<Driven> driven_;                 // in the order of the model's joints
-  std::vector<bool> moves_;                    // (nbody, d)
-  std::vector<std::vector<Index>> joints_of_;  // (n) which are the coordinate's
-  Screws screws_, rates_;                      // (6, d)
-  Screws root_screws_;                         // (6, n) of a root that stands on another body
-  Screw root_rate_ = Screw::Zero();            // and what it accelerates with
-  Screws root_motion_;                         // (6, n) the same as qvel of the root
-  bool moving_ = false;       // some coordinate has a velocity: only then is there a drift
-  mutable bool com_ = false;  // need_com was there
-  mutable Matrix full_;       // scratch for Jacobians, (3, nv)
-  mutable Matrix turn_;       // the same
-  mutable Matrix inertia_;    // scratch for the mass matrix, (nv, nv)
-  mutable Vector momentum_;   // (nv)
-  mutable Vector efforts_;    // scratch for inverse dynamics, (nv)
+  std::vector<Driven> driven_;             // in the order of the model's joints
+  std::vector<std::vector<Index>> above_;  // (nbody) which of them move a body
+  Screws screws_, rates_;                  // (6, d)
+  Screws root_screws_;                     // (6, n) of a root that stands on another body
+  Screw root_rate_ = Screw::Zero();        // and what it accelerates with
+  Screws root_motion_;                     // (6, n) the same as qvel of the root
+  bool moving_ = false;  // some coordinate has a velocity: only then is there a drift
+  mutable bool fresh_ = false, com_ = false;  // need_kinematics, need_com were there
+  mutable Matrix full_;                       // scratch for Jacobians, (3, nv)
+  mutable Matrix turn_;                       // the same
+  mutable Matrix inertia_;                    // scratch for the mass matrix, (nv, nv)
+  mutable Vector momentum_;                   // (nv)
+  mutable Vector efforts_;                    // scratch for inverse dynamics, (nv)
 };
 
 }  // namespace hurcules

@@ -10,42 +10,6 @@
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
-namespace {
-
-Eigen::Quaterniond quaternion(const double* q) {
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-}
-
-// the pose of a body in its parent, by its own joints
-Eigen::Isometry3d placed(const mjModel& m, int body, const double* qpos) {
-  Vector3 p = Eigen::Map<const Vector3>(m.body_pos + 3 * body);
-  Eigen::Quaterniond R = quaternion(m.body_quat + 4 * body);
-  const int first = m.body_jntadr[body], end = first + m.body_jntnum[body];
-  for (int joint = first; joint < end; ++joint) {
-    const Eigen::Map<const Vector3> anchor(m.jnt_pos + 3 * joint), axis(m.jnt_axis + 3 * joint);
-    const double* const q = qpos + m.jnt_qposadr[joint];
-    if (m.jnt_type[joint] == mjJNT_SLIDE) {
-      p += R * axis * (q[0] - m.qpos0[m.jnt_qposadr[joint]]);
-      continue;
-    }
-    // about its anchor, which stays
-    const Eigen::Quaterniond turn = m.jnt_type[joint] == mjJNT_BALL
-                                        ? quaternion(q)
-                                        : Eigen::Quaterniond(Eigen::AngleAxisd(
-                                              q[0] - m.qpos0[m.jnt_qposadr[joint]], Vector3(axis)));
-    const Vector3 stays = p + R * anchor;
-    R = R * turn;
-    p = stays - R * anchor;
-  }
-  Eigen::Isometry3d X;
-  X.linear() = R.toRotationMatrix();
-  X.translation() = p;
-  X.makeAffine();
-  return X;
-}
-
-}  // namespace
-
 void Robot::stand_on(const std::string& body) {
   const mjModel& m = *model_;
   const Frame frame = this->frame(body);
@@ -61,32 +25,24 @@ void Robot::stand_on(const std::string& body) {
   root_qpos_ = m.jnt_qposadr[joint];
   root_dof_ = m.jnt_dofadr[joint];
   root_motion_.setZero(6, size());
-  update();
-  note_support();
+  find_driven();
+  read_qpos();
 }
 
 void Robot::note_support() {
   if (support_ < 0) return;
-  const Frame support{mjOBJ_BODY, support_};
-  p_WS_ = position(support);
-  R_WS_ = orientation(support);
+  const Skeleton::Pose stands = pose(support_);
+  p_WS_ = stands.p;
+  R_WS_ = stands.R;
 }
 
 void Robot::keep_support() {
   if (support_ < 0) return;
-  const mjModel& m = *model_;
-  // X_RS, outward from the support to the root
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  for (int body = support_; body != tree_; body = m.body_parentid[body])
-    X = placed(m, body, qpos_.data()) * X;
-  Eigen::Isometry3d stood;
-  stood.linear() = R_WS_;
-  stood.translation() = p_WS_;
-  stood.makeAffine();
-  const Eigen::Isometry3d root = stood * X.inverse();
-  const Eigen::Quaterniond R(root.linear());
-  qpos_.segment<3>(root_qpos_) = root.translation();
-  qpos_.segment<4>(root_qpos_ + 3) << R.w(), R.x(), R.y(), R.z();
+  const Skeleton::Pose RS = Skeleton::between(*model_, tree_, support_, qpos_.data());
+  const Matrix3 R = R_WS_ * RS.R.transpose();
+  const Eigen::Quaterniond turn(R);
+  qpos_.segment<3>(root_qpos_) = p_WS_ - R * RS.p;
+  qpos_.segment<4>(root_qpos_ + 3) << turn.w(), turn.x(), turn.y(), turn.z();
 }
 
 bool Robot::stands(int body) const {

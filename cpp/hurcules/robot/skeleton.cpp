@@ -1,0 +1,128 @@
+#include "hurcules/robot/skeleton.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+
+namespace hurcules {
+namespace {
+
+using Pose = Skeleton::Pose;
+
+Eigen::Map<const Vector3> vector(const double* values) {
+  return Eigen::Map<const Vector3>(values);
+}
+
+Matrix3 rotation(const double* q) {
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+// in the body's parent, before its joints
+Pose mounted(const mjModel& m, int body) {
+  return {vector(m.body_pos + 3 * body), rotation(m.body_quat + 4 * body)};
+}
+
+// by its own joints; `see` (joint, axis, anchor) is told each of them before it moves
+template <class See>
+Pose moved(const mjModel& m, int body, Pose pose, const double* qpos, See&& see) {
+  const int end = m.body_jntadr[body] + m.body_jntnum[body];
+  for (int joint = m.body_jntadr[body]; joint < end; ++joint) {
+    const int address = m.jnt_qposadr[joint];
+    const double* const q = qpos + address;
+    const auto axis = vector(m.jnt_axis + 3 * joint);
+    const Vector3 turned = pose.R * axis;
+    const Vector3 anchor = pose.p + pose.R * vector(m.jnt_pos + 3 * joint);
+    see(joint, turned, anchor);
+    if (m.jnt_type[joint] == mjJNT_FREE) return {vector(q), rotation(q + 3)};
+    if (m.jnt_type[joint] == mjJNT_SLIDE) {
+      pose.p += (q[0] - m.qpos0[address]) * turned;
+      continue;
+    }
+    // about its anchor, which stays
+    pose.R = pose.R * (m.jnt_type[joint] == mjJNT_BALL
+                           ? rotation(q)
+                           : Eigen::AngleAxisd(q[0] - m.qpos0[address], axis).toRotationMatrix());
+    pose.p = anchor - pose.R * vector(m.jnt_pos + 3 * joint);
+  }
+  return pose;
+}
+
+constexpr auto kUnseen = [](int, const Vector3&, const Vector3&) {};
+
+}  // namespace
+
+Pose operator*(const Pose& ab, const Pose& bc) {
+  return {ab.p + ab.R * bc.p, ab.R * bc.R};
+}
+
+Skeleton::Skeleton(const mjModel& m, const std::vector<int>& driven, int root)
+    : bodies_(static_cast<std::size_t>(m.nbody)),
+      index_of_joint_(static_cast<std::size_t>(m.njnt), -1),
+      axes_(driven.size(), Vector3::Zero()),
+      anchors_(driven.size(), Vector3::Zero()) {
+  for (std::size_t j = 0; j < driven.size(); ++j)
+    index_of_joint_[static_cast<std::size_t>(driven[j])] = static_cast<int>(j);
+  find_bones(m, driven, root);
+  poses_.resize(bones_.size());
+}
+
+void Skeleton::find_bones(const mjModel& m, const std::vector<int>& driven, int root) {
+  std::vector<bool> is_bone(bodies_.size(), false);
+  if (root >= 0) is_bone[static_cast<std::size_t>(root)] = true;
+  for (const int joint : driven) is_bone[static_cast<std::size_t>(m.jnt_bodyid[joint])] = true;
+  // bodies come after their parents
+  for (int body = 1; body < m.nbody; ++body) {
+    const auto b = static_cast<std::size_t>(body);
+    const int parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].bone;
+    bodies_[b].bone = parent;
+    if (!is_bone[b]) continue;
+    bodies_[b].bone = static_cast<int>(bones_.size());
+    bones_.push_back({body, parent, body == root, {}});
+  }
+}
+
+void Skeleton::note(const mjModel& m, const double* qpos) {
+  for (int body = 1; body < m.nbody; ++body) {
+    Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
+    const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;
+    Bone* const bone = hanging.bone < 0 ? nullptr : &bones_[static_cast<std::size_t>(hanging.bone)];
+    if (bone && bone->body == body) {
+      bone->hangs = parent;
+    } else {
+      hanging.pose = parent * moved(m, body, mounted(m, body), qpos, kUnseen);
+    }
+  }
+}
+
+void Skeleton::place(const mjModel& m, const double* qpos) {
+  const auto see = [this](int joint, const Vector3& axis, const Vector3& anchor) {
+    const int j = index_of_joint_[static_cast<std::size_t>(joint)];
+    if (j < 0) return;
+    axes_[static_cast<std::size_t>(j)] = axis;
+    anchors_[static_cast<std::size_t>(j)] = anchor;
+  };
+  for (std::size_t i = 0; i < bones_.size(); ++i) {
+    const Bone& bone = bones_[i];
+    if (bone.root) {
+      const double* const q = qpos + m.jnt_qposadr[m.body_jntadr[bone.body]];
+      poses_[i] = {vector(q), rotation(q + 3)};
+    } else {
+      const Pose start = of_bone(bone.parent) * bone.hangs * mounted(m, bone.body);
+      poses_[i] = moved(m, bone.body, start, qpos, see);
+    }
+  }
+}
+
+Pose Skeleton::pose(int body) const {
+  const Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
+  return hanging.bone < 0 ? hanging.pose : of_bone(hanging.bone) * hanging.pose;
+}
+
+Pose Skeleton::between(const mjModel& m, int ancestor, int body, const double* qpos) {
+  Pose pose;
+  for (; body != ancestor; body = m.body_parentid[body])
+    pose = moved(m, body, mounted(m, body), qpos, kUnseen) * pose;
+  return pose;
+}
+
+}  // namespace hurcules

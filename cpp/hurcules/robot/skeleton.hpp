@@ -1,0 +1,66 @@
+// Forward kinematics of the bodies that the coordinates move, and of nothing else.
+//
+// A bone is a body with a driven joint, or a root that stands on another body. All other bodies
+// hang on a bone, or on the world, where they hung when `note` looked: their own joints are held.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+
+struct mjModel_;
+
+namespace hurcules {
+
+class Skeleton {
+ public:
+  struct Pose {
+    Vector3 p = Vector3::Zero();  // [m] in W
+    Matrix3 R = Matrix3::Identity();
+  };
+  // `driven`: joints, in the order of the model; `root`: a body whose pose comes from outside, -1
+  // for none
+  Skeleton(const mjModel_& model, const std::vector<int>& driven, int root);
+
+  // what hangs where; qpos (nq), of which all but the driven joints are read
+  void note(const mjModel_& model, const double* qpos);
+  // the bones; qpos (nq), of which the driven joints and a root's seven numbers are read
+  void place(const mjModel_& model, const double* qpos);
+
+  [[nodiscard]] Pose pose(int body) const;
+  // of driven joint j, in W
+  [[nodiscard]] const Vector3& axis(Index j) const { return axes_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] const Vector3& anchor(Index j) const {
+    return anchors_[static_cast<std::size_t>(j)];
+  }
+  // pose of a body in an ancestor of its, by the joints in between
+  [[nodiscard]] static Pose between(const mjModel_& model, int ancestor, int body,
+                                    const double* qpos);
+
+ private:
+  struct Bone {
+    int body = 0;
+    int parent = -1;  // bone, -1: the world
+    bool root = false;
+    Pose hangs;  // pose of the body's parent in the parent bone, or in W
+  };
+  struct Hanging {
+    int bone = -1;
+    Pose pose;  // in the bone, or in W
+  };
+  void find_bones(const mjModel_& model, const std::vector<int>& driven, int root);
+  [[nodiscard]] Pose of_bone(int bone) const {
+    return bone < 0 ? Pose{} : poses_[static_cast<std::size_t>(bone)];
+  }
+
+  std::vector<Bone> bones_;  // parents first
+  std::vector<Pose> poses_;  // of the bones in W
+  std::vector<Hanging> bodies_;
+  std::vector<int> index_of_joint_;  // (njnt), -1 unless driven
+  std::vector<Vector3> axes_, anchors_;
+};
+
+// X_AC = X_AB X_BC
+[[nodiscard]] Skeleton::Pose operator*(const Skeleton::Pose& ab, const Skeleton::Pose& bc);
+
+}  // namespace hurcules
