@@ -17,9 +17,11 @@ __all__ = ["ALONE", "MODULES", "bundles", "measure", "measured"]
 # the longest first, so that the workers end together
 MODULES = (
     "reach",
+    "force_sequence",
     "force_entry",
     "force_lowering",
     "force_reach",
+    "force_casualty",
     "stretch",
     "bimanual",
     "tasks",

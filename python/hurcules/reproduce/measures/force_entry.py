@@ -1,7 +1,7 @@
 """K17: the force control begins, in the velocity form with C = 0.05 m/s/N, in the physics.
 
-Down so slowly that the reading reaches f_min at 21 s, as in figure 5.17; once as the thesis does it,
-at once, and once with the blend that is our default.
+Down so slowly that the reading reaches f_min at 21 s, as in figure 5.17; once as the thesis does
+it, at once, and once with the blend that is our default.
 """
 
 from __future__ import annotations
@@ -66,6 +66,12 @@ def joint_speeds_jump() -> Finding:
             "blend": float(jumps(blended).max() / jumps(at_once).max()),
             "force": abs(float(blended.force[end, 0].mean()) - DESIRED),
         },
-        [Note("speed of the hip before", float(np.abs(at_once.qd[-2500, at_once.of("HIP")])), "rad/s")],
+        [
+            Note(
+                "speed of the hip before",
+                float(np.abs(at_once.qd[-2500, at_once.of("HIP")])),
+                "rad/s",
+            )
+        ],
         plots,
     )

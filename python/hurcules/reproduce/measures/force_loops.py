@@ -1,7 +1,7 @@
 """The force loops of section 5.4 as linear differential equations on a spring, solved exactly.
 
-  s counts from the reference; the ground's rest lies `above` it:  f = G (s - above)
-  state x = (s, ds/dt, int (f_d - f) dt),  dx/dt = A x + b
+s counts from the reference; the ground's rest lies `above` it:  f = G (s - above)
+state x = (s, ds/dt, int (f_d - f) dt),  dx/dt = A x + b
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """K05, K07, K14, K18: both hands go down onto the ground, in the physics (section 5.6.2, 5.7.2).
 
 The operator takes the ground to lie 30 mm lower than it does. K05 and K07 by accelerations, as in
-the thesis, with the gains of K02 to K04; K14 and K18 in the velocity form. The thesis' simulation has
-rigid elbows, the robot has springs: both are measured.
+the thesis, with the gains of K02 to K04; K14 and K18 in the velocity form. The thesis' simulation
+has rigid elbows, the robot has springs: both are measured.
 """
 
 from __future__ import annotations
@@ -143,6 +143,23 @@ def rigid(compliance: float, bandwidth: float) -> Log:
     return lowered(Setting(surface, gains, RIGID, bandwidth=bandwidth, f_max=1e6), end=6.0)
 
 
+def unstable() -> int:
+    """Of 27000 loops of servo, mass, ground and force law: those with an unstable pole.
+
+    The servo is a triple pole w told the speed of its reference, x = (3 w s^2 + 3 w^2 s + w^3) r /
+    (s + w)^3 - s f / (M (s + w)^3), the ground f = G x, the law r' = -C f.
+    """
+    found = 0
+    for w in np.geomspace(5.0, 60.0, 15):  # [rad/s]
+        for M in np.geomspace(1.0, 300.0, 15):  # [kg] felt at the tip
+            for G_M in np.array([1e3, 5e3, 2e4]) / M:
+                for c in np.geomspace(0.5, 2000.0, 40):  # [1/s] C G
+                    square = 3 * w**2 + G_M + 3 * w * c
+                    poles = np.roots([1, 3 * w, square, w**3 + 3 * w**2 * c, c * w**3])
+                    found += bool(poles.real.max() > 0.0)
+    return found
+
+
 def swing(log: Log) -> float:
     """Deviation of the force in the last second [N]."""
     return float(log.force[log.part(log.time[-1] - STILL), 0].std())
@@ -176,7 +193,8 @@ def bandwidths() -> Finding:
             Note(f"C G = {rate:g} 1/s, bandwidth x {bandwidth:g}: swing", value, "N")
             for bandwidth, values in swings.items()
             for rate, value in zip(rates, values, strict=True)
-        ],
+        ]
+        + [Note("loops of 27000 with an unstable pole", unstable())],
         [
             Plot(
                 "Swing of the force, rigid elbows on 5 kN/m",
@@ -195,9 +213,7 @@ def elbow_spring() -> Finding:
     """Hands come down at 0.05 m/s, with springs and without."""
     gains = ForceGains(compliance=0.01)
     soft = lowered(Setting(gains=gains, environment=G, f_max=1e6), 0.05, 4.0)
-    hard = lowered(
-        Setting(Surface(springs=False), gains, environment=5e4, f_max=1e6), 0.05, 4.0
-    )
+    hard = lowered(Setting(Surface(springs=False), gains, environment=5e4, f_max=1e6), 0.05, 4.0)
     peaks = [-float(log.contact[:, :, 2].min()) for log in (soft, hard)]
     window = [log.part(2.0, 3.5) for log in (soft, hard)]
     lines = [

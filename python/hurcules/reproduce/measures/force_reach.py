@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 
 from hurcules import ForceLoop
-from hurcules.reproduce.claim import Finding, Note, Plot, line
+from hurcules.reproduce.claim import Finding, Line, Note, Plot, line
 from hurcules.reproduce.measures.force_ideal import G
 from hurcules.reproduce.measures.force_loops import DESIRED
 from hurcules.reproduce.measures.force_second_order import second
@@ -46,20 +46,20 @@ def mean(values: np.ndarray, log: Log, start: float, end: float) -> float:
     return float(values[log.part(start, end)].mean())
 
 
-def lines_of(log: Log, values: np.ndarray, *names: str, start: float = 4.0) -> list:
+def lines_of(log: Log, values: np.ndarray, *names: str, start: float = 4.0) -> list[Line]:
     """Of some coordinates."""
     part = log.part(start)
     return [line(name, log.time[part], values[part, log.of(name)]) for name in names]
 
 
-def over_time(title: str, label: str, lines: list, levels: tuple[float, ...] = ()) -> Plot:
+def over_time(title: str, label: str, lines: list[Line], levels: tuple[float, ...] = ()) -> Plot:
     """With the times of the thesis."""
     return Plot(title, "time [s]", label, lines, thesis_marks=THESIS, levels=levels)
 
 
 @measures("K08")
 def outstretched() -> Finding:
-    """Speeds of the arms and of the whole robot around the time at which the elbows are straight."""
+    """Speeds of arms and whole robot around the time at which the elbows are straight."""
     log = reach(0.05)
     straight = min(log.when("LEB", -1)[0], log.when("REB", -1)[0])
     arm, whole = speeds(log, *ARM), speeds(log)
@@ -135,11 +135,7 @@ def iterations() -> Finding:
             Note("most changes of the default at 8 s", _most(ours, 8.0)),
             Note("most changes of the default at 11 s", _most(ours, 11.0)),
         ],
-        [
-            over_time(
-                "Iterations", "", [line("Algorithm 1", printed.time[part], steps[part])]
-            )
-        ],
+        [over_time("Iterations", "", [line("Algorithm 1", printed.time[part], steps[part])])],
     )
 
 
@@ -159,7 +155,9 @@ def compliances() -> Finding:
         force[C] = float(log.force[part].mean())
         vertical = np.gradient(log.planned[:, 2], 1e-3)[part]
         moves[C] = float(np.sqrt((vertical**2).mean()))
-        contact[C] = float((np.convolve(log.contact[:, 0, 2], np.ones(10), "same")[part] < 0).mean())
+        contact[C] = float(
+            (np.convolve(log.contact[:, 0, 2], np.ones(10), "same")[part] < 0).mean()
+        )
     lines = []
     for C, log in logs.items():
         part = log.part(4.0)

@@ -9,22 +9,21 @@ elbow springs, from the contact itself where the elbows are rigid; f < 0 presses
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 import hurcules
 from hurcules import Stack, StackLevel
+from hurcules.reproduce.measures.press_log import DT, Log, empty_log
 from hurcules.reproduce.measures.press_scene import Surface, model_of
 from hurcules.reproduce.measures.press_servo import Servo
 from hurcules.reproduce.measures.problems import Array
 
 __all__ = ["DT", "GAZE", "SETTLED", "START", "Log", "PressRobot", "Setting", "Speed", "ramped"]
 
-DT = 1e-3  # [s]
 SUPPORT = "lower_leg_L"
 SETTLED = 1.4  # [s]
 GAZE = (2.1, 0.0, 0.1)  # [m]
@@ -58,7 +57,7 @@ class Setting:
         method: of the solver; the default hands weak directions down smoothly.
     """
 
-    surface: Surface = Surface()
+    surface: Surface = field(default_factory=Surface)
     gains: hurcules.ForceGains = field(default_factory=hurcules.ForceGains)
     environment: float = 0.0
     blend: float = 0.1
@@ -78,68 +77,6 @@ def ramped(speed: float, start: float, end: float, ramp: float = 0.3) -> Speed:
     return at
 
 
-@dataclass
-class Log:
-    """Every tick; (ticks, ...).
-
-    Attributes:
-        time: [s].
-        names: of the coordinates.
-        q: [rad], qd: [rad/s], qdd: [rad/s^2]: the commanded motion; qdd by differences of qd.
-        force: (ticks, 2) [N] as read, left and right; negative presses down.
-        contact: (ticks, 2, 3) [N] of the arms on what they touch, as the physics has it.
-        hand: (ticks, 3) [m] left tip as it is; planned: as commanded.
-        state: (ticks, 2) 0 free, 1 contact, 2 stopped, 3 sensor lost.
-        active: (ticks, n) -1, 0, 1.
-        changes: (ticks,) of the working set.
-        errors: (ticks, 4) norms: hpos, hpitch, pel, gaze.
-        servo: (ticks,) [rad] largest error of a coordinate's joint.
-        base: (ticks, 3) [m] of the knee frame.
-    """
-
-    names: list[str]
-    time: Array
-    q: Array
-    qd: Array
-    force: Array
-    contact: Array
-    hand: Array
-    planned: Array
-    state: Array
-    active: Array
-    changes: Array
-    errors: Array
-    servo: Array
-    base: Array
-
-    @property
-    def qdd(self) -> Array:
-        """By differences."""
-        return np.asarray(np.diff(self.qd, axis=0, prepend=self.qd[:1]) / DT)
-
-    def of(self, name: str) -> int:
-        """Column of a coordinate."""
-        return self.names.index(name)
-
-    def when(self, name: str, side: int) -> tuple[float, float]:
-        """When a limit is first taken and first left after that [s]; NaN for never."""
-        held = self.active[:, self.of(name)] == side
-        if not held.any():
-            return float("nan"), float("nan")
-        on = int(held.argmax())
-        off = held[on:].argmin()
-        return float(self.time[on]), float(self.time[on + off]) if off else float("nan")
-
-    def part(self, start: float, end: float = np.inf) -> NDArray[np.bool_]:
-        """The ticks between two times."""
-        return (self.time >= start) & (self.time < end)
-
-    def touched(self, side: int = 0) -> float:
-        """When the force of a hand is first regulated [s]; NaN for never."""
-        on = self.state[:, side] == 1
-        return float(self.time[on.argmax()]) if on.any() else float("nan")
-
-
 class PressRobot:
     """Robot, tasks, controller, servo and physics.
 
@@ -149,16 +86,32 @@ class PressRobot:
         hands: tasks of the tips by name: lx, ly, lz, ...: l and r; lz and rz are the forces.
     """
 
-    def __init__(self, setting: Setting, posture: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        setting: Setting,
+        posture: Mapping[str, float] = START,
+        scene: tuple[mujoco.MjModel, mujoco.MjData] | None = None,
+    ) -> None:
+        """Stands in a posture at the origin, or as it stands in a scene already.
+
+        Args:
+            setting: what is pressed on, and how.
+            posture: coordinates [rad]; the others as in the keyframe of the stretch.
+            scene: of `model_of`, where the robot goes on.
+        """
         self.setting = setting
-        self.model = model_of(setting.surface)
-        self.data = mujoco.MjData(self.model)
+        self.model = scene[0] if scene else model_of(setting.surface)
+        self.data = scene[1] if scene else mujoco.MjData(self.model)
         self.plan = plan = hurcules.Robot(self.model)
-        plan.set_keyframe("stretch")
-        plan.stand_on(SUPPORT)
-        plan.set_configuration(_configured(plan, posture or START))
-        self.data.qpos[:] = plan.qpos
-        mujoco.mj_forward(self.model, self.data)
+        if scene:
+            plan.set_qpos(self.data.qpos)
+            plan.stand_on(SUPPORT)
+        else:
+            plan.set_keyframe("stretch")
+            plan.stand_on(SUPPORT)
+            plan.set_configuration(_configured(plan, posture))
+            self.data.qpos[:] = plan.qpos
+            mujoco.mj_forward(self.model, self.data)
         self._make_tasks()
         self.accelerates = setting.gains.loop != hurcules.ForceLoop.FirstOrder
         self.controller: hurcules.VelocityController | hurcules.AccelerationController
@@ -209,8 +162,14 @@ class PressRobot:
     def stack(self) -> Stack:
         """As the thesis orders it."""
         hands = StackLevel("hpos, force", [*self.across, *self.forces])
-        levels = [self.joint, hands, StackLevel("hpitch", self.pitch), self.pelvis, self.gaze]
-        return Stack([*levels, self.rest] if self.accelerates else levels)
+        pitch = StackLevel("hpitch", self.pitch)
+        rest = [self.rest] if self.accelerates else []
+        return Stack([self.joint, hands, pitch, self.pelvis, self.gaze, *rest])
+
+    @property
+    def time(self) -> float:
+        """Since its start [s]."""
+        return self.ticks * DT
 
     def enable(self, on: bool) -> None:
         """Force control of both hands on or off."""
@@ -243,8 +202,8 @@ class PressRobot:
         for task, force in zip(self.forces, self.read(), strict=True):
             task.sense(self.plan, force)
             task.advance([z], DT)
-        for task in self.across:
-            task.advance([x, 0.0], DT)
+        for across in self.across:
+            across.advance([x, 0.0], DT)
         self.controller.step(self.plan)
         self.servo.act(self.plan, self.speed(), self.data)
         hurcules.step(self.model, self.data)
@@ -264,10 +223,10 @@ class PressRobot:
     def follow(self, x: Speed, z: Speed, end: float) -> Log:
         """Moves both hands by speeds over time until `end` [s], and keeps every tick."""
         count = round(end / DT) - self.ticks
-        log = _empty(self.plan.coordinate_names, count)
+        log = empty_log(self.plan.coordinate_names, count)
         tip = self.data.site("L_tcp")
         for i in range(count):
-            time = self.ticks * DT
+            time = self.time
             self.tick(x(time), z(time))
             log.time[i], log.q[i], log.qd[i] = time, self.plan.configuration, self.speed()
             log.force[i] = [task.force for task in self.forces]
@@ -283,7 +242,12 @@ class PressRobot:
 
     def errors(self) -> list[float]:
         """Norms of the errors of hands across, pitches, pelvis, gaze."""
-        groups = [self.across, self.pitch, [self.pelvis], [self.gaze]]
+        groups: list[Sequence[hurcules.Task]] = [
+            self.across,
+            self.pitch,
+            [self.pelvis],
+            [self.gaze],
+        ]
         return [float(np.sqrt(sum(float(t.error @ t.error) for t in group))) for group in groups]
 
 
@@ -292,11 +256,3 @@ def _configured(plan: hurcules.Robot, posture: Mapping[str, float]) -> Array:
     for name, angle in posture.items():
         q[names.index(name)] = angle
     return q
-
-
-def _empty(names: list[str], ticks: int) -> Log:
-    n = len(names)
-    sizes = {"time": (), "q": (n,), "qd": (n,), "force": (2,), "contact": (2, 3), "hand": (3,)}
-    sizes |= {"planned": (3,), "state": (2,), "active": (n,), "changes": (), "errors": (4,)}
-    sizes |= {"servo": (), "base": (3,)}
-    return Log(names, **{name: np.zeros((ticks, *size)) for name, size in sizes.items()})

@@ -10,11 +10,10 @@ import math
 from dataclasses import dataclass
 
 import mujoco
-import numpy as np
 
 from hurcules import models, scenes
 
-__all__ = ["PLATE_MASS", "Surface", "model_of", "set_stiffness"]
+__all__ = ["Surface", "model_of"]
 
 PLATE_MASS = 5.0  # [kg]
 PLATE = (0.8, 0.2, 0.02)  # [m] half sizes
@@ -130,11 +129,3 @@ def _lock(model: mujoco.MjModel, joint: str) -> None:
     dof = model.joint(joint).dofadr[0]
     model.dof_frictionloss[dof] = LOCK
     model.dof_solref[dof], model.dof_solimp[dof] = LOCK_SOLREF, LOCK_SOLIMP
-
-
-def set_stiffness(model: mujoco.MjModel, stiffness: float) -> None:
-    """Another stiffness [N/m] of the plates."""
-    for side in "LR":
-        joint = model.joint(f"{side}_plate")
-        joint.stiffness[0] = stiffness
-        model.dof_damping[joint.dofadr[0]] = 1.4 * np.sqrt(stiffness * PLATE_MASS)
