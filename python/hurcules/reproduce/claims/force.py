@@ -184,8 +184,8 @@ FORCE = (
                 ours=(0.05, 1.0),
                 why="the servo is told the speed of its reference (5.5.49): it lags by at most 90 "
                 "degrees, and servo, mass, ground and force loop together have no unstable pole "
-                "for any C (27000 combinations); the swing is contact that is lost and met again, and "
-                "a softer servo gives way to it",
+                "for any C (27000 combinations); the swing is contact that is lost and met again, "
+                "and a softer servo gives way to it",
             ),
             "too_small": least("settling with springs, C = 0.002 over C = 0.02", 2.0),
         },
