@@ -106,7 +106,7 @@ FORCE = (
                 1.0,
                 ours=(1.0, 2.0),
                 why="hip and knees still carry the straight arms at the operator's speed; with our "
-                "lengths and ranges (the thesis prints none) their reach ends 0.36 m later, where "
+                "lengths and ranges (the thesis prints none) their reach ends 0.4 m later, where "
                 "hands that are led on make the elbow swing at 5 Hz (docs/control.md)",
             ),
         },
@@ -270,7 +270,7 @@ FORCE = (
                 "tips pressing with 5 N",
                 0.25,
                 ours=(0.25, 0.85),
-                why="the tips get under the round of the trunk, twice as deep as without contact, "
+                why="the tips get under the round of the trunk, four times as deep as without, "
                 "then push: there the scoop has to lift on a slope of 35 degrees, which needs 1.4 "
                 "times the weight on it, while the person slides at 0.4 times the whole",
             ),
