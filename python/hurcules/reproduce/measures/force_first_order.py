@@ -56,7 +56,11 @@ def enters_at_least_force() -> Finding:
 def stops_at_largest_force() -> Finding:
     """The ground strikes: 1 N a tick; then it is gone."""
     gains = ForceGains(compliance=1e-4)
-    struck = press(gains, 1.0, f_max=F_MAX, read=lambda i, _: -min(i, 200) if i < 500 else 0.0)
+
+    def strike(tick: int, _: float) -> float:
+        return -min(tick, 200) if tick < 500 else 0.0
+
+    struck = press(gains, 1.0, above=-START / G, f_max=F_MAX, read=strike)
     stopped = struck.contact == int(ContactState.Stopped)
     at = int(stopped.argmax())
     shown = Plot(

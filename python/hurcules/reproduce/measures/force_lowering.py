@@ -24,6 +24,7 @@ DOWN = 0.02  # [m/s]
 BEGIN, END = 1.5, 7.0  # [s]
 DEPTH = 0.068  # [m] of the reference's way: 38 mm to the ground, 30 mm into it
 PI_INTEGRAL = 0.3  # [m/s/N] the best one of K06
+WINDOW = 20  # ticks
 STILL = 1.0  # [s] at the end, for steady values
 RIGID = 5e3  # [N/m] of the ground under rigid elbows
 
@@ -50,9 +51,8 @@ def by_law(name: str, springs: bool = True) -> Log:
 
 
 def pressed(log: Log) -> np.ndarray:
-    """(ticks,) [N] of the left hand as the physics has it, downward, over 20 ms."""
-    window = np.ones(20) / 20
-    return np.convolve(log.contact[:, 0, 2], window, "same")
+    """(ticks,) [N] of the left hand on the ground as the physics has it, mean of 20 ms."""
+    return np.convolve(log.contact[:, 0, 2], np.ones(WINDOW) / WINDOW, "same")
 
 
 def steady(log: Log) -> float:
@@ -75,11 +75,9 @@ def without_force_control() -> Finding:
     names = ("P", "PI", "velocity", "none")
     logs = {name: by_law(name) for name in names}
     rigid = by_law("none", springs=False)
-    settled = {}
-    for name in ("PI", "velocity"):
-        part = logs[name].part(logs[name].touched())
-        time = logs[name].time[part]
-        settled[name] = settling(time - time[0], logs[name].force[part, 0], DESIRED, 0.05)
+    part = logs["velocity"].part(logs["velocity"].touched())
+    time = logs["velocity"].time[part]
+    settled = settling(time - time[0], logs["velocity"].force[part, 0], DESIRED, 0.05)
     return Finding(
         {
             "none": -steady(logs["none"]),
@@ -89,8 +87,8 @@ def without_force_control() -> Finding:
         [
             Note("P ends at", steady(logs["P"]), "N"),
             Note("PI ends at", steady(logs["PI"]), "N"),
-            Note("PI within 5 % after", settled["PI"], "s"),
-            Note("velocity loop within 5 % after", settled["velocity"], "s"),
+            Note("PI swings by (dry friction of the joints)", swing(logs["PI"]), "N"),
+            Note("velocity loop within 5 % after", settled, "s"),
         ],
         [
             picture("With springs", {name: logs[name] for name in names[:3]}),
@@ -99,7 +97,7 @@ def without_force_control() -> Finding:
                 "None, rigid elbows",
                 "time [s]",
                 "force on the ground [N]",
-                [line("", rigid.time, pressed(rigid))],
+                [line("", rigid.time[:-WINDOW], pressed(rigid)[:-WINDOW])],
             ),
         ],
     )
