@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hurcules import _core
 from hurcules._core import Error
@@ -112,6 +112,18 @@ class Player:
     def wait(self, seconds: float, name: str = "wait") -> Result:
         """Stays where it is for a time [s]."""
         return self._play(Move(name, seconds, (), 0.0))
+
+    def track(self, qpos: ArrayLike) -> None:
+        """Takes one step of the physics towards a configuration that somebody else plans.
+
+        Args:
+            qpos: (nq,), `Robot.qpos` say: where the joints with a motor shall be. How fast they
+                move there follows from the call before.
+        """
+        before = self.reference
+        self.reference = np.asarray(qpos, dtype=np.float64)[self._qpos]
+        speed = (self.reference - before) / self.model.opt.timestep
+        self._tick(speed, np.zeros((2, len(self.joints))), Result("track"))
 
     def _play(self, each: Move) -> Result:
         unknown = [joint for joint in each.joints() if joint not in self.joints]

@@ -17,6 +17,11 @@ __all__ = ["ALONE", "MODULES", "bundles", "measure", "measured"]
 # the longest first, so that the workers end together
 MODULES = (
     "reach",
+    "force_sequence",
+    "force_entry",
+    "force_lowering",
+    "force_reach",
+    "force_casualty",
     "stretch",
     "bimanual",
     "tasks",
@@ -27,6 +32,8 @@ MODULES = (
     "active_set",
     "regularization",
     "chapter3",
+    "force_second_order",
+    "force_first_order",
     "servo_theory",
     "hardware",
     "solve_times",
