@@ -144,6 +144,13 @@ def test_a_stop_keeps_what_was_done_and_passes_nothing_that_lacks_repetitions():
     assert result.interrupted and not result.passed and result.settings[0].repetitions == 2
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_setting_that_fails_three_times_from_the_start_is_not_repeated(workers):
+    result = trials.run(SHORT, repetitions=5, settings=(2000.0,), workers=workers)
+    assert not result.passed and not result.interrupted
+    assert result.settings[0].repetitions == result.settings[0].failures == 3
+
+
 def test_towing_ends_where_traction_does():
     # 0.5 M g of the sled against at most 0.9 x 700 kg x g of the robot
     result = trials.run(SHORT, repetitions=1, settings=(75.0, 2000.0))
@@ -213,9 +220,11 @@ def test_a_lap_ends_after_one_turn_round_the_middle():
 
 def test_a_posture_is_taken_and_held_on_the_brakes():
     raised = trials.Posture(knee=0.3, hip=0.2)
-    method = dataclasses.replace(
-        SHORT, postures=((-math.inf, trials.Posture()), (0.05, raised)), distance=1.2
-    )
+
+    def plan(_: object) -> trials.Plan:
+        return lambda x: raised if x >= 0.05 else trials.FLAT
+
+    method = dataclasses.replace(SHORT, plan=plan, distance=1.2)
     last = []
     trials.repeat(
         method, 75.0, "rescue", 0, watch=lambda m, qpos, time: last.append((m, qpos.copy()))
