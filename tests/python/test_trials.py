@@ -119,7 +119,7 @@ def test_another_driver_takes_the_place_of_ours():
 
     result = trials.run("e2801", repetitions=1, settings=(0.1,), driver=sleeper, speed=2.0)
     assert result.settings[0].faults[0].fault == "stuck"
-    assert len(calls) > 100 and set(calls) == {2.0}
+    assert len(calls) > 100 and set(calls) == {-2.0}  # tail first
 
 
 # a sled of so much mass, towed by a little: repetitions of a second

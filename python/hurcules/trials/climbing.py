@@ -36,8 +36,8 @@ ACROSS = 0.8
 APPROACH = 0.6  # [m] before the tail meets the edge it is raised
 STRETCHED = Posture(math.pi, STEADY)  # one long track, the weight on the lower legs
 
-# centre of mass of both robots, within 2 cm along and 6 cm across the tracks: x, z [m] from the knees
-# without the arm by which the trunk moves it, and that arm
+# centre of mass of both robots, within 2 cm along and 6 cm across the tracks: x, z [m] from the
+# knees without the arm by which the trunk moves it, and that arm
 CENTRE, ARM = (-0.157, 0.146), 0.27
 
 # out of the way of the lower legs, and forward [rad]

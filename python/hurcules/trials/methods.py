@@ -121,6 +121,8 @@ METHODS: dict[str, Method] = {
         "angle",
         _degrees(5, 10, 15, 20, 25),
         {"pattern": "crossing"},
+        plan=stretched,
+        climbs=True,
     ),
     "e2828": Method(
         title="symmetric stepfields",
