@@ -91,7 +91,8 @@ def test_a_run_stops_at_the_first_setting_that_is_not_passed_and_says_why():
     assert good.failures == 0 and good.metres_per_minute == pytest.approx(
         36, rel=0.08
     )  # starts and stops
-    assert bad.failures == 1 and bad.faults[0].fault == "tip-over" and bad.faults[0].x > 1.5
+    # its tail in the gap, the toes on the near edge
+    assert bad.failures == 1 and bad.faults[0].fault == "stuck" and bad.faults[0].x > 2.0
     assert good.confidence_80 == pytest.approx(0.2) and bad.confidence_80 == 0.0
     assert json.loads(json.dumps(result.as_dict()))["settings"][0]["setting"] == 0.2
 

@@ -22,7 +22,7 @@ from hurcules.scenes.hurdle import Hurdle
 from hurcules.scenes.stairs import Stairs
 from hurcules.trials.postures import Posture
 
-__all__ = ["ARMS", "OverHurdle", "OverStairs"]
+__all__ = ["ARCHED", "ARMS", "STRETCHED", "OverHurdle", "OverStairs"]
 
 RADIUS = 0.14  # [m] of the tracks
 UPPER, LOWER = 0.55, 0.85  # [m] between the axles of a leg
@@ -35,6 +35,8 @@ ACROSS = 0.8
 
 APPROACH = 0.6  # [m] before the tail meets the edge it is raised
 STRETCHED = Posture(math.pi, STEADY)  # one long track, the weight on the lower legs
+# [rad] the knees a little past straight: more room under the battery, which else catches on posts
+ARCHED = Posture(3.24, ACROSS)
 
 # centre of mass of both robots, within 2 cm along and 6 cm across the tracks: x, z [m] from the
 # knees without the arm by which the trunk moves it, and that arm

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from hurcules.known import require_known
-from hurcules.trials.climbing import STRETCHED, OverHurdle, OverStairs
+from hurcules.trials.climbing import ARCHED, STRETCHED, OverHurdle, OverStairs
 from hurcules.trials.postures import FLAT, Plan, Posture, always
 
 __all__ = ["METHODS", "Method", "Way", "method"]
@@ -36,6 +36,11 @@ def lean(scene: Any) -> Plan:
 def stretched(scene: Any) -> Plan:
     """One long track, the centre of mass low and near its middle."""
     return always(STRETCHED)
+
+
+def arched(scene: Any) -> Plan:
+    """The same, its middle raised by 4 cm."""
+    return always(ARCHED)
 
 
 @dataclass(frozen=True)
@@ -121,7 +126,7 @@ METHODS: dict[str, Method] = {
         "angle",
         _degrees(5, 10, 15, 20, 25),
         {"pattern": "crossing"},
-        plan=stretched,
+        plan=arched,
         climbs=True,
     ),
     "e2828": Method(
@@ -129,7 +134,7 @@ METHODS: dict[str, Method] = {
         scene="step_field",
         parameter="unit",
         settings=(0.02, 0.04, 0.06, 0.08, 0.10),
-        plan=stretched,
+        plan=arched,
         climbs=True,
     ),
     "e2829": Method(
