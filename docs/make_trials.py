@@ -21,7 +21,7 @@ PAGE = Path(__file__).resolve().parent / "trials.md"
 FOLDER = PAGE.with_suffix("")
 BEGIN, END = "<!-- written by make_trials.py -->\n", "<!-- end of what make_trials.py wrote -->\n"
 HEAD = (
-    "| method | robot | largest setting passed | of | R >= 80 % with | R at 95 % | m/min | kJ/m "
+    "| method | robot | largest setting passed | n | R >= 80 % with | R at 95 % | m/min | kJ/m "
     "| not passed |\n|---|---|---|---|---|---|---|---|---|\n"
 )
 
@@ -69,7 +69,7 @@ def best(settings: list[dict[str, Any]]) -> tuple[dict[str, Any] | None, dict[st
     """The hardest setting below the first that was not passed, and that one."""
     passed = None
     for one in settings:
-        if not one["passed"]:
+        if one["failures"]:
             return passed, one
         passed = one
     return passed, None

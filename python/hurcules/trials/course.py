@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hurcules.scenes import Scene
 from hurcules.scenes.flat import Pylons
+from hurcules.scenes.hurdle import Hurdle
 from hurcules.trials.methods import Method, Way
 
 __all__ = ["Course", "Leg", "Oval", "Path", "Place", "Straight", "make_course"]
@@ -157,6 +158,7 @@ def make_course(chosen: Method, setting: float | None, scene: Scene, speed: floa
     there = Leg(-pace, goal, goal, chosen.hold, heading=math.pi)
     back = Leg(pace, goal, 0.0, heading=math.pi)
     if chosen.turns_round:
+        assert isinstance(scene, Hurdle)
         # the obstacle looks the same from behind: its far side is the near one of the way back
         back = Leg(-pace, goal, 0.0, heading=0.0, mirror=scene.distance + scene.end)
     return Course(Straight(math.pi), [there, back])
