@@ -20,6 +20,7 @@ from hurcules.trials import METHODS
 PAGE = Path(__file__).resolve().parent / "trials.md"
 FOLDER = PAGE.with_suffix("")
 BEGIN, END = "<!-- written by make_trials.py -->\n", "<!-- end of what make_trials.py wrote -->\n"
+ENOUGH = 10  # repetitions from which on a setting counts as passed, and is set in bold
 HEAD = (
     "| method | robot | largest setting passed | n | R >= 80 % with | R at 95 % | m/min | kJ/m "
     "| not passed |\n|---|---|---|---|---|---|---|---|---|\n"
@@ -53,9 +54,10 @@ def row(result: dict[str, Any]) -> list[str]:
     fell = "-" if failed is None else f"{failed['shown']}: {failures(failed)}"
     if passed is None:
         return [*about, "**none**", "", "", "", "", "", fell]
+    enough = passed["repetitions"] >= ENOUGH
     return [
         *about,
-        f"**{passed['shown']}**",
+        f"**{passed['shown']}**" if enough else passed["shown"],
         str(passed["repetitions"]),
         f"{100 * passed['confidence_80']:.0f} %",
         f"{100 * passed['lower_bound_95']:.0f} %",
