@@ -76,6 +76,9 @@ def run_mission(
     method: Annotated[
         str, typer.Option(help=f"How the hierarchy is solved: {', '.join(method_names())}.")
     ] = "lexicographic",
+    sensors: Annotated[
+        bool, typer.Option("--sensors", help="Noise, bias, delay and steps in what is measured.")
+    ] = False,
     video: Annotated[bool, typer.Option("--video/--no-video", help="Film the run.")] = True,
     robot: Annotated[str, typer.Option(help="Who is tested.", rich_help_panel=_TRIALS)] = "rescue",
     repetitions: Annotated[
@@ -102,6 +105,8 @@ def run_mission(
 
     - `hurcules run stretch --seconds 5 --no-video`
 
+    - `hurcules run --sensors`
+
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
     """
     folder = out or Path("out", mission)
@@ -114,12 +119,12 @@ def run_mission(
         raise typer.Exit(run_trial(trial, Console()))
     if context.args:
         raise Error(f"No such option: {context.args[0]}")
-    options = RunOptions(mission, seed, folder, seconds, method, video)
+    options = RunOptions(mission, seed, folder, seconds, method, video, sensors)
     raise typer.Exit(run(options, Console()))
 
 
 def _refuse_mission_options(context: typer.Context) -> None:
-    given = [name for name in ("seconds", "method") if _was_given(context, name)]
+    given = [name for name in ("seconds", "method", "sensors") if _was_given(context, name)]
     if given:
         raise Error(f"--{given[0]}: for missions; a test method ends by itself")
 

@@ -21,6 +21,7 @@ from hurcules.output import Output
 from hurcules.recording import Recording, record
 from hurcules.rendering import RendererError
 from hurcules.report import Snapshot
+from hurcules.sensors import realistic
 from hurcules.simulation import Simulation
 from hurcules.summary import summarize
 from hurcules.video import Painter, film
@@ -42,6 +43,7 @@ class RunOptions:
     seconds: float | None = None  # [s] stop after this time; None lets the mission end
     method: str = "lexicographic"
     video: bool = True
+    sensors: bool = False  # with the noise of `hurcules.sensors.realistic`
 
 
 def run(options: RunOptions, console: Console) -> int:
@@ -60,7 +62,13 @@ def run(options: RunOptions, console: Console) -> int:
         Error: wrong usage (unknown mission or method, bad number, a folder that cannot be written).
         WriteError: a file could not be written; those before it were.
     """
-    simulation = Simulation(options.mission, options.seed, method=options.method, timed=True)
+    simulation = Simulation(
+        options.mission,
+        options.seed,
+        method=options.method,
+        timed=True,
+        sensors=realistic() if options.sensors else None,
+    )
     ticks = _ticks(options.seconds, simulation.dt)
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
@@ -68,7 +76,7 @@ def run(options: RunOptions, console: Console) -> int:
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
-        summary = summarize(simulation, recording, options.seed, options.method)
+        summary = summarize(simulation, recording, options.seed, options.method, options.sensors)
         _save(options, simulation, recording, summary, output, console, interrupts)
         if interrupts.noted:
             when = "at" if recording.interrupted else "after the simulation had ended at"

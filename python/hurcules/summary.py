@@ -18,7 +18,7 @@ __all__ = ["processor", "summarize"]
 
 
 def summarize(
-    simulation: Simulation, recording: Recording, seed: int, method: str
+    simulation: Simulation, recording: Recording, seed: int, method: str, noisy: bool = False
 ) -> dict[str, Any]:
     """Sums up a run.
 
@@ -27,6 +27,7 @@ def summarize(
         recording: what it left.
         seed: of the run.
         method: of the solver.
+        noisy: whether its sensors were those of `hurcules.sensors.realistic`.
 
     Returns:
         Plain data for JSON: numbers are finite or None.
@@ -38,6 +39,7 @@ def summarize(
             "seed": seed,
             "version": __version__,
             "method": method,
+            "sensors": "realistic" if noisy else "exact",
             "success": simulation.success,
             "reason": _reason(simulation, recording),
             "simulated_seconds": simulation.time,

@@ -83,6 +83,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "--seconds", "nan"], "--seconds: wanted"),
         (["run", "--seconds", "inf"], "--seconds: wanted"),
         (["run", "--frobnicate"], "--frobnicate"),
+        (["run", "e2801", "--sensors"], "--sensors: for missions"),
         (["run", "stretch", "again"], "again"),
         (["jump"], "jump"),
     ],

@@ -89,6 +89,19 @@ def test_an_arc_is_driven_as_asked_though_skid_steering_turns_less() -> None:
 
 
 @pytest.mark.slow
+def test_at_full_speed_it_slows_down_so_that_it_can_turn() -> None:
+    robot = make()
+    robot.chassis.controller.drive(5.0)
+    fast = robot.run(3.2)[-1]
+    robot.chassis.controller.drive(5.0, 0.15)
+    log = robot.run(4.0)[-50:].mean(axis=0)
+    assert fast[1] == pytest.approx(5.0, rel=0.01)
+    assert log[2] == pytest.approx(0.15, rel=0.15)
+    # turning takes 257 N m a side at least (docs/drive.md), which 7.95 kW give up to here
+    assert 3.0 < log[1] < 7950 / 257 * 0.14
+
+
+@pytest.mark.slow
 def test_a_full_turn_in_place_stays_in_place() -> None:
     robot = make()
     robot.chassis.controller.drive(0.0, 0.8)

@@ -136,6 +136,17 @@ def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Pa
     assert logs[0] != logs[2]
 
 
+def test_sensors_with_noise_change_the_run_and_the_summary_names_them(tmp_path: Path) -> None:
+    logs, named = {}, {}
+    for sensors in (False, True):
+        out = tmp_path / str(sensors)
+        assert run(RunOptions(out=out, seconds=0.3, video=False, sensors=sensors), quiet()) == DONE
+        logs[sensors] = (out / "log.npz").read_bytes()
+        named[sensors] = json.loads((out / "summary.json").read_text())["sensors"]
+    assert named == {False: "exact", True: "realistic"}
+    assert logs[False] != logs[True]
+
+
 def test_files_of_an_earlier_run_do_not_stay(tmp_path: Path) -> None:
     (tmp_path / "video.mp4").write_text("old")
     (tmp_path / "mine.txt").write_text("kept")

@@ -91,7 +91,8 @@ def test_a_run_stops_at_the_first_setting_that_is_not_passed_and_says_why():
     assert good.failures == 0 and good.metres_per_minute == pytest.approx(
         36, rel=0.08
     )  # starts and stops
-    assert bad.failures == 1 and bad.faults[0].fault == "tip-over" and bad.faults[0].x > 1.5
+    # its tail in the gap, the toes on the near edge
+    assert bad.failures == 1 and bad.faults[0].fault == "stuck" and bad.faults[0].x > 2.0
     assert good.confidence_80 == pytest.approx(0.2) and bad.confidence_80 == 0.0
     assert json.loads(json.dumps(result.as_dict()))["settings"][0]["setting"] == 0.2
 
@@ -119,7 +120,7 @@ def test_another_driver_takes_the_place_of_ours():
 
     result = trials.run("e2801", repetitions=1, settings=(0.1,), driver=sleeper, speed=2.0)
     assert result.settings[0].faults[0].fault == "stuck"
-    assert len(calls) > 100 and set(calls) == {2.0}
+    assert len(calls) > 100 and set(calls) == {-2.0}  # tail first
 
 
 # a sled of so much mass, towed by a little: repetitions of a second
@@ -142,6 +143,13 @@ def test_a_stop_keeps_what_was_done_and_passes_nothing_that_lacks_repetitions():
     )
     assert seen == [(75.0, 1, 0), (75.0, 2, 0)]
     assert result.interrupted and not result.passed and result.settings[0].repetitions == 2
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_setting_that_fails_three_times_from_the_start_is_not_repeated(workers):
+    result = trials.run(SHORT, repetitions=5, settings=(2000.0,), workers=workers)
+    assert not result.passed and not result.interrupted
+    assert result.settings[0].repetitions == result.settings[0].failures == 3
 
 
 def test_towing_ends_where_traction_does():
@@ -213,9 +221,11 @@ def test_a_lap_ends_after_one_turn_round_the_middle():
 
 def test_a_posture_is_taken_and_held_on_the_brakes():
     raised = trials.Posture(knee=0.3, hip=0.2)
-    method = dataclasses.replace(
-        SHORT, postures=((-math.inf, trials.Posture()), (0.05, raised)), distance=1.2
-    )
+
+    def plan(_: object) -> trials.Plan:
+        return lambda x: raised if x >= 0.05 else trials.FLAT
+
+    method = dataclasses.replace(SHORT, plan=plan, distance=1.2)
     last = []
     trials.repeat(
         method, 75.0, "rescue", 0, watch=lambda m, qpos, time: last.append((m, qpos.copy()))

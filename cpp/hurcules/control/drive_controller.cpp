@@ -94,9 +94,13 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   const double turn = within_slip(asked, measured.yaw_rate * gauge_ / 2.0);
   turning_slips_ = turn != asked;
   slipping_ = v != go || turning_slips_;
-  const double left = belt_torque(v - turn, measured.left, left_integral_);
-  const double right = belt_torque(v + turn, measured.right, right_integral_);
-  return {left, right, false};
+  const Belt left = belt(v - turn, measured.left, left_integral_);
+  const Belt right = belt(v + turn, measured.right, right_integral_);
+  // turning goes before speed here too: what one drive lacks, both give up
+  const double lack = std::max({left.demand - left.upper, right.demand - right.upper, 0.0});
+  const double excess = std::max({left.lower - left.demand, right.lower - right.demand, 0.0});
+  const double shift = excess - lack;
+  return {settle(left, shift, left_integral_), settle(right, shift, right_integral_), false};
 }
 
 DriveCommand DriveController::wanted(const DriveState& measured) {
@@ -184,20 +188,27 @@ double DriveController::within_slip(double reference, double ground) const {
 }
 
 // reference: [m/s] of the belt; rate: [rad/s]
-double DriveController::belt_torque(double reference, double rate, double& integral) const {
+DriveController::Belt DriveController::belt(double reference, double rate, double integral) const {
   const double error = reference / options_.radius - rate;
   const double feed = options_.mass * options_.radius * speed_.acceleration() / 2.0;
   // only a motor that drives is limited by its power; one that brakes has its full torque
   const double driving =
       std::min(options_.max_torque, options_.max_power / std::max(std::abs(rate), 1e-3));
-  const double upper = rate > 0.0 ? driving : options_.max_torque;
-  const double lower = rate < 0.0 ? -driving : -options_.max_torque;
-  const double next = integral + options_.integral_gain * error * options_.dt;
-  const double demand = options_.gain * error + next + feed;
-  const double torque = std::clamp(demand, lower, upper);
+  Belt result;
+  result.upper = rate > 0.0 ? driving : options_.max_torque;
+  result.lower = rate < 0.0 ? -driving : -options_.max_torque;
+  result.error = error;
+  result.integral = integral + options_.integral_gain * error * options_.dt;
+  result.demand = options_.gain * error + result.integral + feed;
+  return result;
+}
+
+// the torque that is given, and the integral that goes with it
+double DriveController::settle(const Belt& belt, double shift, double& integral) {
+  const double torque = std::clamp(belt.demand + shift, belt.lower, belt.upper);
   // a saturated drive keeps its integral unless the error leads back
-  if (torque == demand || (error > 0.0) != (demand > 0.0)) {
-    integral = std::clamp(next, lower, upper);
+  if (torque == belt.demand || (belt.error > 0.0) != (belt.demand > 0.0)) {
+    integral = std::clamp(belt.integral, belt.lower, belt.upper);
   }
   return torque;
 }

@@ -7,6 +7,9 @@
 //   belt references: v_c -+ omega_c B / 2, either part within the slip limit of what is measured
 //   torque = gain (w_ref - w) + integral + mass r a / 2
 //
+// Where a drive has no more torque or power, both drives give up the same: the difference, which
+// turns, stays, and the speed falls.
+//
 // Skid steering turns less than its belts ask for: the belts' difference over the yaw rate is an
 // effective gauge B, larger than the real one, which the gyro tells while the robot turns.
 // Knows no physics engine: what it measures comes in, what the drives give goes out.
@@ -88,7 +91,14 @@ class DriveController {
   [[nodiscard]] double drive_at(const DriveState& measured) const;
   double steer(const DriveState& measured);
   [[nodiscard]] double within_slip(double reference, double ground) const;
-  [[nodiscard]] double belt_torque(double reference, double rate, double& integral) const;
+  // one drive in one tick: what it is to give [N m], what it can, and what led there
+  struct Belt {
+    double demand = 0.0, lower = 0.0, upper = 0.0;
+    double error = 0.0;     // [rad/s]
+    double integral = 0.0;  // [N m] if it goes on
+  };
+  [[nodiscard]] Belt belt(double reference, double rate, double integral) const;
+  static double settle(const Belt& belt, double shift, double& integral);
   DriveTorques hold();
 
   DriveOptions options_;

@@ -5,13 +5,15 @@
 
 from hurcules.trials.attempt import Repetition, Variation, repeat
 from hurcules.trials.methods import METHODS, Method, method
-from hurcules.trials.postures import Posture
+from hurcules.trials.postures import FLAT, Plan, Posture
 from hurcules.trials.reliability import confidence, lower_bound, repetitions_needed
 from hurcules.trials.runner import Result, SettingResult, run
 
 __all__ = [
+    "FLAT",
     "METHODS",
     "Method",
+    "Plan",
     "Posture",
     "Repetition",
     "Result",

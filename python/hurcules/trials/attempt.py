@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from hurcules import scenes
 from hurcules._core import step
 from hurcules.trials.brakes import hold_joints
-from hurcules.trials.course import Course, make_course
-from hurcules.trials.drive import LineDriver
+from hurcules.trials.climbing import ARMS
+from hurcules.trials.course import Course, Leg, Straight, make_course
+from hurcules.trials.drive import LineDriver, yaw_of
 from hurcules.trials.methods import Method
-from hurcules.trials.postures import PostureMover
+from hurcules.trials.postures import Plan, PostureMover
+from hurcules.trials.upright import Upright
 
 __all__ = ["Repetition", "Variation", "Watch", "repeat"]
 
@@ -27,6 +29,8 @@ Watch = Callable[[mujoco.MjModel, NDArray[np.float64], float], None]
 PERIOD = 2  # steps of 1 ms between two calls of the driver
 TIPPED = math.radians(60)
 PATIENCE = 2.5  # times the time that the way takes at the speed
+TURN_TIME = 20.0  # [s] for half a turn in place
+TURNED = 0.1  # [rad] and less is left to keeping to the line
 GRACE = 5.0  # [s] on top, and at most to come to a stop
 
 
@@ -86,12 +90,16 @@ def repeat(
     hold_joints(model)
     model.body_mass[model.body("torso").id] += rng.uniform(0.0, variation.payload)
     data = mujoco.MjData(model)
-    _place(model, data, rng, variation)
-    mover = PostureMover(model, data, chosen.postures, PERIOD)
-    mujoco.mj_forward(model, data)
     course = make_course(chosen, setting, scene, speed)
+    _place(model, data, rng, variation, course.legs[0].heading)
+    if chosen.climbs:
+        for joint, angle in ARMS.items():
+            data.joint(joint).qpos[0] = angle
+    plan = chosen.plan(scene)
+    mover = PostureMover(model, data, plan(0.0), PERIOD)
+    mujoco.mj_forward(model, data)
     operator = driver or LineDriver(model, PERIOD, course.path)
-    attempt = _Attempt(model, data, course, operator, mover, watch)
+    attempt = _Attempt(model, data, course, operator, plan, mover, watch)
     fault = attempt.make()
     x = float(data.qpos[0])
     return Repetition(seed, fault, float(data.time), x, attempt.metres, attempt.energy)
@@ -106,26 +114,48 @@ class _Attempt:
         data: mujoco.MjData,
         course: Course,
         driver: Driver,
+        plan: Plan,
         mover: PostureMover,
         watch: Watch | None,
     ) -> None:
         self.model, self.data, self.course = model, data, course
-        self.driver, self.mover, self.watch = driver, mover, watch
+        self.driver, self.plan, self.mover, self.watch = driver, plan, mover, watch
         self.metres = self.energy = 0.0
-        self._body = model.body("upper_legs").id
+        self._posture = plan(0.0)
+        self._upright = Upright(model)
         self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
 
     def make(self) -> str:
         """Drives the whole course; returns the fault, "" for none."""
         for leg in self.course.legs:
+            if fault := self._turn(leg):
+                return fault
             limit = self.data.time + PATIENCE * leg.length / abs(leg.speed) + GRACE
+            furthest = leg.place(float(self.data.qpos[0]))
             while not leg.done(self.data.qpos):
-                if fault := self._tick(leg.speed):
+                furthest = leg.further(furthest, leg.place(float(self.data.qpos[0])))
+                self._posture = self.plan(furthest)
+                pace = self.mover.pace * min(abs(leg.speed), self._posture.speed)
+                if fault := self._tick(math.copysign(pace, leg.speed)):
                     return fault
                 if self.data.time > limit:
                     return "stuck"
             if leg.hold and (fault := self._hold(leg.hold)):
                 return fault
+        return ""
+
+    def _turn(self, leg: Leg) -> str:
+        """Turns in place until the robot looks where it shall on this leg; returns the fault."""
+        path = self.course.path
+        if not isinstance(path, Straight) or path.heading == leg.heading:
+            return ""
+        path.heading = leg.heading
+        until = self.data.time + TURN_TIME
+        while abs(math.remainder(yaw_of(self.data) - leg.heading, 2 * math.pi)) > TURNED:
+            if fault := self._tick(leg.speed):
+                return fault
+            if self.data.time > until:
+                return "stuck"
         return ""
 
     def _hold(self, seconds: float) -> str:
@@ -143,7 +173,7 @@ class _Attempt:
     def _tick(self, speed: float) -> str:
         data, start = self.data, self.data.qpos[:2].copy()
         self.driver(self.model, data, speed)
-        self.mover(data)
+        self.mover(data, self._posture)
         step(self.model, data, PERIOD)
         self.metres += math.hypot(*(data.qpos[:2] - start))
         power = data.actuator_force[self._motors] * data.actuator_velocity[self._motors]
@@ -152,15 +182,19 @@ class _Attempt:
             self.watch(self.model, data.qpos, data.time)
         if any(warning.number for warning in data.warning):
             return "simulation"
-        if data.xmat[self._body, 8] < math.cos(TIPPED):
+        if self._upright.cosine(data) < math.cos(TIPPED):
             return "tip-over"
         return "" if self.course.on_lane(data.qpos) else "off the lane"
 
 
 def _place(
-    model: mujoco.MjModel, data: mujoco.MjData, rng: np.random.Generator, variation: Variation
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    rng: np.random.Generator,
+    variation: Variation,
+    heading: float,
 ) -> None:
     mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
     data.qpos[1] = rng.uniform(-variation.offset, variation.offset)
-    yaw = rng.uniform(-variation.yaw, variation.yaw)
+    yaw = heading + rng.uniform(-variation.yaw, variation.yaw)
     data.qpos[3:7] = math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hurcules.scenes import Scene
 from hurcules.scenes.flat import Pylons
+from hurcules.scenes.hurdle import Hurdle
 from hurcules.trials.methods import Method, Way
 
 __all__ = ["Course", "Leg", "Oval", "Path", "Place", "Straight", "make_course"]
@@ -18,6 +19,7 @@ __all__ = ["Course", "Leg", "Oval", "Path", "Place", "Straight", "make_course"]
 Array = NDArray[np.float64]
 
 LENGTH = 1.2  # [m] the rear of the robot behind its base, and some room
+TURNING = 1.5  # [m] the same for a robot with its lower legs in front, and room to turn round
 HALF_LANE = 1.2  # [m]
 
 
@@ -44,14 +46,17 @@ class Path(Protocol):
         ...
 
 
+@dataclass
 class Straight:
-    """The line y = 0."""
+    """The line y = 0; a robot that turns round on it changes the heading."""
+
+    heading: float = 0.0  # [rad] 0 or pi
 
     radius = math.inf
 
     def at(self, x: float, y: float) -> Place:
         """Returns the nearest place of the path."""
-        return Place(y, 0.0, 0.0, math.inf)
+        return Place(y * math.cos(self.heading), self.heading, 0.0, math.inf)
 
 
 @dataclass(frozen=True)
@@ -82,10 +87,12 @@ class Oval:
 class Leg:
     """A part of the way: to x = goal, or that many turns round a centre."""
 
-    speed: float  # [m/s] < 0 backward
+    speed: float  # [m/s] < 0 tail first
     length: float  # [m]
     goal: float = 0.0  # [m] along x
     hold: float = 0.0  # [s] to stand still at its end
+    heading: float = 0.0  # [rad] of the robot, 0 or pi
+    mirror: float | None = None  # [m] x that counts as 0; the way is told backwards from there
     turns: int = 0  # round `centre` instead of to `goal`
     centre: tuple[float, float] = (0.0, 0.0)  # [m]
     _turned: float = field(default=0.0, repr=False)
@@ -94,12 +101,26 @@ class Leg:
     def done(self, qpos: Array) -> bool:
         """Whether the base is there; to be asked at every period."""
         if not self.turns:
-            return bool(math.copysign(1.0, self.speed) * (self.goal - qpos[0]) <= 0.0)
+            return bool(self._onward * (self.goal - qpos[0]) <= 0.0)
         bearing = math.atan2(qpos[1] - self.centre[1], qpos[0] - self.centre[0])
         if self._bearing is not None:
             self._turned += math.remainder(bearing - self._bearing, 2 * math.pi)
         self._bearing = bearing
         return self._turned >= 2 * math.pi * self.turns
+
+    def place(self, x: float) -> float:
+        """Where a posture's plan finds the robot [m]."""
+        return x if self.mirror is None else self.mirror - x
+
+    def further(self, one: float, other: float) -> float:
+        """The one of two places that is farther on the way."""
+        grows = self._onward > 0.0 or self.mirror is not None
+        return max(one, other) if grows else min(one, other)
+
+    @property
+    def _onward(self) -> float:
+        """1 where x grows on the way, -1 where it falls."""
+        return math.copysign(1.0, self.speed * math.cos(self.heading))
 
 
 @dataclass(frozen=True)
@@ -131,5 +152,13 @@ def make_course(chosen: Method, setting: float | None, scene: Scene, speed: floa
         return Course(oval, [Leg(setting, oval.length, turns=1, centre=centre)])
     if chosen.way is Way.There:
         return Course(Straight(), [Leg(pace, chosen.distance, chosen.distance, chosen.hold)])
-    goal = scene.end + LENGTH
-    return Course(Straight(), [Leg(pace, goal, goal, chosen.hold), Leg(-pace, goal, 0.0)])
+    goal = scene.end + (TURNING if chosen.turns_round else LENGTH)
+    if not chosen.climbs:
+        return Course(Straight(), [Leg(pace, goal, goal, chosen.hold), Leg(-pace, goal, 0.0)])
+    there = Leg(-pace, goal, goal, chosen.hold, heading=math.pi)
+    back = Leg(pace, goal, 0.0, heading=math.pi)
+    if chosen.turns_round:
+        assert isinstance(scene, Hurdle)
+        # the obstacle looks the same from behind: its far side is the near one of the way back
+        back = Leg(-pace, goal, 0.0, heading=0.0, mirror=scene.distance + scene.end)
+    return Course(Straight(math.pi), [there, back])

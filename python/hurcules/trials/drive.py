@@ -19,6 +19,8 @@ from hurcules.trials.course import Path, Place, Straight
 __all__ = ["Chassis", "LineDriver", "Motion", "drive_options", "yaw_of"]
 
 CORNERING = 0.7  # of the sideways acceleration that the controller allows
+TURN_BEGIN, TURN_END = 0.7, 0.05  # [rad] off the path: a turn in place begins, ends
+TURN_RATE = 0.5  # [rad/s]
 BRAKING = 0.4  # of its deceleration: the jerk limit and the controller's lag want room
 
 # [m] of the drive pose: forward of the knee axis, where turns in place were measured to be about
@@ -117,6 +119,7 @@ class LineDriver:
         self.chassis = Chassis(model, drive_options(model, steps))
         self.path = path or Straight()
         self.line_gain, self.yaw_gain = line_gain, yaw_gain
+        self._turning = False
 
     def __call__(self, model: mujoco.MjModel, data: mujoco.MjData, speed: float) -> None:
         """Writes torques and brakes of the drives.
@@ -134,9 +137,17 @@ class LineDriver:
             speed = math.copysign(min(abs(speed), self._most(place)), speed)
             lean = -self.line_gain * place.offset * math.copysign(1.0, speed)
             error = place.heading + min(max(lean, -0.3), 0.3) - yaw
-            turn = self.yaw_gain * math.remainder(error, 2 * math.pi) + place.curvature * speed
+            error = math.remainder(error, 2 * math.pi)
+            turn = self.yaw_gain * error + place.curvature * speed
+            if self._turns(error):
+                speed, turn = 0.0, math.copysign(min(abs(turn), TURN_RATE), turn)
         self.chassis.controller.drive(speed, turn)
         self.chassis.act(data, motion)
+
+    def _turns(self, error: float) -> bool:
+        """Whether the robot looks so far off that it turns in place first."""
+        self._turning = abs(error) > (TURN_END if self._turning else TURN_BEGIN)
+        return self._turning
 
     def _most(self, place: Place) -> float:
         """The speed [m/s] from which the next curve can be taken."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import enum
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 from hurcules.known import require_known
-from hurcules.trials.postures import FLAT, Posture
+from hurcules.trials.climbing import ARCHED, STRETCHED, OverHurdle, OverStairs
+from hurcules.trials.postures import FLAT, Plan, Posture, always
 
 __all__ = ["METHODS", "Method", "Way", "method"]
 
@@ -16,9 +18,29 @@ __all__ = ["METHODS", "Method", "Way", "method"]
 class Way(enum.Enum):
     """What a repetition is."""
 
-    ThereAndBack = "over the obstacle, and back in reverse"
+    ThereAndBack = "over the obstacle, and back"
     There = "one way"
     Laps = "a lap round both pylons"
+
+
+def flat(scene: Any) -> Plan:
+    """Drive pose all the way."""
+    return always(FLAT)
+
+
+def lean(scene: Any) -> Plan:
+    """Leaning forward keeps the robot from tipping backwards on its way up, and down in reverse."""
+    return always(Posture(hip=0.4))
+
+
+def stretched(scene: Any) -> Plan:
+    """One long track, the centre of mass low and near its middle."""
+    return always(STRETCHED)
+
+
+def arched(scene: Any) -> Plan:
+    """The same, its middle raised by 3 cm."""
+    return always(ARCHED)
 
 
 @dataclass(frozen=True)
@@ -31,8 +53,9 @@ class Method:
     settings: tuple[float, ...] = ()  # SI units, angles in radians; easy ones first
     fixed: dict[str, Any] = field(default_factory=dict)  # other parameters of the scene
     hold: float = 0.0  # [s] to stand still at the far end
-    # posture from this x on [m], the first one from the start: the operator's choice
-    postures: tuple[tuple[float, Posture], ...] = ((-math.inf, FLAT),)
+    plan: Callable[[Any], Plan] = flat  # of postures for a scene: the operator's choice
+    climbs: bool = False  # tail first, the lower legs turned over to the front
+    turns_round: bool = False  # before the way back
     way: Way = Way.ThereAndBack
     speed: float = 0.6  # [m/s]
     distance: float = 0.0  # [m] of a way without end
@@ -57,13 +80,19 @@ def _degrees(*angles: float) -> tuple[float, ...]:
     return tuple(math.radians(angle) for angle in angles)
 
 
-# leaning forward keeps the robot from tipping backwards on its way up, and down in reverse
-_LEAN = ((-math.inf, Posture(hip=0.4)),)
-
 # numbers: response-robot-tests.md section C1; landings are as long as the whole robot needs
 METHODS: dict[str, Method] = {
-    "e2801": Method("gaps", "gap", "width", _steps(0.10, 1.00, 0.10)),
-    "e2802": Method("hurdles", "hurdle", "height", _steps(0.05, 0.50, 0.05)),
+    "e2801": Method("gaps", "gap", "width", _steps(0.10, 1.00, 0.10), plan=stretched, climbs=True),
+    "e2802": Method(
+        title="hurdles",
+        scene="hurdle",
+        parameter="height",
+        settings=_steps(0.05, 0.50, 0.05),
+        plan=OverHurdle,
+        climbs=True,
+        turns_round=True,
+        speed=0.4,
+    ),
     "e2803": Method(
         title="inclined planes",
         scene="incline",
@@ -71,20 +100,43 @@ METHODS: dict[str, Method] = {
         settings=_degrees(*range(10, 46, 5)),
         fixed={"landing": 4.0},
         hold=5.0,
-        postures=_LEAN,
+        plan=lean,
     ),
     "e2804": Method(
-        "stairs", "stairs", "pitch", _degrees(30, 35, 40, 45), {"landing": 4.0}, postures=_LEAN
+        title="stairs",
+        scene="stairs",
+        parameter="pitch",
+        settings=_degrees(30, 35, 40, 45),
+        fixed={"landing": 4.0},
+        plan=OverStairs,
+        climbs=True,
+        speed=0.4,
     ),
-    "e2826": Method("continuous pitch/roll ramps", "ramps", "angle", _degrees(5, 10, 15, 20, 25)),
+    "e2826": Method(
+        title="continuous pitch/roll ramps",
+        scene="ramps",
+        parameter="angle",
+        settings=_degrees(5, 10, 15, 20, 25),
+        plan=stretched,
+        climbs=True,
+    ),
     "e2827": Method(
         "crossing pitch/roll ramps",
         "ramps",
         "angle",
         _degrees(5, 10, 15, 20, 25),
         {"pattern": "crossing"},
+        plan=arched,
+        climbs=True,
     ),
-    "e2828": Method("symmetric stepfields", "step_field", "unit", (0.02, 0.04, 0.06, 0.08, 0.10)),
+    "e2828": Method(
+        title="symmetric stepfields",
+        scene="step_field",
+        parameter="unit",
+        settings=(0.02, 0.04, 0.06, 0.08, 0.10),
+        plan=arched,
+        climbs=True,
+    ),
     "e2829": Method(
         "sustained speed", "pylons", "speed", (1.0, 2.0, 3.0, 4.0, 5.0, 5.56), way=Way.Laps
     ),

@@ -26,6 +26,7 @@ __all__ = ["Result", "SettingResult", "attempt_seed", "run"]
 # told of each repetition that has ended: setting, repetitions so far, failures so far
 Progress = Callable[[float | None, int, int], None]
 Job = tuple[object, ...]  # the arguments of repeat
+HOPELESS = 3  # failures at the start of a setting, after which it is not repeated any more
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,8 @@ def run(
 ) -> Result:
     """Runs a method until a setting is not passed.
 
+    A setting that fails three times from the start is not repeated any more.
+
     Args:
         name: one of `METHODS`, or a method of one's own.
         robot: one of `hurcules.models.names()`.
@@ -117,7 +120,7 @@ def run(
                 break
     passed = [one for one in results if one.passed]
     largest = passed[-1].setting if passed else None
-    cut = not results or results[-1].repetitions < repetitions or len(tries) < repetitions
+    cut = not _ended(tries, repetitions)
     return Result(
         name, chosen.title, robot, chosen.parameter, largest, bool(passed), cut, seconds, results
     )
@@ -146,6 +149,16 @@ def _ignore_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
+def _ended(tries: list[Repetition], wanted: int) -> bool:
+    """Whether a setting needs no more repetitions."""
+    hopeless = len(tries) == HOPELESS and all(one.fault for one in tries)
+    return len(tries) == wanted or hopeless
+
+
+def _hopeless(done: dict[int, Repetition]) -> bool:
+    return all(index in done and done[index].fault for index in range(HOPELESS))
+
+
 def _all(
     jobs: list[Job],
     pool: ProcessPoolExecutor | None,
@@ -161,7 +174,7 @@ def _all(
 
     if pool is None:
         for index, job in enumerate(jobs):
-            if stopped():
+            if stopped() or _hopeless(done):
                 break
             note(index, repeat(*job))  # type: ignore[arg-type]  # a tuple of its arguments
     else:
@@ -169,13 +182,14 @@ def _all(
             pool.submit(repeat, *job): index  # type: ignore[arg-type]
             for index, job in enumerate(jobs)
         }
-        while waiting and not stopped():
+        while waiting and not stopped() and not _hopeless(done):
             ended, _ = wait(waiting, timeout=0.2, return_when=FIRST_COMPLETED)
             for future in ended:
                 note(waiting.pop(future), future.result())
         for future in waiting:
             future.cancel()
-    return [done[index] for index in sorted(done)]
+    kept = range(HOPELESS) if _hopeless(done) else sorted(done)
+    return [done[index] for index in kept]
 
 
 def _sum_up(setting: float | None, tries: list[Repetition], wanted: int) -> SettingResult:

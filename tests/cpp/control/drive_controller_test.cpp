@@ -145,6 +145,24 @@ TEST(DriveController, PowerLimitsDrivingAndNotBraking) {
   EXPECT_LT(torques.right, -2.0 * most);
 }
 
+TEST(DriveController, WherePowerLacksTheSpeedGivesWayToTurning) {
+  Vehicle vehicle;
+  vehicle.plant.scrub = 257.0 / 0.14;  // what the robot needs at friction 0.9, docs/drive.md
+  vehicle.controller.drive({5.0, 0.0});
+  vehicle.run(4.0);
+  ASSERT_NEAR(vehicle.plant.state.speed, 5.0, 0.05);
+  vehicle.controller.drive({5.0, 0.15});
+  vehicle.run(4.0);
+  EXPECT_NEAR(vehicle.plant.state.yaw_rate, 0.15, 0.01);
+  // the outer belt, 0.07 m/s faster than the robot, gives 257 N m below power / torque
+  const double fastest = 7950.0 / 257.0 * 0.14;
+  EXPECT_LT(vehicle.plant.state.speed, fastest);
+  EXPECT_GT(vehicle.plant.state.speed, fastest - 0.3);
+  vehicle.controller.drive({5.0, 0.0});
+  vehicle.run(4.0);
+  EXPECT_NEAR(vehicle.plant.state.speed, 5.0, 0.05);
+}
+
 TEST(DriveController, ParksAtPosesInAllDirections) {
   constexpr double kPi = std::numbers::pi;
   for (const PlanarPose& goal :

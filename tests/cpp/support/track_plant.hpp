@@ -3,6 +3,7 @@
 //
 //   F = clamp(grip (r w - u), +-limit), u the ground speed under a belt
 //   m dv/dt = F_L + F_R - m g sin(slope),   J dw/dt = torque - r F
+//   with turning resisted by a force on each belt, backward outside, forward inside
 //   omega = skid (F-free kinematics): it follows skid (r w_R - r w_L) / gauge within 0.05 s
 #pragma once
 
@@ -19,6 +20,7 @@ struct TrackPlant {
   double friction = 0.9;
   double skid = 0.75;     // yaw rate over what the belts ask for
   double slope = 0.0;     // [rad] uphill ahead
+  double scrub = 0.0;     // [N] on each belt that resists turning
   double sideways = 0.0;  // [m/s] drift to the left for each rad/s of turning
   hurcules::DriveState state;
   bool stuck = false;  // behind an obstacle: the body stands
@@ -32,7 +34,8 @@ struct TrackPlant {
       double& rate = is_left ? state.left : state.right;
       const double ground = state.speed + (is_left ? -turn : turn);
       // implicit in the belt's rate, for grip r^2 / J is fast
-      const double torque = is_left ? torques.left : torques.right;
+      const double load = radius * scrub * std::tanh(state.yaw_rate / 0.01);
+      const double torque = is_left ? torques.left + load : torques.right - load;
       const double stiff = dt * grip * radius / inertia;
       double next = (rate + dt * torque / inertia + stiff * ground) / (1.0 + stiff * radius);
       double force = grip * (radius * next - ground);
