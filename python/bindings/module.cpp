@@ -16,6 +16,7 @@ void bind_tasks(py::module_& module);
 void bind_control(py::module_& module);
 void bind_drive(py::module_& module);
 void bind_sim(py::module_& module);
+void bind_physics(py::module_& module);
 
 namespace {
 
@@ -62,4 +63,5 @@ PYBIND11_MODULE(_core, module) {
   bind_control(module);
   bind_drive(module);
   bind_sim(module);
+  bind_physics(module);
 }

@@ -73,17 +73,13 @@ STRETCH = (
     Claim(
         "S06",
         "Fig. 4.26 b",
-        "The joint control errors spike exactly at the switching times.",
+        "The joint control errors spike exactly at the switching times. By Algorithm 1 with limits "
+        "as printed; the default brakes before a limit and hardly shows it.",
         {
-            "release": least("change when the hip is released, over the usual (90 %)", 5.0),
-            "largest": least("that over the largest elsewhere", 1.0),
-            "stop": least(
-                "change when the hip stops, over the usual (90 %)",
-                2.0,
-                ours=(0.5, 2.0),
-                why="our bounds brake a joint before its limit, so that the hip stops softly; "
-                "taken within one step, as printed, a limit does make a spike (M12)",
-            ),
+            # a spike: twice what nine of ten moments show (as M12)
+            "stop": least("change where the hip stops, over the usual (90 %)", 2.0),
+            "release": least("change where it is released and the shoulder stops", 2.0),
+            "elsewhere": most("largest change elsewhere, over the smaller of these", 1.0),
         },
     ),
 )

@@ -16,11 +16,20 @@ __all__ = ["ALONE", "MODULES", "bundles", "measure", "measured"]
 
 # the longest first, so that the workers end together
 MODULES = (
+    "transformation",
+    "obstacles",
     "reach",
+    "look_and_move",
+    "carrying",
     "stretch",
+    "stretch_printed",
+    "driving",
     "bimanual",
     "tasks",
     "servo_robot",
+    "monitors",
+    "elbow_spring",
+    "bed",
     "servo_arm",
     "position_limits",
     "decomposition",
