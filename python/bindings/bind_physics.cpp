@@ -1,14 +1,15 @@
-// sim: the simulated world by itself, without a mission: brakes, drive trains, power, battery.
+// sim: MuJoCo with tracks, brakes and drive trains.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/sim/battery.hpp"
 #include "hurcules/sim/physics.hpp"
-#include "hurcules/sim/power_meter.hpp"
-#include "scene.hpp"
+#include "mujoco_pointer.hpp"
+#include "state.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -20,181 +21,139 @@ void bind_physics(py::module_& module);
 namespace {
 
 constexpr const char* kPhysics =
-    R"(The physics with tracks, brakes, drive trains, and what the robot takes from its battery.
+    R"(MuJoCo's physics with what the robot adds: traction of tracks, brakes, limits of its drives.
 
-Python owns model and data and writes `data.ctrl`; a step limits the drives to what their motors
-and transmissions give. A look at the power after each step adds up to `work` and `energy`.
+Controls are written to data.ctrl as ever; the model is left as it is.
 
 Args:
-  model: mujoco.MjModel with a robot; every actuator of a joint is a motor.
-  data: mujoco.MjData of this model.
-
-Raises:
-  Error: a model without the numbers that motors and transmissions want.
+  model: mujoco.MjModel.
+  data: mujoco.MjData of it.
 )";
-constexpr const char* kReset = R"(Everything at rest in a keyframe, brakes open, no energy taken.
+constexpr const char* kStep = R"(Takes n steps of model.opt.timestep.
 
 Args:
-  keyframe: the first one whose name contains this text.
-
-Raises:
-  Error: there is none; the text lists the names that exist.
-)";
-constexpr const char* kStep = R"(Steps; releases the interpreter lock.
-
-Args:
-  n: number of steps.
-
-Raises:
-  Error: n < 0.
-)";
-constexpr const char* kSetBrake = R"(Closes or opens a brake, over its 0.05 s.
-
-Args:
-  joint: one of `brakes`.
-  closed: False opens it.
-
-Raises:
-  Error: a joint without brake; the text lists those that have one.
-)";
-constexpr const char* kShut = "Shuts all brakes at once, without their 0.05 s: for a start.";
-constexpr const char* kLoad = R"(What a brake and the friction of its joint bore in the last step.
-
-Args:
-  joint: one of `brakes`.
+  n: >= 0.
 
 Returns:
-  [N m], of a slide [N], in the joint's direction.
+  Steps taken: fewer than n when the state stopped making sense, see is_sound.
 )";
-constexpr const char* kRatio = R"(The ratio of motor to joint speed in the transmission, now.
+constexpr const char* kReset = R"(Everything at rest in a keyframe, brakes open, time zero.
 
 Args:
-  joint: one of `brakes`.
+  keyframe: part of its name; the first one that has it.
+
+Raises:
+  Error: none has it, with the names that exist.
+)";
+constexpr const char* kIsSound =
+    "False once a position, velocity or acceleration was not finite or huge; it then stands still";
+constexpr const char* kBrakes =
+    R"(Magnetic brakes in the drives of the joints: closed they hold without power.
+
+A brake is dry friction of 1.2 times the motor's peak torque; beyond that it slips. It takes 0.05 s
+to open or close. Made by Physics.
+)";
+constexpr const char* kSetClosed = R"(Closes or opens one brake.
+
+Args:
+  joint: name of its joint.
+  closed: bool.
+
+Raises:
+  Error: that joint has no brake, with the names that have one.
+)";
+
+constexpr const char* kRatio = R"(The ratio of motor to joint speed in a transmission, now.
+
+Args:
+  joint: one with a brake.
 
 Returns:
   1 without a transmission.
 )";
-constexpr const char* kEffort = R"(What a drive behind its transmission can give, now.
+constexpr const char* kEffortRange = R"(What a drive behind its transmission can give, now.
 
 Args:
-  joint: one of `brakes`, with a transmission.
+  joint: one with a brake and a transmission.
   speed: of the joint [rad/s].
 
 Returns:
   Lowest and highest torque at the joint [N m].
 )";
-constexpr const char* kBattery = R"(A voltage behind a resistance, until its energy is used up.
 
-Args:
-  capacity: [J] that can be used.
-  voltage: [V] without load.
-  resistance: [Ohm].
-
-Raises:
-  Error: a capacity or voltage that is not above 0, a resistance below 0.
-)";
-
-class World {
- public:
-  World(const py::object& model, const py::object& data) : World(scene_of(model, data)) {}
-  void reset(const std::string& keyframe) {
-    physics.reset(physics.find_keyframe(keyframe));
-    work = energy = 0.0;
-  }
-  void step(int n) {
-    require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
-    py::gil_scoped_release release;
-    for (int i = 0; i < n; ++i) {
-      physics.step();
-      meter.read(physics.data(), physics.brakes(), physics.drive_train());
-      work += physics.dt() * meter.mechanical();
-      energy += physics.dt() * meter.total();
-    }
-  }
-  [[nodiscard]] int actuator(const std::string& joint) const {
-    return physics.brakes().find(joint);
-  }
-
-  Physics physics;
-  PowerMeter meter;
-  double work = 0.0, energy = 0.0;  // [J] since reset
-
- private:
-  explicit World(const Scene& scene)
-      : physics(borrow_model(scene.model), scene.data), meter(scene.model) {}
-};
-
-void bind_world(py::module_& module) {
-  py::class_<World>(module, "Physics", kPhysics)
-      .def(py::init<const py::object&, const py::object&>(), "model"_a, "data"_a,
-           py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
-      .def("reset", &World::reset, "keyframe"_a, kReset)
-      .def("step", &World::step, "n"_a = 1, kStep)
-      .def_property_readonly(
-          "brakes", [](const World& self) { return self.physics.brakes().names(); },
-          "joints with a brake")
-      .def(
-          "set_brake",
-          [](World& self, const std::string& joint, bool closed) {
-            self.physics.brakes().set_closed(self.actuator(joint), closed);
-          },
-          "joint"_a, "closed"_a, kSetBrake)
-      .def(
-          "shut_brakes", [](World& self) { self.physics.brakes().reset(true); }, kShut)
-      .def(
-          "brake_load",
-          [](const World& self, const std::string& joint) {
-            return self.physics.brakes().load(self.actuator(joint));
-          },
-          "joint"_a, kLoad)
-      .def(
-          "ratio",
-          [](const World& self, const std::string& joint) {
-            return self.physics.drive_train().ratio(self.actuator(joint));
-          },
-          "joint"_a, kRatio)
-      .def(
-          "effort_range",
-          [](const World& self, const std::string& joint, double speed) {
-            const int actuator = self.actuator(joint);
-            const DriveTrain& train = self.physics.drive_train();
-            require(train.exists(actuator), "joint '" + joint + "' has no transmission");
-            const EffortRange range = train.range(actuator, speed);
-            return py::make_tuple(range.lower, range.upper);
-          },
-          "joint"_a, "speed"_a, kEffort)
-      .def_property_readonly(
-          "is_sound", [](const World& self) { return self.physics.is_sound(); },
-          "False once a number was not finite or huge")
-      .def_property_readonly(
-          "mechanical_power", [](const World& self) { return self.meter.mechanical(); },
-          "[W] of all motors, at their joints, in the last step")
-      .def_property_readonly(
-          "power", [](const World& self) { return self.meter.total(); },
-          "[W] from the battery in the last step: motors, open brakes, standby")
-      .def_readonly("work", &World::work, "[J] of all motors since reset")
-      .def_readonly("energy", &World::energy, "[J] from the battery since reset");
+py::tuple effort_range(const Physics& self, const std::string& joint, double speed) {
+  const int actuator = self.brakes().find(joint);
+  require(self.drive_train().exists(actuator), "joint '" + joint + "' has no transmission");
+  const EffortRange range = self.drive_train().range(actuator, speed);
+  return py::make_tuple(range.lower, range.upper);
 }
 
-void bind_battery(py::module_& module) {
-  const BatteryOptions defaults;
-  py::class_<Battery>(module, "Battery", kBattery)
-      .def(py::init([](double capacity, double voltage, double resistance) {
-             return Battery({capacity, voltage, resistance});
-           }),
-           py::kw_only(), "capacity"_a = defaults.capacity, "voltage"_a = defaults.voltage,
-           "resistance"_a = defaults.resistance)
-      .def("draw", &Battery::draw, "power"_a, "seconds"_a,
-           "Gives [W] for [s]; a negative power charges it, up to full.")
-      .def_property_readonly("energy", &Battery::energy, "[J] left")
-      .def_property_readonly("charge", &Battery::charge, "0 to 1")
-      .def_property_readonly("lost", &Battery::lost, "[J] in its own resistance")
-      .def_property_readonly("empty", &Battery::empty);
+// in pieces, so that Ctrl-C is heard
+int step_physics(Physics& self, int n) {
+  require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
+  constexpr int kPiece = 500;
+  int done = 0;
+  while (done < n && self.is_sound()) {
+    {
+      py::gil_scoped_release release;
+      for (int end = std::min(n, done + kPiece); done < end && self.is_sound(); ++done) self.step();
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  return done;
+}
+
+// a property of one brake, asked by its joint's name
+template <typename Result>
+auto by_joint(Result (Brakes::*question)(int) const) {
+  return [question](const Brakes& self, const std::string& joint) {
+    return (self.*question)(self.find(joint));
+  };
 }
 
 }  // namespace
 
 void bind_physics(py::module_& module) {
-  bind_world(module);
-  bind_battery(module);
+  py::class_<Brakes>(module, "Brakes", kBrakes)
+      .def_property_readonly("names", &Brakes::names, "joints that have a brake")
+      .def(
+          "set_closed",
+          [](Brakes& self, const std::string& joint, bool closed) {
+            self.set_closed(self.find(joint), closed);
+          },
+          "joint"_a, "closed"_a, kSetClosed)
+      .def("close", &Brakes::close, "All of them.")
+      .def("reset", &Brakes::reset, "closed"_a = false, "All at once and at once shut or open.")
+      .def("is_shut", by_joint(&Brakes::is_shut), "joint"_a)
+      .def("is_open", by_joint(&Brakes::is_open), "joint"_a)
+      .def("load", by_joint(&Brakes::load), "joint"_a,
+           "[N m] or [N] that brake and friction bore in the last step, in the joint's direction")
+      .def("max_load", by_joint(&Brakes::max_load), "joint"_a, "[N m] or [N] at which it slips")
+      .def_property_readonly("power", &Brakes::power, "[W] of the coils of those held open");
+  py::class_<Physics>(module, "Physics", kPhysics)
+      .def(py::init([](const py::object& model, const py::object& data) {
+             const Scene scene = scene_of(model, data);
+             return std::make_unique<Physics>(borrow_model(scene.model), scene.data);
+           }),
+           "model"_a, "data"_a, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
+      .def("step", &step_physics, "n"_a = 1, kStep)
+      .def(
+          "reset",
+          [](Physics& self, const std::string& keyframe) {
+            self.reset(self.find_keyframe(keyframe));
+          },
+          "keyframe"_a, kReset)
+      .def("state", &state<Physics>, kState)
+      .def("restore", &restore<Physics>, "state"_a, kRestore)
+      .def(
+          "ratio",
+          [](const Physics& self, const std::string& joint) {
+            return self.drive_train().ratio(self.brakes().find(joint));
+          },
+          "joint"_a, kRatio)
+      .def("effort_range", &effort_range, "joint"_a, "speed"_a, kEffortRange)
+      .def_property_readonly("is_sound", &Physics::is_sound, kIsSound)
+      .def_property_readonly(
+          "brakes", [](Physics& self) -> Brakes& { return self.brakes(); },
+          py::return_value_policy::reference_internal);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -12,7 +13,7 @@
 #include "bind_sim_docs.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/simulation.hpp"
-#include "scene.hpp"
+#include "mujoco_pointer.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;

@@ -13,7 +13,7 @@ from hurcules import scenes, transfer_bed
 from hurcules.reproduce.measures.problems import Array
 from hurcules.trials.drive import Chassis, Motion, drive_options
 
-__all__ = ["BELTS", "DRIVING_SPEED", "RADIUS", "Rover", "Trip", "flat", "laden"]
+__all__ = ["BELTS", "DRIVING_SPEED", "RADIUS", "Powered", "Rover", "Trip", "flat", "laden"]
 
 DRIVING_SPEED = 20.0 / 3.6  # [m/s] Table 4.1
 STEPS = 2  # of 1 ms in a period of the drive controller
@@ -55,11 +55,34 @@ class Trip:
     arms: float
 
 
+class Powered:
+    """The physics with brakes and drive trains, and the energy that was taken from the battery.
+
+    Attributes:
+        physics: that is stepped.
+        meter: of the last step.
+        work, energy: [J] of the motors at their joints; from the battery.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.physics = hurcules.Physics(model, data)
+        self.meter = hurcules.PowerMeter(model)
+        self.work = self.energy = 0.0
+        self._dt = float(model.opt.timestep)
+
+    def step(self) -> None:
+        """One step."""
+        self.physics.step()
+        self.meter.read(self.physics)
+        self.work += self._dt * self.meter.mechanical
+        self.energy += self._dt * self.meter.total
+
+
 class Rover:
     """A robot in its driving pose; every brake is shut but those of the belts.
 
     Attributes:
-        model, data, physics: what is stepped.
+        model, data, powered: what is stepped.
         controller: of the drives.
     """
 
@@ -71,18 +94,19 @@ class Rover:
             raised: the transfer bed is up, as a casualty lies on it.
         """
         self.model, self.data = model, mujoco.MjData(model)
-        self.physics = hurcules.Physics(model, self.data)
+        self.powered = Powered(model, self.data)
+        self.physics = self.powered.physics
         self.physics.reset("drive")
         if raised:
             self.data.joint("bed_lift").qpos[0] = transfer_bed.LIFT
         mujoco.mj_forward(model, self.data)
-        self.physics.shut_brakes()
+        self.physics.brakes.reset(True)
         self._chassis = Chassis(model, drive_options(model, STEPS))
         self.controller = self._chassis.controller
         self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
         self._held = {
             joint: int(model.joint(joint).qposadr[0])
-            for joint in self.physics.brakes
+            for joint in self.physics.brakes.names
             if "belt" not in joint
         }
         self._start = self.data.qpos.copy()
@@ -94,8 +118,9 @@ class Rover:
             motion.left, motion.right, motion.yaw_rate, motion.speed, motion.pose
         )
         for belt in BELTS:
-            self.physics.set_brake(belt, self.controller.braked)
-        self.physics.step(STEPS)
+            self.physics.brakes.set_closed(belt, self.controller.braked)
+        for _ in range(STEPS):
+            self.powered.step()
         return motion
 
     def run(self, seconds: float, look: Callable[[Motion], object] | None = None) -> None:
@@ -144,7 +169,7 @@ class Rover:
         return Trip(
             float(self.data.time) - began,
             float(self.data.qpos[0]) - x,
-            self.physics.energy,
+            self.powered.energy,
             self.moved(),
             self.moved("SP", "SR", "SY", "EB"),
         )

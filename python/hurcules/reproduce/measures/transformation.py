@@ -19,7 +19,7 @@ from hurcules.reproduce.claim import Finding, Note, Plot, line
 from hurcules.reproduce.measures.marks import measures
 from hurcules.reproduce.measures.problems import Array
 from hurcules.reproduce.measures.rig import Load, on_the_scoops, scene, start, take
-from hurcules.reproduce.measures.rover import DRIVING_SPEED, Rover, flat
+from hurcules.reproduce.measures.rover import DRIVING_SPEED, Powered, Rover, flat
 
 MASS = 120.0  # [kg] Table 4.1
 HOLD = 20.0  # [s] that the load is carried, standing
@@ -71,8 +71,8 @@ def run() -> Run:
     load = Load(MASS, "LR", on_the_scoops())
     model = scene("rescue", {"load": load})
     data, _ = start(model, "rescue", "drive")
-    physics = hurcules.Physics(model, data)
-    player = postures.Player(model, data, "rescue", ["load"], physics.step)
+    powered = Powered(model, data)
+    player = postures.Player(model, data, "rescue", ["load"], powered.step)
     kept = [i for i, joint in enumerate(player.joints) if joint.lstrip("LR").startswith(LIFTING)]
     peak = model.actuator_forcerange[kept, 1]
     places = [int(model.joint(player.joints[i]).qposadr[0]) for i in kept]
@@ -95,7 +95,7 @@ def run() -> Run:
     after = player.play(postures.fold_back("rescue"))
     time, torque, error = (np.array(column) for column in zip(*rows, strict=True))
     joints = [player.joints[i] for i in kept]
-    taken = (begin, end, physics.energy, physics.work)
+    taken = (begin, end, powered.energy, powered.work)
     return Run(before, lifted, after, time, np.array(height), torque, error, joints, *taken)
 
 
