@@ -146,7 +146,8 @@ def without_steps() -> Finding:
 @measures("R16")
 def warm() -> Finding:
     """Each of 100 conflicts solved twice; how often the second solve leaves the set as it is."""
-    longer, unchanged = {}, {}
+    longer: dict[str, int] = {}
+    unchanged: dict[str, int] = {}
     for method in ("lexicographic", "rhqp_thesis"):
         longer[method] = unchanged[method] = 0
         for seed in range(100):

@@ -40,7 +40,9 @@ def run() -> tuple[list[Result], Array, Array, Array, list[str]]:
     player.play([postures.move("settle", 1.0, EB=0.225)])
     for name, load in ground.items():
         take(model, data, "manipulation", name, load.hands)
-    peak, rows, heights = model.actuator_forcerange[:, 1].copy(), [], []
+    peak = model.actuator_forcerange[:, 1].copy()
+    rows: list[Array] = []
+    heights: list[float] = []
 
     def watch() -> None:
         if round(data.time / model.opt.timestep) % SAMPLE == 0:

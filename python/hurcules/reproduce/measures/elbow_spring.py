@@ -126,7 +126,9 @@ def spring_feels() -> Finding:
     """Down within 4 s, then 1.5 s of rest; the moments about each elbow, MuJoCo's and felt."""
     model = models.load("rescue")
     touch = touch_down(model, SLOW, 1.5)
-    robot, off, least = hurcules.Robot(model), [], []
+    robot = hurcules.Robot(model)
+    off: list[float] = []
+    least: list[float] = []
     for side in "LR":
         sensor = hurcules.SpringForce(robot, f"{side}EBS", f"{side}_tcp")
         sensor.update(touch.data.qpos, touch.data.qvel)

@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 
 from hurcules import models, postures
-from hurcules.reproduce.claim import Finding, Note, Plot, line
+from hurcules.reproduce.claim import Finding, Line, Note, Plot, line
 from hurcules.reproduce.measures.marks import measures
 from hurcules.reproduce.measures.problems import Array
 from hurcules.reproduce.measures.rig import start
@@ -148,7 +148,8 @@ def attempt(seed: int) -> Try:
     move(handle + RISE * UP, 0.0, 5.0)
     player.wait(1.0)
     log = np.array(rows)
-    return Try(place, missed, float(log[-1, 2] - 0.03), *log.T, collisions)
+    time, hand, case = log.T
+    return Try(place, missed, float(case[-1] - 0.03), time, hand, case, collisions)
 
 
 @cache
@@ -162,7 +163,7 @@ def look_and_move() -> Finding:
     """Six cases within 6 cm, 5 cm and 0.25 rad, told with an error of a stereo camera."""
     tries = attempts()
 
-    def drawn(height: Callable[[Try], Array]) -> list[object]:
+    def drawn(height: Callable[[Try], Array]) -> list[Line]:
         return [
             line(f"{i + 1}", one.time - one.time[0], height(one), "line")
             for i, one in enumerate(tries)

@@ -20,7 +20,6 @@ HURDLES = (0.02, 0.05, 0.10)  # [m]: small obstacles, up to 0.7 of the belts' ra
 TRENCHES = (0.1, 0.2, 0.3, 0.4, 0.5)  # [m]
 CASUALTY = 75.0  # [kg] on the bed
 ROAD = 40.0  # [m] of a rough road; the first 10 m to come up to speed
-TRANSFER = ("bed", "transfer_bed")
 
 
 @measures("H10")
@@ -83,12 +82,12 @@ def shaken(rigid: bool) -> Shaking:
     ids = [model.body(name).id for name in ("upper_legs", "transfer_bed")]
     while rover.data.qpos[0] < ROAD and rover.data.time < 20.0:
         motion = rover.period()
-        rising = []
-        for i in ids:
+        rising = [0.0, 0.0]
+        for place, i in enumerate(ids):
             mujoco.mj_objectVelocity(model, rover.data, body, i, twist, 0)
-            rising.append(float(twist[5]))
+            rising[place] = float(twist[5])
         if motion.speed > 0.95 * DRIVING_SPEED:
-            speeds.append((float(rover.data.time), *rising))
+            speeds.append((float(rover.data.time), rising[0], rising[1]))
     log = np.array(speeds)
     up = np.diff(log[:, 1:], axis=0) / np.diff(log[:, 0])[:, None]
     return Shaking(log[1:, 0], up[:, 0], up[:, 1])
@@ -146,7 +145,8 @@ def brakes_hold() -> Finding:
     still.run(20.0)
     over.controller.drive(1.0)
     arms = [over.model.actuator(f"{s}{joint}").id for s in "LR" for joint in ("SP", "SR", "EB")]
-    jolts, efforts, angles = [0.0], [0.0], []
+    jolts, efforts = [0.0], [0.0]
+    angles: list[tuple[float, ...]] = []
     kinds = ("SP", "SR", "SY", "EB")
 
     def look(_: object) -> None:

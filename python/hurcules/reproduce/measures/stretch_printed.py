@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import mujoco
 import numpy as np
 
 import hurcules
@@ -68,9 +69,9 @@ class Stretch:
         return q, qd, active
 
 
-def _near_side(model: object) -> Array:
+def _near_side(model: mujoco.MjModel) -> Array:
     """What the camera looks at [m]."""
-    world = hurcules.Robot(model)  # type: ignore[call-overload]
+    world = hurcules.Robot(model)
     world.set_keyframe("stretch")
     return np.asarray(world.position("casualty_near_side"))
 

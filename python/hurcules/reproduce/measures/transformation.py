@@ -166,7 +166,7 @@ def two_hours() -> Finding:
 
     What is left of the two hours the robot works: as many watts as the transformation takes.
     """
-    there, back = (Rover(flat(payload)).drive(WAY) for payload in (0.0, MASS))
+    there, back = (Rover(flat(load), raised=load > 0.0).drive(WAY) for load in (0.0, MASS))
     one = run()
     driving = MISSIONS * (there.seconds + back.seconds)
     standing = MISSIONS * float(one.time[-1])
