@@ -76,10 +76,11 @@ STRETCH = (
         "The joint control errors spike exactly at the switching times. By Algorithm 1 with limits "
         "as printed; the default brakes before a limit and hardly shows it.",
         {
-            # a spike: twice what nine of ten moments show (as M12)
-            "stop": least("change where the hip stops, over the usual (90 %)", 2.0),
-            "release": least("change where it is released and the shoulder stops", 2.0),
-            "elsewhere": most("largest change elsewhere, over the smaller of these", 1.0),
+            # a spike: twice what the half second before it shows
+            "stop": least("change after the hip stops, over that before", 2.0),
+            "release": least("change after the hip is released, over that before", 2.0),
+            "shoulder": least("change after the shoulder stops, over that before", 2.0),
+            "elsewhere": most("largest change away from any switch, over that at the release", 1.0),
         },
     ),
 )
