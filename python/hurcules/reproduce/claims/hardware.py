@@ -115,7 +115,7 @@ HARDWARE = (
     Claim(
         "H10",
         "§4.2.2",
-        "Glides over small obstacles and crosses trenches. Hurdles of 3, 5 and 10 cm, trenches of "
+        "Glides over small obstacles and crosses trenches. Hurdles of 4, 7 and 10 cm, trenches of "
         "0.1 to 0.5 m, there and back in reverse.",
         {
             "hurdles": exactly("hurdles passed, of 3", 3),

@@ -16,7 +16,7 @@ from hurcules.trials import Variation, method, repeat
 
 # every repetition alike: the ground's own friction, no payload, the start on the line
 SAME = Variation(friction=(1.0, 1.0), payload=0.0, offset=0.0, yaw=0.0)
-HURDLES = (0.03, 0.05, 0.10)  # [m]: small obstacles, up to 0.7 of the belts' radius
+HURDLES = (0.04, 0.07, 0.10)  # [m]: small obstacles, up to 0.7 of the belts' radius
 TRENCHES = (0.1, 0.2, 0.3, 0.4, 0.5)  # [m]
 CASUALTY = 75.0  # [kg] on the bed
 ROAD = 40.0  # [m] of a rough road; the first 10 m to come up to speed
