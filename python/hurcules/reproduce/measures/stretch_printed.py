@@ -104,7 +104,7 @@ def run(method: str) -> Run:
     stretch = Stretch(Setting(method, as_printed=method != "lexicographic"))
     names = stretch.robot.coordinate_names
     q, qd, active = stretch.motion()
-    time = DT * np.arange(len(q)) - SETTLE
+    time = np.asarray(DT * np.arange(len(q)) - SETTLE, dtype=np.float64)
     hip = active[:, names.index("HIP")] != 0
     shoulder = (active[:, names.index("LSP")] != 0) | (active[:, names.index("RSP")] != 0)
     named = {
@@ -141,7 +141,7 @@ def spikes(one: Run) -> tuple[dict[str, float], float]:
         for name, at in one.named.items()
     }
     near = np.any(np.abs(when[:, None] - one.switches - 0.5) < 0.5 + AFTER, axis=1)
-    # the start of the motion is a switch of its own
+    # 1.3 s after a switch do not count, nor does the start of the motion
     quiet = change[(when > 1.5) & ~near]
     ratios = {name: after[name] / before[name] for name in after}
     return ratios, float(quiet.max()) / after["hip released"]
