@@ -63,6 +63,31 @@ Raises:
   Error: that joint has no brake, with the names that have one.
 )";
 
+constexpr const char* kRatio = R"(The ratio of motor to joint speed in a transmission, now.
+
+Args:
+  joint: one with a brake.
+
+Returns:
+  1 without a transmission.
+)";
+constexpr const char* kEffortRange = R"(What a drive behind its transmission can give, now.
+
+Args:
+  joint: one with a brake and a transmission.
+  speed: of the joint [rad/s].
+
+Returns:
+  Lowest and highest torque at the joint [N m].
+)";
+
+py::tuple effort_range(const Physics& self, const std::string& joint, double speed) {
+  const int actuator = self.brakes().find(joint);
+  require(self.drive_train().exists(actuator), "joint '" + joint + "' has no transmission");
+  const EffortRange range = self.drive_train().range(actuator, speed);
+  return py::make_tuple(range.lower, range.upper);
+}
+
 // in pieces, so that Ctrl-C is heard
 int step_physics(Physics& self, int n) {
   require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
@@ -120,6 +145,13 @@ void bind_physics(py::module_& module) {
           "keyframe"_a, kReset)
       .def("state", &state<Physics>, kState)
       .def("restore", &restore<Physics>, "state"_a, kRestore)
+      .def(
+          "ratio",
+          [](const Physics& self, const std::string& joint) {
+            return self.drive_train().ratio(self.brakes().find(joint));
+          },
+          "joint"_a, kRatio)
+      .def("effort_range", &effort_range, "joint"_a, "speed"_a, kEffortRange)
       .def_property_readonly("is_sound", &Physics::is_sound, kIsSound)
       .def_property_readonly(
           "brakes", [](Physics& self) -> Brakes& { return self.brakes(); },

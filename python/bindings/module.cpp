@@ -22,6 +22,7 @@ void bind_joint_pid(py::module_& module);
 void bind_drive(py::module_& module);
 void bind_physics(py::module_& module);
 void bind_sim(py::module_& module);
+void bind_power(py::module_& module);
 
 namespace {
 
@@ -74,4 +75,5 @@ PYBIND11_MODULE(_core, module) {
   bind_drive(module);
   bind_physics(module);
   bind_sim(module);
+  bind_power(module);
 }

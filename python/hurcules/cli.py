@@ -177,11 +177,11 @@ def reproduce(
         bool, typer.Option("--fresh", help="Measure again what an earlier run finished.")
     ] = False,
 ) -> None:
-    """Measure the claims of the thesis; write `report.html` and `claims.json`.
+    """Measure the claims of the thesis; write `report.html`, `claims.json` and `claims.md`.
 
     Goes on where an earlier run with the same code was stopped. Exit status: 0 each claim was
-    measured, and holds or is explained; 1 one is pending, failed, or misses its number without a
-    known reason; 2 wrong usage; 130 Ctrl-C.
+    measured, and holds or is explained; 1 one failed, or misses its number without a known reason,
+    or was asked for by name although nothing measures it yet; 2 wrong usage; 130 Ctrl-C.
 
     For example `hurcules reproduce`, or with more words:
 

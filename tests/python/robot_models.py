@@ -113,16 +113,6 @@ def expected_joints(name, key):
     return {"KN": np.pi - theta, "HIP": lean - theta, "SP": a + lean, "EB": b - a}, theta
 
 
-def touching(model, data):
-    """Pairs of geoms in contact."""
-    mujoco.mj_fwdPosition(model, data)
-
-    def names(c):
-        return tuple(sorted(model.geom(int(g)).name for g in c.geom))
-
-    return {names(c) for c in data.contact[: data.ncon]}
-
-
 def top_of(model, data):
     """Highest visible point of the robot [m]: support function of each visual geom along z."""
     best = -np.inf

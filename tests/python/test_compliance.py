@@ -5,15 +5,13 @@ locked; contact forces are MuJoCo's own. [F] = hurcules-facts.md B3 (H14, H15) a
 felt), the figures beside each limit were measured here.
 """
 
-import mujoco
 import numpy as np
 import pytest
 
 import hurcules
-from hurcules import models, postures
-from lifting import start
-
-DOWN = 0.12  # [rad] that the shoulders lower the scoops: their tips are 0.09 m above the ground
+from hurcules import models
+from hurcules.reproduce.measures.elbow_spring import contact_moment, lock, touch_down
+from hurcules.reproduce.measures.rig import start
 
 
 @pytest.fixture(scope="module")
@@ -21,57 +19,15 @@ def model():
     return models.load("rescue")
 
 
-def contact_moment(model, data, side):
-    """Moment about the elbow spring of all contacts of a lower arm [N m], and its largest force."""
-    arm, joint = model.body(f"{side}_larm").id, data.joint(f"{side}EBS")
-    moment, force, wrench = 0.0, 0.0, np.zeros(6)
-    for i, contact in enumerate(data.contact[: data.ncon]):
-        bodies = model.geom_bodyid[contact.geom]
-        if arm not in bodies:
-            continue
-        mujoco.mj_contactForce(model, data, i, wrench)
-        push = contact.frame.reshape(3, 3).T @ wrench[:3] * (1 if bodies[1] == arm else -1)
-        moment += joint.xaxis @ np.cross(contact.pos - joint.xanchor, push)
-        force += push[2]
-    return moment, force
-
-
-def lock(model):
-    """The same robot with rigid elbows."""
-    for side in "LR":
-        dof = model.joint(f"{side}EBS").dofadr[0]
-        model.dof_frictionloss[dof] = 1e5
-        model.dof_solref[dof], model.dof_solimp[dof] = [0.004, 1], [0.9999, 0.9999, 0.001, 0.5, 2]
-    return model
-
-
-def touch_down(model, seconds):
-    """Lowers the scoops onto the ground: the largest force on the way [N], data and player."""
-    data, player = start(model, "rescue", "acquisition")
-    player.play([postures.move("settle", 1.0, SP=0.876)])
-    largest = 0.0
-    down = postures.move("down", seconds, hold=0.0, SP=0.876 - DOWN)
-    begin, speed = player.reference.copy(), np.zeros(len(player.joints))
-    result, worst = postures.Result("down"), np.zeros((2, len(player.joints)))
-    for i in range(round(1000 * seconds)):
-        for j, joint in enumerate(player.joints):
-            if joint in down.joints():
-                player.reference[j], speed[j] = down.target(joint, begin[j], (i + 1) * 1e-3)
-        player._tick(speed, worst, result)
-        largest = max(largest, *(contact_moment(model, data, s)[1] for s in "LR"))
-    return largest, data, player
-
-
 def test_the_spring_lowers_the_peak_of_the_contact_force():  # H14
-    soft = touch_down(models.load("rescue"), 0.8)[0]
-    rigid = touch_down(lock(models.load("rescue")), 0.8)[0]
+    soft = touch_down(models.load("rescue"), 0.8).largest
+    rigid = touch_down(lock(models.load("rescue")), 0.8).largest
     print(f"peak {soft:.0f} N with springs, {rigid:.0f} N rigid")
     assert soft < 0.5 * rigid
 
 
 def test_the_force_from_the_deflection_is_that_of_the_contact(model):  # H15
-    _, data, player = touch_down(model, 4.0)
-    player.wait(1.5)
+    data = touch_down(model, 4.0, rest=1.5).data
     robot = hurcules.Robot(model)
     for side in "LR":
         sensor = hurcules.SpringForce(robot, f"{side}EBS", f"{side}_tcp")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hurcules import models, postures
-from lifting import start
+from hurcules.reproduce.measures.rig import start
 
 HANDLE = 0.093  # [m] above the ground: where the hand is in `acquisition`
 

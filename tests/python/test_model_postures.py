@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from hurcules.reproduce.measures.rig import touching
 from robot_models import (
     ARM,
     BODY,
@@ -21,7 +22,6 @@ from robot_models import (
     on_flat_ground,
     place,
     sides,
-    touching,
 )  # fmt: skip
 
 

@@ -242,6 +242,16 @@ def test_a_pending_claim_is_shown_as_such_and_ends_with_1(tmp_path: Path) -> Non
     assert rows(tmp_path)["F01"]["measured"] == {}
 
 
+def test_what_nothing_measures_yet_does_not_count_unless_asked_for() -> None:
+    pending = without_finding("F01", Verdict.PENDING, "no missions")
+    holds = replace(without_finding("R14", Verdict.HOLDS, ""), explained=True)
+    results = run.Reproduction({"F01": pending, "R14": holds})
+    results.waiting = frozenset({"F01"})
+    assert results.done
+    results.waiting = frozenset()
+    assert not results.done
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
@@ -293,4 +303,7 @@ def test_from_python_without_a_console(tmp_path: Path) -> None:
     results = run.reproduce(["R14", "R24"], tmp_path, workers=1)
     assert list(results) == ["R14", "R24"] and results.done
     assert replace(results["R14"], seconds=0.0).verdict == Verdict.HOLDS
-    assert results.output.saved == [tmp_path / "claims.json", tmp_path / "report.html"]
+    files = [tmp_path / name for name in ("claims.json", "claims.md", "report.html")]
+    assert results.output.saved == files
+    table = files[1].read_text(encoding="utf-8")
+    assert "2 claims: 2 holds" in table and table.count("\n| R") == 2

@@ -11,8 +11,8 @@ import pytest
 
 import hurcules
 from hurcules import models, transfer_bed
-from lifting import start
-from robot_models import touching
+from hurcules.reproduce.measures.bed import first_touch, ground_angle
+from hurcules.reproduce.measures.rig import start, touching
 
 PERSON = "objects/casualty_120kg.xml"
 
@@ -76,17 +76,6 @@ def test_a_person_of_120_kg_lies_on_the_bed_and_stays():
     assert abs(data.actuator("bed_lift").force[0]) < 143 * 9.81 + 130
 
 
-def first_touch(model, key, joint, angles, groups):
-    """The first of some angles [rad] at which geoms of two groups meet."""
-    data = mujoco.MjData(model)
-    for angle in angles:
-        mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
-        data.joint(joint).qpos[0] = angle
-        if any(set(pair) & groups[0] and set(pair) & groups[1] for pair in touching(model, data)):
-            return angle
-    return None
-
-
 @pytest.mark.parametrize(
     "bed, stop", [(True, {"transfer_bed"}), (False, {"battery"})], ids=["attached", "detached"]
 )
@@ -99,22 +88,6 @@ def test_what_stops_the_trunk_changes_with_the_bed(bed, stop):  # H16
     assert met is not None and abs(met - (1.09 if bed else 1.54)) < 0.03
     mode = hurcules.mode_ranges("rescue_ready" if bed else "rescue_ready_without_bed")
     assert mode["HIP"][1] < model.joint("HIP").range[1] < met
-
-
-def ground_angle(model, parts):
-    """Upper-leg elevation [rad] at which the lowest corner of some boxes meets the ground."""
-    data = mujoco.MjData(model)
-    for theta in np.arange(1.5, 3.0, 0.01):
-        mujoco.mj_resetDataKeyframe(model, data, model.key("ready").id)
-        data.qpos[3:7] = [np.cos(theta / 2), 0, np.sin(theta / 2), 0]
-        data.joint("LKN").qpos[0] = data.joint("RKN").qpos[0] = np.pi - theta
-        mujoco.mj_kinematics(model, data)
-        for name in parts:
-            geom = data.geom(name)
-            down = abs(geom.xmat.reshape(3, 3)[2]) @ model.geom(name).size
-            if geom.xpos[2] - down < 0:
-                return theta
-    return None
 
 
 def test_what_stops_the_knee_changes_with_the_bed():  # H16, [F A4]: bed at 2.2, battery at 2.5

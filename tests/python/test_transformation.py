@@ -11,7 +11,7 @@ import pytest
 
 import hurcules
 from hurcules import models, postures
-from lifting import Load, acquisition, on_the_scoops, scene, start, take
+from hurcules.reproduce.measures.rig import Load, acquisition, on_the_scoops, scene, start, take
 from robot_models import top_of
 
 ROBOTS = ("rescue", "manipulation")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -50,6 +51,11 @@ class Player:
         data: of this model, in the posture to begin with; the player steps it.
         robot: "rescue" or "manipulation": whose servo table is taken.
         carried: bodies that count to the robot's centre of mass when they are above the ground.
+        step: one step of the physics; by default `hurcules.step`, without brakes and gears.
+
+    Attributes:
+        reference: (motors,) [rad] or [m], where the motors are held.
+        watch: called after every step.
 
     Raises:
         Error: an unknown robot, or a motor that the table does not know.
@@ -61,9 +67,12 @@ class Player:
         data: mujoco.MjData,
         robot: str,
         carried: Sequence[str] = (),
+        step: Callable[[], None] | None = None,
     ) -> None:
         table = _core.servo_table(robot)
         self.model, self.data, self.carried = model, data, list(carried)
+        self._step = step or partial(_core.step, model, data)
+        self.watch: Callable[[], None] | None = None
         self.joints = [model.joint(int(j)).name for j in model.actuator_trnid[: model.nu, 0]]
         missing = [joint for joint in self.joints if joint not in table]
         if missing:
@@ -85,7 +94,7 @@ class Player:
         self._power = np.array([self._number("power_limit", joint) for joint in self.joints])
         self._root = int(model.body("upper_legs").id)
         self._mine = model.body_rootid[model.geom_bodyid] == self._root
-        self.reference = data.qpos[self._qpos].copy()  # [rad] or [m], a motor
+        self.reference = data.qpos[self._qpos].copy()
 
     def _number(self, kind: str, joint: str) -> float:
         return float(self.model.numeric(f"{kind}_{joint}").data[0])
@@ -126,17 +135,55 @@ class Player:
         self._tick(speed, np.zeros((2, len(self.joints))), Result("track"))
 
     def _play(self, each: Move) -> Result:
-        unknown = [joint for joint in each.joints() if joint not in self.joints]
-        if unknown:
-            raise Error(f"move '{each.name}': no motor at {', '.join(unknown)}")
-        moving = [self.joints.index(joint) for joint in each.joints()]
+        moving = self._motors(each.name, each.joints())
         start, speed = self.reference.copy(), np.zeros(len(self.joints))
-        result = Result(each.name)
-        worst = np.zeros((2, len(self.joints)))  # torque share, error
         dt = self.model.opt.timestep
-        for i in range(round((each.seconds + each.hold) / dt)):
+
+        def lead(i: int) -> None:
             for j in moving:
                 self.reference[j], speed[j] = each.target(self.joints[j], start[j], (i + 1) * dt)
+
+        return self._lead(each.name, round((each.seconds + each.hold) / dt), lead, speed)
+
+    def follow(
+        self, name: str, joints: Sequence[str], q: NDArray[np.float64], qd: NDArray[np.float64]
+    ) -> Result:
+        """Follows a planned motion.
+
+        Args:
+            name: what happens.
+            joints: that it moves, by name; the others stay.
+            q: (ticks, joints) [rad] or [m], one row a step.
+            qd: (ticks, joints) [rad/s] or [m/s].
+
+        Raises:
+            Error: a joint without motor, or arrays that do not fit.
+        """
+        moving = self._motors(name, joints)
+        if q.shape != qd.shape or q.shape[1:] != (len(moving),):
+            wanted = f"q and qd (ticks, {len(moving)}) are wanted"
+            raise Error(f"motion '{name}': {wanted}, {q.shape} and {qd.shape} came")
+        speed = np.zeros(len(self.joints))
+
+        def lead(i: int) -> None:
+            self.reference[moving], speed[moving] = q[i], qd[i]
+
+        return self._lead(name, len(q), lead, speed)
+
+    def _motors(self, name: str, joints: Sequence[str]) -> list[int]:
+        unknown = [joint for joint in joints if joint not in self.joints]
+        if unknown:
+            raise Error(f"move '{name}': no motor at {', '.join(unknown)}")
+        return [self.joints.index(joint) for joint in joints]
+
+    def _lead(
+        self, name: str, ticks: int, lead: Callable[[int], None], speed: NDArray[np.float64]
+    ) -> Result:
+        """Ticks, each after `lead` has set the reference and the speed of it."""
+        result = Result(name)
+        worst = np.zeros((2, len(self.joints)))  # torque share, error
+        for i in range(ticks):
+            lead(i)
             self._tick(speed, worst, result)
             if i % _LOOK == 0:
                 self._look(result)
@@ -148,7 +195,9 @@ class Player:
         velocity = self.data.qvel[self._dof]
         error = self.reference - self.data.qpos[self._qpos]
         self.data.ctrl[:] = torque = self._pid.compute(error, speed - velocity)
-        _core.step(self.model, self.data)
+        self._step()
+        if self.watch is not None:
+            self.watch()
         np.maximum(worst[0], np.abs(torque) / self._peak, out=worst[0])
         np.maximum(worst[1], np.abs(error), out=worst[1])
         result.speed = max(result.speed, float((np.abs(velocity) / self._speed).max()))

@@ -17,7 +17,16 @@ from hurcules.reproduce.judge import judge
 __all__ = ["Result", "dump", "fingerprint", "from_finding", "load", "row", "without_finding"]
 
 # parts of the package that show results and make none
-SHOWS = ("cli.py", "doctor.py", "run.py", "video.py", "report/", "reproduce/page", "reproduce/run")
+SHOWS = (
+    "cli.py",
+    "doctor.py",
+    "run.py",
+    "video.py",
+    "report/",
+    "reproduce/page",
+    "reproduce/run",
+    "reproduce/table",
+)
 
 
 @dataclass(frozen=True)

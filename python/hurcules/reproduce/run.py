@@ -1,4 +1,4 @@
-"""`hurcules reproduce`: the claims of the thesis measured; report.html and claims.json."""
+"""`hurcules reproduce`: the claims of the thesis measured; report.html, claims.json, claims.md."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from rich.table import Table
 from hurcules._core import Error
 from hurcules.interrupts import Interrupts
 from hurcules.output import Output, WriteError
+from hurcules.reproduce import table
 from hurcules.reproduce.claim import Verdict
 from hurcules.reproduce.claims import CLAIMS
 from hurcules.reproduce.measures import measured
@@ -26,7 +27,7 @@ from hurcules.reproduce.select import select
 __all__ = ["OUT", "Reproduction", "reproduce", "tell"]
 
 OUT = Path("out", "reproduce")
-FILES = ("claims.json", "report.html")
+FILES = ("claims.json", "claims.md", "report.html")
 
 
 class Reproduction(dict[str, Result]):
@@ -37,17 +38,19 @@ class Reproduction(dict[str, Result]):
         output: where the files lie.
         seconds: [s] that it took.
         again: claims that were taken over from an earlier run with the same code.
+        waiting: claims that nothing measures yet, and that nobody asked for by name.
     """
 
     interrupted: bool
     output: Output
     seconds: float
     again: int
+    waiting: frozenset[str]
 
     @property
     def done(self) -> bool:
-        """Whether each claim was measured, and holds or is explained."""
-        return all(result.done for result in self.values())
+        """Whether each claim but those waiting was measured, and holds or is explained."""
+        return all(result.done for name, result in self.items() if name not in self.waiting)
 
 
 def reproduce(
@@ -58,7 +61,7 @@ def reproduce(
     fresh: bool = False,
     console: Console | None = None,
 ) -> Reproduction:
-    """Measures claims of the thesis and writes report.html and claims.json.
+    """Measures claims of the thesis and writes report.html, claims.json and claims.md.
 
     Workers are processes of their own: a program that calls this does so under
     `if __name__ == "__main__":`. Ctrl-C keeps what is finished; the next call goes on from there.
@@ -79,6 +82,7 @@ def reproduce(
     """
     from hurcules.reproduce import page  # with matplotlib, which no worker needs
 
+    ids = list(ids)
     names = select(ids, CLAIMS)
     count = len(os.sched_getaffinity(0)) if workers is None else workers
     if count < 1:
@@ -96,9 +100,11 @@ def reproduce(
             raise WriteError(f"cannot write {folder}: {error.strerror or error}") from error
         results = Reproduction((name, _result(name, folder)) for name in names)
         results.output, results.again = output, len(again)
+        results.waiting = frozenset() if ids else frozenset(names) - frozenset(wanted)
         results.interrupted = interrupts.noted
         rows = [row(CLAIMS[name], result) for name, result in results.items()]
         output.write_json("claims.json", {"claims": rows})
+        output.write("claims.md", lambda path: table.write(path, results))
         output.write("report.html", lambda path: page.write(path, results))
     results.seconds = perf_counter() - started
     return results
@@ -134,16 +140,16 @@ def _result(name: str, folder: Path) -> Result:
 
 def tell(results: Reproduction, console: Console) -> None:
     """The verdicts by letter, what somebody should look at, and where everything lies."""
-    table = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
-    table.add_column("")
+    verdicts = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
+    verdicts.add_column("")
     for heading in (*Verdict, "seconds"):
-        table.add_column(str(heading), justify="right")
+        verdicts.add_column(str(heading), justify="right")
     for letter in dict.fromkeys(name[0] for name in results):
         mine = [result for name, result in results.items() if name[0] == letter]
         counts = Counter(result.verdict for result in mine)
         numbers = [str(counts[verdict] or "") for verdict in Verdict]
-        table.add_row(letter, *numbers, f"{sum(result.seconds for result in mine):.1f}")
-    console.print(table)
+        verdicts.add_row(letter, *numbers, f"{sum(result.seconds for result in mine):.1f}")
+    console.print(verdicts)
     for result in results.values():
         if result.verdict not in (Verdict.HOLDS, Verdict.PENDING):
             style = "" if result.explained else "bold red"

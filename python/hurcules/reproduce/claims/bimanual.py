@@ -19,8 +19,8 @@ BIMANUAL = (
         "singularity, and the speeds stay bounded.",
         {
             "bend": most("least bend of the left wrist", 1e-3, "rad"),
-            # their speed limit
-            "rhqp": most("largest speed of that wrist within 1 s, RHQP", 2.5, "rad/s"),
+            # what these joints can; nothing limits Algorithm 1 here but its regularisation
+            "rhqp": most("largest speed of that wrist within 1 s, RHQP unlimited", 2.5, "rad/s"),
             "default": most("largest speed of that wrist within 1 s, default", 2.5, "rad/s"),
             "largest": most("largest speed of any joint in the whole motion", 2.5, "rad/s"),
         },

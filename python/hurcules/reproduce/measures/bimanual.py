@@ -33,6 +33,7 @@ REVERSAL, PULL_SECONDS = 3.7, 8.0  # [s]
 SETTINGS = {
     "RHQP": Setting("rhqp_thesis", as_printed=True),
     "default": Setting(),
+    "RHQP, free": Setting("rhqp_thesis", as_printed=True, clamped=False),
     "HQP": Setting("hqp", as_printed=True, clamped=False),
     "DLS-HQP": Setting("dls_hqp", as_printed=True, max_iterations=12),
 }
@@ -76,8 +77,8 @@ def wrist_speed(log: Log, window: float = 1.0) -> tuple[float, float, float]:
 
 @measures("M13")
 def internal_singularity() -> Finding:
-    """The wrist's bend is zero, so that both roll axes align."""
-    ours, printed = aside("default"), aside("RHQP")
+    """The wrist's bend is zero, so that both roll axes align; Algorithm 1 without speed limits."""
+    ours, printed = aside("default"), aside("RHQP, free")
     bend, time, speed = wrist_speed(printed)
     hqp = wrist_speed(aside("HQP"))
     wrist = ("LWY", "LWP", "LWY2")

@@ -1,4 +1,4 @@
-"""S01 to S06: one run of the mission stretch, seed 0, closed loop in the physics."""
+"""S01 to S05: one run of the mission stretch, seed 0, closed loop in the physics."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from functools import cache
 import numpy as np
 
 import hurcules
-from hurcules.reproduce.claim import Finding, Note, Plot, line
+from hurcules.reproduce.claim import Finding, Plot, line
 from hurcules.reproduce.measures.marks import measures
 from hurcules.reproduce.measures.problems import Array
 
 Log = dict[str, Array]
 
 THESIS = (15.0, 25.0)  # [s]
-WINDOW = 0.2  # [s] in which a change of control errors counts as a spike
 
 
 @cache
@@ -146,31 +145,4 @@ def pelvis_gives_way() -> Finding:
             picture(log, "Hands", {"error/hpos": ""}, "error [mm]", 1e3),
             picture(log, "Lower-arm pitch", {"error/hpitch": ""}, "error [mrad]", 1e3),
         ],
-    )
-
-
-@measures("S06")
-def spikes() -> Finding:
-    """Changes of any joint's control error within 0.2 s, at the switches and elsewhere."""
-    log, figures, _ = run()
-    names = [name for name in log if name.startswith("joint_error/") and "belt" not in name]
-    errors = np.array([log[name] for name in names])
-    width = round(WINDOW / 1e-3)
-    change = np.abs(errors[:, width:] - errors[:, :-width]).max(axis=0)
-    time = log["time"][width:]
-    switches = (figures["hip_locked_s"], figures["hip_released_s"])
-    near = [(time > s - 0.05) & (time < s + WINDOW + 0.3) for s in switches]
-    # the start of the motion is a switch of its own
-    elsewhere = ~np.any(near, axis=0) & (time > 1.0)
-    sizes = [float(change[part].max()) for part in near]
-    usual = float(np.percentile(change[elsewhere], 90))
-    shown = {"joint_error/HIP": "HIP", "joint_error/LKN": "LKN", "joint_error/LSP": "LSP"}
-    return Finding(
-        {
-            "stop": sizes[0] / usual,
-            "release": sizes[1] / usual,
-            "largest": sizes[1] / float(change[elsewhere].max()),
-        },
-        [Note("largest control error", figures["joint_error_max_rad"], "rad")],
-        [picture(log, "Control errors", shown, "[mrad]", 1e3)],
     )

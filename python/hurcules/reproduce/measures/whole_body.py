@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -66,8 +67,13 @@ class Body:
         controller: of the stack.
     """
 
-    def __init__(self, posture: Posture, setting: Setting = Setting()) -> None:
-        self.model = hurcules.models.load("manipulation")
+    def __init__(
+        self,
+        posture: Posture,
+        setting: Setting = Setting(),
+        model: mujoco.MjModel | None = None,
+    ) -> None:
+        self.model = model or hurcules.models.load("manipulation")
         self.robot = robot = hurcules.Robot(self.model)
         robot.set_keyframe("ready")
         robot.stand_on("lower_leg_L")

@@ -6,15 +6,29 @@ welded to the left arm and pinned to the right one, so that the arms do not figh
 direction.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from hurcules import models, postures
+from hurcules.reproduce.measures.problems import Array
 
-MODELS = Path(__file__).resolve().parents[2] / "models"
+__all__ = [
+    "ARM",
+    "Load",
+    "acquisition",
+    "on_the_scoops",
+    "scene",
+    "start",
+    "take",
+    "touching",
+]
+
 ARM = {"rescue": "larm", "manipulation": "hand"}
 STIFF = [0.004, 1.0]
 
@@ -29,7 +43,7 @@ class Load:
     foot: bool = True  # it stands on the ground there; else it is held from the start
 
 
-def load_spec(spec, name, load):
+def _add_load(spec: mujoco.MjSpec, name: str, load: Load) -> None:
     """A box of its mass, and a foot below it that touches the ground alone."""
     body = spec.worldbody.add_body(name=name, pos=load.position)
     body.add_freejoint(name=name)
@@ -45,7 +59,7 @@ def load_spec(spec, name, load):
     )  # fmt: skip
 
 
-def tie_spec(spec, kind, first, second):
+def _add_tie(spec: mujoco.MjSpec, kind: mujoco.mjtEq, first: str, second: str) -> None:
     tie = spec.add_equality(
         name=f"{first}-{second}", type=kind, objtype=mujoco.mjtObj.mjOBJ_BODY,
         name1=first, name2=second, active=False,
@@ -53,18 +67,18 @@ def tie_spec(spec, kind, first, second):
     tie.solref = STIFF
 
 
-def scene(robot, loads):
+def scene(robot: str, loads: Mapping[str, Load]) -> mujoco.MjModel:
     """A robot on flat ground and loads, by name."""
-    spec = models.parse([models.path(robot), MODELS / "scenes/flat.xml"], "lifting")
+    spec = models.parse([models.path(robot), models.path("flat")], "lifting")
     ties = mujoco.mjtEq.mjEQ_WELD, mujoco.mjtEq.mjEQ_CONNECT
     for name, load in loads.items():
-        load_spec(spec, name, load)
+        _add_load(spec, name, load)
         for hand, kind in zip(load.hands, ties, strict=False):
-            tie_spec(spec, kind, f"{hand}_{ARM[robot]}", name)
+            _add_tie(spec, kind, f"{hand}_{ARM[robot]}", name)
     return spec.compile()
 
 
-def weld_here(model, data, tie):
+def _weld_here(data: mujoco.MjData, tie: Any) -> None:
     """Sets a weld so that it holds its bodies as they are now."""
     first, second = (data.body(int(i)) for i in (tie.obj1id[0], tie.obj2id[0]))
     turn, inverse, relative = first.xmat.reshape(3, 3), np.empty(4), np.empty(4)
@@ -75,25 +89,25 @@ def weld_here(model, data, tie):
     tie.data[6:10] = relative
 
 
-def pin_here(model, data, tie, point):
+def _pin_here(data: mujoco.MjData, tie: Any, point: Array) -> None:
     """Sets a pin through a point [m] of the world."""
     for at, i in ((0, tie.obj1id[0]), (3, tie.obj2id[0])):
         body = data.body(int(i))
         tie.data[at : at + 3] = body.xmat.reshape(3, 3).T @ (point - body.xpos)
 
 
-def take(model, data, robot, name, hands):
+def take(model: mujoco.MjModel, data: mujoco.MjData, robot: str, name: str, hands: str) -> None:
     """The hands take a load."""
     for hand in hands:
         tie = model.equality(f"{hand}_{ARM[robot]}-{name}")
         if tie.type[0] == mujoco.mjtEq.mjEQ_WELD:
-            weld_here(model, data, tie)
+            _weld_here(data, tie)
         else:
-            pin_here(model, data, tie, data.site(f"{hand}_tcp").xpos)
+            _pin_here(data, tie, data.site(f"{hand}_tcp").xpos)
         data.eq_active[tie.id] = 1
 
 
-def acquisition(robot):
+def acquisition(robot: str) -> mujoco.MjData:
     """Data of the robot in this keyframe."""
     model = models.load(robot)
     data = mujoco.MjData(model)
@@ -102,18 +116,21 @@ def acquisition(robot):
     return data
 
 
-def on_the_scoops(along=0.44, above=0.17):
-    """Where a load of two hands lies [m], seen from the elbows and the blades [F A9]."""
+def on_the_scoops(along: float = 0.44, above: float = 0.17) -> tuple[float, float, float]:
+    """Where a load of two hands lies [m], seen from the elbows and the blades (models/README)."""
     data = acquisition("rescue")
     centres = []
     for side in "LR":
         arm = data.body(f"{side}_larm")
         outward, normal = -arm.xmat.reshape(3, 3)[:, 2], arm.xmat.reshape(3, 3)[:, 0]
         centres.append(arm.xpos + along * outward + above * normal)
-    return tuple(np.mean(centres, axis=0))
+    x, y, z = np.mean(centres, axis=0)
+    return float(x), float(y), float(z)
 
 
-def start(model, robot, key, loads=()):
+def start(
+    model: mujoco.MjModel, robot: str, key: str, loads: Sequence[str] = ()
+) -> tuple[mujoco.MjData, postures.Player]:
     """Data in a keyframe and its player."""
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
@@ -121,7 +138,8 @@ def start(model, robot, key, loads=()):
     return data, postures.Player(model, data, robot, carried=loads)
 
 
-def torque_of(results):
-    """Largest share of a peak torque in some moves, and the joint."""
-    worst = max(results, key=lambda r: r.worst_torque)
-    return worst.worst_torque, max(worst.torque, key=worst.torque.get)
+def touching(model: mujoco.MjModel, data: mujoco.MjData) -> set[tuple[str, ...]]:
+    """Pairs of geoms in contact."""
+    mujoco.mj_fwdPosition(model, data)
+    pairs = data.contact.geom[: data.ncon]
+    return {tuple(sorted(model.geom(int(g)).name for g in pair)) for pair in pairs}
