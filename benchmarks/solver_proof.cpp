@@ -1,12 +1,12 @@
 // Solves seeded hierarchies of every class at every regularisation and counts what is not proven.
 //
-//   solver_proof [--problems N] [--seed S] [--judge E] [--class NAME] [--rho R] [--once]
+//   solver_proof [--problems N] [--seed S] [--judge E] [--class NAME] [--rho R] [--once [--json]]
 //
 // An answer counts as proven when its status is Solved, its numbers are finite, and its optimality
 // residual is at most 1e-9. Every E-th problem, and every one that is not proven, is judged once
 // more from the definition alone: "right" or "wrong". What is not proven or wrong prints class, rho
-// and seed; --once with --class, --rho and --seed solves that one again and prints it. Ends with 1
-// when an answer is wrong or unfinished (not of all levels).
+// and seed; --once with --class, --rho and --seed solves that one again and prints it, with --json
+// for exact_referee.py. Ends with 1 when an answer is wrong or unfinished (not of all levels).
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -34,7 +34,7 @@ struct Request {
   long judge = 50;
   std::string only_class;
   double only_rho = -1.0;
-  bool once = false;
+  bool once = false, json = false;
 };
 
 struct Tally {
@@ -139,10 +139,41 @@ void print_summary(const Tally& total, double seconds) {
       total.worst_judged, seconds);
 }
 
+// as hexadecimal numbers, which lose nothing
+void print_numbers(const char* name, const double* v, Index count) {
+  std::printf("\"%s\": [", name);
+  for (Index i = 0; i < count; ++i) std::printf("%s\"%a\"", i ? ", " : "", v[i]);
+  std::printf("]");
+}
+
+// the levels with our answers after each of them
+void print_json(const Hierarchy& levels) {
+  const Index n = unknowns_of(levels);
+  const std::vector<Vector> x = answers_by_level(levels, n);
+  std::printf("{\"n\": %ld, \"levels\": [", static_cast<long>(n));
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const Level& level = levels[k];
+    std::printf("%s{\"bounds\": %d, \"rho\": \"%a\", ", k ? ", " : "", level.bounds, level.rho);
+    print_numbers("A", level.A.data(), level.A.size());
+    std::printf(", ");
+    print_numbers("lower", level.lower.data(), level.rows());
+    std::printf(", ");
+    print_numbers("upper", level.upper.data(), level.rows());
+    std::printf(", ");
+    print_numbers("x", x[k].data(), n);
+    std::printf("}");
+  }
+  std::printf("]}\n");
+}
+
 int solve_once(const Request& request) {
   for (const HierarchyClass& kind : kHierarchyClasses) {
     if (kind.name != request.only_class) continue;
     const Hierarchy levels = make(kind, request.seed, request.only_rho);
+    if (request.json) {
+      print_json(levels);
+      return 0;
+    }
     Solver solver(unknowns_of(levels));
     const Solution& solution = solver.solve(levels);
     std::printf("%s// x: %s\n", as_text(levels).c_str(), vector_text(solution.x).c_str());
@@ -162,8 +193,8 @@ Request read(int argc, char** argv) {
   Request request;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--once") {
-      request.once = true;
+    if (name == "--once" || name == "--json") {
+      (name == "--once" ? request.once : request.json) = true;
       continue;
     }
     const char* value = i + 1 < argc ? argv[++i] : "";
