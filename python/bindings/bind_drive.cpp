@@ -8,10 +8,12 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/drive_controller.hpp"
+#include "state.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
 using namespace hurcules;
+using namespace hurcules_bindings;
 
 void bind_drive(py::module_& module);
 
@@ -113,7 +115,6 @@ Raises:
   Error: a measurement is not finite, or the pose is missing.
 )";
 constexpr const char* kBraked = "whether the brakes of both drives are to be shut";
-constexpr const char* kState = "What must be kept between periods, as a flat list; see restore.";
 
 std::array<double, 2> compute(DriveController& self, double left, double right, double yaw_rate,
                               double speed, std::optional<std::array<double, 3>> pose) {
@@ -133,18 +134,6 @@ std::array<double, 2> compute(DriveController& self, double left, double right, 
   }
   const DriveTorques torques = self.compute(state);
   return {torques.left, torques.right};
-}
-
-std::vector<double> state(const DriveController& self) {
-  std::vector<double> values;
-  StateWriter writer(values);
-  self.save(writer);
-  return values;
-}
-
-void restore(DriveController& self, const std::vector<double>& values) {
-  StateReader reader(values);
-  self.restore(reader);
 }
 
 void bind_options(py::module_& module) {
@@ -274,8 +263,8 @@ void bind_drive(py::module_& module) {
       .def("compute", &compute, "left"_a, "right"_a, "yaw_rate"_a, "speed"_a, "pose"_a = py::none(),
            kCompute)
       .def("reset", &DriveController::reset, "Stands, braked, knows nothing of the ground.")
-      .def("state", &state, kState)
-      .def("restore", &restore, "state"_a, "Goes on from what state() gave.")
+      .def("state", &state<DriveController>, kState)
+      .def("restore", &restore<DriveController>, "state"_a, kRestore)
       .def_property_readonly("options", &DriveController::options, py::return_value_policy::copy)
       .def_property_readonly("braked", &DriveController::braked, kBraked)
       .def_property_readonly("slipping", &DriveController::slipping,

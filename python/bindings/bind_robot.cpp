@@ -70,6 +70,14 @@ constexpr const char* kRotationDrift =
 constexpr const char* kCom = "(3,) [m]: centre of mass in W of the tree of the first coordinate.";
 constexpr const char* kComJacobian = "(3, n) [m/rad]: velocity of the centre of mass in W.";
 constexpr const char* kComDrift = "(3,) [m/s^2]: Jdot v of the centre of mass.";
+constexpr const char* kInverseDynamics =
+    R"(Torque (n,) [N m] or [N] that the coordinates take at an acceleration and the present velocity.
+
+Inertia with armature, gravity, Coriolis, springs and dampers; without dry friction and contacts.
+
+Args:
+  acceleration: (n,) [rad/s^2] or [m/s^2].
+)";
 constexpr const char* kMassMatrix =
     "(n, n) [kg m^2]: joint-space inertia of the coordinates with armature, base held.";
 
@@ -171,7 +179,19 @@ void bind_kinematics(py::class_<Robot>& robot) {
             self.mass_matrix(M);
             return M;
           },
-          kMassMatrix);
+          kMassMatrix)
+      .def(
+          "inverse_dynamics",
+          [](const Robot& self, const ConstVectorRef& acceleration) {
+            require(acceleration.size() == self.size() && acceleration.allFinite(),
+                    "inverse_dynamics wants " + std::to_string(self.size()) +
+                        " finite accelerations, got " + std::to_string(acceleration.size()) +
+                        (acceleration.allFinite() ? "" : ", not all finite"));
+            Vector torque(self.size());
+            self.inverse_dynamics(acceleration, torque);
+            return torque;
+          },
+          py::arg("acceleration"), kInverseDynamics);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "bind_sim_docs.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/simulation.hpp"
+#include "mujoco_pointer.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -26,29 +27,6 @@ namespace {
 double now() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double>(since).count();
-}
-
-// the C struct behind an object of the package mujoco
-template <typename Struct>
-Struct* pointer(const py::object& object, const char* wanted) {
-  if (!py::hasattr(object, "_address")) {
-    throw Error(std::string("a ") + wanted + " is wanted, a " +
-                py::str(py::type::of(object).attr("__name__")).cast<std::string>() + " came");
-  }
-  return reinterpret_cast<Struct*>(object.attr("_address").cast<std::uintptr_t>());
-}
-
-struct Scene {
-  const mjModel_* model;
-  mjData_* data;
-};
-
-Scene scene_of(const py::object& model, const py::object& data) {
-  const Scene scene{pointer<const mjModel_>(model, "mujoco.MjModel"),
-                    pointer<mjData_>(data, "mujoco.MjData")};
-  require(pointer<const mjModel_>(data.attr("model"), "mujoco.MjModel") == scene.model,
-          "data wants to be of the model that came with it; it is of another one");
-  return scene;
 }
 
 void step_physics(const py::object& model, const py::object& data, int n) {

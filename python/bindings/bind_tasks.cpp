@@ -12,9 +12,11 @@
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
+#include "state.hpp"
 
 namespace py = pybind11;
 using namespace hurcules;
+using namespace hurcules_bindings;
 using Name = std::string;
 
 namespace {
@@ -35,8 +37,6 @@ Args:
 )";
 constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
-constexpr const char* kState = "What must be kept between ticks, as a flat list; see restore.";
-constexpr const char* kRestore = "Goes on from what state() gave.";
 constexpr const char* kNoOrder =
     "tasks are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
 constexpr const char* kValueTask =
@@ -108,18 +108,6 @@ Args:
   frame: a camera, or any other frame, which then looks along its x axis.
 )";
 
-std::vector<double> state(const Task& task) {
-  std::vector<double> values;
-  StateWriter writer(values);
-  task.save(writer);
-  return values;
-}
-
-void restore(Task& task, const std::vector<double>& values) {
-  StateReader reader(values);
-  task.restore(reader);
-}
-
 void bind_task(py::module_& module) {
   const auto copy = py::return_value_policy::copy;
   py::class_<Task>(module, "Task", kTask)
@@ -127,8 +115,8 @@ void bind_task(py::module_& module) {
       .def("hold", &Task::hold, py::arg("robot"), kHold)
       .def("advance", &Task::advance, py::arg("velocity"), py::arg("dt"), kAdvance)
       .def("set_interval", &Task::set_interval, py::arg("lower"), py::arg("upper"), kSetInterval)
-      .def("state", &state, kState)
-      .def("restore", &restore, py::arg("state"), kRestore)
+      .def("state", &state<Task>, kState)
+      .def("restore", &restore<Task>, py::arg("state"), kRestore)
       .def_property_readonly("name", &Task::name)
       .def_property_readonly("rows", &Task::rows, "m")
       .def_property_readonly("error", &Task::error, copy, "e (m,)")

@@ -13,8 +13,14 @@ void bind_solver(py::module_& module);
 void bind_robot(py::module_& module);
 void bind_spring_force(py::module_& module);
 void bind_tasks(py::module_& module);
+void bind_limit_tasks(py::module_& module);
+void bind_force(py::module_& module);
+void bind_stack(py::module_& module);
 void bind_control(py::module_& module);
+void bind_acceleration(py::module_& module);
+void bind_joint_pid(py::module_& module);
 void bind_drive(py::module_& module);
+void bind_physics(py::module_& module);
 void bind_sim(py::module_& module);
 
 namespace {
@@ -59,7 +65,13 @@ PYBIND11_MODULE(_core, module) {
   bind_robot(module);
   bind_spring_force(module);
   bind_tasks(module);
+  bind_limit_tasks(module);
+  bind_force(module);
+  bind_stack(module);
   bind_control(module);
+  bind_acceleration(module);
+  bind_joint_pid(module);
   bind_drive(module);
+  bind_physics(module);
   bind_sim(module);
 }

@@ -247,6 +247,7 @@ class Robot:
     def com(self) -> _Vector: ...  # (3,) [m]
     def com_drift(self) -> _Vector: ...  # (3,) [m/s^2]
     def com_jacobian(self) -> _Matrix: ...  # (3, n)
+    def inverse_dynamics(self, acceleration: ArrayLike) -> _Vector: ...  # (n,) -> (n,) [N m]
     def mass_matrix(self) -> _Matrix: ...  # (n, n) [kg m^2]
 
 class SpringForce:
@@ -370,6 +371,125 @@ class GazeTask(Task):
     def target(self) -> _Vector: ...  # (3,) [m]
     def set_target(self, target: ArrayLike) -> None: ...  # (3,) [m]
 
+class TorqueLimits(Task):
+    def __init__(self, name: str, robot: Robot) -> None: ...
+
+class BalanceTask(Task):
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        polygon: ArrayLike,
+        margin: float = 0.05,
+        reference: str = "",
+    ) -> None: ...  # (k, 2) [m], [m]
+
+class DistanceTask(Task):
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        pairs: Sequence[tuple[str, str]],
+        margin: float = 0.03,
+        most: float = 0.3,
+    ) -> None: ...  # [m], [m]
+
+class ForceLoop(_Enum):
+    FirstOrder: ClassVar[ForceLoop]
+    Velocity: ClassVar[ForceLoop]
+    Position: ClassVar[ForceLoop]
+    PositionIntegral: ClassVar[ForceLoop]
+    __members__: ClassVar[dict[str, ForceLoop]]
+
+class ForceGains:
+    loop: ForceLoop
+    compliance: float  # [m/s/N] or [m/N]
+    integral: float  # [m/s/N]
+    mass: float  # [kg]
+    damping: float  # [kg/s]
+    stiffness: float  # [kg/s^2]
+    dt: float  # [s]
+    def __init__(
+        self,
+        *,
+        loop: ForceLoop = ...,
+        compliance: float = 0.001,
+        integral: float = 0.0,
+        mass: float = 1.0,
+        damping: float = 20.0,
+        stiffness: float = 100.0,
+        dt: float = 0.001,
+    ) -> None: ...
+
+def largest_stiffness(gains: ForceGains) -> float: ...  # [N/m]
+
+class ContactOptions:
+    f_min: float  # [N]
+    f_max: float  # [N]
+    release_time: float  # [s]
+    patience: float  # [s]
+    frozen_move: float  # [m]
+    def __init__(
+        self,
+        *,
+        f_min: float = 2.5,
+        f_max: float = 150.0,
+        release_time: float = 0.05,
+        patience: float = 0.01,
+        frozen_move: float = 0.0005,
+    ) -> None: ...
+
+class StiffnessOptions:
+    lower: float  # [N/m]
+    upper: float  # [N/m]
+    forgetting: float
+    step: float  # [m]
+    def __init__(
+        self,
+        *,
+        lower: float = 100.0,
+        upper: float = 1000000.0,
+        forgetting: float = 0.9,
+        step: float = 5e-05,
+    ) -> None: ...
+
+class ContactState(_Enum):
+    Free: ClassVar[ContactState]
+    Contact: ClassVar[ContactState]
+    Stopped: ClassVar[ContactState]
+    SensorLost: ClassVar[ContactState]
+    __members__: ClassVar[dict[str, ContactState]]
+
+class ForceTask(PositionTask):
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        frame: str,
+        reference: str = "",
+        axis: ArrayLike = ...,
+        *,
+        force_des: float = -5.0,
+        blend: float = 0.1,
+        environment: float = 0.0,
+        max_rate: float = 50.0,
+        gains: ForceGains = ...,
+        contact: ContactOptions = ...,
+        stiffness: StiffnessOptions = ...,
+    ) -> None: ...  # (3,), [N], [s], [N/m], [1/s]
+    def sense(self, robot: Robot, force: float) -> None: ...  # [N], NaN for none
+    def set_force(self, force_des: float) -> None: ...  # [N]
+    def enable(self, on: bool) -> None: ...
+    def reset(self, robot: Robot) -> None: ...
+    @property
+    def contact(self) -> ContactState: ...
+    @property
+    def force(self) -> float: ...  # [N]
+    @property
+    def force_des(self) -> float: ...  # [N]
+    @property
+    def learnt_stiffness(self) -> float: ...  # [N/m]
+
 # control
 
 class StackLevel:
@@ -388,6 +508,26 @@ class Stack:
     def __len__(self) -> int: ...
 
 class ControlSolution(_Solved): ...
+
+class ShortTask(_Given):
+    @property
+    def task(self) -> str: ...
+    @property
+    def short_by(self) -> float: ...  # [unit]
+    @property
+    def unit(self) -> str: ...  # "m" or "rad"
+    @property
+    def held_by(self) -> list[str]: ...
+
+class LevelNote(_Given):
+    @property
+    def level(self) -> str: ...
+    @property
+    def smallest_singular_value(self) -> float: ...
+    @property
+    def manipulability(self) -> float: ...
+    @property
+    def shorts(self) -> list[ShortTask]: ...
 
 class VelocityControllerOptions:
     dt: float  # [s]
@@ -414,6 +554,8 @@ class VelocityController:
     def set_stack(self, stack: Stack) -> None: ...
     def compute(self, robot: Robot) -> _Vector: ...  # (n,) [rad/s] or [m/s]
     def integrate(self, q: ArrayLike) -> _Vector: ...  # (n,) -> (n,) [rad] or [m]
+    def notes(self, robot: Robot) -> list[LevelNote]: ...  # decreasing priority
+    def take_over(self, previous: VelocityController) -> None: ...
     def step(self, robot: Robot) -> _Vector: ...  # (n,) [rad] or [m], the next q*
     def reset(self) -> None: ...
     def state(self) -> list[float]: ...
@@ -422,6 +564,49 @@ class VelocityController:
     def options(self) -> VelocityControllerOptions: ...
     @property
     def velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    @property
+    def active_limits(self) -> NDArray[np.int32]: ...  # (n,) -1, 0, 1
+    @property
+    def solution(self) -> ControlSolution: ...
+    @property
+    def hierarchy(self) -> list[Level]: ...
+    @property
+    def stack(self) -> str: ...  # "joint < hpos < ..."
+
+class AccelerationControllerOptions:
+    dt: float  # [s]
+    stiffness: float  # [1/s^2]
+    damping: float  # [1/s]
+    horizon: float  # [s]
+    max_acceleration: float  # [rad/s^2]
+    return_speed: float  # [rad/s]
+    solver: SolverOptions
+    def __init__(
+        self,
+        *,
+        dt: float = 0.001,
+        stiffness: float = 100.0,
+        damping: float = 20.0,
+        horizon: float = 0.05,
+        max_acceleration: float = 20.0,
+        return_speed: float = 0.2,
+        solver: SolverOptions = ...,
+    ) -> None: ...
+
+class AccelerationController:
+    def __init__(self, robot: Robot, options: AccelerationControllerOptions = ...) -> None: ...
+    def set_stack(self, stack: Stack) -> None: ...
+    def compute(self, robot: Robot) -> _Vector: ...  # (n,) [rad/s^2] or [m/s^2]
+    def step(self, robot: Robot) -> _Vector: ...  # (n,) [rad] or [m], the next q*
+    def torque(self, robot: Robot) -> _Vector: ...  # (n,) [N m] or [N]
+    def notes(self, robot: Robot) -> list[LevelNote]: ...  # decreasing priority
+    def reset(self) -> None: ...
+    def state(self) -> list[float]: ...
+    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def options(self) -> AccelerationControllerOptions: ...
+    @property
+    def acceleration(self) -> _Vector: ...  # (n,) [rad/s^2] or [m/s^2]
     @property
     def active_limits(self) -> NDArray[np.int32]: ...  # (n,) -1, 0, 1
     @property
@@ -588,6 +773,30 @@ class DriveController:
     def reference(self) -> list[float]: ...  # (2,) [m/s], [rad/s]
 
 # sim
+
+class Brakes(_Given):
+    @property
+    def names(self) -> list[str]: ...
+    def set_closed(self, joint: str, closed: bool) -> None: ...
+    def close(self) -> None: ...
+    def reset(self, closed: bool = False) -> None: ...
+    def is_shut(self, joint: str) -> bool: ...
+    def is_open(self, joint: str) -> bool: ...
+    def load(self, joint: str) -> float: ...  # [N m] or [N]
+    def max_load(self, joint: str) -> float: ...  # [N m] or [N]
+    @property
+    def power(self) -> float: ...  # [W]
+
+class Physics:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None: ...
+    def step(self, n: int = 1) -> int: ...
+    def reset(self, keyframe: str) -> None: ...
+    def state(self) -> list[float]: ...
+    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def is_sound(self) -> bool: ...
+    @property
+    def brakes(self) -> Brakes: ...
 
 def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None: ...
 def missions() -> list[str]: ...

@@ -1,5 +1,6 @@
 #include "hurcules/control/level_notes.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -40,6 +41,14 @@ std::string holder(const SolvedStack& solved, const ActiveRow& active) {
   return solved.robot.coordinates()[i].name + (limit ? side + " limit" : " speed or acceleration");
 }
 
+// of the rows as they are, without the levels above
+Index own_rank(const Level& level) {
+  if (level.bounds) return level.rows();
+  Eigen::ColPivHouseholderQR<Matrix> qr(level.A);
+  qr.setThreshold(1e-9);
+  return qr.rank();
+}
+
 // what pushes back on level k
 std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelReport* report) {
   std::vector<std::string> names;
@@ -48,10 +57,13 @@ std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelRe
     const std::string name = holder(solved, active);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  if (report && report->rank < solved.problem.hierarchy()[static_cast<std::size_t>(k)].rows()) {
+  if (!report) return names;
+  const Level& level = solved.problem.hierarchy()[static_cast<std::size_t>(k)];
+  const bool weak = report->singular_values.size() > 0 &&
+                    report->singular_values.minCoeff() < std::max(report->rho, 1e-6);
+  if (report->rank < own_rank(level)) {
     names.emplace_back("tasks above");
-  } else if (report && report->singular_values.size() > 0 &&
-             report->singular_values.minCoeff() < std::max(report->rho, 1e-6)) {
+  } else if (weak || report->rank < level.rows()) {
     names.emplace_back("a singular posture");
   }
   return names;

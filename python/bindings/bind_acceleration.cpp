@@ -1,0 +1,106 @@
+// control: the acceleration controller.
+#include "bind_controller.hpp"
+#include "hurcules/control/acceleration_controller.hpp"
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+using namespace hurcules;
+using namespace hurcules_bindings;
+
+void bind_acceleration(py::module_& module);
+
+namespace {
+
+constexpr const char* kOptions = R"(Options of the acceleration controller.
+
+Args:
+  dt: [s] control period.
+  stiffness: [1/s^2] K on errors.
+  damping: [1/s] L on their rates; 2 sqrt(K) is critical.
+  horizon: [s] a position limit is approached no faster than distance / horizon.
+  max_acceleration: [rad/s^2] of every coordinate, inf for none.
+  return_speed: [rad/s] at which a coordinate outside its limits is driven back.
+  solver: SolverOptions; the default is SolverOptions(handover="smooth").
+)";
+constexpr const char* kController =
+    R"(From a stack to accelerations: second-order closed-loop inverse kinematics.
+
+Integrated for joint servos (step), or turned into torques by inverse dynamics (torque).
+
+Args:
+  robot: Robot that the tasks were made for.
+  options: AccelerationControllerOptions.
+
+Raises:
+  Error: gains too high for dt, or an option out of range.
+)";
+constexpr const char* kStep = R"(compute, then moves the robot by one dt along qddot*.
+
+Args:
+  robot: Robot at the reference configuration and velocity; it ends at the next ones.
+
+Returns:
+  q* (n,) [rad] or [m], one dt later; the velocity is robot.velocity. Releases the interpreter lock.
+)";
+constexpr const char* kTorque =
+    R"(What the drives must give for the last qddot*, by inverse dynamics.
+
+Args:
+  robot: Robot as it was at compute.
+
+Returns:
+  (n,) [N m] or [N].
+)";
+
+void bind_options(py::module_& module) {
+  using Options = AccelerationControllerOptions;
+  const Options d;
+  py::class_<Options>(module, "AccelerationControllerOptions", kOptions)
+      .def(py::init([](double dt, double stiffness, double damping, double horizon,
+                       double max_acceleration, double return_speed, const SolverOptions& solver) {
+             return Options{dt,           stiffness, damping, horizon, max_acceleration,
+                            return_speed, solver};
+           }),
+           py::kw_only(), "dt"_a = d.dt, "stiffness"_a = d.stiffness, "damping"_a = d.damping,
+           "horizon"_a = d.horizon, "max_acceleration"_a = d.max_acceleration,
+           "return_speed"_a = d.return_speed, "solver"_a = d.solver)
+      .def_readwrite("dt", &Options::dt, "[s]")
+      .def_readwrite("stiffness", &Options::stiffness, "[1/s^2]")
+      .def_readwrite("damping", &Options::damping, "[1/s]")
+      .def_readwrite("horizon", &Options::horizon, "[s]")
+      .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
+      .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
+      .def_readwrite("solver", &Options::solver, "SolverOptions");
+}
+
+}  // namespace
+
+void bind_acceleration(py::module_& module) {
+  bind_options(module);
+  const auto step = [](AccelerationController& self, Robot& robot) {
+    require_stack(self);
+    py::gil_scoped_release release;
+    self.compute(robot);
+    Vector q = robot.configuration(), velocity = robot.velocity();
+    self.integrate(q, velocity);
+    robot.set_configuration(q);
+    robot.set_velocity(velocity);
+    return q;
+  };
+  const auto torque = [](const AccelerationController& self, const Robot& robot) {
+    require_stack(self);
+    Vector given(robot.size());
+    self.torque(robot, given);
+    return given;
+  };
+  py::class_<AccelerationController> controller(module, "AccelerationController", kController);
+  controller
+      .def(py::init<const Robot&, AccelerationControllerOptions>(), "robot"_a,
+           "options"_a = AccelerationControllerOptions{})
+      .def("step", step, "robot"_a, kStep)
+      .def("torque", torque, "robot"_a, kTorque)
+      .def_property_readonly("acceleration", &AccelerationController::acceleration,
+                             py::return_value_policy::copy,
+                             "(n,) [rad/s^2] or [m/s^2], the last qddot*");
+  bind_common(controller, "qddot* (n,) [rad/s^2] or [m/s^2]");
+}

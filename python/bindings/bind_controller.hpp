@@ -1,0 +1,77 @@
+// What the controllers of velocity and of acceleration have in common for Python.
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+
+#include "bind_stack.hpp"
+#include "hurcules/base/error.hpp"
+#include "hurcules/robot/robot.hpp"
+#include "solver_levels.hpp"
+#include "state.hpp"
+
+namespace hurcules_bindings {
+
+template <typename Controller>
+void require_stack(const Controller& controller) {
+  hurcules::require(!controller.stack().levels().empty(),
+                    "a controller wants a stack before it computes");
+}
+
+inline constexpr const char* kSetStack = "Takes over another stack; keeps its tasks alive.";
+inline constexpr const char* kNotes = R"(What each level fell short of at the last compute, and why.
+
+Args:
+  robot: Robot as it was at compute.
+
+Returns:
+  list of LevelNote, decreasing priority.
+)";
+inline constexpr const char* kActiveLimits =
+    "(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one";
+
+// `result`: what compute returns, in words
+template <typename Controller>
+void bind_common(pybind11::class_<Controller>& controller, const std::string& result) {
+  namespace py = pybind11;
+  using namespace pybind11::literals;
+  const auto set_stack = [](Controller& self, const HeldStack& stack) {
+    self.set_stack(stack.stack);
+  };
+  const auto compute = [](Controller& self, const hurcules::Robot& robot) {
+    require_stack(self);
+    py::gil_scoped_release release;
+    return hurcules::Vector(self.compute(robot));
+  };
+  const std::string compute_doc =
+      "Measures the tasks at the robot, builds the hierarchy, solves it.\n\n"
+      "Args:\n  robot: Robot at the configuration (and velocity) to start from.\n\n"
+      "Returns:\n  " +
+      result + ". Releases the interpreter lock.\n";
+  const auto notes = [](const Controller& self, const hurcules::Robot& robot) {
+    require_stack(self);
+    return self.notes(robot);
+  };
+  const auto copy = py::return_value_policy::copy;
+  controller.def("set_stack", set_stack, "stack"_a, py::keep_alive<1, 2>(), kSetStack)
+      .def("compute", compute, "robot"_a, compute_doc.c_str())
+      .def("notes", notes, "robot"_a, kNotes)
+      .def("reset", &Controller::reset, "At rest, cold.")
+      .def("state", &state<Controller>, kState)
+      .def("restore", &restore<Controller>, "state"_a, kRestore)
+      .def_property_readonly("options", &Controller::options, copy)
+      .def_property_readonly("active_limits", &Controller::active_limits, copy, kActiveLimits)
+      .def_property_readonly("solution", &Controller::solution, copy,
+                             "ControlSolution, of the last compute")
+      .def_property_readonly(
+          "hierarchy", [](const Controller& self) { return copies_of(self.hierarchy()); },
+          "list of Level, of the last compute")
+      .def_property_readonly(
+          "stack", [](const Controller& self) { return self.stack().text(); },
+          "'joint < hpos < ...'");
+}
+
+}  // namespace hurcules_bindings

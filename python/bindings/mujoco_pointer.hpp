@@ -1,0 +1,40 @@
+// The C structs behind the objects of the package mujoco.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <string>
+
+#include "hurcules/base/error.hpp"
+
+struct mjModel_;
+struct mjData_;
+
+namespace hurcules_bindings {
+
+template <typename Struct>
+Struct* pointer(const pybind11::object& object, const char* wanted) {
+  if (!pybind11::hasattr(object, "_address")) {
+    throw hurcules::Error(
+        std::string("a ") + wanted + " is wanted, a " +
+        pybind11::str(pybind11::type::of(object).attr("__name__")).cast<std::string>() + " came");
+  }
+  return reinterpret_cast<Struct*>(object.attr("_address").cast<std::uintptr_t>());
+}
+
+struct Scene {
+  const mjModel_* model;
+  mjData_* data;
+};
+
+// throws Error when they do not belong together
+inline Scene scene_of(const pybind11::object& model, const pybind11::object& data) {
+  const Scene scene{pointer<const mjModel_>(model, "mujoco.MjModel"),
+                    pointer<mjData_>(data, "mujoco.MjData")};
+  hurcules::require(pointer<const mjModel_>(data.attr("model"), "mujoco.MjModel") == scene.model,
+                    "data wants to be of the model that came with it; it is of another one");
+  return scene;
+}
+
+}  // namespace hurcules_bindings

@@ -1,0 +1,28 @@
+// state() and restore() of everything that keeps something between ticks.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/base/state.hpp"
+
+namespace hurcules_bindings {
+
+inline constexpr const char* kState =
+    "What must be kept between ticks, as a flat list; see restore.";
+inline constexpr const char* kRestore = "Goes on from what state() gave.";
+
+template <typename Object>
+std::vector<double> state(const Object& object) {
+  std::vector<double> values;
+  hurcules::StateWriter writer(values);
+  object.save(writer);
+  return values;
+}
+
+template <typename Object>
+void restore(Object& object, const std::vector<double>& values) {
+  hurcules::StateReader reader(values);
+  object.restore(reader);
+}
+
+}  // namespace hurcules_bindings
