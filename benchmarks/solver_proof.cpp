@@ -39,6 +39,7 @@ struct Request {
 
 struct Tally {
   long solved = 0, unproven = 0, unfinished = 0, judged = 0, wrong = 0;
+  long right = 0;  // of those that are not proven
   double worst = 0.0, worst_judged = 0.0;
   double worst_right = 0.0;  // judged, of those that are not proven but right
   unsigned long long worst_seed = 0;
@@ -47,6 +48,7 @@ struct Tally {
   void add(const Tally& other) {
     solved += other.solved;
     unproven += other.unproven;
+    right += other.right;
     unfinished += other.unfinished;
     judged += other.judged;
     wrong += other.wrong;
@@ -92,6 +94,7 @@ void judge(Tally& tally, const HierarchyClass& kind, double rho, unsigned long l
     ++tally.wrong;
     note(tally, kind, rho, seed, "judged wrong", judged);
   } else if (!proven) {
+    ++tally.right;
     tally.worst_right = std::max(tally.worst_right, judged);
   }
   tally.worst_judged = std::max(tally.worst_judged, judged);
@@ -133,10 +136,10 @@ void print(const char* name, double rho, const Tally& tally) {
 
 void print_summary(const Tally& total, double seconds) {
   std::printf(
-      "%ld problems: %ld unfinished, %ld not proven (the judge finds them right to %.1e); "
-      "%ld judged, %ld wrong, worst %.1e; %.0f s\n",
-      total.solved, total.unfinished, total.unproven, total.worst_right, total.judged, total.wrong,
-      total.worst_judged, seconds);
+      "%ld problems, %.0f s: %ld unfinished, %ld not proven, of which %ld right by the judge "
+      "(worst %.1e); %ld judged, %ld wrong, worst %.1e\n",
+      total.solved, seconds, total.unfinished, total.unproven, total.right, total.worst_right,
+      total.judged, total.wrong, total.worst_judged);
 }
 
 // as hexadecimal numbers, which lose nothing
