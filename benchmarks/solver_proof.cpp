@@ -1,11 +1,12 @@
 // Solves seeded hierarchies of every class at every regularisation and counts what is not proven.
 //
-//   solver_proof [--problems N] [--seed S] [--judge E] [--class NAME] [--rho R] [--once]
+//   solver_proof [--problems N] [--seed S] [--judge E] [--class NAME] [--rho R] [--once [--json]]
 //
 // An answer counts as proven when its status is Solved, its numbers are finite, and its optimality
-// residual is at most 1e-9; every E-th problem is judged once more from the definition alone. A
-// failure prints class, rho and seed; --once with --class, --rho and --seed solves that one again
-// and prints it. Ends with 1 when anything failed.
+// residual is at most 1e-9. Every E-th problem, and every one that is not proven, is judged once
+// more from the definition alone: "right" or "wrong". What is not proven or wrong prints class, rho
+// and seed; --once with --class, --rho and --seed solves that one again and prints it, with --json
+// for exact_referee.py. Ends with 1 when an answer is wrong or unfinished (not of all levels).
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -33,14 +34,28 @@ struct Request {
   long judge = 50;
   std::string only_class;
   double only_rho = -1.0;
-  bool once = false;
+  bool once = false, json = false;
 };
 
 struct Tally {
-  long solved = 0, failed = 0, judged = 0;
+  long solved = 0, unproven = 0, unfinished = 0, judged = 0, wrong = 0;
+  long right = 0;  // of those that are not proven
   double worst = 0.0, worst_judged = 0.0;
+  double worst_right = 0.0;  // judged, of those that are not proven but right
   unsigned long long worst_seed = 0;
   std::map<std::string, long> failures;  // by kind
+
+  void add(const Tally& other) {
+    solved += other.solved;
+    unproven += other.unproven;
+    right += other.right;
+    unfinished += other.unfinished;
+    judged += other.judged;
+    wrong += other.wrong;
+    worst = std::max(worst, other.worst);
+    worst_judged = std::max(worst_judged, other.worst_judged);
+    worst_right = std::max(worst_right, other.worst_right);
+  }
 };
 
 // same problem for the same seed, whatever else is run
@@ -60,16 +75,29 @@ Verdict judge(const Hierarchy& levels) {
   return OptimalityJudge(levels).judge(answers_by_level(levels, unknowns_of(levels)));
 }
 
-void print_failure(const HierarchyClass& kind, double rho, unsigned long long seed,
-                   const std::string& what, double value) {
-  std::printf("FAILED --class %s --rho %g --seed %llu: %s %.1e\n", kind.name, rho, seed,
-              what.c_str(), value);
+void note(Tally& tally, const HierarchyClass& kind, double rho, unsigned long long seed,
+          const std::string& what, double value) {
+  if (tally.failures[what]++ >= kMostPrinted) return;
+  std::printf("--class %s --rho %g --seed %llu: %s %.1e\n", kind.name, rho, seed, what.c_str(),
+              value);
 }
 
-void count(Tally& tally, const HierarchyClass& kind, double rho, unsigned long long seed,
-           const std::string& what, double value) {
-  ++tally.failed;
-  if (tally.failures[what]++ < kMostPrinted) print_failure(kind, rho, seed, what, value);
+bool finished(const Solution& solution, const Hierarchy& levels) {
+  return solution.x.allFinite() && solution.final_levels == static_cast<int>(levels.size());
+}
+
+void judge(Tally& tally, const HierarchyClass& kind, double rho, unsigned long long seed,
+           const Hierarchy& levels, bool proven) {
+  const double judged = judge(levels).worst();
+  ++tally.judged;
+  if (!(judged <= kProven)) {
+    ++tally.wrong;
+    note(tally, kind, rho, seed, "judged wrong", judged);
+  } else if (!proven) {
+    ++tally.right;
+    tally.worst_right = std::max(tally.worst_right, judged);
+  }
+  tally.worst_judged = std::max(tally.worst_judged, judged);
 }
 
 Tally run(const HierarchyClass& kind, double rho, long problems, const Request& request) {
@@ -85,28 +113,70 @@ Tally run(const HierarchyClass& kind, double rho, long problems, const Request& 
       tally.worst_seed = seed;
     }
     const std::string what = failure(solution);
-    if (!what.empty()) count(tally, kind, rho, seed, what, solution.optimality);
-    if (!what.empty() || request.judge == 0 || i % request.judge) continue;
-    const double judged = judge(levels).worst();
-    ++tally.judged;
-    tally.worst_judged = std::max(tally.worst_judged, judged);
-    if (judged > kProven) count(tally, kind, rho, seed, "judged", judged);
+    if (!what.empty()) {
+      ++tally.unproven;
+      note(tally, kind, rho, seed, what, solution.optimality);
+    }
+    tally.unfinished += !finished(solution, levels);
+    if (!what.empty() || (request.judge > 0 && i % request.judge == 0)) {
+      judge(tally, kind, rho, seed, levels, what.empty());
+    }
   }
   return tally;
 }
 
 void print(const char* name, double rho, const Tally& tally) {
-  std::printf("%-16s %7.0e %9ld %7ld %9.1e %20llu %9ld %9.1e", name, rho, tally.solved,
-              tally.failed, tally.worst, tally.worst_seed, tally.judged, tally.worst_judged);
+  std::printf("%-16s %7.0e %9ld %8ld %9.1e %20llu %9ld %9.1e %6ld", name, rho, tally.solved,
+              tally.unproven, tally.worst, tally.worst_seed, tally.judged, tally.worst_judged,
+              tally.wrong);
   for (const auto& [what, number] : tally.failures) std::printf("  %s %ld", what.c_str(), number);
   std::printf("\n");
   std::fflush(stdout);
+}
+
+void print_summary(const Tally& total, double seconds) {
+  std::printf(
+      "%ld problems, %.0f s: %ld unfinished, %ld not proven, of which %ld right by the judge "
+      "(worst %.1e); %ld judged, %ld wrong, worst %.1e\n",
+      total.solved, seconds, total.unfinished, total.unproven, total.right, total.worst_right,
+      total.judged, total.wrong, total.worst_judged);
+}
+
+// as hexadecimal numbers, which lose nothing
+void print_numbers(const char* name, const double* v, Index count) {
+  std::printf("\"%s\": [", name);
+  for (Index i = 0; i < count; ++i) std::printf("%s\"%a\"", i ? ", " : "", v[i]);
+  std::printf("]");
+}
+
+// the levels with our answers after each of them
+void print_json(const Hierarchy& levels) {
+  const Index n = unknowns_of(levels);
+  const std::vector<Vector> x = answers_by_level(levels, n);
+  std::printf("{\"n\": %ld, \"levels\": [", static_cast<long>(n));
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const Level& level = levels[k];
+    std::printf("%s{\"bounds\": %d, \"rho\": \"%a\", ", k ? ", " : "", level.bounds, level.rho);
+    print_numbers("A", level.A.data(), level.A.size());
+    std::printf(", ");
+    print_numbers("lower", level.lower.data(), level.rows());
+    std::printf(", ");
+    print_numbers("upper", level.upper.data(), level.rows());
+    std::printf(", ");
+    print_numbers("x", x[k].data(), n);
+    std::printf("}");
+  }
+  std::printf("]}\n");
 }
 
 int solve_once(const Request& request) {
   for (const HierarchyClass& kind : kHierarchyClasses) {
     if (kind.name != request.only_class) continue;
     const Hierarchy levels = make(kind, request.seed, request.only_rho);
+    if (request.json) {
+      print_json(levels);
+      return 0;
+    }
     Solver solver(unknowns_of(levels));
     const Solution& solution = solver.solve(levels);
     std::printf("%s// x: %s\n", as_text(levels).c_str(), vector_text(solution.x).c_str());
@@ -116,7 +186,7 @@ int solve_once(const Request& request) {
                 solution.final_levels);
     std::printf("// judged: feasibility %.1e, stationarity %.1e, smallest step %.1e\n",
                 verdict.feasibility, verdict.stationarity, verdict.smallest);
-    return failure(solution).empty() && verdict.worst() <= kProven ? 0 : 1;
+    return finished(solution, levels) && verdict.worst() <= kProven ? 0 : 1;
   }
   std::fprintf(stderr, "--once wants --class, --rho and --seed\n");
   return 2;
@@ -126,8 +196,8 @@ Request read(int argc, char** argv) {
   Request request;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--once") {
-      request.once = true;
+    if (name == "--once" || name == "--json") {
+      (name == "--once" ? request.once : request.json) = true;
       continue;
     }
     const char* value = i + 1 < argc ? argv[++i] : "";
@@ -159,8 +229,8 @@ int main(int argc, char** argv) {
     if (request.only_class.empty() || request.only_class == kind.name) shares += 1.0 / kind.rarity;
   }
   if (request.only_rho < 0.0) shares *= static_cast<double>(kRegularisations.size());
-  std::printf("%-16s %7s %9s %7s %9s %20s %9s %9s\n", "class", "rho", "problems", "failed", "worst",
-              "its seed", "judged", "worst");
+  std::printf("%-16s %7s %9s %8s %9s %20s %9s %9s %6s\n", "class", "rho", "problems", "unproven",
+              "worst", "its seed", "judged", "worst", "wrong");
   const std::clock_t begin = std::clock();
   Tally total;
   for (const HierarchyClass& kind : kHierarchyClasses) {
@@ -170,15 +240,9 @@ int main(int argc, char** argv) {
       if (request.only_rho >= 0.0 && request.only_rho != rho) continue;
       const Tally tally = run(kind, rho, static_cast<long>(std::ceil(share)), request);
       print(kind.name, rho, tally);
-      total.solved += tally.solved;
-      total.failed += tally.failed;
-      total.judged += tally.judged;
-      total.worst = std::max(total.worst, tally.worst);
-      total.worst_judged = std::max(total.worst_judged, tally.worst_judged);
+      total.add(tally);
     }
   }
-  std::printf("%ld problems, %ld failed, worst residual %.1e; %ld judged, worst %.1e; %.0f s\n",
-              total.solved, total.failed, total.worst, total.judged, total.worst_judged,
-              static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  return total.failed ? 1 : 0;
+  print_summary(total, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  return total.wrong || total.unfinished ? 1 : 0;
 }

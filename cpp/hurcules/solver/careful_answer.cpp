@@ -76,6 +76,22 @@ void CarefulLevel::step_to_violation(Long rho) {
   }
 }
 
+void CarefulLevel::move_back(Long rho) {
+  for (Line& line : lines_) {
+    line.lower += line.lower_moved;
+    line.upper -= line.upper_moved;
+    line.lower_moved = line.upper_moved = 0.0L;
+  }
+  for (Index j = 0; j < first_; ++j) z_[j] = -excess(basis_.mark(j));
+  basis_.solve(first_, z_.data());
+  for (Index j = 0; j < first_; ++j) {
+    const Long* b = basis_.direction(j);
+    for (Index c = 0; c < free_; ++c) t_[c] += z_[j] * b[c];
+  }
+  step_to_violation(rho);
+  for (Index c = 0; c < free_; ++c) t_[c] += p_[c];
+}
+
 void CarefulLevel::step_to_smallest() {
   basis_.remove(t_.data(), p_.data(), z_.data());
   for (Index c = 0; c < free_; ++c) p_[c] = -p_[c];

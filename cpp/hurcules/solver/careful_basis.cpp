@@ -64,6 +64,14 @@ bool CarefulBasis::add(const Long* row, Index mark, Long least) {
   return true;
 }
 
+void CarefulBasis::solve(Index end, Long* b) const {
+  for (Index i = 0; i < end; ++i) {
+    const Long* l = &parts_[i * columns_];
+    for (Index j = 0; j < i; ++j) b[i] -= l[j] * b[j];
+    b[i] /= l[i];
+  }
+}
+
 void CarefulBasis::solve_transposed(Index end, Long* b) const {
   for (Index i = end - 1; i >= 0; --i) {
     const Long* l = &parts_[i * columns_];

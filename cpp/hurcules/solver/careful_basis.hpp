@@ -18,7 +18,8 @@ class CarefulBasis {
   bool add(const Long* row, Index mark, Long least);
   // what is left of a row outside all directions, in `rest`, and its parts along them
   Long remove(const Long* row, Long* rest, Long* parts) const;
-  // L' m = b over directions [0, end), in place
+  // L m = b and L' m = b over directions [0, end), in place
+  void solve(Index end, Long* b) const;
   void solve_transposed(Index end, Long* b) const;
 
   [[nodiscard]] Index size() const { return size_; }

@@ -13,7 +13,8 @@ using Long = long double;
 
 // limits of rows above are moved outwards by this part of max(1, |x|), and up to twice as much
 constexpr Long kApart = 1e-14L;
-// an own row is violated beyond this part of max(1, |x|)
+// an own row is violated beyond this part of the longest step so far: what rounds is its value,
+// and in cones of 1e-8 rad violations of 1e-19 decide where x of 1e-3 goes
 constexpr Long kViolated = 1e-17L;
 // ... and where it did not count so far beyond as many times more, so that rounding does not swap
 constexpr Long kEnters = 10.0L;
@@ -65,6 +66,7 @@ void CarefulLevel::start(const RowTable& rows, const Chain& chain, const LevelPr
   lines_.clear();
   for (int i = 0; i < rows.begin(level.level() + 1); ++i) add_line(i);
   std::fill(t_.begin(), t_.end(), 0.0L);
+  reach_ = 0.0L;
 }
 
 void CarefulLevel::add_line(int row) {
@@ -86,8 +88,17 @@ void CarefulLevel::add_line(int row) {
   }
   if (!own && size2 <= tolerance::kLost * tolerance::kLost) return;
   const Long before = dot(x_above_);
-  Line line = {row,         own,  r.norm, r.lower - before, r.upper - before, State::Inside,
-               Side::Upper, 0.0L, 0.0L};
+  Line line = {.row = row,
+               .own = own,
+               .norm = r.norm,
+               .lower = r.lower - before,
+               .upper = r.upper - before,
+               .lower_moved = 0.0L,
+               .upper_moved = 0.0L,
+               .state = State::Inside,
+               .side = Side::Upper,
+               .multiplier = 0.0L,
+               .pull = 0.0L};
   line.lower /= line.norm;
   line.upper /= line.norm;
   const Long violated = kViolated * x_scale_;
@@ -101,8 +112,10 @@ void CarefulLevel::add_line(int row) {
   } else if (!own) {
     const Index place = static_cast<Index>(lines_.size());
     const Long apart = kApart * x_scale_;
-    line.upper = std::max(line.upper, 0.0L) + apart * (1.0L + scattered(2 * place));
-    line.lower = std::min(line.lower, 0.0L) - apart * (1.0L + scattered(2 * place + 1));
+    line.upper_moved = apart * (1.0L + scattered(2 * place));
+    line.lower_moved = apart * (1.0L + scattered(2 * place + 1));
+    line.upper = std::max(line.upper, 0.0L) + line.upper_moved;
+    line.lower = std::min(line.lower, 0.0L) - line.lower_moved;
   }
   lines_.push_back(line);
 }
@@ -141,8 +154,9 @@ bool CarefulLevel::blocked(State own) {
   }
   for (Index j = 0; j < free_; ++j) {
     t_[j] += way * p_[j];
-    x_scale_ = std::max(x_scale_, std::abs(t_[j]));
+    reach_ = std::max(reach_, std::abs(t_[j]));
   }
+  x_scale_ = std::max(x_scale_, reach_);
   if (found < 0) return false;
   lines_[found].state = lines_[found].own ? own : State::Held;
   return true;
@@ -151,7 +165,7 @@ bool CarefulLevel::blocked(State own) {
 // own rows count where they are beyond a limit, on whichever side that is now
 bool CarefulLevel::revise_violated() {
   bool changed = false;
-  const Long room = kViolated * x_scale_;
+  const Long room = kViolated * reach_;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     Line& line = lines_[i];
     if (!line.own || (line.state != State::Violated && line.state != State::Inside)) continue;
@@ -186,13 +200,17 @@ Long CarefulLevel::pull(Index round) const {
   return kPull * std::pow(10.0L, static_cast<Long>(round / rounds()));
 }
 
-bool CarefulLevel::find_violation(Long rho, Budget& budget) {
+bool CarefulLevel::find_violation(Long rho, bool onto, Budget& budget) {
   for (Index round = 0; round < kLadder * rounds() && !budget.spent(); ++round, ++budget.used) {
     build_basis(State::Held);
     step_to_violation(rho);
     if (blocked(State::Violated) || revise_violated()) continue;
-    const Long forces = balance_violation(rho);
+    Long forces = balance_violation(rho);
     if (drop_worst(&Line::multiplier, -pull(round) * forces)) continue;
+    if (onto) {
+      move_back(rho);
+      forces = balance_violation(rho);
+    }
     if (rho == 0.0L) settle(forces);
     return true;
   }
@@ -223,9 +241,9 @@ void CarefulLevel::settle(Long forces) {
   }
 }
 
-bool CarefulLevel::solve(double rho, Budget& budget, double* x, std::vector<HeldRow>& held,
-                         int& begin_norm) {
-  bool found = find_violation(rho, budget);
+bool CarefulLevel::solve(double rho, bool onto, Budget& budget, double* x,
+                         std::vector<HeldRow>& held, int& begin_norm) {
+  bool found = find_violation(rho, onto, budget);
   if (found && rho == 0.0) {
     found = find_smallest(budget);
   } else if (found) {

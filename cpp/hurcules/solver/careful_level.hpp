@@ -6,7 +6,8 @@
 // step with that violation. Each is a primal active set that is feasible and falls all along. The
 // limits of rows above are moved outwards by different amounts of about 1e-14, so that no more of
 // them meet in a point than there are directions: then every step has a length, the objective falls
-// with each, and no set of held limits returns.
+// with each, and no set of held limits returns. In a cone of 1e-8 rad those 1e-14 are 1e-6 of x: so
+// the answer can be brought back onto the limits that hold it (`onto`).
 #pragma once
 
 #include <vector>
@@ -27,7 +28,8 @@ class CarefulLevel {
              const double* x_above, double x_scale);
   // To the answer x; then `held` has its rows (those of the smallest step from begin_norm on).
   // False when it does not get there; x is the best point so far.
-  bool solve(double rho, Budget& budget, double* x, std::vector<HeldRow>& held, int& begin_norm);
+  bool solve(double rho, bool onto, Budget& budget, double* x, std::vector<HeldRow>& held,
+             int& begin_norm);
 
  private:
   using Long = long double;
@@ -44,6 +46,7 @@ class CarefulLevel {
     bool own;   // its violation counts
     Long norm;  // |a|; coordinates and limits of rows are divided by it
     Long lower, upper;
+    Long lower_moved, upper_moved;  // by how much they were moved outwards
     State state;
     Side side;
     Long multiplier;  // against the violations
@@ -62,7 +65,7 @@ class CarefulLevel {
     return line.state == State::Equality || line.state == State::Violated;
   }
 
-  bool find_violation(Long rho, Budget& budget);
+  bool find_violation(Long rho, bool onto, Budget& budget);
   bool find_smallest(Budget& budget);
   // directions of `first` rows, of the rows that count, and of held rows unless they came first
   void build_basis(State first);
@@ -81,6 +84,8 @@ class CarefulLevel {
   [[nodiscard]] Index rounds() const { return 2 * (free_ + static_cast<Index>(lines_.size()) + 1); }
   // lets the held row go that pulls most, by what `part` says
   bool drop_worst(Long Line::* part, Long least);
+  // limits back to where they were, the point onto those that hold it
+  void move_back(Long rho);
   // what may not change any more once the violation is the smallest
   void settle(Long forces);
   void write(double* x);
@@ -92,6 +97,7 @@ class CarefulLevel {
   const double* x_above_ = nullptr;
   Index free_ = 0;
   Long x_scale_ = 1.0L;  // what rounding in x is relative to: the largest x so far
+  Long reach_ = 0.0L;    // the largest |t| so far
   std::vector<Line> lines_;
   std::vector<Long> coordinates_;  // (lines, free)
   CarefulBasis basis_;

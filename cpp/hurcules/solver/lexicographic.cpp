@@ -170,7 +170,7 @@ double Lexicographic::regularization(double rho, int k) {
 }
 
 bool Lexicographic::believed(Way way) const {
-  return !options_.proof && way != Way::Careful;
+  return !options_.proof && way < Way::Careful;
 }
 
 double Lexicographic::harm_above(int k) {
@@ -210,22 +210,29 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
     residual = std::max(residual, harm);
     proven = done && !raised_ && residual <= tolerance::kProven;
   };
-  // a proven answer that moves the rows above a little: good enough where nothing is better
-  Way second_best = Way::Careful;
+  // what is nearest to proven, and moves the rows above least: where nothing is better
+  Way best = Way::Careful, last = best;
+  double least = std::numeric_limits<double>::infinity();
   const bool least_distance = rho >= tolerance::kSmall * problem_.own_norm();
-  for (const Way way : {Way::Warm, Way::Cold, Way::Settled, Way::Careful}) {
+  for (const Way way :
+       {Way::Warm, Way::Cold, Way::Settled, Way::Careful, Way::Onto, Way::Unregularised}) {
     if (way == Way::Warm && !has_kept(k)) continue;
     // the usual way of a level with a small rho
     if (way == Way::Settled && !least_distance) continue;
+    // rho^2 |t| is lost in the rounding of the violations
+    if (way == Way::Unregularised && rho > tolerance::kTiny * problem_.own_norm()) continue;
     if (way == Way::Careful && proven_to_stay(rho, k, residual)) {
       done = true;
       return residual;
     }
-    go(way);
+    go(last = way);
     if (budget_.spent() || (proven && harm <= tolerance::kHarm)) return residual;
-    if (proven) second_best = way;
+    if (way >= Way::Careful && proven) return residual;
+    if (!done || !(residual < least)) continue;
+    best = way;
+    least = residual;
   }
-  if (!proven && second_best != Way::Careful) go(second_best);
+  if (best != last) go(best);
   return residual;
 }
 

@@ -1,6 +1,6 @@
 // The default method: the loop over the levels, and all memory that it needs (solver.md §1).
 //
-// A level has up to four ways to its answer, from the quickest to the most careful; the first
+// A level has up to six ways to its answer, from the quickest to the most careful; the first
 // whose answer proves itself counts.
 #pragma once
 
@@ -34,7 +34,8 @@ class Lexicographic : public Method {
   void restore(StateReader& reader) override;
 
  private:
-  enum class Way { Warm, Cold, Settled, Careful };
+  // Onto: as Careful, but back onto the limits. Unregularised: and a small rho taken for nothing.
+  enum class Way { Warm, Cold, Settled, Careful, Onto, Unregularised };
 
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
@@ -65,7 +66,7 @@ class Lexicographic : public Method {
   bool solve_kept(double rho, int k);
   // rho nothing or small: the settled level; or proximal steps and the smallest step
   bool solve_settled(Way way, double rho, int k);
-  bool solve_carefully(double rho);
+  bool solve_carefully(Way way, double rho);
   // from the rows of the last solve, or from those that the active set holds now
   bool settle_kept(double rho, int k);
   bool settle_held(double rho, double epsilon);

@@ -9,7 +9,7 @@ namespace hurcules {
 
 bool Lexicographic::solve(Way way, double rho, int k) {
   chain_->complete(rows_);
-  if (way == Way::Careful) return solve_carefully(rho);
+  if (way >= Way::Careful) return solve_carefully(way, rho);
   return rho >= tolerance::kSmall * problem_.own_norm() ? solve_regularized(way, rho, k)
                                                         : solve_settled(way, rho, k);
 }
@@ -50,10 +50,11 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
   return false;
 }
 
-bool Lexicographic::solve_carefully(double rho) {
+bool Lexicographic::solve_carefully(Way way, double rho) {
   ++solution_.factorizations;
   careful_level_.start(rows_, *chain_, problem_, x_above_, above_scale_);
-  return careful_level_.solve(rho, budget_, x_, held_, begin_norm_);
+  return careful_level_.solve(way == Way::Unregularised ? 0.0 : rho, way != Way::Careful, budget_,
+                              x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {

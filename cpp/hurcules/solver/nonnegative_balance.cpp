@@ -9,7 +9,7 @@ namespace {
 
 using Long = long double;
 
-// a pull that is rounding, relative to all forces
+// a pull that is rounding, relative to b
 constexpr Long kNoPull = 1e-18L;
 // a direction of which less is outside the others depends on them
 constexpr Long kDependent = 1e-15L;
@@ -46,7 +46,7 @@ void NonnegativeBalance::solve(const Long* b) {
   const Index most = 3 * size_ + 30;
   for (Index round = 0; round < most; ++round) {
     const Index i = most_pulling();
-    if (i < 0) return;
+    if (i < 0) break;
     if (!enter(i) || !settle(i)) {
       // rounding: until something else helped it may not come in again
       state_[i] = State::Barred;
@@ -60,10 +60,12 @@ void NonnegativeBalance::solve(const Long* b) {
       if (state_[j] == State::Barred) state_[j] = State::Out;
     }
   }
+  add_up();
 }
 
 Index NonnegativeBalance::most_pulling() const {
-  Long best = kNoPull * forces_;
+  Long best = 0.0L;
+  for (Index j = 0; j < columns_; ++j) best += kNoPull * std::abs(b_[j]);
   Index found = -1;
   for (Index i = 0; i < size_; ++i) {
     if (state_[i] != State::Out) continue;
@@ -121,15 +123,17 @@ bool NonnegativeBalance::settle(Index entered) {
   }
 }
 
+// What is left at the best weights of those that are in, as what of b is outside them: their sum
+// would round by the weights, which in a cone of 1e-8 rad are 1e8 times b, and hide the pulls.
 void NonnegativeBalance::find_rest() {
+  left_ = basis_.remove(b_, rest_.data(), wanted_.data());
+}
+
+void NonnegativeBalance::add_up() {
   std::copy_n(b_, columns_, rest_.begin());
-  forces_ = 0.0L;
-  for (Index j = 0; j < columns_; ++j) forces_ += std::abs(b_[j]);
   for (Index i = 0; i < size_; ++i) {
-    if (weight_[i] == 0.0L) continue;
     const Long* c = direction(i);
     for (Index j = 0; j < columns_; ++j) rest_[j] += weight_[i] * c[j];
-    forces_ += weight_[i];
   }
   left_ = 0.0L;
   for (Index j = 0; j < columns_; ++j) left_ += rest_[j] * rest_[j];

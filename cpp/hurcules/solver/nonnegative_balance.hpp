@@ -46,13 +46,15 @@ class NonnegativeBalance {
   void build_basis();
   void find_wanted();
   void find_rest();
+  // the same from the weights
+  void add_up();
 
   Index columns_ = 0, size_ = 0;
   const Long* b_ = nullptr;
   CarefulBasis basis_;  // of those that are in
   std::vector<Long> directions_, weight_, wanted_, rest_;
   std::vector<State> state_;
-  Long left_ = 0.0L, forces_ = 0.0L;
+  Long left_ = 0.0L;
 };
 
 }  // namespace hurcules

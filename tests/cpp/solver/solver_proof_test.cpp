@@ -46,6 +46,35 @@ TEST_P(SolverProof, EveryAnswerIsOptimalByTheDefinitionAlone) {
 
 HURCULES_FOR_EACH_CLASS(SolverProof);
 
+// Found by the bulk run: these ended elsewhere. Where rho = 1e-9 the step was up to 25 % too long,
+// in the others x was off by 8e-3 (by arithmetic of 130 digits, benchmarks/exact_referee.py).
+struct Found {
+  const char* name;
+  double rho;
+  unsigned long long seed;
+};
+constexpr Found kFound[] = {
+    {"thin_cones", 1e-9, 5121}, {"thin_cones", 1e-9, 4903}, {"thin_cones", 1e-9, 3927},
+    {"thin_cones", 1e-9, 1148}, {"thin_cones", 1e-9, 3596}, {"repeats", 1e-9, 2779},
+    {"thin_cones", 0.1, 849},   {"thin_cones", 0.0, 849},
+};
+
+TEST(SolverProofFound, AnswersThatEndedElsewhereAreProvenNow) {
+  for (const Found& found : kFound) {
+    SCOPED_TRACE(std::string(found.name) + " " + std::to_string(found.seed));
+    for (const HierarchyClass& kind : kHierarchyClasses) {
+      if (std::string(kind.name) != found.name) continue;
+      Draw draw(found.seed);
+      const Hierarchy levels = kind.make(draw, found.rho);
+      Solver solver(unknowns_of(levels));
+      EXPECT_EQ(to_string(solver.solve(levels).status), "solved");
+      EXPECT_LE(solver.solution().optimality, kProven);
+      const std::vector<Vector> x = answers_by_level(levels, unknowns_of(levels));
+      EXPECT_LE(OptimalityJudge(levels).judge(x).worst(), kProven);
+    }
+  }
+}
+
 Level one_row(Matrix a, double lower, double upper, double rho) {
   return interval(std::move(a), Vector::Constant(1, lower), Vector::Constant(1, upper), rho);
 }
