@@ -93,13 +93,12 @@ void Robot::position_jacobian(Frame frame, MatrixRef J) const {
   const auto at = [&](const auto& screw) {
     return Vector3(screw.template tail<3>() + Vector3(screw.template head<3>()).cross(r));
   };
-  if (stands(body)) {
-    for (Index i = 0; i < size(); ++i) J.col(i) = at(root_screws_.col(i));
-  } else {
-    J.setZero();
-  }
+  J.setZero();
   for (const Index j : above(body))
     J.col(driven_[static_cast<std::size_t>(j)].coordinate) += at(screws_.col(j));
+  if (!stands(body)) return;
+  for (const Index j : above(support_))
+    J.col(driven_[static_cast<std::size_t>(j)].coordinate) -= at(screws_.col(j));
 }
 
 void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {

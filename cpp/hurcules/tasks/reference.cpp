@@ -55,7 +55,7 @@ void Reference::measure(const Robot& robot) {
   rotation_.measure(robot, *frame_);
 }
 
-void Reference::express(PointMotion& point) const {
+void Reference::express_state(PointMotion& point) const {
   if (!frame_) return;
   const Matrix3 R = rotation_.orientation.transpose();
   const Vector3& w = rotation_.velocity;
@@ -66,6 +66,13 @@ void Reference::express(PointMotion& point) const {
   point.drift = R * (a - rotation_.drift.cross(r) - 2 * w.cross(v) + w.cross(w.cross(r)));
   point.velocity = R * (v - w.cross(r));
   point.position = R * r;
+}
+
+void Reference::express(PointMotion& point) const {
+  if (!frame_) return;
+  const Matrix3 R = rotation_.orientation.transpose();
+  const Vector3 r = point.position - origin_.position;
+  express_state(point);
   for (Index i = 0; i < point.jacobian.cols(); ++i) {
     const Vector3 turn = rotation_.jacobian.col(i);
     const Vector3 shift = point.jacobian.col(i) - origin_.jacobian.col(i);

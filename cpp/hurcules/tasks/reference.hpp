@@ -44,7 +44,10 @@ class Reference {
 
   void measure(const Robot& robot);
   void express(PointMotion& point) const;
+  // position, velocity and drift alone: the Jacobian stays in W
+  void express_state(PointMotion& point) const;
   void express(RotationMotion& rotation) const;
+  [[nodiscard]] const RotationMotion& rotation() const { return rotation_; }  // in W
 
  private:
   std::optional<Frame> frame_;

@@ -64,16 +64,23 @@ void SwivelTask::measure(const Robot& robot) {
   shoulder_.measure(robot, shoulder_frame_);
   elbow_.measure(robot, elbow_frame_);
   wrist_.measure(robot, wrist_frame_);
-  for (PointMotion* point : {&shoulder_, &elbow_, &wrist_}) torso_.express(*point);
+  const Vector3 to_elbow = elbow_.position - shoulder_.position;
+  const Vector3 to_wrist = wrist_.position - shoulder_.position;
+  for (PointMotion* point : {&shoulder_, &elbow_, &wrist_}) torso_.express_state(*point);
 
   const Swivel now = swivel(direction_, between(shoulder_, elbow_), between(shoulder_, wrist_));
   value_[0] = now.angle.value;
   drift_[0] = now.angle.acceleration;
-  const Vector3 by_shoulder = -now.by_elbow - now.by_wrist;
+  // the gradients in W, and what the turning torso takes away
+  const RotationMotion& torso = torso_.rotation();
+  const Vector3 by_elbow = torso.orientation * now.by_elbow;
+  const Vector3 by_wrist = torso.orientation * now.by_wrist;
+  const Vector3 by_shoulder = -by_elbow - by_wrist;
+  const Vector3 by_turn = -to_elbow.cross(by_elbow) - to_wrist.cross(by_wrist);
   for (Index i = 0; i < jacobian_.cols(); ++i)
-    jacobian_(0, i) = now.by_elbow.dot(elbow_.jacobian.col(i)) +
-                      now.by_wrist.dot(wrist_.jacobian.col(i)) +
-                      by_shoulder.dot(shoulder_.jacobian.col(i));
+    jacobian_(0, i) = by_elbow.dot(elbow_.jacobian.col(i)) + by_wrist.dot(wrist_.jacobian.col(i)) +
+                      by_shoulder.dot(shoulder_.jacobian.col(i)) +
+                      by_turn.dot(torso.jacobian.col(i));
 }
 
 }  // namespace hurcules
