@@ -132,7 +132,7 @@ def test_a_run_that_loses_an_encoder_says_so(
         def __init__(self, *arguments: Any, **named: Any) -> None:
             fault = SensorFault("encoder_position/LEB", FaultKind.NotANumber, 0.1)
             options = SensorOptions(faults=[fault], hold_seconds=0.2)
-            super().__init__(*arguments, **named, sensors=options)
+            super().__init__(*arguments, **(named | {"sensors": options}))
 
     monkeypatch.setattr(runs, "Simulation", Broken)
     assert run(RunOptions(out=tmp_path, video=False), Console(quiet=True)) == FAILED
