@@ -176,11 +176,8 @@ Run least(int rounds, Make&& make) {
 }
 
 void print_row(const char* name, std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  const auto at = [&](double share) {
-    return 1e6 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
-  };
-  std::printf("  %-12s %9.2f %9.2f %9.2f %9.2f\n", name, at(0.5), at(0.99), at(0.999), at(1.0));
+  const Quantiles q = quantiles(std::move(seconds));
+  std::printf("  %-12s %9.2f %9.2f %9.2f %9.2f\n", name, q.median, q.p99, q.p999, q.max);
 }
 
 std::size_t print(const char* what, const Run& run) {

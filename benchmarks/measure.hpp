@@ -24,7 +24,7 @@ double seconds_of(Call&& call) {
 }
 
 struct Quantiles {
-  double median = 0.0, p99 = 0.0, max = 0.0;  // [us]
+  double median = 0.0, p99 = 0.0, max = 0.0, p999 = 0.0;  // [us]
 };
 
 inline Quantiles quantiles(std::vector<double> seconds) {
@@ -33,7 +33,7 @@ inline Quantiles quantiles(std::vector<double> seconds) {
   const auto at = [&](double share) {
     return 1e6 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
   };
-  return {at(0.5), at(0.99), at(1.0)};
+  return {at(0.5), at(0.99), at(1.0), at(0.999)};
 }
 
 // Measures the same cases in several rounds and keeps the least of each: what other programs of the

@@ -9,26 +9,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from hurcules import models, postures
+from hurcules import postures
+from hurcules.reproduce.measures import look_and_move
 from hurcules.reproduce.measures.rig import start
-
-HANDLE = 0.093  # [m] above the ground: where the hand is in `acquisition`
 
 
 def scene(force=None):
     """The robot and the case, far away; peak force of the gripper [N]."""
-    spec = models.parse([models.path("manipulation"), models.folder() / "scenes/flat.xml"], "grip")
-    case = spec.worldbody.add_body(name="case", pos=[5, 0, 0.03])
-    case.add_freejoint(name="case")
-    box, capsule = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_CAPSULE
-    bits = {"contype": 8, "conaffinity": 15, "friction": [0.6, 0.005, 0.001]}
-    case.add_geom(name="case", type=box, size=[0.2, 0.15, 0.03], mass=29.5, **bits)
-    top = HANDLE - 0.03
-    case.add_geom(
-        name="handle", type=capsule, size=[0.018, 0, 0], mass=0.5,
-        fromto=[-0.07, 0, top, 0.07, 0, top], **bits,
-    )  # fmt: skip
-    model = spec.compile()
+    model = look_and_move.scene()
     if force:
         model.actuator("L_grip").forcerange[:] = [-force, force]
     return model
