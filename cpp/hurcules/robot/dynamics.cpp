@@ -21,9 +21,10 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   for (Index i = 0; i < size(); ++i) {
     for (const DrivenJoint& joint : coordinates_[i].joints)
       qacc[joint.dof] = joint.factor * acceleration[i];
-    if (support_ >= 0) qacc.segment<6>(root_dof_) += acceleration[i] * root_motion_.col(i);
+    if (support_ >= 0)
+      qacc.segment<6>(root_dof_) += acceleration[i] * screws_->root_motion().col(i);
   }
-  if (support_ >= 0 && moving_) {
+  if (support_ >= 0 && screws_->moving()) {
     // what the root accelerates with when the coordinates do not
     const Frame root{mjOBJ_BODY, tree_};
     qacc.segment<3>(root_dof_) += position_drift(root);
@@ -36,7 +37,8 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   for (int dof = 0; dof < m.nv; ++dof)
     efforts_[dof] += m.dof_armature[dof] * d->qacc[dof] - d->qfrc_passive[dof];
   for (Index i = 0; i < size(); ++i) {
-    torque[i] = support_ >= 0 ? root_motion_.col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
+    torque[i] =
+        support_ >= 0 ? screws_->root_motion().col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
     for (const DrivenJoint& joint : coordinates_[i].joints)
       torque[i] += joint.factor * efforts_[joint.dof];
   }

@@ -42,12 +42,8 @@ std::pair<const double*, const double*> local(const mjModel& m, Frame frame) {
 
 }  // namespace
 
-Skeleton::Pose Robot::pose(int body) const {
-  return skeleton_->pose(body);
-}
-
 Skeleton::Pose Robot::pose(Frame frame) const {
-  const Skeleton::Pose carrier = pose(body_of(*model_, frame));
+  const Skeleton::Pose carrier = screws_->pose(body_of(*model_, frame));
   if (frame.type == mjOBJ_BODY) return carrier;
   const auto [p, q] = local(*model_, frame);
   return carrier *
@@ -55,7 +51,7 @@ Skeleton::Pose Robot::pose(Frame frame) const {
 }
 
 Vector3 Robot::position(Frame frame) const {
-  const Skeleton::Pose carrier = pose(body_of(*model_, frame));
+  const Skeleton::Pose carrier = screws_->pose(body_of(*model_, frame));
   if (frame.type == mjOBJ_BODY) return carrier.p;
   return carrier.p + carrier.R * vector(local(*model_, frame).first);
 }
@@ -88,39 +84,20 @@ Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
 
 void Robot::position_jacobian(Frame frame, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
-  const int body = body_of(*model_, frame);
-  const Vector3 r = position(frame) - origin(body);
-  const auto at = [&](const auto& screw) {
-    return Vector3(screw.template tail<3>() + Vector3(screw.template head<3>()).cross(r));
-  };
-  J.setZero();
-  for (const Index j : above(body))
-    J.col(driven_[static_cast<std::size_t>(j)].coordinate) += at(screws_.col(j));
-  if (!stands(body)) return;
-  for (const Index j : above(support_))
-    J.col(driven_[static_cast<std::size_t>(j)].coordinate) -= at(screws_.col(j));
+  screws_->point_jacobian(position(frame), body_of(*model_, frame), J);
 }
 
 void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
-  const int body = body_of(*model_, frame);
-  if (stands(body)) {
-    J = root_screws_.topRows<3>();
-  } else {
-    J.setZero();
-  }
-  for (const Index j : above(body))
-    J.col(driven_[static_cast<std::size_t>(j)].coordinate) += screws_.col(j).head<3>();
+  screws_->rotation_jacobian(body_of(*model_, frame), J);
 }
 
 Vector3 Robot::position_drift(Frame frame) const {
-  if (!moving_) return Vector3::Zero();
-  return point_drift(position(frame), body_of(*model_, frame));
+  return screws_->point_drift(position(frame), body_of(*model_, frame));
 }
 
 Vector3 Robot::rotation_drift(Frame frame) const {
-  if (!moving_) return Vector3::Zero();
-  return rate_of(body_of(*model_, frame)).head<3>();
+  return screws_->rotation_drift(body_of(*model_, frame));
 }
 
 Vector3 Robot::com() const {
@@ -138,10 +115,10 @@ Vector3 Robot::com_drift() const {
   const mjModel& m = *model_;
   Vector3 force = Vector3::Zero();
   need_kinematics();
-  if (!moving_ || m.body_subtreemass[tree_] == 0) return force;
+  if (!screws_->moving() || m.body_subtreemass[tree_] == 0) return force;
   for (int body = tree_; body < m.nbody; ++body) {
     if (m.body_rootid[body] != tree_ || m.body_mass[body] == 0) continue;
-    force += m.body_mass[body] * point_drift(vector(data_->xipos + 3 * body), body);
+    force += m.body_mass[body] * screws_->point_drift(vector(data_->xipos + 3 * body), body);
   }
   return force / m.body_subtreemass[tree_];
 }
@@ -157,12 +134,14 @@ void Robot::mass_matrix(MatrixRef M) const {
     for (const DrivenJoint& joint : coordinates_[k].joints)
       momentum_ += joint.factor * inertia_.col(joint.dof);
     if (support_ >= 0)
-      for (Index r = 0; r < 6; ++r) momentum_ += root_motion_(r, k) * inertia_.col(root_dof_ + r);
+      for (Index r = 0; r < 6; ++r)
+        momentum_ += screws_->root_motion()(r, k) * inertia_.col(root_dof_ + r);
     for (Index i = 0; i < size(); ++i) {
       M(i, k) = 0;
       for (const DrivenJoint& joint : coordinates_[i].joints)
         M(i, k) += joint.factor * momentum_[joint.dof];
-      if (support_ >= 0) M(i, k) += root_motion_.col(i).dot(momentum_.segment<6>(root_dof_));
+      if (support_ >= 0)
+        M(i, k) += screws_->root_motion().col(i).dot(momentum_.segment<6>(root_dof_));
     }
   }
 }
@@ -173,7 +152,7 @@ void Robot::reduce(const Matrix& full, MatrixRef J) const {
   if (support_ >= 0) root = full.middleCols<6>(root_dof_);
   for (Index i = 0; i < size(); ++i) {
     Vector3 column = Vector3::Zero();
-    if (support_ >= 0) column = root * root_motion_.col(i);
+    if (support_ >= 0) column = root * screws_->root_motion().col(i);
     for (const DrivenJoint& joint : coordinates_[static_cast<std::size_t>(i)].joints)
       column += joint.factor * full.col(joint.dof);
     J.col(i) = column;

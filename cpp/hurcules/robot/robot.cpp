@@ -69,7 +69,7 @@ Robot::Robot(ModelPtr model)
   momentum_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);
   if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
-  find_driven();
+  find_screws();
   set_keyframe("");
 }
 
@@ -116,19 +116,17 @@ void Robot::set_configuration(const ConstVectorRef& q) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
   keep_support();
-  skeleton_->place(*model_, qpos_.data());
-  fresh_ = com_ = false;
+  screws_->place(qpos_.data());
   note_motion();
 }
 
 void Robot::set_velocity(const ConstVectorRef& velocity) {
   require_values(velocity, size(), "set_velocity");
   v_ = velocity;
-  moving_ = (v_.array() != 0).any();
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       data_->qvel[joint.dof] = joint.factor * v_[i];
-  note_rates();
+  note_velocity();
 }
 
 void Robot::set_keyframe(const std::string& name) {
@@ -150,18 +148,27 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
   }
 }
 
+void Robot::find_screws() {
+  screws_ = std::make_unique<Screws>(*model_, coordinates_, tree_, support_);
+}
+
 void Robot::read_qpos() {
-  skeleton_->note(*model_, qpos_.data());
-  skeleton_->place(*model_, qpos_.data());
-  fresh_ = com_ = false;
+  screws_->note(qpos_.data());
+  screws_->place(qpos_.data());
   note_support();
   note_motion();
 }
 
 void Robot::note_motion() {
+  fresh_ = com_ = false;
   coordinates_of(qpos_, q_);
-  note_screws();
-  note_rates();
+  note_velocity();
+}
+
+void Robot::note_velocity() {
+  screws_->set_velocity(v_);
+  if (support_ < 0) return;
+  Eigen::Map<Screw>(data_->qvel + root_dof_).noalias() = screws_->root_motion() * v_;
 }
 
 void Robot::need_kinematics() const {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hurcules/base/types.hpp"
-#include "hurcules/robot/skeleton.hpp"
+#include "hurcules/robot/screws.hpp"
 
 struct mjModel_;
 struct mjData_;
@@ -86,11 +86,10 @@ class Robot {
   // what a task remembers to notice that it is asked about another robot
   [[nodiscard]] ModelIdentity identity() const;
 
-  // The body that stays where it is when the coordinates move; By default
-  // that is the root of its tree. A robot with folding legs stands on
-  // those that lie on the ground: then its root, and all above, moves with the knees, and
-  // Jacobians, drifts and inertia count that. Throws Error for a body of another tree, or one
-  // without free root.
+  // The body that stays where it is when the coordinates move; by default that is the root of its
+  // tree. A robot with folding legs stands on those that lie on the ground: then its root, and all
+  // above, moves with the knees, and Jacobians, drifts and inertia count that. Throws Error for a
+  // body of another tree, or one without free root.
   void stand_on(const std::string& body);
 
   // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it
@@ -131,47 +130,23 @@ class Robot {
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
 
  private:
-  // Angular and linear velocity in W of what is fixed to a body, the linear one of the point that
-  // is at the origin of the body's tree at this moment; or their rates.
-  using Screw = Eigen::Matrix<double, 6, 1>;
-  using Screws = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  // one joint of one coordinate
-  struct Driven {
-    Index coordinate;
-    int dof, joint, body;
-    double factor;
-  };
-
-  void find_driven();
+  void find_screws();   // where another body comes to stand
   void read_qpos();     // all of it, after a change
   void keep_support();  // moves the root so that the support stands where it stood
   void note_support();  // where the support stands
   void note_motion();   // of configuration and velocity
-  void note_screws();
-  void note_rates();
+  void note_velocity();
   // what MuJoCo keeps about the configuration: poses of all bodies; centres of mass
   void need_kinematics() const;
   void need_com() const;
-  [[nodiscard]] Index driven() const { return static_cast<Index>(driven_.size()); }
-  [[nodiscard]] const std::vector<Index>& above(int body) const {
-    return above_[static_cast<std::size_t>(body)];
-  }
-  [[nodiscard]] Skeleton::Pose pose(int body) const;
   [[nodiscard]] Skeleton::Pose pose(Frame frame) const;
-  [[nodiscard]] Vector3 origin(int body) const;  // of its tree
-  // of what is fixed to a body, by all coordinates
-  [[nodiscard]] Screw velocity_of(int body) const;
-  [[nodiscard]] Screw rate_of(int body) const;
-  // what a point of a body accelerates with when the coordinates do not
-  [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;
   // (3, nv) of the model -> (3, n) of the coordinates
   void reduce(const Matrix& full, MatrixRef J) const;
-  [[nodiscard]] bool stands(int body) const;  // its tree stands on something else than the root
 
   ModelPtr model_;
   std::unique_ptr<const mjModel_, void (*)(const mjModel_*)> lean_;  // the same without geoms
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
-  std::unique_ptr<Skeleton> skeleton_;
+  std::unique_ptr<Screws> screws_;  // of the coordinates
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
   int tree_ = 0;      // body at the root of the tree that holds the first coordinate
@@ -179,14 +154,6 @@ class Robot {
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
   Vector3 p_WS_ = Vector3::Zero();      // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
-  // of the driven joints (d), by the coordinate's velocity 1, and their rates at its velocity
-  std::vector<Driven> driven_;             // in the order of the model's joints
-  std::vector<std::vector<Index>> above_;  // (nbody) which of them move a body
-  Screws screws_, rates_;                  // (6, d)
-  Screws root_screws_;                     // (6, n) of a root that stands on another body
-  Screw root_rate_ = Screw::Zero();        // and what it accelerates with
-  Screws root_motion_;                     // (6, n) the same as qvel of the root
-  bool moving_ = false;  // some coordinate has a velocity: only then is there a drift
   mutable bool fresh_ = false, com_ = false;  // need_kinematics, need_com were there
   mutable Matrix full_;                       // scratch for Jacobians, (3, nv)
   mutable Matrix turn_;                       // the same

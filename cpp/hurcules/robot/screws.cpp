@@ -1,9 +1,5 @@
-// How bodies move with the coordinates: a screw for each driven joint, and its rate.
-//
-//   V_b = sum S_j qdot_j       of the driven joints j that move body b
-//   A_b = sum V_<j x S_j qdot_j                  at constant coordinate velocities; V_<j: without j
-//   a point: v = V.lin + w x r,  a = A.lin + A.rot x r + w x v        r: from the tree's origin
-// A root that stands on another body s moves by -V_s and accelerates by -A_s: then s does not.
+#include "hurcules/robot/screws.hpp"
+
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
@@ -14,8 +10,6 @@
 namespace hurcules {
 namespace {
 
-using Screw = Eigen::Matrix<double, 6, 1>;
-
 // rate of a screw b that is fixed in a body with velocity a
 Screw cross(const Screw& a, const Screw& b) {
   const Vector3 w = a.head<3>(), v = a.tail<3>(), wb = b.head<3>(), vb = b.tail<3>();
@@ -24,91 +18,148 @@ Screw cross(const Screw& a, const Screw& b) {
   return rate;
 }
 
+template <class Driven>
+std::vector<int> joints_of(const std::vector<Driven>& driven) {
+  std::vector<int> joints;
+  for (const Driven& joint : driven) joints.push_back(joint.joint);
+  return joints;
+}
+
 }  // namespace
 
-void Robot::find_driven() {
-  const mjModel& m = *model_;
-  driven_.clear();
-  for (Index i = 0; i < size(); ++i)
-    for (const DrivenJoint& joint : coordinates_[static_cast<std::size_t>(i)].joints)
-      driven_.push_back({i, joint.dof, joint.joint, m.jnt_bodyid[joint.joint], joint.factor});
-  std::sort(driven_.begin(), driven_.end(),
+Screws::Screws(const mjModel& model, const std::vector<Coordinate>& coordinates, int root,
+               int support)
+    : model_(&model),
+      root_(root),
+      support_(support),
+      driven_(driven_of(model, coordinates)),
+      skeleton_(model, joints_of(driven_), support < 0 ? -1 : root),
+      velocity_(Vector::Zero(static_cast<Index>(coordinates.size()))) {
+  find_above();
+  root_motion_.setZero(6, velocity_.size());
+}
+
+std::vector<Screws::Driven> Screws::driven_of(const mjModel& model,
+                                              const std::vector<Coordinate>& coordinates) {
+  std::vector<Driven> driven;
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    for (const DrivenJoint& joint : coordinates[i].joints)
+      driven.push_back({.coordinate = static_cast<Index>(i),
+                        .joint = joint.joint,
+                        .body = model.jnt_bodyid[joint.joint],
+                        .factor = joint.factor});
+  std::sort(driven.begin(), driven.end(),
             [](const Driven& a, const Driven& b) { return a.joint < b.joint; });
+  return driven;
+}
+
+void Screws::find_above() {
+  const mjModel& m = *model_;
   above_.assign(static_cast<std::size_t>(m.nbody), {});
   // bodies come after their parents
   for (int body = 1; body < m.nbody; ++body) {
     std::vector<Index>& joints = above_[static_cast<std::size_t>(body)];
     joints = above(m.body_parentid[body]);
-    for (Index j = 0; j < driven(); ++j)
-      if (driven_[static_cast<std::size_t>(j)].body == body) joints.push_back(j);
+    for (std::size_t j = 0; j < driven_.size(); ++j)
+      if (driven_[j].body == body) joints.push_back(static_cast<Index>(j));
   }
-  screws_.setZero(6, driven());
-  rates_.setZero(6, driven());
-  root_screws_.setZero(6, size());
-  std::vector<int> joints;
-  for (const Driven& joint : driven_) joints.push_back(joint.joint);
-  skeleton_ = std::make_unique<Skeleton>(m, joints, support_ < 0 ? -1 : tree_);
 }
 
-Vector3 Robot::origin(int body) const {
+Vector3 Screws::origin(int body) const {
   return pose(model_->body_rootid[body]).p;
 }
 
-void Robot::note_screws() {
-  const mjModel& m = *model_;
-  for (Index j = 0; j < driven(); ++j) {
-    const Driven& joint = driven_[static_cast<std::size_t>(j)];
-    const Vector3& axis = skeleton_->axis(j);
-    if (m.jnt_type[joint.joint] == mjJNT_SLIDE) {
-      screws_.col(j) << Vector3::Zero(), joint.factor * axis;
+bool Screws::stands(int body) const {
+  return support_ >= 0 && model_->body_rootid[body] == root_;
+}
+
+void Screws::place(const double* qpos) {
+  skeleton_.place(*model_, qpos);
+  for (std::size_t j = 0; j < driven_.size(); ++j) {
+    Driven& joint = driven_[j];
+    const Vector3& axis = skeleton_.axis(static_cast<Index>(j));
+    const Vector3& anchor = skeleton_.anchor(static_cast<Index>(j));
+    if (model_->jnt_type[joint.joint] == mjJNT_SLIDE) {
+      joint.screw << Vector3::Zero(), joint.factor * axis;
     } else {
-      screws_.col(j) << joint.factor * axis,
-          joint.factor * (skeleton_->anchor(j) - origin(joint.body)).cross(axis);
+      joint.screw << joint.factor * axis, joint.factor * (anchor - origin(joint.body)).cross(axis);
     }
   }
-  if (support_ < 0) return;
-  root_screws_.setZero();
-  for (const Index j : above(support_))
-    root_screws_.col(driven_[static_cast<std::size_t>(j)].coordinate) -= screws_.col(j);
-  // a free joint's qvel: velocity of the origin in W, angular velocity in its own axes
-  root_motion_.topRows<3>() = root_screws_.bottomRows<3>();
-  root_motion_.bottomRows<3>().noalias() = pose(tree_).R.transpose() * root_screws_.topRows<3>();
+  if (support_ >= 0) note_root();
 }
 
-void Robot::note_rates() {
-  if (support_ >= 0) Eigen::Map<Screw>(data_->qvel + root_dof_).noalias() = root_motion_ * v_;
+void Screws::note_root() {
+  root_motion_.setZero();
+  for (const Index j : above(support_)) root_motion_.col(driven(j).coordinate) -= driven(j).screw;
+  // a free joint's qvel: velocity of the origin in W, angular velocity in its own axes
+  const Matrix3 R = pose(root_).R;
+  for (Index i = 0; i < root_motion_.cols(); ++i) {
+    const Vector3 w = root_motion_.col(i).head<3>(), v = root_motion_.col(i).tail<3>();
+    root_motion_.col(i) << v, R.transpose() * w;
+  }
+}
+
+void Screws::set_velocity(const Vector& velocity) {
+  velocity_ = velocity;
+  moving_ = (velocity.array() != 0).any();
+  root_velocity_.setZero();
   root_rate_.setZero();
   if (!moving_) return;
-  const Screw root = support_ >= 0 ? Screw(root_screws_ * v_) : Screw::Zero();
-  for (Index j = 0; j < driven(); ++j) {
-    const Driven& joint = driven_[static_cast<std::size_t>(j)];
-    Screw before = stands(joint.body) ? root : Screw::Zero();
-    for (const Index k : above(joint.body))
-      if (k < j) before += v_[driven_[static_cast<std::size_t>(k)].coordinate] * screws_.col(k);
-    rates_.col(j) = cross(before, screws_.col(j)) * v_[joint.coordinate];
+  if (support_ >= 0)
+    for (const Index j : above(support_))
+      root_velocity_ -= velocity_[driven(j).coordinate] * driven(j).screw;
+  for (std::size_t i = 0; i < driven_.size(); ++i) {
+    Driven& joint = driven_[i];
+    Screw before = stands(joint.body) ? root_velocity_ : Screw::Zero();
+    for (const Index j : above(joint.body))
+      if (j < static_cast<Index>(i)) before += velocity_[driven(j).coordinate] * driven(j).screw;
+    joint.rate = cross(before, joint.screw) * velocity_[joint.coordinate];
   }
   if (support_ < 0) return;
-  for (const Index j : above(support_)) root_rate_ -= rates_.col(j);
+  for (const Index j : above(support_)) root_rate_ -= driven(j).rate;
 }
 
-Robot::Screw Robot::velocity_of(int body) const {
-  Screw twist = stands(body) ? Screw(root_screws_ * v_) : Screw::Zero();
-  for (const Index j : above(body))
-    twist += v_[driven_[static_cast<std::size_t>(j)].coordinate] * screws_.col(j);
+template <class Of>
+void Screws::fill(int body, MatrixRef J, Of&& of) const {
+  J.setZero();
+  for (const Index j : above(body)) J.col(driven(j).coordinate) += of(driven(j).screw);
+  if (!stands(body)) return;
+  for (const Index j : above(support_)) J.col(driven(j).coordinate) -= of(driven(j).screw);
+}
+
+void Screws::point_jacobian(const Vector3& point, int body, MatrixRef J) const {
+  const Vector3 r = point - origin(body);
+  fill(body, J, [&](const Screw& screw) -> Vector3 {
+    return screw.tail<3>() + Vector3(screw.head<3>()).cross(r);
+  });
+}
+
+void Screws::rotation_jacobian(int body, MatrixRef J) const {
+  fill(body, J, [](const Screw& screw) -> Vector3 { return screw.head<3>(); });
+}
+
+Screw Screws::velocity_of(int body) const {
+  Screw twist = stands(body) ? root_velocity_ : Screw::Zero();
+  for (const Index j : above(body)) twist += velocity_[driven(j).coordinate] * driven(j).screw;
   return twist;
 }
 
-Robot::Screw Robot::rate_of(int body) const {
+Screw Screws::rate_of(int body) const {
   Screw rate = stands(body) ? root_rate_ : Screw::Zero();
-  for (const Index j : above(body)) rate += rates_.col(j);
+  for (const Index j : above(body)) rate += driven(j).rate;
   return rate;
 }
 
-Vector3 Robot::point_drift(const Vector3& point, int body) const {
+Vector3 Screws::point_drift(const Vector3& point, int body) const {
+  if (!moving_) return Vector3::Zero();
   const Screw twist = velocity_of(body), rate = rate_of(body);
   const Vector3 r = point - origin(body), w = twist.head<3>();
   const Vector3 v = twist.tail<3>() + w.cross(r);
   return rate.tail<3>() + Vector3(rate.head<3>()).cross(r) + w.cross(v);
+}
+
+Vector3 Screws::rotation_drift(int body) const {
+  return moving_ ? Vector3(rate_of(body).head<3>()) : Vector3::Zero();
 }
 
 }  // namespace hurcules

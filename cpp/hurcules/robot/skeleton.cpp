@@ -87,7 +87,7 @@ void Skeleton::note(const mjModel& m, const double* qpos) {
     const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;
     Bone* const bone = hanging.bone < 0 ? nullptr : &bones_[static_cast<std::size_t>(hanging.bone)];
     if (bone && bone->body == body) {
-      bone->hangs = parent;
+      bone->mounted = parent * mounted(m, body);
     } else {
       hanging.pose = parent * moved(m, body, mounted(m, body), qpos, kUnseen);
     }
@@ -107,8 +107,7 @@ void Skeleton::place(const mjModel& m, const double* qpos) {
       const double* const q = qpos + m.jnt_qposadr[m.body_jntadr[bone.body]];
       poses_[i] = {vector(q), rotation(q + 3)};
     } else {
-      const Pose start = of_bone(bone.parent) * bone.hangs * mounted(m, bone.body);
-      poses_[i] = moved(m, bone.body, start, qpos, see);
+      poses_[i] = moved(m, bone.body, of_bone(bone.parent) * bone.mounted, qpos, see);
     }
   }
 }

@@ -42,7 +42,7 @@ class Skeleton {
     int body = 0;
     int parent = -1;  // bone, -1: the world
     bool root = false;
-    Pose hangs;  // pose of the body's parent in the parent bone, or in W
+    Pose mounted;  // in the parent bone, or in W, before its own joints
   };
   struct Hanging {
     int bone = -1;

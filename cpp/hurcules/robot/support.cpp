@@ -10,6 +10,7 @@
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
+
 void Robot::stand_on(const std::string& body) {
   const mjModel& m = *model_;
   const Frame frame = this->frame(body);
@@ -24,14 +25,13 @@ void Robot::stand_on(const std::string& body) {
   support_ = frame.id;
   root_qpos_ = m.jnt_qposadr[joint];
   root_dof_ = m.jnt_dofadr[joint];
-  root_motion_.setZero(6, size());
-  find_driven();
+  find_screws();
   read_qpos();
 }
 
 void Robot::note_support() {
   if (support_ < 0) return;
-  const Skeleton::Pose stands = pose(support_);
+  const Skeleton::Pose stands = screws_->pose(support_);
   p_WS_ = stands.p;
   R_WS_ = stands.R;
 }
@@ -43,10 +43,6 @@ void Robot::keep_support() {
   const Eigen::Quaterniond turn(R);
   qpos_.segment<3>(root_qpos_) = p_WS_ - R * RS.p;
   qpos_.segment<4>(root_qpos_ + 3) << turn.w(), turn.x(), turn.y(), turn.z();
-}
-
-bool Robot::stands(int body) const {
-  return support_ >= 0 && model_->body_rootid[body] == tree_;
 }
 
 }  // namespace hurcules

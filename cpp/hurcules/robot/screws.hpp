@@ -1,0 +1,88 @@
+// How bodies move with the coordinates: a screw for each driven joint, and its rate.
+//
+//   V_b = sum S_j qdot_j       of the driven joints j that move body b
+//   A_b = sum V_<j x S_j qdot_j                  at constant coordinate velocities; V_<j: without j
+//   a point: v = V.lin + w x r,  a = A.lin + A.rot x r + w x v        r: from the tree's origin
+// A root that stands on another body s moves by -V_s and accelerates by -A_s: then s does not.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/base/types.hpp"
+#include "hurcules/robot/skeleton.hpp"
+
+struct mjModel_;
+
+namespace hurcules {
+
+struct Coordinate;
+
+// Angular and linear velocity in W of what is fixed to a body, the linear one of the point that is
+// at the origin of the body's tree at this moment; or their rates.
+using Screw = Eigen::Matrix<double, 6, 1>;
+
+class Screws {
+ public:
+  // `support`: the body that stands, of the tree with this root; -1: every root does
+  Screws(const mjModel_& model, const std::vector<Coordinate>& coordinates, int root, int support);
+
+  // what hangs where; qpos (nq), of which all but the driven joints are read
+  void note(const double* qpos) { skeleton_.note(*model_, qpos); }
+  // poses and screws; qpos (nq), of which the driven joints and the root are read
+  void place(const double* qpos);
+  // rates of the screws, where they are now; velocity of the coordinates [rad/s] (n)
+  void set_velocity(const Vector& velocity);
+
+  [[nodiscard]] Skeleton::Pose pose(int body) const { return skeleton_.pose(body); }
+  // velocity of a point of a body, and angular velocity of the body, by coordinate: (3, n) in W
+  void point_jacobian(const Vector3& point, int body, MatrixRef J) const;
+  void rotation_jacobian(int body, MatrixRef J) const;
+  // what they accelerate with when the coordinates do not
+  [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;
+  [[nodiscard]] Vector3 rotation_drift(int body) const;
+  [[nodiscard]] bool moving() const { return moving_; }  // only then is there a drift
+  // (6, n): qvel of a root that stands on another body, by coordinate
+  [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& root_motion() const {
+    return root_motion_;
+  }
+
+ private:
+  // one joint of one coordinate
+  struct Driven {
+    Index coordinate;
+    int joint, body;
+    double factor;
+    Screw screw = Screw::Zero();  // at the coordinate's velocity 1
+    Screw rate = Screw::Zero();   // at its velocity
+  };
+
+  [[nodiscard]] static std::vector<Driven> driven_of(const mjModel_& model,
+                                                     const std::vector<Coordinate>& coordinates);
+  void find_above();
+  [[nodiscard]] const std::vector<Index>& above(int body) const {
+    return above_[static_cast<std::size_t>(body)];
+  }
+  [[nodiscard]] const Driven& driven(Index j) const { return driven_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] Vector3 origin(int body) const;  // of its tree
+  // its tree stands on something else than the root
+  [[nodiscard]] bool stands(int body) const;
+  // (3, n): `of` a screw of each coordinate
+  template <class Of>
+  void fill(int body, MatrixRef J, Of&& of) const;
+  [[nodiscard]] Screw velocity_of(int body) const;
+  [[nodiscard]] Screw rate_of(int body) const;
+  void note_root();
+
+  const mjModel_* model_;
+  int root_, support_;
+  std::vector<Driven> driven_;             // in the order of the model's joints
+  std::vector<std::vector<Index>> above_;  // (nbody) which of them move a body
+  Skeleton skeleton_;
+  Vector velocity_;  // (n)
+  bool moving_ = false;
+  // of the root, where it stands on another body
+  Screw root_velocity_ = Screw::Zero(), root_rate_ = Screw::Zero();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> root_motion_;
+};
+
+}  // namespace hurcules
