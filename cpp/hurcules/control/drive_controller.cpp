@@ -90,8 +90,11 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   learn_gauge(measured);
   const double asked = steer(measured) * gauge_ / 2.0;
   const double go = drive_at(measured);
-  const double v = within_slip(go, measured.speed);
-  const double turn = within_slip(asked, measured.yaw_rate * gauge_ / 2.0);
+  const double v = within_slip(go, measured.speed, measured.speed);
+  // how fast the ground passes under the belts by turning: a gauge that was learnt elsewhere may be
+  // too wide here, the real one never is
+  const double turn = within_slip(asked, measured.yaw_rate * options_.gauge / 2.0,
+                                  measured.yaw_rate * gauge_ / 2.0);
   turning_slips_ = turn != asked;
   slipping_ = v != go || turning_slips_;
   const Belt left = belt(v - turn, measured.left, left_integral_);
@@ -180,11 +183,15 @@ double DriveController::steer(const DriveState& measured) {
 }
 
 // a belt that is to stand stands, whatever slides; all others lead the ground by a little at most.
-// Driving and turning are held back each on its own, so that neither takes the other's share.
-double DriveController::within_slip(double reference, double ground) const {
+// Driving and turning are held back each on its own, so that neither takes the other's share. The
+// ground passes at a speed between `one` and `other`.
+double DriveController::within_slip(double reference, double one, double other) const {
   if (speed_.at_rest() && yaw_rate_.at_rest()) return reference;
-  const double slip = options_.slip_speed + options_.slip_ratio * std::abs(ground);
-  return std::clamp(reference, ground - slip, ground + slip);
+  const auto [low, high] = std::minmax(one, other);
+  const auto slip = [this](double ground) {
+    return options_.slip_speed + options_.slip_ratio * std::abs(ground);
+  };
+  return std::clamp(reference, low - slip(low), high + slip(high));
 }
 
 // reference: [m/s] of the belt; rate: [rad/s]

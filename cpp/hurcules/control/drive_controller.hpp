@@ -90,7 +90,7 @@ class DriveController {
   void learn_gauge(const DriveState& measured);
   [[nodiscard]] double drive_at(const DriveState& measured) const;
   double steer(const DriveState& measured);
-  [[nodiscard]] double within_slip(double reference, double ground) const;
+  [[nodiscard]] double within_slip(double reference, double one, double other) const;
   // one drive in one tick: what it is to give [N m], what it can, and what led there
   struct Belt {
     double demand = 0.0, lower = 0.0, upper = 0.0;

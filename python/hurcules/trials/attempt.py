@@ -16,8 +16,9 @@ from hurcules.trials.brakes import hold_joints
 from hurcules.trials.climbing import ARMS
 from hurcules.trials.course import Course, Leg, Straight, make_course
 from hurcules.trials.drive import LineDriver, yaw_of
+from hurcules.trials.lift import Lift
 from hurcules.trials.methods import Method
-from hurcules.trials.postures import Plan, PostureMover
+from hurcules.trials.postures import Plan, Posture, PostureMover
 from hurcules.trials.upright import Upright
 
 __all__ = ["Repetition", "Variation", "Watch", "repeat"]
@@ -130,11 +131,12 @@ class _Attempt:
         for leg in self.course.legs:
             if fault := self._turn(leg):
                 return fault
+            self._lift = Lift()
             limit = self.data.time + PATIENCE * leg.length / abs(leg.speed) + GRACE
             furthest = leg.place(float(self.data.qpos[0]))
             while not leg.done(self.data.qpos):
                 furthest = leg.further(furthest, leg.place(float(self.data.qpos[0])))
-                self._posture = self.plan(furthest)
+                self._posture = self._lifted(self.plan(furthest), leg)
                 pace = self.mover.pace * min(abs(leg.speed), self._posture.speed)
                 if fault := self._tick(math.copysign(pace, leg.speed)):
                     return fault
@@ -143,6 +145,12 @@ class _Attempt:
             if leg.hold and (fault := self._hold(leg.hold)):
                 return fault
         return ""
+
+    def _lifted(self, posture: Posture, leg: Leg) -> Posture:
+        if not self.course.lifts:
+            return posture
+        x, ready = float(self.data.qpos[0]), self.mover.pace == 1.0
+        return self._lift(posture, leg.onward * x, self.data.time, ready)
 
     def _turn(self, leg: Leg) -> str:
         """Turns in place until the robot looks where it shall on this leg; returns the fault."""

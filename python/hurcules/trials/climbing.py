@@ -16,13 +16,15 @@ Frame: x along the way, knees at x = k. Everything follows from the obstacle's o
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hurcules.scenes.hurdle import Hurdle
+from hurcules.scenes.ramps import Ramps
 from hurcules.scenes.stairs import Stairs
+from hurcules.scenes.step_field import StepField
 from hurcules.trials.postures import Posture
 
-__all__ = ["ARCHED", "ARMS", "STRETCHED", "OverHurdle", "OverStairs"]
+__all__ = ["ARMS", "STRETCHED", "OverField", "OverHurdle", "OverStairs"]
 
 RADIUS = 0.14  # [m] of the tracks
 UPPER, LOWER = 0.55, 0.85  # [m] between the axles of a leg
@@ -37,6 +39,9 @@ APPROACH = 0.6  # [m] before the tail meets the edge it is raised
 STRETCHED = Posture(math.pi, STEADY)  # one long track, the weight on the lower legs
 # [rad] the knees a little past straight: more room under the battery, which else catches on posts
 ARCHED = Posture(3.24, ACROSS)
+
+# the toes in the air: on the upper legs alone it is easy to turn, and to come down from an edge
+LIFTED = Posture(math.pi - 0.6, 0.0)
 
 # centre of mass of both robots, within 2 cm along and 6 cm across the tracks: x, z [m] from the
 # knees without the arm by which the trunk moves it, and that arm
@@ -128,10 +133,21 @@ class OverHurdle:
         share = _between(x, begin, begin + UPPER)
         lift = wall.end + 0.65 * LOWER + RADIUS
         if x > lift:
-            return Posture(math.pi - 0.6, 0.0, SLOW if x < lift + LOWER else math.inf)
+            return replace(LIFTED, speed=SLOW) if x < lift + LOWER else LIFTED
         standing = STEADY - rise
         hip = standing + share * (lean_over(wall.height) - standing)
         if x > wall.end + RADIUS:
             hip = ACROSS  # the tail comes down: the weight stays behind it
 
         return Posture(math.pi - (1 - share) * rise, hip, SLOW if x > begin - 0.3 else math.inf)
+
+
+@dataclass(frozen=True)
+class OverField:
+    """Over rough ground in one posture; behind it the robot stands on its upper legs, to turn."""
+
+    field: StepField | Ramps
+
+    def __call__(self, x: float) -> Posture:
+        """The posture when the knees are at x [m]."""
+        return ARCHED if x < self.field.end + LOWER + RADIUS else LIFTED

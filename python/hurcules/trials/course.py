@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from hurcules.scenes import Scene
 from hurcules.scenes.flat import Pylons
 from hurcules.scenes.hurdle import Hurdle
+from hurcules.scenes.ramps import Ramps
+from hurcules.scenes.step_field import StepField
 from hurcules.trials.methods import Method, Way
 
 __all__ = ["Course", "Leg", "Oval", "Path", "Place", "Straight", "make_course"]
@@ -101,7 +103,7 @@ class Leg:
     def done(self, qpos: Array) -> bool:
         """Whether the base is there; to be asked at every period."""
         if not self.turns:
-            return bool(self._onward * (self.goal - qpos[0]) <= 0.0)
+            return bool(self.onward * (self.goal - qpos[0]) <= 0.0)
         bearing = math.atan2(qpos[1] - self.centre[1], qpos[0] - self.centre[0])
         if self._bearing is not None:
             self._turned += math.remainder(bearing - self._bearing, 2 * math.pi)
@@ -114,11 +116,11 @@ class Leg:
 
     def further(self, one: float, other: float) -> float:
         """The one of two places that is farther on the way."""
-        grows = self._onward > 0.0 or self.mirror is not None
+        grows = self.onward > 0.0 or self.mirror is not None
         return max(one, other) if grows else min(one, other)
 
     @property
-    def _onward(self) -> float:
+    def onward(self) -> float:
         """1 where x grows on the way, -1 where it falls."""
         return math.copysign(1.0, self.speed * math.cos(self.heading))
 
@@ -129,6 +131,7 @@ class Course:
 
     path: Path
     legs: list[Leg]
+    lifts: bool = False  # its leading legs where it gets stuck
 
     def on_lane(self, qpos: Array) -> bool:
         """Whether the base is on the lane."""
@@ -158,7 +161,7 @@ def make_course(chosen: Method, setting: float | None, scene: Scene, speed: floa
     there = Leg(-pace, goal, goal, chosen.hold, heading=math.pi)
     back = Leg(pace, goal, 0.0, heading=math.pi)
     if chosen.turns_round:
-        assert isinstance(scene, Hurdle)
+        assert isinstance(scene, (Hurdle, Ramps, StepField))
         # the obstacle looks the same from behind: its far side is the near one of the way back
         back = Leg(-pace, goal, 0.0, heading=0.0, mirror=scene.distance + scene.end)
-    return Course(Straight(math.pi), [there, back])
+    return Course(Straight(math.pi), [there, back], chosen.lifts)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from hurcules.known import require_known
-from hurcules.trials.climbing import ARCHED, STRETCHED, OverHurdle, OverStairs
+from hurcules.trials.climbing import STRETCHED, OverField, OverHurdle, OverStairs
 from hurcules.trials.postures import FLAT, Plan, Posture, always
 
 __all__ = ["METHODS", "Method", "Way", "method"]
@@ -38,11 +38,6 @@ def stretched(scene: Any) -> Plan:
     return always(STRETCHED)
 
 
-def arched(scene: Any) -> Plan:
-    """The same, its middle raised by 3 cm."""
-    return always(ARCHED)
-
-
 @dataclass(frozen=True)
 class Method:
     """One of the ASTM methods as a series of scenes that get harder."""
@@ -55,6 +50,7 @@ class Method:
     hold: float = 0.0  # [s] to stand still at the far end
     plan: Callable[[Any], Plan] = flat  # of postures for a scene: the operator's choice
     climbs: bool = False  # tail first, the lower legs turned over to the front
+    lifts: bool = False  # its leading legs where it gets stuck
     turns_round: bool = False  # before the way back
     way: Way = Way.ThereAndBack
     speed: float = 0.6  # [m/s]
@@ -126,16 +122,20 @@ METHODS: dict[str, Method] = {
         "angle",
         _degrees(5, 10, 15, 20, 25),
         {"pattern": "crossing"},
-        plan=arched,
+        plan=OverField,
         climbs=True,
+        lifts=True,
+        turns_round=True,
     ),
     "e2828": Method(
         title="symmetric stepfields",
         scene="step_field",
         parameter="unit",
         settings=(0.02, 0.04, 0.06, 0.08, 0.10),
-        plan=arched,
+        plan=OverField,
         climbs=True,
+        lifts=True,
+        turns_round=True,
     ),
     "e2829": Method(
         "sustained speed", "pylons", "speed", (1.0, 2.0, 3.0, 4.0, 5.0, 5.56), way=Way.Laps

@@ -80,6 +80,24 @@ TEST(DriveController, LearnsTheEffectiveGaugeAndTurnsAsAsked) {
   }
 }
 
+// Where tracks bear at their ends they skid, and the gauge that is learnt there is twice too wide
+// for other ground. Belts that followed the ground by it would spin the vehicle faster and faster.
+TEST(DriveController, AGaugeLearntElsewhereStillBrakesATurnThatIsTooFast) {
+  Vehicle vehicle;
+  vehicle.plant.skid = 0.5;
+  vehicle.controller.drive({0.0, 0.5});
+  vehicle.run(5.0);
+  ASSERT_NEAR(vehicle.controller.gauge(), 2.0 * 0.67, 0.02);
+  DriveState fast;
+  fast.yaw_rate = 1.5;
+  // without skid
+  fast.right = 1.5 * 0.67 / 2.0 / 0.14;
+  fast.left = -fast.right;
+  const DriveTorques torques = vehicle.controller.compute(fast);
+  EXPECT_LT(torques.right, 0.0);
+  EXPECT_GT(torques.left, 0.0);
+}
+
 TEST(DriveController, KeepsABeltFromSpinningWhereItsSpeedIsNotTheGrounds) {
   Vehicle vehicle;
   vehicle.plant.stuck = true;
