@@ -12,7 +12,7 @@ __all__ = ["Lift"]
 
 PROGRESS = 0.02  # [m] that count as one
 STALLED = 1.0  # [s] without any: the robot is stuck
-STEP, MOST = 0.2, 0.6  # [rad] by which the legs are lifted, each time that does not help
+STEP, MOST = 0.2, 0.5  # [rad] by which the legs are lifted higher; not from here on
 
 
 class Lift:
@@ -39,7 +39,8 @@ class Lift:
             self._furthest = max(onward, self._furthest)
             self._since = time
         elif time - self._since > STALLED:
-            self._rise = min(self._rise + STEP, MOST)
+            # what did not help at any height may lie under the battery: laid down, then once more
+            self._rise = self._rise + STEP if self._rise < MOST else 0.0
             self._edge, self._since = onward, time
         if onward > self._edge + UPPER:
             self._rise = 0.0
