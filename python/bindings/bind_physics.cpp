@@ -96,7 +96,7 @@ int step_physics(Physics& self, int n) {
   while (done < n && self.is_sound()) {
     {
       py::gil_scoped_release release;
-      for (int end = std::min(n, done + kPiece); done < end && self.is_sound(); ++done) self.step();
+      done += self.step(std::min(n - done, kPiece));
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }

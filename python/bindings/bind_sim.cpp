@@ -34,7 +34,8 @@ void step_physics(const py::object& model, const py::object& data, int n) {
   require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
   py::gil_scoped_release release;
   const Tracks tracks(scene.model);
-  for (int i = 0; i < n; ++i) step(scene.model, scene.data, tracks);
+  for (int i = 1; i < n; ++i) step_unseen(scene.model, scene.data, tracks);
+  if (n > 0) step(scene.model, scene.data, tracks);
 }
 
 std::unique_ptr<Simulation> make_simulation(const py::object& model, const py::object& data,

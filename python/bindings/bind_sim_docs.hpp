@@ -12,7 +12,7 @@ Args:
   n: number of steps. Releases the interpreter lock.
 
 Raises:
-  Error: tracks without the dense Jacobian and the elliptic cones that they want.
+  Error: tracks without the elliptic cones that they want.
 )";
 inline constexpr const char* kMissions = "Names of the missions.";
 inline constexpr const char* kMissionScene = "Scene file of a mission, under models/.";

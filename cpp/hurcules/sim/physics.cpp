@@ -61,10 +61,14 @@ void Physics::reset(int keyframe) {
   sound_ = looks_sound();
 }
 
-void Physics::step() {
-  if (!sound_) return;
-  hurcules::step(model_.get(), data_.get(), tracks_, {&brakes_, &drive_train_});
-  check();
+int Physics::step(int n) {
+  int done = 0;
+  while (done < n && sound_) {
+    const auto one_step = ++done == n ? hurcules::step : hurcules::step_unseen;
+    one_step(model_.get(), data_.get(), tracks_, {&brakes_, &drive_train_});
+    check();
+  }
+  return done;
 }
 
 bool Physics::check() {

@@ -21,7 +21,9 @@ class Physics {
   [[nodiscard]] int find_keyframe(const std::string& text) const;
   // everything at rest in a keyframe, brakes open, time zero
   void reset(int keyframe);
-  void step();
+  // n steps, fewer when it ceases to be sound; MuJoCo's sensors are read in the last alone. Returns
+  // how many it took.
+  int step(int n = 1);
   // false once a position, a velocity or an acceleration was not finite or huge; such a state is
   // never stepped again
   [[nodiscard]] bool is_sound() const { return sound_; }

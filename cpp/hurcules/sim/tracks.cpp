@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/sim/sparse_columns.hpp"
 
 namespace hurcules {
 
@@ -52,9 +53,13 @@ std::array<mjtNum, 2> belt_rows(const mjData* d, const mjContact& contact, int g
 void add_belt(const mjModel* m, mjData* d, const mjContact& contact, int geom, int dof) {
   const int row = contact.efc_address;
   const std::array<mjtNum, 2> rows = belt_rows(d, contact, geom, m->dof_jntid[dof]);
+  const bool sparse = mj_isSparse(m);
   for (int t = 1; t < 3; ++t) {
     const mjtNum j = rows[static_cast<std::size_t>(t - 1)];
-    d->efc_J[(row + t) * m->nv + dof] += j;
+    mjtNum* const entry =
+        sparse ? sparse_entry(d, row + t, dof) : d->efc_J + (row + t) * m->nv + dof;
+    if (!entry) continue;
+    *entry += j;
     d->efc_vel[row + t] += j * d->qvel[dof];
     d->efc_aref[row + t] -= d->efc_KBIP[4 * (row + t) + 1] * j * d->qvel[dof];
   }
@@ -92,13 +97,28 @@ Tracks::Tracks(const mjModel* m) : track_of_geom_(static_cast<std::size_t>(m->ng
     }
   }
   if (belts_.empty()) return;
-  require(!mj_isSparse(m),
-          "tracks want <option jacobian=\"dense\"/>: a sparse one has no room for the belts");
   require(m->opt.cone == mjCONE_ELLIPTIC, "tracks want <option cone=\"elliptic\"/>");
 }
 
+void Tracks::make_room(mjData* d) const {
+  mj_markStack(d);
+  const auto rows = static_cast<std::size_t>(d->nefc);
+  auto* const added = static_cast<AddedColumns*>(
+      mj_stackAllocByte(d, rows * sizeof(AddedColumns), alignof(AddedColumns)));
+  std::fill_n(added, rows, AddedColumns{});
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0 || contact.dim < 3) continue;
+    const AddedColumns columns{dof_of(contact.geom[0]), dof_of(contact.geom[1])};
+    std::fill_n(added + contact.efc_address, contact.dim, columns);
+  }
+  if (!add_sparse_columns(d, added)) mj_warning(d, mjWARN_CNSTRFULL, static_cast<int>(d->narena));
+  mj_freeStack(d);
+}
+
 void Tracks::add_belts(const mjModel* m, mjData* d) const {
-  if (belts_.empty()) return;
+  if (belts_.empty() || d->nefc == 0) return;
+  if (mj_isSparse(m)) make_room(d);
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.efc_address < 0 || contact.dim < 3) continue;

@@ -30,8 +30,8 @@ struct TrackReading {
 
 class Tracks {
  public:
-  // throws Error when a tuple is no track, or when the model has tracks but not the dense Jacobian
-  // and the elliptic cones that they want
+  // throws Error when a tuple is no track, or when the model has tracks but not the elliptic cones
+  // that they want
   explicit Tracks(const mjModel_* model);
   // between mj_step1 and mj_step2
   void add_belts(const mjModel_* model, mjData_* data) const;
@@ -47,8 +47,14 @@ class Tracks {
                                   std::size_t track) const;
 
  private:
+  // places for the belts in the rows of a sparse Jacobian
+  void make_room(mjData_* data) const;
   [[nodiscard]] int track_of(int geom) const {
     return geom < 0 ? -1 : track_of_geom_[static_cast<std::size_t>(geom)];
+  }
+  [[nodiscard]] int dof_of(int geom) const {  // of the belt around it, -1 for none
+    const int track = track_of(geom);
+    return track < 0 ? -1 : dof_[static_cast<std::size_t>(track)];
   }
 
   std::vector<std::string> names_;

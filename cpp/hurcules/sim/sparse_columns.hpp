@@ -1,0 +1,28 @@
+// More columns in the rows of MuJoCo's sparse constraint Jacobian.
+//
+// A sparse row lists only the joints that move its two bodies. The belt that runs around a track is
+// none of them, so its rows are written anew, further on in MuJoCo's arena, with a place for it.
+// The next step takes that memory back.
+#pragma once
+
+struct mjData_;
+
+namespace hurcules {
+
+// columns that a row gets, -1 for none; two at most, as a contact has two geoms
+struct AddedColumns {
+  int first = -1;
+  int second = -1;
+  [[nodiscard]] bool any() const { return first >= 0 || second >= 0; }
+  friend bool operator==(const AddedColumns&, const AddedColumns&) = default;
+};
+
+// Between mj_step1 and mj_step2. `added` has an entry for every row (nefc); a column that a row
+// has already is not added again. New entries are 0. Returns false when the arena is full; the
+// Jacobian is then as before.
+bool add_sparse_columns(mjData_* data, const AddedColumns* added);
+
+// the entry of a row in this column; null when it has none
+[[nodiscard]] double* sparse_entry(mjData_* data, int row, int column);
+
+}  // namespace hurcules
