@@ -31,6 +31,8 @@ Args:
 )";
 constexpr const char* kStep = R"(Takes n steps of model.opt.timestep.
 
+MuJoCo's sensors are read in the last one alone.
+
 Args:
   n: >= 0.
 

@@ -6,6 +6,8 @@ namespace hurcules_bindings {
 inline constexpr const char* kStepPhysics =
     R"(mj_step with the traction of the tracks; plain mj_step leaves the belts without any.
 
+MuJoCo's sensors are read in the last step alone.
+
 Args:
   model: mujoco.MjModel; its tracks are the tuples `track_NAME`.
   data: mujoco.MjData of this model.
