@@ -61,13 +61,13 @@ void triangularize_rows(MatrixRef B, double tolerance, LevelFactor& level, Facto
 }
 
 // one-sided Jacobi: rotations until the rows of T, L' at first, are orthogonal: W' L' = S U'
-void diagonalize(const MatrixRef& L, FactorRoom& room) {
+void diagonalize(const MatrixRef& L, double scale, FactorRoom& room) {
   const Index r = L.rows(), m = L.cols(), size = padded(m);
   PaddedRows& T = room.turned;
   T.shape(size + r);
   T.set_zero(r);
   for (Index i = 0; i < r; ++i) {
-    std::copy_n(L.row(i).data(), m, T.row(i));
+    for (Index j = 0; j < m; ++j) T.row(i)[j] = scale * L(i, j);
     T.row(i)[size + i] = 1.0;
   }
   const auto sweep = kernels::chosen->sweep;
@@ -82,10 +82,9 @@ void diagonalize(const MatrixRef& L, FactorRoom& room) {
 void factor_singular(MatrixRef B, double tolerance, LevelFactor& level, FactorRoom& room) {
   const double scale = B.rowwise().norm().maxCoeff();
   if (!(scale > tolerance)) return;
-  B /= scale;
-  triangularize_rows(B, kNothing, level, room);
+  triangularize_rows(B, kNothing * scale, level, room);
   const Index m = B.rows(), o = B.cols(), r = level.rank;
-  diagonalize(level.Ut.topLeftCorner(r, m), room);
+  diagonalize(level.Ut.topLeftCorner(r, m), 1.0 / scale, room);
   PaddedRows& Y = room.Y;
   Y.shape(o);
   for (Index i = 0; i < r; ++i) std::copy_n(B.row(i).data(), o, Y.row(i));
