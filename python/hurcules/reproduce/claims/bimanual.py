@@ -152,8 +152,9 @@ BIMANUAL = (
                 ours=(0.9, 1.3),
                 why="at four levels, seven rows each: singular values of so many rows cost more "
                 "than a second inverse; with three or four rows a level RHQP is the faster. With "
-                "Eigen's classes, as the thesis has them, the decompositions alone took 2.0, 1.5, "
-                "1.1, 0.95 and 0.83 times as long at four to eight levels",
+                "Eigen's classes, as the thesis has them, the decompositions alone take 1.9, 1.4, "
+                "1.1, 0.9 and 0.8 times as long at four to eight levels "
+                "(benchmarks/solver_eigen_decompositions)",
             ),
         },
     ),
