@@ -39,6 +39,11 @@ constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
 constexpr const char* kNoOrder =
     "tasks are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
+constexpr const char* kLeash =
+    R"(Distance [task unit] that advance leads the target from the value at most, inf for any.
+
+From a fifth of it on the target goes slower; a velocity that leads back is never held.
+)";
 constexpr const char* kValueTask =
     "A task whose value is a list of numbers: e = value - target, angles the short way round.";
 constexpr const char* kSetTarget = "Sets the target (m,), at rest; seen at the next update.";
@@ -134,7 +139,8 @@ void bind_task(py::module_& module) {
   py::class_<ValueTask, Task>(module, "ValueTask", kValueTask)
       .def_property_readonly("value", &ValueTask::value, copy, "s (m,), at the last update")
       .def_property_readonly("target", &ValueTask::target, copy, "s_des (m,)")
-      .def("set_target", &ValueTask::set_target, py::arg("target"), kSetTarget);
+      .def("set_target", &ValueTask::set_target, py::arg("target"), kSetTarget)
+      .def_property("leash", &ValueTask::leash, &ValueTask::set_leash, kLeash);
 }
 
 void bind_coordinate_tasks(py::module_& module) {

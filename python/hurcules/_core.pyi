@@ -301,6 +301,7 @@ class ValueTask(Task):
     def value(self) -> _Vector: ...  # (m,)
     @property
     def target(self) -> _Vector: ...  # (m,)
+    leash: float  # task unit
     def set_target(self, target: ArrayLike) -> None: ...  # (m,)
 
 class JointLimits(Task):
@@ -580,6 +581,7 @@ class AccelerationControllerOptions:
     horizon: float  # [s]
     max_acceleration: float  # [rad/s^2]
     return_speed: float  # [rad/s]
+    rest: float  # [1/s]
     solver: SolverOptions
     def __init__(
         self,
@@ -590,6 +592,7 @@ class AccelerationControllerOptions:
         horizon: float = 0.05,
         max_acceleration: float = 20.0,
         return_speed: float = 0.2,
+        rest: float = 0.0,
         solver: SolverOptions = ...,
     ) -> None: ...
 

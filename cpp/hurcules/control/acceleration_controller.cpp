@@ -25,6 +25,8 @@ void check(const AccelerationControllerOptions& options) {
           "horizon wants a time of at least one control period, else a limit is passed; got " +
               std::to_string(options.horizon) + " s");
   require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
+  require(options.rest >= 0.0 && options.rest * dt < 0.66,
+          "rest wants a rate >= 0 [1/s], below 0.66 / dt");
   require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
 }
 
@@ -38,7 +40,7 @@ AccelerationController::AccelerationController(const Robot& robot,
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
                             options_.max_acceleration, options_.return_speed});
   }
-  acceleration_ = Vector::Zero(robot.size());
+  acceleration_ = braked_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(rate_limits_.size());
 }
@@ -59,6 +61,7 @@ const Vector& AccelerationController::compute(const Robot& robot) {
 }
 
 void AccelerationController::measure(const Robot& robot) {
+  braked_ = options_.rest * robot.velocity();
   Hierarchy& hierarchy = problem_.hierarchy();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     const StackLevel& source = stack().levels()[k];
@@ -78,6 +81,7 @@ const Vector& AccelerationController::solve() {
     const Level& bounds = problem_.bounds();
     acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
   }
+  if (solver_.solution().status != SolverStatus::InvalidInput) acceleration_ -= braked_;
   const auto is_limit = [this](std::size_t i, bool upper) {
     return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
   };
@@ -126,8 +130,8 @@ void AccelerationController::fill_bounds(const Robot& robot, const Task& task, L
       rates.max_velocity = own->max_velocity()[i];
     AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
     interval = acceleration_interval(state, rates);
-    level.lower[i] = interval.lower;
-    level.upper[i] = interval.upper;
+    level.lower[i] = interval.lower + braked_[i];
+    level.upper[i] = interval.upper + braked_[i];
   }
 }
 
@@ -137,11 +141,11 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
     level.A.middleRows(row, task->rows()) = task->jacobian();
     auto rate = rate_.head(task->rows());
     rate.noalias() = task->jacobian() * robot.velocity();
-    rate -= task->velocity_des();  // dg/dt
     const bool own = task->commands_acceleration();
     for (Index i = 0; i < task->rows(); ++i, ++row) {
-      const double held = task->acceleration_des()[i] - task->drift()[i];
-      const double damped = own ? held : held - options_.damping * rate[i];
+      const double held = task->acceleration_des()[i] - task->drift()[i] + options_.rest * rate[i];
+      const double slip = rate[i] - task->velocity_des()[i];  // dg/dt
+      const double damped = own ? held : held - options_.damping * slip;
       const auto wanted = [&](double side) {
         if (std::abs(side) >= kInfinity) return side;
         if (own) return damped + side;

@@ -7,7 +7,9 @@
 //
 // A level made of one task that bounds the coordinates becomes simple bounds that brake in time
 // (acceleration_interval.hpp). A task that commands accelerations has a law of its own: torque
-// limits, force control. A row with a side above or below asks for  -L dg/dt + K (side - g):
+// limits, force control. With `rest` D the unknown is qddot + D qdot: what regularisation takes
+// from a weak direction, and a direction that no task holds, then brakes as exp(-D t) instead of
+// going on at its speed. A row with a side above or below asks for  -L dg/dt + K (side - g):
 // critically damped, it comes from inside to its side without passing it.
 #pragma once
 
@@ -26,6 +28,7 @@ struct AccelerationControllerOptions {
   double horizon = 0.05;           // [s] T of acceleration_interval.hpp
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
   double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
+  double rest = 0.0;               // [1/s] D above; 0 as in the thesis, sqrt(K) stops a swing
   // smooth: the commanded acceleration does not jump where a task loses a direction
   SolverOptions solver = {.handover = Handover::Smooth};
 };
@@ -74,6 +77,7 @@ class AccelerationController {
   StackProblem problem_;
   Solver solver_;
   Vector acceleration_;
+  Vector braked_;                                // D qdot, of the last measure
   Vector rate_;                                  // scratch, de/dt of a level
   std::vector<AccelerationInterval> intervals_;  // (n), of the last measure
   Eigen::VectorXi active_limits_;

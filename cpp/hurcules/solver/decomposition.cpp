@@ -36,10 +36,10 @@ void HierarchicalDecomposition::reserve(Index unknowns, std::span<const Index> r
     levels_[k].kind = kind_;
     levels_[k].Ut.resize(rows[k], rows[k]);
     levels_[k].S.resize(rank, rank);
-    levels_[k].order.resize(rows[k]);
     most = std::max(most, rows[k]);
   }
   B_.resize(most, unknowns);
+  room_.reserve(most, unknowns);
 }
 
 void HierarchicalDecomposition::start() {
@@ -64,7 +64,7 @@ void HierarchicalDecomposition::add_level(const RowTable& table, std::span<const
       B(i, j) = held[i].sign * value;
     }
   }
-  factor(B, tolerance::kRank * largest, level);  // [T 3.3.29], [T 3.5.123]
+  factor(B, tolerance::kRank * largest, level, room_);  // [T 3.3.29], [T 3.5.123]
   extend_basis(level);
 }
 

@@ -54,8 +54,9 @@ class HierarchicalDecomposition {
   Index unknowns_ = 0, used_ = 0;
   std::size_t size_ = 0;
   std::vector<Level> levels_;
-  Matrix basis_;   // (n, n)
-  Matrix B_;       // (rows, n): rows of a level in the coordinates of Z_{k-1}
+  Matrix basis_;  // (n, n)
+  Matrix B_;      // (rows, n): rows of a level in the coordinates of Z_{k-1}
+  FactorRoom room_;
   Matrix normal_;  // (n, n), for the damped inverse
   Vector s_, w_;   // (n)
 };

@@ -46,6 +46,10 @@ struct Table {
   void (*advance)(Size size, double way, const double* target, double* x);
   // (a, b) = (c a + s b, c b - s a)
   void (*rotate)(Size size, double c, double s, double* a, double* b);
+  // One sweep of one-sided Jacobi: rotates every pair of rows whose cosine in their first `size`
+  // numbers is above `smallest` so that they become orthogonal there; false when none was.
+  // squares[i] = |row i|^2 of these numbers
+  bool (*sweep)(double* rows, Size count, Size size, Size stride, double smallest, double* squares);
   // out[i] = row i . x
   void (*dots)(const double* rows, Size count, Size stride, const double* x, double* out);
   // y += sum_i s[i] row i

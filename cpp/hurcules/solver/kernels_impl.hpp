@@ -34,15 +34,6 @@ void advance(Size size, double way, const double* target, double* x) {
   }
 }
 
-void rotate(Size size, double c, double s, double* a, double* b) {
-  const Pack cosine = spread(c), sine = spread(s);
-  for (Size j = 0; j < size; j += kWidth) {
-    const Pack p = load(a + j), q = load(b + j);
-    store(a + j, cosine * p + sine * q);
-    store(b + j, cosine * q - sine * p);
-  }
-}
-
 struct FourRows {
   const double *a, *b, *c, *d;
 };
@@ -194,6 +185,7 @@ double largest(Size size, const double* x) {
 }  // namespace hurcules::kernels
 
 #include "hurcules/solver/kernels_limits.hpp"
+#include "hurcules/solver/kernels_rotations.hpp"
 #include "hurcules/solver/kernels_rows.hpp"
 
 namespace hurcules::kernels {
@@ -206,6 +198,7 @@ constexpr Table kTable = {
     .scale = scale,
     .advance = advance,
     .rotate = rotate,
+    .sweep = sweep,
     .dots = dots,
     .axpys = axpys,
     .project = project,

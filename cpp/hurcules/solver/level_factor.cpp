@@ -3,64 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hurcules/solver/kernels.hpp"
+
 namespace hurcules {
 
 namespace {
 
-constexpr int kMaxSweeps = 40;         // six are usual
+using Map = Eigen::Map<const Vector>;
+
+constexpr int kMaxSweeps = 40;         // three to four are usual
 constexpr double kOrthogonal = 1e-15;  // cosine of two rows that need no rotation
 constexpr double kNothing = 1e-13;     // a row that is rounding, relative to the largest
 
-// the plane rotation that makes rows i and j of B orthogonal, applied to B and to U'
-bool rotate(MatrixRef B, MatrixRef Ut, Index i, Index j) {
-  const double a = B.row(i).squaredNorm(), b = B.row(j).squaredNorm();
-  const double c = B.row(i).dot(B.row(j));
-  if (std::min(a, b) <= kNothing * kNothing || std::abs(c) <= kOrthogonal * std::sqrt(a * b)) {
-    return false;
-  }
-  const double zeta = (b - a) / (2.0 * c);
-  const double t = (zeta < 0.0 ? -1.0 : 1.0) / (std::abs(zeta) + std::hypot(1.0, zeta));
-  const double cosine = 1.0 / std::sqrt(1.0 + t * t), sine = cosine * t;
-  for (MatrixRef* M : {&B, &Ut}) {
-    double *x = M->row(i).data(), *y = M->row(j).data();
-    for (Index l = 0; l < M->cols(); ++l) {
-      const double old = x[l];
-      x[l] = cosine * old - sine * y[l];
-      y[l] = sine * old + cosine * y[l];
-    }
-  }
-  return true;
-}
-
 void swap_rows(MatrixRef M, Index i, Index j) {
   if (i != j) std::swap_ranges(M.row(i).data(), M.row(i).data() + M.cols(), M.row(j).data());
-}
-
-// one-sided Jacobi: rotations from the left until the rows of B are orthogonal, B = U S Y~'
-void factor_singular(MatrixRef B, double tolerance, LevelFactor& level) {
-  const Index m = B.rows();
-  MatrixRef Ut = level.Ut.topLeftCorner(m, m);
-  Ut.setIdentity();
-  const double scale = B.rowwise().norm().maxCoeff();
-  if (!(scale > tolerance)) return;
-  B /= scale;
-  bool rotated = true;
-  for (int sweep = 0; rotated && sweep < kMaxSweeps; ++sweep) {
-    rotated = false;
-    for (Index i = 0; i < m; ++i) {
-      for (Index j = i + 1; j < m; ++j) rotated |= rotate(B, Ut, i, j);
-    }
-  }
-  for (; level.rank < std::min(m, B.cols()); ++level.rank) {
-    Index largest;
-    const Index r = level.rank;
-    const double norm = B.bottomRows(m - r).rowwise().norm().maxCoeff(&largest);
-    if (!(norm * scale > tolerance)) return;
-    swap_rows(B, r, r + largest);
-    swap_rows(Ut, r, r + largest);
-    B.row(r) /= norm;
-    level.S(r, r) = norm * scale;
-  }
 }
 
 // Makes row r of A orthonormal to the rows before it, and the rows after it orthogonal to it; what
@@ -86,25 +42,74 @@ struct Orthonormalizer {
   }
 };
 
-// rows of B with the largest first: B = L Y~'; then L = U S
-void factor_orthogonal(MatrixRef B, double tolerance, LevelFactor& level) {
+// rows of B with the largest first: B = L Y~', L' in the first `rank` rows of U'; what is left of a
+// row and below `tolerance` counts as zero
+void triangularize_rows(MatrixRef B, double tolerance, LevelFactor& level, FactorRoom& room) {
   const Index m = B.rows();
-  for (Index i = 0; i < m; ++i) level.order[i] = i;
+  for (Index i = 0; i < m; ++i) room.order[i] = i;
   MatrixRef L = level.Ut.topLeftCorner(m, m);
   L.setZero();
-  Orthonormalizer rows{B, L, level.order.data()};
+  Orthonormalizer rows{B, L, room.order.data()};
   for (; level.rank < std::min(m, B.cols()); ++level.rank) {
     Index largest;
     const Index r = level.rank;
     if (!(B.bottomRows(m - r).rowwise().norm().maxCoeff(&largest) > tolerance)) break;
     swap_rows(B, r, r + largest);
-    std::swap(level.order[r], level.order[r + largest]);
+    std::swap(room.order[r], room.order[r + largest]);
     rows.take(r);
   }
-  for (Index i = 0; i < m; ++i) level.order[i] = i;
+}
+
+// one-sided Jacobi: rotations until the rows of T, L' at first, are orthogonal: W' L' = S U'
+void diagonalize(const MatrixRef& L, double scale, FactorRoom& room) {
+  const Index r = L.rows(), m = L.cols(), size = padded(m);
+  PaddedRows& T = room.turned;
+  T.shape(size + r);
+  T.set_zero(r);
+  for (Index i = 0; i < r; ++i) {
+    for (Index j = 0; j < m; ++j) T.row(i)[j] = scale * L(i, j);
+    T.row(i)[size + i] = 1.0;
+  }
+  const auto sweep = kernels::chosen->sweep;
+  for (int i = 0; i < kMaxSweeps; ++i) {
+    if (!sweep(T.row(0), r, size, T.stride(), kOrthogonal, room.squares.data())) return;
+  }
+}
+
+// B = L Y', then L' = W S U' and Y~' = W' Y'. The rotations meet the short rows of L', which are
+// nearly orthogonal already, instead of the long ones of B (Drmac, Veselic: New fast and accurate
+// Jacobi SVD algorithm I, 2008).
+void factor_singular(MatrixRef B, double tolerance, LevelFactor& level, FactorRoom& room) {
+  const double scale = B.rowwise().norm().maxCoeff();
+  if (!(scale > tolerance)) return;
+  triangularize_rows(B, kNothing * scale, level, room);
+  const Index m = B.rows(), o = B.cols(), r = level.rank;
+  diagonalize(level.Ut.topLeftCorner(r, m), 1.0 / scale, room);
+  PaddedRows& Y = room.Y;
+  Y.shape(o);
+  for (Index i = 0; i < r; ++i) std::copy_n(B.row(i).data(), o, Y.row(i));
+  for (level.rank = 0; level.rank < r; ++level.rank) {
+    const Index k = level.rank;
+    Index largest;
+    const double sigma = std::sqrt(room.squares.head(r).maxCoeff(&largest));
+    if (!(sigma * scale > tolerance)) return;
+    room.squares[largest] = -1.0;  // taken
+    level.S(k, k) = sigma * scale;
+    const double *u = room.turned.row(largest), *w = u + padded(m);
+    level.Ut.row(k).head(m) = Map(u, m).transpose() / sigma;
+    std::fill_n(room.row.data(), Y.stride(), 0.0);
+    kernels::chosen->axpys(Y.row(0), r, Y.stride(), w, room.row.data());
+    std::copy_n(room.row.data(), o, B.row(k).data());
+  }
+}
+
+// B = L Y~', then L = U S
+void factor_orthogonal(MatrixRef B, double tolerance, LevelFactor& level, FactorRoom& room) {
+  triangularize_rows(B, tolerance, level, room);
+  for (Index i = 0; i < B.rows(); ++i) room.order[i] = i;
   MatrixRef S = level.S.topLeftCorner(level.rank, level.rank);
   S.setZero();
-  Orthonormalizer columns{L.topRows(level.rank), S, level.order.data()};
+  Orthonormalizer columns{level.Ut.topLeftCorner(level.rank, B.rows()), S, room.order.data()};
   for (Index j = 0; j < level.rank; ++j) columns.take(j);
 }
 
@@ -126,14 +131,23 @@ void solve_positive(MatrixRef N, VectorRef s) {
 
 }  // namespace
 
-void factor(MatrixRef B, double tolerance, LevelFactor& level) {
+void FactorRoom::reserve(Index rows, Index columns) {
+  const Index rank = std::min(rows, columns);
+  order.resize(rows);
+  turned.reserve(rank, padded(rows) + rank);
+  Y.reserve(rank, columns);
+  row.reserve(columns);
+  squares.resize(rank);
+}
+
+void factor(MatrixRef B, double tolerance, LevelFactor& level, FactorRoom& room) {
   level.rows = B.rows();
   level.rank = 0;
   if (B.rows() == 0 || B.cols() == 0) return;
   if (level.kind == FactorKind::SingularValues) {
-    factor_singular(B, tolerance, level);
+    factor_singular(B, tolerance, level, room);
   } else {
-    factor_orthogonal(B, tolerance, level);
+    factor_orthogonal(B, tolerance, level, room);
   }
 }
 

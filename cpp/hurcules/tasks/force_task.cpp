@@ -144,7 +144,7 @@ void ForceTask::hold(const Robot& robot) {
 
 void ForceTask::advance(const ConstVectorRef& velocity, double dt) {
   ValueTask::advance(velocity, dt);
-  motion_ = velocity[0];
+  motion_ = velocity_des_[0];
   if (mode_ != Mode::Hold || motion_ * force() < 0.0) return;
   // stopped: only away from the contact
   target_[0] -= motion_ * dt;

@@ -1,5 +1,8 @@
 #include "hurcules/tasks/value_task.hpp"
 
+#include <algorithm>
+
+#include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 
 namespace hurcules {
@@ -29,9 +32,17 @@ void ValueTask::hold(const Robot& robot) {
 void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
+  const double slack = 1.25 * (1.0 - error_.norm() / leash_);
+  const bool leads = error_.dot(velocity) < 0.0;  // away from the value
   velocity_des_ = velocity;
+  if (leads && slack < 1.0) velocity_des_ *= std::max(0.0, slack);
   acceleration_des_.setZero();
-  target_ += velocity * dt;
+  target_ += velocity_des_ * dt;
+}
+
+void ValueTask::set_leash(double leash) {
+  require(leash > 0.0, "leash of '" + name() + "' wants a positive distance, inf for none");
+  leash_ = leash;
 }
 
 void ValueTask::set_target(const ConstVectorRef& target) {

@@ -4,6 +4,8 @@
 //   dt
 #pragma once
 
+#include <limits>
+
 #include "hurcules/tasks/task.hpp"
 
 namespace hurcules {
@@ -13,6 +15,11 @@ class ValueTask : public Task {
   void update(const Robot& robot) override;
   void hold(const Robot& robot) override;
   void advance(const ConstVectorRef& velocity, double dt) override;
+  // Keeps `advance` from leading the target further than this from the value (Euclidean norm, task
+  // unit; inf, the default: anywhere). From a fifth of it on the target goes slower, so that a
+  // robot at the end of its reach stops; a velocity that leads back is never held.
+  void set_leash(double leash);
+  [[nodiscard]] double leash() const { return leash_; }
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 
@@ -36,6 +43,7 @@ class ValueTask : public Task {
 
  private:
   bool wraps_;
+  double leash_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace hurcules

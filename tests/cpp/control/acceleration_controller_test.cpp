@@ -259,6 +259,7 @@ TEST_F(Acceleration, RefusesOptionsThatCannotBe) {
   EXPECT_TRUE(contains(text({.dt = 0.05}), "too high for a control period"));
   EXPECT_TRUE(contains(text({.horizon = 1e-4}), "at least one control period"));
   EXPECT_TRUE(contains(text({.max_acceleration = -1.0}), "max_acceleration"));
+  EXPECT_TRUE(contains(text({.rest = -1.0}), "rest"));
 }
 
 TEST_F(Acceleration, TorqueLimitsAreNothingForAVelocityController) {

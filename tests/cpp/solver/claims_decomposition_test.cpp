@@ -23,6 +23,14 @@ Matrix pseudo_inverse(const Matrix& A) {
   return Eigen::MatrixXd(A).completeOrthogonalDecomposition().pseudoInverse();
 }
 
+// V of [U V], orthogonal: an orthonormal basis of what the columns of U leave
+Matrix complement(const Matrix& U) {
+  const Index m = U.rows(), l = U.cols();
+  if (l == 0) return Matrix::Identity(m, m);
+  const Eigen::MatrixXd all = Eigen::HouseholderQR<Eigen::MatrixXd>(U).householderQ();
+  return all.rightCols(m - l);
+}
+
 // the objects of section 3.3.3 as full matrices, in the letters of the thesis
 struct Case {
   Hierarchy levels;
@@ -53,7 +61,7 @@ struct Case {
     const LevelFactor& factor = decomposition.level(k);
     const Index m = factor.rows, l = factor.rank, first = decomposition.first(k);
     U.push_back(factor.Ut.topLeftCorner(l, m).transpose());
-    V.push_back(factor.Ut.block(l, 0, m - l, m).transpose());
+    V.push_back(complement(U.back()));
     S.push_back(factor.S.topLeftCorner(l, l).diagonal().asDiagonal());
     Matrix basis(kUnknowns, kUnknowns);  // columns
     for (Index j = 0; j < kUnknowns; ++j) {

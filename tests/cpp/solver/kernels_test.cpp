@@ -157,6 +157,34 @@ TEST_P(Kernels, EliminationLeavesRowsWithoutAPartAlongThePivot) {
   }
 }
 
+TEST_P(Kernels, SweepsEndWithOrthogonalRowsThatTheRotationsBesideThemMake) {
+  const kernels::Table& kernel = *kernels::chosen;
+  constexpr Size kSize = 12, kStride = 20, kSweeps = 12;
+  for (const Size count : {1, 2, 3, 7, 8}) {
+    Numbers rows = numbers((count + 3) * kStride), squares(count);
+    for (Size i = 0; i < count; ++i) {  // the identity beside each row
+      for (Size j = kSize; j < kStride; ++j) rows[i * kStride + j] = j - kSize == i ? 1.0 : 0.0;
+    }
+    const Numbers before = rows;
+    int sweeps = 0;
+    while (kernel.sweep(rows.data(), count, kSize, kStride, 1e-15, squares.data())) {
+      ASSERT_LT(++sweeps, kSweeps);
+    }
+    for (Size i = 0; i < count; ++i) {
+      const double* row = rows.data() + i * kStride;
+      EXPECT_NEAR(squares[i], plain_dot(kSize, row, row), 1e-13);
+      for (Size j = 0; j < i; ++j) {
+        EXPECT_NEAR(plain_dot(kSize, row, rows.data() + j * kStride), 0.0, 1e-13);
+      }
+      Numbers made(kSize);
+      for (Size j = 0; j < count; ++j) {
+        for (Size l = 0; l < kSize; ++l) made[l] += row[kSize + j] * before[j * kStride + l];
+      }
+      for (Size l = 0; l < kSize; ++l) EXPECT_NEAR(made[l], row[l], 1e-13);
+    }
+  }
+}
+
 TEST_P(Kernels, TransposeSwapsRowsAndColumns) {
   const Size stride = 12;
   const Numbers rows = numbers(stride * stride);

@@ -114,6 +114,29 @@ TEST_F(ValuesOfTwin, NearTheVerticalTheElevationLetsGo) {
   }
 }
 
+TEST_F(ValuesOfTwin, ALeashSlowsTheTargetDownButNeverItsWayBack) {
+  PositionTask hand("hand", robot_, "hand_l");
+  const Vector3 start = hand.value(), speed(0.0, 0.1, 0.0);
+  hand.advance(speed, 1e-3);
+  EXPECT_TRUE(near(hand.velocity_des(), speed, 0.0));  // no leash: anywhere
+  hand.set_leash(0.1);
+  const auto share = [&](double lead, double sign) {
+    hand.set_target(start + Vector3(0.0, lead, 0.0));
+    hand.update(robot_);
+    const double before = hand.target()[1];
+    hand.advance(sign * speed, 1e-3);
+    EXPECT_NEAR(hand.target()[1] - before, hand.velocity_des()[1] * 1e-3, 1e-15);
+    return sign * hand.velocity_des()[1] / speed[1];
+  };
+  EXPECT_EQ(share(0.0, 1.0), 1.0);
+  EXPECT_NEAR(share(0.02, 1.0), 1.0, 1e-12);  // from a fifth on
+  EXPECT_NEAR(share(0.06, 1.0), 0.5, 1e-12);
+  EXPECT_NEAR(share(0.1, 1.0), 0.0, 1e-12);
+  EXPECT_EQ(share(0.3, 1.0), 0.0);
+  EXPECT_EQ(share(0.3, -1.0), 1.0);
+  EXPECT_TRUE(contains(error_text([&] { hand.set_leash(0.0); }), "positive distance"));
+}
+
 TEST_F(ValuesOfTwin, UnknownFramesAreErrors) {
   EXPECT_TRUE(contains(error_text([&] { PositionTask("p", robot_, "hnad"); }), "frame 'hnad'"));
   EXPECT_TRUE(contains(error_text([&] { PositionTask("p", robot_, "hand_l", {.reference = "x"}); }),

@@ -23,6 +23,8 @@ from hurcules.reproduce.measures.press_robot import Log, PressRobot, Setting, ra
 THESIS = (8.0, 11.0, 12.0)  # [s] hip; shoulders and hip; singularity
 REACH = 0.0767  # [m/s]
 START, STOP, END = 4.88, 16.5, 17.5  # [s]
+REST, LEASH = 10.0, 5e-3  # [1/s], [m] of hands that are led on beyond their reach
+BEYOND = 20.0  # [s] until when they are
 ARM = ("LSP", "LSR", "LSY", "LEB", "RSP", "RSR", "RSY", "REB")
 
 
@@ -35,6 +37,17 @@ def reach(compliance: float, method: str = "lexicographic", end: float = END) ->
     return robot.follow(ramped(REACH, START, STOP), ramped(-0.02, 1.5, 60.0), end)
 
 
+@cache
+def led_on(rest: float, leash: float) -> Log:
+    """The same, on for 3 s beyond the reach, then 2 s at rest."""
+    setting = Setting(
+        gains=second(ForceLoop.Velocity), environment=G, f_max=1e6, rest=rest, leash=leash
+    )
+    robot = PressRobot(setting)
+    robot.settle()
+    return robot.follow(ramped(REACH, START, BEYOND), ramped(-0.02, 1.5, 60.0), BEYOND + 2.0)
+
+
 def speeds(log: Log, *names: str) -> np.ndarray:
     """Largest of some coordinates, all by default, (ticks,) [rad/s]."""
     columns = [log.of(name) for name in names or log.names]
@@ -44,6 +57,16 @@ def speeds(log: Log, *names: str) -> np.ndarray:
 def mean(values: np.ndarray, log: Log, start: float, end: float) -> float:
     """Between two times."""
     return float(values[log.part(start, end)].mean())
+
+
+def swings(log: Log, *names: str) -> float:
+    """Largest speed in the last second of being led on, of all coordinates by default [rad/s]."""
+    return float(speeds(log, *names)[log.part(BEYOND - 1.0, BEYOND)].max())
+
+
+def weakest(log: Log) -> float:
+    """Least pressing force then, negative [N]."""
+    return float(log.force[log.part(BEYOND - 1.0, BEYOND)].max())
 
 
 def lines_of(log: Log, values: np.ndarray, *names: str, start: float = 4.0) -> list[Line]:
@@ -59,12 +82,16 @@ def over_time(title: str, label: str, lines: list[Line], levels: tuple[float, ..
 
 @measures("K08")
 def outstretched() -> Finding:
-    """Speeds of arms and whole robot around the time at which the elbows are straight."""
+    """Speeds of arms and whole robot around the time at which the elbows are straight.
+
+    In the notes: hands that are led on beyond the reach, as in the thesis and as they should be.
+    """
     log = reach(0.05)
     straight = min(log.when("LEB", -1)[0], log.when("REB", -1)[0])
     arm, whole = speeds(log, *ARM), speeds(log)
     hard = np.abs(log.qdd).max(axis=1)
     shown = ("KN", "HIP", "LSP", "LEB")
+    swing, still = led_on(0.0, np.inf), led_on(REST, LEASH)
     return Finding(
         {
             "straight": straight,
@@ -72,7 +99,13 @@ def outstretched() -> Finding:
             "bounded": float(hard[log.part(11.5, 15.0)].max() / hard[log.part(7.0, 11.5)].max()),
             "whole": mean(whole, log, 13.4, 13.6) / mean(whole, log, 11.9, 12.0),
         },
-        [Note("largest speed of the arms before", float(arm.max()), "rad/s")],
+        [
+            Note("largest speed of the arms before", float(arm.max()), "rad/s"),
+            Note("led on beyond the reach: elbows", swings(swing, "LEB", "REB"), "rad/s"),
+            Note("with rest and leash: elbows", swings(still, "LEB", "REB"), "rad/s"),
+            Note("with rest and leash: fastest joint", swings(still), "rad/s"),
+            Note("force read then, with rest and leash, least", weakest(still), "N"),
+        ],
         [
             over_time("Speeds, C = 0.05", "[rad/s]", lines_of(log, log.qd, *shown)),
             over_time("Accelerations, C = 0.05", "[rad/s^2]", lines_of(log, log.qdd, *shown)),

@@ -9,6 +9,7 @@ elbow springs, from the contact itself where the elbows are rigid; f < 0 presses
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -55,6 +56,8 @@ class Setting:
         bandwidth: of the servos, over that of the missions.
         f_max: [N].
         method: of the solver; the default hands weak directions down smoothly.
+        rest: [1/s] rate at which weak and free directions brake, by accelerations.
+        leash: [m] of the hands across the force.
     """
 
     surface: Surface = field(default_factory=Surface)
@@ -65,6 +68,8 @@ class Setting:
     bandwidth: float = 1.0
     f_max: float = 150.0
     method: str = "lexicographic"
+    rest: float = 0.0
+    leash: float = math.inf
 
 
 def ramped(speed: float, start: float, end: float, ramp: float = 0.3) -> Speed:
@@ -118,7 +123,7 @@ class PressRobot:
         smooth = "smooth" if setting.method == "lexicographic" else "strict"
         solver = hurcules.rhqp.SolverOptions(method=setting.method, handover=smooth)
         if self.accelerates:
-            options = hurcules.AccelerationControllerOptions(solver=solver)
+            options = hurcules.AccelerationControllerOptions(rest=setting.rest, solver=solver)
             self.controller = hurcules.AccelerationController(plan, options)
         else:
             speeds = hurcules.VelocityControllerOptions(solver=solver)
@@ -139,6 +144,8 @@ class PressRobot:
         self.across = [
             hurcules.PositionTask(f"{s}hpos", plan, f"{s.upper()}_tcp", axes=across) for s in "lr"
         ]
+        for task in self.across:
+            task.leash = setting.leash
         self.forces = [
             hurcules.ForceTask(
                 f"{s}force",
