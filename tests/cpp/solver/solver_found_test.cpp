@@ -192,6 +192,30 @@ TEST(SolverFound, CopiesOfARowEachMetToRoundingAreNotMetTogether) {
                 7);
 }
 
+TEST(SolverFound, NearlyOppositeLimitsLeaveAPlayThatIsNoWay) {
+  // exactly nothing but x2 may move; limits kept to 3e-14 would leave x2 a play of 270
+  expect_solved({interval(Matrix{{0.0, 1.0, 0.5, -1000.0},
+                                 {0.001, 3.0, 1.5, -3000.0},
+                                 {-1.5703125, 0.0, -2.0, -0.001}},
+                          Vector{{-kInf, 0.001, 0.001}}, Vector{{-998.0, kInf, 1.001}}, 0.01),
+                 make_bounds(Vector{{0.001, 0.001, 1.0, 0.001}}, Vector{{kInf, kInf, 1.0, 1.001}}),
+                 make_bounds(Vector{{1.9619140625, 0.001, 0.001, 0.001}},
+                             Vector{{2.9619140625, kInf, kInf, 0.001}})},
+                4);
+}
+
+TEST(SolverFound, TinyRegularisationDecidesBetweenTwoUnknownsOfEqualWorth) {
+  // rho is 1e-8 below a row of length 2000 that is in conflict
+  expect_solved(
+      {make_bounds(Vector{{0.001, -kInf, 2.0, 0.001, 0.001, -kInf, -kInf, -kInf}},
+                   Vector{{1.001, -999.999999999, 2.000000001, 1.001, kInf, -998.0, -998.0, 4.0}}),
+       equality(Matrix{{-1000.0, -1000.0, -1000.0, -1000.0, 2.0, 0.001, 0.001, -0.001},
+                       {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                Vector{{0.001, 0.001}}, 1e-8),
+       make_bounds(Vector::Constant(8, 0.001), Vector::Constant(8, 0.001))},
+      8);
+}
+
 TEST(SolverFound, AnInterruptedSolveStaysInsideTheBoundsAbove) {
   const Matrix row{{-1000.0, -1000.0, 30.0, 0.001, 0.001, 0.001, -1000.0, -1000.0}};
   const Vector fixed{{3.0, 0.001, 0.001, 0.001, 1.0, 2.0}};
