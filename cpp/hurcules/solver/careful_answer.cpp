@@ -32,12 +32,14 @@ void CarefulLevel<Scalar>::build_basis(State first) {
   basis_.start(free_);
   add_state(first);
   first_ = basis_.size();
+  weakest_ = 1.0;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     if (!counts(lines_[i])) continue;
     // a row that the levels below lose a direction to counts with all that limits leave of it
     const Scalar rounding = lines_[i].gave ? Scalar(Tolerances::kPivot) : Scalar(kOwnRank);
-    const Scalar least = rounding / basis_.weakest();
-    basis_.add(coordinates(i), i, std::min<Scalar>(tolerance::kRank, least));
+    const Scalar before = basis_.weakest();
+    basis_.add(coordinates(i), i, std::min<Scalar>(tolerance::kRank, rounding / before));
+    if (lines_[i].gave && basis_.weakest() < before) weakest_ = basis_.weakest();
   }
   if (first != State::Held) add_state(State::Held);
 }

@@ -33,6 +33,8 @@ class CarefulLevel {
   // False when it does not get there; x is the best point so far.
   bool solve(double rho, bool onto, Budget& budget, double* x, std::vector<HeldRow>& held,
              int& begin_norm);
+  // the directions of the answer are told from rounding well enough for a proof
+  [[nodiscard]] bool told() const { return weakest_ > Tolerances::kTold; }
 
  private:
   using Block = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
@@ -105,6 +107,7 @@ class CarefulLevel {
   const LevelProblem* level_ = nullptr;
   const double* x_above_ = nullptr;
   Index unknowns_ = 0, free_ = 0;
+  Scalar weakest_ = 1.0;  // the least that limits leave of a row with a direction by the chain
   Scalar x_scale_ = 1.0;  // what rounding in x is relative to: the largest x so far
   Scalar reach_ = 0.0;    // the largest |t| so far
   std::vector<Line> lines_;

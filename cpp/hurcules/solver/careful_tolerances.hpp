@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "hurcules/base/types.hpp"
+#include "hurcules/solver/tolerances.hpp"
 #include "hurcules/solver/wide.hpp"
 
 namespace hurcules {
@@ -36,6 +37,8 @@ struct CarefulTolerances<long double> {
   static constexpr Long kImplied = 1e-12L;
   // what is left of an equality row that has a direction by the chain is rounding
   static constexpr Long kPivot = 1e-17L;
+  // ... and has so much of it that its rounding is below what a proof allows
+  static constexpr Long kTold = std::numeric_limits<Long>::epsilon() / tolerance::kProven;
 };
 
 // the same relative to its rounding, which leaves 1e10 between it and each of them, so that rows of
@@ -55,6 +58,7 @@ struct CarefulTolerances<Wide> {
   static constexpr Long kBlocking = 1e12L * kUnit;
   static constexpr Long kImplied = 1e14L * kUnit;
   static constexpr Long kPivot = 1e3L * kUnit;
+  static constexpr Long kTold = kUnit / tolerance::kProven;
 };
 
 }  // namespace hurcules

@@ -56,7 +56,10 @@ bool Lexicographic::solve_carefully(Way way, double rho) {
   if (way == Way::Wide && rho <= tolerance::kTiny * problem_.own_norm()) rho = 0.0;
   const auto go = [&](auto& level) {
     level.start(rows_, *chain_, problem_, x_above_, above_scale_);
-    return level.solve(rho, way != Way::Careful, budget_, x_, held_, begin_norm_);
+    const bool done = level.solve(rho, way != Way::Careful, budget_, x_, held_, begin_norm_);
+    // with more digits it may be another answer
+    raised_ = !level.told();
+    return done;
   };
   return way == Way::Wide ? go(wide_level_) : go(careful_level_);
 }
