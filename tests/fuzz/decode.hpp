@@ -65,8 +65,9 @@ class Decoder {
     if (code < 192) return kSmall[code % 8];
     return static_cast<double>(code * 256 + bytes_.next() - 57344) / 4096.0;  // -2 .. 2
   }
+  static constexpr double kNearOne[] = {1.0 + 1e-9, 1.0 - 1e-12};
   double number() {
-    constexpr double kHard[] = {1e-3, -1e-3, 1e3, -1e3, 1.0 + 1e-9, 1.0 - 1e-12, 30.0, -0.03};
+    constexpr double kHard[] = {1e-3, -1e-3, 1e3, -1e3, kNearOne[0], kNearOne[1], 30.0, -0.03};
     constexpr double kWild[] = {1e300, -1e300, 1e155, 1e-155, 1e-300, 5e-324, 1e19,     -1e20,
                                 1e100, 1e-100, 1e20,  -1e8,   1e8,    1e-8,   INFINITY, NAN};
     if (problem_.wildness == Wildness::Tame) return tame();
@@ -105,6 +106,9 @@ class Decoder {
     const Index kind = bytes_.next(8);
     if (kind < 5 || rows_.empty()) {
       for (double& a : level.A.row(i)) a = number();
+      // beside entries of 1 they stand out by 1e-9 and 1e-12
+      problem_.delicate |= (level.A.row(i).array() == kNearOne[0]).any() ||
+                           (level.A.row(i).array() == kNearOne[1]).any();
     } else {
       // a row that came before, scaled, or nearly so
       level.A.row(i) = rows_[bytes_.next(static_cast<Index>(rows_.size()))].transpose();

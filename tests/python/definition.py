@@ -72,6 +72,8 @@ class Basis:
 
     def __init__(self, n: int) -> None:
         self.Q = np.zeros((0, n), dtype=np.longdouble)
+        self.rows = np.zeros((0, n))  # that gave them, at length one
+        # their smallest singular value: when they change by one, Q turns by one over it
         self.weakest = 1.0
 
     def remove(self, y: np.ndarray) -> np.ndarray:
@@ -85,14 +87,16 @@ class Basis:
     def take(self, rows: np.ndarray, least: float = RANK) -> Basis:
         """This basis and the directions of further rows (m, n) that stand out by `least`."""
         basis = Basis(rows.shape[1])
-        basis.Q, basis.weakest = self.Q, self.weakest
+        basis.Q, basis.rows, basis.weakest = self.Q, self.rows, self.weakest
         for a in rows:
             rest, size = basis.remove(a), float(np.linalg.norm(a))
             out = float(np.linalg.norm(rest))
             if out > least * size:
-                basis.weakest = min(basis.weakest, out / size)
+                basis.rows = np.vstack([basis.rows, a / size])
                 unit = rest.astype(np.longdouble)
                 basis.Q = np.vstack([basis.Q, unit / np.sqrt(unit @ unit)])
+        if len(basis.rows) > len(self.rows):
+            basis.weakest = float(np.linalg.svd(basis.rows, compute_uv=False)[-1])
         return basis
 
     def left_over(self, y: np.ndarray, pushing: np.ndarray, scale: float) -> float:

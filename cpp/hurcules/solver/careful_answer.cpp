@@ -10,39 +10,43 @@ namespace hurcules {
 
 namespace {
 
-using Long = long double;
-
 // forces below this part of |a|^2 |x| are not told from rounding
-constexpr Long kLeastForce = 1e-3L;
+constexpr double kLeastForce = 1e-3;
 // what is left of a row that counts is rounding: a tenth of what the quicker ways take for it
 // (tolerance::kOwnRank), because nothing but the coordinates is in double here
 constexpr double kOwnRank = 1e-14;
-// a held row that has less than this outside the rows before it is held by them
-constexpr Long kImplied = 1e-12L;
+
+using std::abs;
 
 }  // namespace
 
-void CarefulLevel::add_state(State state) {
+template <class Scalar>
+void CarefulLevel<Scalar>::add_state(State state) {
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
-    if (lines_[i].state == state) basis_.add(coordinates(i), i, kImplied);
+    if (lines_[i].state == state) basis_.add(coordinates(i), i, Tolerances::kImplied);
   }
 }
 
-void CarefulLevel::build_basis(State first) {
+template <class Scalar>
+void CarefulLevel<Scalar>::build_basis(State first) {
   basis_.start(free_);
   add_state(first);
   first_ = basis_.size();
+  weakest_ = 1.0;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     if (!counts(lines_[i])) continue;
-    // the coordinates come from directions in double; a weak row magnifies their rounding
-    const Long rounding = kOwnRank / basis_.weakest();
-    basis_.add(coordinates(i), i, std::min<Long>(tolerance::kRank, rounding));
+    // a row that the levels below lose a direction to counts with all that limits leave of it
+    const Scalar rounding = lines_[i].gave ? Scalar(Tolerances::kPivot) : Scalar(kOwnRank);
+    const Scalar before = basis_.weakest();
+    basis_.add(coordinates(i), i, std::min<Scalar>(tolerance::kRank, rounding / before));
+    if (lines_[i].gave && basis_.weakest() < before) weakest_ = basis_.weakest();
   }
   if (first != State::Held) add_state(State::Held);
 }
 
 // least squares of the rows that count, in their directions
-void CarefulLevel::fill_block(Long rho) {
+template <class Scalar>
+void CarefulLevel<Scalar>::fill_block(Scalar rho) {
   const Index columns = basis_.size() - first_;
   Index count = 0;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
@@ -52,7 +56,7 @@ void CarefulLevel::fill_block(Long rho) {
     }
     block_(count++, columns) = -lines_[i].norm * excess(i);
   }
-  for (Index j = 0; rho > 0.0L && j < columns; ++j, ++count) {
+  for (Index j = 0; rho > 0.0 && j < columns; ++j, ++count) {
     block_.row(count).head(columns + 1).setZero();
     block_(count, j) = rho;
     block_(count, columns) = -rho * basis_.dot(first_ + j, t_.data());
@@ -61,57 +65,61 @@ void CarefulLevel::fill_block(Long rho) {
   triangularize(block_, count, columns);
 }
 
-void CarefulLevel::step_to_violation(Long rho) {
-  std::fill_n(p_.begin(), free_, 0.0L);
+template <class Scalar>
+void CarefulLevel<Scalar>::step_to_violation(Scalar rho) {
+  std::fill_n(p_.begin(), free_, 0.0);
   // regularised, what no row holds goes back to where it came from
-  if (rho > 0.0L) step_to_smallest();
+  if (rho > 0.0) step_to_smallest();
   const Index columns = basis_.size() - first_;
   fill_block(rho);
   for (Index j = columns - 1; j >= 0; --j) {
-    Long sum = block_(j, columns);
+    Scalar sum = block_(j, columns);
     for (Index l = j + 1; l < columns; ++l) sum -= block_(j, l) * z_[l];
     z_[j] = sum / block_(j, j);
-    const Long* b = basis_.direction(first_ + j);
+    const Scalar* b = basis_.direction(first_ + j);
     for (Index c = 0; c < free_; ++c) p_[c] += z_[j] * b[c];
   }
 }
 
-void CarefulLevel::move_back(Long rho) {
+template <class Scalar>
+void CarefulLevel<Scalar>::move_back(Scalar rho) {
   for (Line& line : lines_) {
     line.lower += line.lower_moved;
     line.upper -= line.upper_moved;
-    line.lower_moved = line.upper_moved = 0.0L;
+    line.lower_moved = line.upper_moved = 0.0;
   }
   for (Index j = 0; j < first_; ++j) z_[j] = -excess(basis_.mark(j));
   basis_.solve(first_, z_.data());
   for (Index j = 0; j < first_; ++j) {
-    const Long* b = basis_.direction(j);
+    const Scalar* b = basis_.direction(j);
     for (Index c = 0; c < free_; ++c) t_[c] += z_[j] * b[c];
   }
   step_to_violation(rho);
   for (Index c = 0; c < free_; ++c) t_[c] += p_[c];
 }
 
-void CarefulLevel::step_to_smallest() {
+template <class Scalar>
+void CarefulLevel<Scalar>::step_to_smallest() {
   basis_.remove(t_.data(), p_.data(), z_.data());
   for (Index c = 0; c < free_; ++c) p_[c] = -p_[c];
 }
 
-Long CarefulLevel::balance_violation(Long rho) {
+template <class Scalar>
+Scalar CarefulLevel<Scalar>::balance_violation(Scalar rho) {
   // what rounding in the violations makes
-  const Long own = level_->own_norm();
-  Long forces = kLeastForce * own * own * x_scale_;
-  std::fill_n(force_.begin(), free_, 0.0L);
+  const Scalar own = level_->own_norm();
+  Scalar forces = kLeastForce * own * own * x_scale_;
+  std::fill_n(force_.begin(), free_, 0.0);
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
-    lines_[i].multiplier = 0.0L;
+    lines_[i].multiplier = 0.0;
     if (!counts(lines_[i])) continue;
-    const Long push = lines_[i].norm * lines_[i].norm * excess(i);
-    forces += std::abs(push);
+    const Scalar push = lines_[i].norm * lines_[i].norm * excess(i);
+    forces += abs(push);
     for (Index c = 0; c < free_; ++c) force_[c] += push * coordinates(i)[c];
   }
   for (Index c = 0; c < free_; ++c) {
     force_[c] += rho * rho * t_[c];
-    forces += rho * rho * std::abs(t_[c]);
+    forces += rho * rho * abs(t_[c]);
   }
   for (Index j = 0; j < first_; ++j) z_[j] = -basis_.dot(j, force_.data());
   basis_.solve_transposed(first_, z_.data());
@@ -119,35 +127,37 @@ Long CarefulLevel::balance_violation(Long rho) {
   return forces;
 }
 
-void CarefulLevel::balance_step() {
-  for (Line& line : lines_) line.pull = 0.0L;
+template <class Scalar>
+void CarefulLevel<Scalar>::balance_step() {
+  for (Line& line : lines_) line.pull = 0.0;
   for (Index j = 0; j < basis_.size(); ++j) z_[j] = -basis_.dot(j, t_.data());
   basis_.solve_transposed(basis_.size(), z_.data());
   for (Index j = 0; j < basis_.size(); ++j) lines_[basis_.mark(j)].pull = z_[j];
 }
 
-void CarefulLevel::write(double* x) {
-  const Index n = rows_->unknowns();
+template <class Scalar>
+void CarefulLevel<Scalar>::write(double* x) {
   std::copy_n(x_above_, rows_->stride(), x);
-  for (Index j = 0; j < n; ++j) {
-    Long sum = x_above_[j];
+  for (Index j = 0; j < unknowns_; ++j) {
+    Scalar sum = x_above_[j];
     for (Index c = 0; c < free_; ++c) {
-      sum += t_[c] * chain_->direction(level_->first() + c)[j];
+      sum += t_[c] * direction(c)[j];
     }
     x[j] = static_cast<double>(sum);
   }
 }
 
-void CarefulLevel::keep(bool settled, std::vector<HeldRow>& held, int& begin_norm) const {
-  const auto push = [&](const Line& line, Long multiplier) {
+template <class Scalar>
+void CarefulLevel<Scalar>::keep(bool settled, std::vector<HeldRow>& held, int& begin_norm) const {
+  const auto push = [&](const Line& line, Scalar multiplier) {
     return static_cast<double>(static_cast<int>(line.side) * multiplier / line.norm);
   };
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     const Line& line = lines_[i];
     if (line.own && line.state == State::Violated) {
-      const double violation = static_cast<double>(std::abs(excess(i)) * line.norm);
+      const double violation = static_cast<double>(abs(excess(i)) * line.norm);
       held.push_back({line.row, line.side, violation, Role::Violation});
-    } else if (!line.own && holds(line) && line.multiplier != 0.0L) {
+    } else if (!line.own && holds(line) && line.multiplier != 0.0) {
       held.push_back(
           {line.row, line.side, std::max(0.0, push(line, line.multiplier)), Role::Violation});
     }
@@ -161,5 +171,8 @@ void CarefulLevel::keep(bool settled, std::vector<HeldRow>& held, int& begin_nor
         {line.row, line.side, push(line, line.pull), only ? Role::SmallestStep : Role::Idle});
   }
 }
+
+template class CarefulLevel<long double>;
+template class CarefulLevel<Wide>;
 
 }  // namespace hurcules

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hurcules/solver/wide.hpp"
+
 namespace hurcules {
 
 namespace {
@@ -12,7 +14,8 @@ constexpr int kCleanings = 3;
 
 }  // namespace
 
-void CarefulBasis::reserve(Index columns, Index rows) {
+template <class Scalar>
+void CarefulBasis<Scalar>::reserve(Index columns, Index rows) {
   const std::size_t directions = static_cast<std::size_t>(std::min(columns, rows));
   const std::size_t width = static_cast<std::size_t>(columns);
   directions_.resize(std::max(directions_.size(), directions * width));
@@ -21,41 +24,46 @@ void CarefulBasis::reserve(Index columns, Index rows) {
   mark_.resize(std::max(mark_.size(), directions));
 }
 
-void CarefulBasis::start(Index columns) {
+template <class Scalar>
+void CarefulBasis<Scalar>::start(Index columns) {
   columns_ = columns;
   size_ = 0;
   weakest_ = 1.0L;
 }
 
-CarefulBasis::Long CarefulBasis::dot(Index j, const Long* v) const {
-  const Long* b = direction(j);
-  Long sum = 0.0L;
+template <class Scalar>
+Scalar CarefulBasis<Scalar>::dot(Index j, const Scalar* v) const {
+  const Scalar* b = direction(j);
+  Scalar sum = 0.0L;
   for (Index c = 0; c < columns_; ++c) sum += b[c] * v[c];
   return sum;
 }
 
-CarefulBasis::Long CarefulBasis::remove(const Long* row, Long* rest, Long* parts) const {
+template <class Scalar>
+Scalar CarefulBasis<Scalar>::remove(const Scalar* row, Scalar* rest, Scalar* parts) const {
   std::copy_n(row, columns_, rest);
-  std::fill_n(parts, size_, 0.0L);
+  std::fill_n(parts, size_, Scalar(0.0L));
   for (int pass = 0; pass < kCleanings && size_ > 0; ++pass) {
     for (Index j = 0; j < size_; ++j) {
-      const Long part = dot(j, rest);
-      const Long* b = direction(j);
+      const Scalar part = dot(j, rest);
+      const Scalar* b = direction(j);
       for (Index c = 0; c < columns_; ++c) rest[c] -= part * b[c];
       parts[j] += part;
     }
   }
-  Long left = 0.0L;
+  using std::sqrt;
+  Scalar left = 0.0L;
   for (Index c = 0; c < columns_; ++c) left += rest[c] * rest[c];
-  return std::sqrt(left);
+  return sqrt(left);
 }
 
-bool CarefulBasis::add(const Long* row, Index mark, Long least) {
+template <class Scalar>
+bool CarefulBasis<Scalar>::add(const Scalar* row, Index mark, Scalar least) {
   if (size_ == columns_ || size_ == static_cast<Index>(mark_.size())) return false;
-  Long* parts = &parts_[size_ * columns_];
-  const Long left = remove(row, rest_.data(), parts);
+  Scalar* parts = &parts_[size_ * columns_];
+  const Scalar left = remove(row, rest_.data(), parts);
   if (!(left > least)) return false;
-  Long* b = &directions_[size_ * columns_];
+  Scalar* b = &directions_[size_ * columns_];
   for (Index c = 0; c < columns_; ++c) b[c] = rest_[c] / left;
   parts[size_] = left;
   mark_[size_] = mark;
@@ -64,20 +72,25 @@ bool CarefulBasis::add(const Long* row, Index mark, Long least) {
   return true;
 }
 
-void CarefulBasis::solve(Index end, Long* b) const {
+template <class Scalar>
+void CarefulBasis<Scalar>::solve(Index end, Scalar* b) const {
   for (Index i = 0; i < end; ++i) {
-    const Long* l = &parts_[i * columns_];
+    const Scalar* l = &parts_[i * columns_];
     for (Index j = 0; j < i; ++j) b[i] -= l[j] * b[j];
     b[i] /= l[i];
   }
 }
 
-void CarefulBasis::solve_transposed(Index end, Long* b) const {
+template <class Scalar>
+void CarefulBasis<Scalar>::solve_transposed(Index end, Scalar* b) const {
   for (Index i = end - 1; i >= 0; --i) {
-    const Long* l = &parts_[i * columns_];
+    const Scalar* l = &parts_[i * columns_];
     b[i] /= l[i];
     for (Index j = 0; j < i; ++j) b[j] -= l[j] * b[i];
   }
 }
+
+template class CarefulBasis<long double>;
+template class CarefulBasis<Wide>;
 
 }  // namespace hurcules

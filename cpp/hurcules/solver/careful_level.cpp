@@ -9,99 +9,124 @@ namespace hurcules {
 
 namespace {
 
-using Long = long double;
+// an own row counts where it did not so far when it is violated by as many times more, so that
+// rounding does not swap
+constexpr double kEnters = 10.0;
 
-// limits of rows above are moved outwards by this part of max(1, |x|), and up to twice as much
-constexpr Long kApart = 1e-14L;
-// an own row is violated beyond this part of the longest step so far: what rounds is its value,
-// and in cones of 1e-8 rad violations of 1e-19 decide where x of 1e-3 goes
-constexpr Long kViolated = 1e-17L;
-// ... and where it did not count so far beyond as many times more, so that rounding does not swap
-constexpr Long kEnters = 10.0L;
-// a step that is rounding, relative to max(1, |x|)
-constexpr Long kNoStep = 1e-17L;
-// a multiplier pulls below this part of the forces, or of the step
-constexpr Long kPull = 1e-16L;
-// ... which grows so many times at most
-constexpr Index kLadder = 16;
-// a limit that pushes by more than this part of the forces stays where the violation is the
-// smallest; the others may not move against it either, but that is found out
-constexpr Long kFixed = 1e-8L;
-// an own row is met to this part of max(1, abs x)
-constexpr Long kMet = 1e-14L;
-// a row that moves by less than this part of a step does not block it
-constexpr Long kBlocking = 1e-13L;
+using std::abs;
+using std::isinf;
 
-Long sign(Side side) {
-  return static_cast<Long>(static_cast<int>(side));
+double sign(Side side) {
+  return static_cast<double>(static_cast<int>(side));
 }
 
 // places between 0 and 1, no two alike
-Long scattered(Index i) {
+double scattered(Index i) {
   const double golden = 0.6180339887498949 * static_cast<double>(i + 1);
-  return static_cast<Long>(golden - std::floor(golden));
+  return golden - std::floor(golden);
 }
 
 }  // namespace
 
-void CarefulLevel::reserve(Index unknowns, Index rows) {
+template <class Scalar>
+void CarefulLevel<Scalar>::reserve(Index unknowns, Index rows) {
   const std::size_t n = static_cast<std::size_t>(unknowns);
   lines_.reserve(rows);
   if (coordinates_.size() < rows * n) coordinates_.resize(rows * n);
   basis_.reserve(unknowns, rows + unknowns);
-  for (std::vector<Long>* v : {&t_, &p_, &force_, &z_}) v->resize(std::max(v->size(), n + 1));
+  above_.reserve(unknowns, unknowns);
+  directions_.resize(std::max(directions_.size(), n * n));
+  for (std::vector<Scalar>* v : {&t_, &p_, &force_, &z_}) v->resize(std::max(v->size(), n + 1));
   if (block_.rows() < rows + unknowns || block_.cols() < unknowns + 1) {
     block_.resize(rows + unknowns, unknowns + 1);
   }
 }
 
-void CarefulLevel::start(const RowTable& rows, const Chain& chain, const LevelProblem& level,
-                         const double* x_above, double x_scale) {
+template <class Scalar>
+void CarefulLevel<Scalar>::start(const RowTable& rows, const Chain& chain,
+                                 const LevelProblem& level, const double* x_above, double x_scale) {
   rows_ = &rows;
   chain_ = &chain;
   level_ = &level;
   x_above_ = x_above;
+  unknowns_ = rows.unknowns();
   free_ = level.free();
   x_scale_ = x_scale;
   lines_.clear();
+  find_directions();
   for (int i = 0; i < rows.begin(level.level() + 1); ++i) add_line(i);
-  std::fill(t_.begin(), t_.end(), 0.0L);
-  reach_ = 0.0L;
+  std::fill(t_.begin(), t_.end(), 0.0);
+  reach_ = 0.0;
 }
 
-void CarefulLevel::add_line(int row) {
+// Those of the chain, cleaned of the rows above once more: in double they keep 1e-16 of them, which
+// of a row that stands out by 1e-9 is 1e-7. Behind a hand-over they are what that made them.
+template <class Scalar>
+void CarefulLevel<Scalar>::find_directions() {
+  const Index first = level_->first();
+  const auto read = [&](const double* v, double length, Scalar* direction) {
+    for (Index j = 0; j < unknowns_; ++j) direction[j] = Scalar(v[j]) / length;
+  };
+  for (Index c = 0; c < free_; ++c) {
+    read(chain_->direction(first + c), 1.0, &directions_[c * unknowns_]);
+  }
+  if (!chain_->basis().whole()) return;
+  above_.start(unknowns_);
+  for (Index j = 0; j < first; ++j) {
+    const int dense = static_cast<int>(chain_->pivot(j));
+    read(rows_->dense_row(dense), rows_->dense_norms()[dense], p_.data());
+    above_.add(p_.data(), j, 0.0);
+  }
+  for (Index c = 0; c < free_; ++c) {
+    if (!above_.add(direction(c), first + c, 0.0)) continue;
+    std::copy_n(above_.direction(above_.size() - 1), unknowns_, &directions_[c * unknowns_]);
+  }
+}
+
+template <class Scalar>
+bool CarefulLevel<Scalar>::gave_direction(const Row& row) const {
+  const Index end = chain_->rank_before(level_->level() + 1);
+  for (Index j = chain_->rank_before(level_->level()); j < end; ++j) {
+    if (row.equality && chain_->pivot(j) == row.dense) return true;
+  }
+  return false;
+}
+
+template <class Scalar>
+void CarefulLevel<Scalar>::add_line(int row) {
   const Row& r = (*rows_)[row];
   const bool own = r.level == level_->level();
   if (r.norm == 0.0 || (r.equality && !own)) return;
   const double* a = r.dense < 0 ? nullptr : rows_->dense_row(r.dense);
-  const auto dot = [&](const double* v) {
-    if (!a) return static_cast<Long>(v[r.row]);
-    Long sum = 0.0L;
-    for (Index j = 0; j < rows_->unknowns(); ++j) sum += static_cast<Long>(a[j]) * v[j];
+  const auto dot = [&](const auto* v) {
+    if (!a) return Scalar(v[r.row]);
+    Scalar sum = 0.0;
+    for (Index j = 0; j < unknowns_; ++j) sum += Scalar(a[j]) * v[j];
     return sum;
   };
-  Long* e = coordinates(static_cast<Index>(lines_.size()));
-  Long size2 = 0.0L;
+  Scalar* e = coordinates(static_cast<Index>(lines_.size()));
+  Scalar size2 = 0.0;
   for (Index j = 0; j < free_; ++j) {
-    e[j] = dot(chain_->direction(level_->first() + j)) / r.norm;
+    e[j] = dot(direction(j)) / r.norm;
     size2 += e[j] * e[j];
   }
   if (!own && size2 <= tolerance::kLost * tolerance::kLost) return;
-  const Long before = dot(x_above_);
+  const Scalar before = dot(x_above_);
   Line line = {.row = row,
                .own = own,
+               .gave = own && gave_direction(r),
                .norm = r.norm,
                .lower = r.lower - before,
                .upper = r.upper - before,
-               .lower_moved = 0.0L,
-               .upper_moved = 0.0L,
+               .lower_moved = 0.0,
+               .upper_moved = 0.0,
                .state = State::Inside,
                .side = Side::Upper,
-               .multiplier = 0.0L,
-               .pull = 0.0L};
+               .multiplier = 0.0,
+               .pull = 0.0};
   line.lower /= line.norm;
   line.upper /= line.norm;
-  const Long violated = kViolated * x_scale_;
+  const Scalar violated = Tolerances::kViolated * x_scale_;
   if (r.equality) {
     line.state = State::Equality;
   } else if (own && line.upper < -violated) {
@@ -111,50 +136,53 @@ void CarefulLevel::add_line(int row) {
     line.side = Side::Lower;
   } else if (!own) {
     const Index place = static_cast<Index>(lines_.size());
-    const Long apart = kApart * x_scale_;
-    line.upper_moved = apart * (1.0L + scattered(2 * place));
-    line.lower_moved = apart * (1.0L + scattered(2 * place + 1));
-    line.upper = std::max(line.upper, 0.0L) + line.upper_moved;
-    line.lower = std::min(line.lower, 0.0L) - line.lower_moved;
+    const Scalar apart = Tolerances::kApart * x_scale_;
+    line.upper_moved = apart * (1.0 + scattered(2 * place));
+    line.lower_moved = apart * (1.0 + scattered(2 * place + 1));
+    line.upper = std::max<Scalar>(line.upper, 0.0) + line.upper_moved;
+    line.lower = std::min<Scalar>(line.lower, 0.0) - line.lower_moved;
   }
   lines_.push_back(line);
 }
 
-Long CarefulLevel::value(Index i) const {
-  const Long* e = coordinates(i);
-  Long sum = 0.0L;
+template <class Scalar>
+Scalar CarefulLevel<Scalar>::value(Index i) const {
+  const Scalar* e = coordinates(i);
+  Scalar sum = 0.0;
   for (Index j = 0; j < free_; ++j) sum += e[j] * t_[j];
   return sum;
 }
 
-Long CarefulLevel::excess(Index i) const {
+template <class Scalar>
+Scalar CarefulLevel<Scalar>::excess(Index i) const {
   return value(i) - (lines_[i].side == Side::Upper ? lines_[i].upper : lines_[i].lower);
 }
 
-bool CarefulLevel::blocked(State own) {
-  Long length = 0.0L, way = 1.0L, speed = 0.0L;
-  for (Index j = 0; j < free_; ++j) length = std::max(length, std::abs(p_[j]));
-  if (length <= kNoStep * x_scale_) return false;
+template <class Scalar>
+bool CarefulLevel<Scalar>::blocked(State own) {
+  Scalar length = 0.0, way = 1.0, speed = 0.0;
+  for (Index j = 0; j < free_; ++j) length = std::max(length, abs(p_[j]));
+  if (length <= Tolerances::kNoStep * x_scale_) return false;
   Index found = -1;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     const Line& line = lines_[i];
     if (line.state != State::Inside) continue;
-    const Long* e = coordinates(i);
-    Long moved = 0.0L;
+    const Scalar* e = coordinates(i);
+    Scalar moved = 0.0;
     for (Index j = 0; j < free_; ++j) moved += e[j] * p_[j];
-    if (std::abs(moved) <= kBlocking * length) continue;
-    const Long limit = moved > 0.0L ? line.upper : line.lower;
-    if (std::isinf(limit)) continue;
-    const Long part = std::max(0.0L, (limit - value(i)) / moved);
-    if (part > way || (part == way && std::abs(moved) <= speed) || part >= 1.0L) continue;
+    if (abs(moved) <= Tolerances::kBlocking * length) continue;
+    const Scalar limit = moved > 0.0 ? line.upper : line.lower;
+    if (isinf(limit)) continue;
+    const Scalar part = std::max<Scalar>(0.0, (limit - value(i)) / moved);
+    if (part > way || (part == way && abs(moved) <= speed) || part >= 1.0) continue;
     way = part;
-    speed = std::abs(moved);
+    speed = abs(moved);
     found = i;
-    lines_[i].side = moved > 0.0L ? Side::Upper : Side::Lower;
+    lines_[i].side = moved > 0.0 ? Side::Upper : Side::Lower;
   }
   for (Index j = 0; j < free_; ++j) {
     t_[j] += way * p_[j];
-    reach_ = std::max(reach_, std::abs(t_[j]));
+    reach_ = std::max(reach_, abs(t_[j]));
   }
   x_scale_ = std::max(x_scale_, reach_);
   if (found < 0) return false;
@@ -163,13 +191,14 @@ bool CarefulLevel::blocked(State own) {
 }
 
 // own rows count where they are beyond a limit, on whichever side that is now
-bool CarefulLevel::revise_violated() {
+template <class Scalar>
+bool CarefulLevel<Scalar>::revise_violated() {
   bool changed = false;
-  const Long room = kViolated * reach_;
+  const Scalar room = Tolerances::kViolated * reach_;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     Line& line = lines_[i];
     if (!line.own || (line.state != State::Violated && line.state != State::Inside)) continue;
-    const Long now = value(i);
+    const Scalar now = value(i);
     const bool counted = line.state == State::Violated;
     if (counted && sign(line.side) * excess(i) >= -room) continue;
     const bool over = now > line.upper + kEnters * room, under = now < line.lower - kEnters * room;
@@ -181,7 +210,8 @@ bool CarefulLevel::revise_violated() {
   return changed;
 }
 
-bool CarefulLevel::drop_worst(Long Line::* part, Long least) {
+template <class Scalar>
+bool CarefulLevel<Scalar>::drop_worst(Scalar Line::* part, Scalar least) {
   Line* found = nullptr;
   for (Line& line : lines_) {
     if (line.state != State::Held || sign(line.side) * line.*part >= least) continue;
@@ -190,35 +220,40 @@ bool CarefulLevel::drop_worst(Long Line::* part, Long least) {
   }
   if (!found) return false;
   found->state = State::Inside;
-  found->multiplier = found->pull = 0.0L;
+  found->multiplier = found->pull = 0.0;
   return true;
 }
 
 // Grows tenfold when there were more rounds than rows and directions, so that rounding in a level
 // on the edge of its digits cannot keep two rows swapping; the proof judges what comes of it.
-Long CarefulLevel::pull(Index round) const {
-  return kPull * std::pow(10.0L, static_cast<Long>(round / rounds()));
+template <class Scalar>
+Scalar CarefulLevel<Scalar>::pull(Index round) const {
+  return Tolerances::kPull * std::pow(10.0L, static_cast<long double>(round / rounds()));
 }
 
-bool CarefulLevel::find_violation(Long rho, bool onto, Budget& budget) {
-  for (Index round = 0; round < kLadder * rounds() && !budget.spent(); ++round, ++budget.used) {
+template <class Scalar>
+bool CarefulLevel<Scalar>::find_violation(Scalar rho, bool onto, Budget& budget) {
+  for (Index round = 0; round < Tolerances::kLadder * rounds() && !budget.spent();
+       ++round, ++budget.used) {
     build_basis(State::Held);
     step_to_violation(rho);
     if (blocked(State::Violated) || revise_violated()) continue;
-    Long forces = balance_violation(rho);
+    Scalar forces = balance_violation(rho);
     if (drop_worst(&Line::multiplier, -pull(round) * forces)) continue;
     if (onto) {
       move_back(rho);
       forces = balance_violation(rho);
     }
-    if (rho == 0.0L) settle(forces);
+    if (rho == 0.0) settle(forces);
     return true;
   }
   return false;
 }
 
-bool CarefulLevel::find_smallest(Budget& budget) {
-  for (Index round = 0; round < kLadder * rounds() && !budget.spent(); ++round, ++budget.used) {
+template <class Scalar>
+bool CarefulLevel<Scalar>::find_smallest(Budget& budget) {
+  for (Index round = 0; round < Tolerances::kLadder * rounds() && !budget.spent();
+       ++round, ++budget.used) {
     build_basis(State::Fixed);
     step_to_smallest();
     if (blocked(State::Held)) continue;
@@ -228,21 +263,24 @@ bool CarefulLevel::find_smallest(Budget& budget) {
   return false;
 }
 
-void CarefulLevel::settle(Long forces) {
+template <class Scalar>
+void CarefulLevel<Scalar>::settle(Scalar forces) {
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     Line& line = lines_[i];
-    if (line.state == State::Held && sign(line.side) * line.multiplier > kFixed * forces) {
+    if (line.state == State::Held &&
+        sign(line.side) * line.multiplier > Tolerances::kFixed * forces) {
       line.state = State::Fixed;
     }
     // met to rounding: it may come inside, too
-    if (line.state == State::Violated && std::abs(excess(i)) <= kMet * x_scale_) {
+    if (line.state == State::Violated && abs(excess(i)) <= Tolerances::kMet * x_scale_) {
       line.state = State::Held;
     }
   }
 }
 
-bool CarefulLevel::solve(double rho, bool onto, Budget& budget, double* x,
-                         std::vector<HeldRow>& held, int& begin_norm) {
+template <class Scalar>
+bool CarefulLevel<Scalar>::solve(double rho, bool onto, Budget& budget, double* x,
+                                 std::vector<HeldRow>& held, int& begin_norm) {
   bool found = find_violation(rho, onto, budget);
   if (found && rho == 0.0) {
     found = find_smallest(budget);
@@ -253,5 +291,8 @@ bool CarefulLevel::solve(double rho, bool onto, Budget& budget, double* x,
   if (found) keep(rho == 0.0, held, begin_norm);
   return found;
 }
+
+template class CarefulLevel<long double>;
+template class CarefulLevel<Wide>;
 
 }  // namespace hurcules

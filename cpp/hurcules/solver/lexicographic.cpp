@@ -58,6 +58,7 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   active_set_.reserve(unknowns_, reserved_rows_, reserved_own_);
   settled_level_.reserve(unknowns_, reserved_rows_);
   careful_level_.reserve(unknowns_, reserved_rows_);
+  wide_level_.reserve(unknowns_, reserved_rows_);
   optimality_.reserve(unknowns_, reserved_rows_);
   certificate_.reserve(unknowns_, reserved_rows_);
   records_.resize(reserved_levels_);
@@ -214,13 +215,12 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
   Way best = Way::Careful, last = best;
   double least = std::numeric_limits<double>::infinity();
   const bool least_distance = rho >= tolerance::kSmall * problem_.own_norm();
-  for (const Way way :
-       {Way::Warm, Way::Cold, Way::Settled, Way::Careful, Way::Onto, Way::Unregularised}) {
+  for (const Way way : {Way::Warm, Way::Cold, Way::Settled, Way::Careful, Way::Onto, Way::Wide}) {
     if (way == Way::Warm && !has_kept(k)) continue;
+    // its directions are known in double alone
+    if (way == Way::Wide && !chain_->basis().whole()) continue;
     // the usual way of a level with a small rho
     if (way == Way::Settled && !least_distance) continue;
-    // rho^2 |t| is lost in the rounding of the violations
-    if (way == Way::Unregularised && rho > tolerance::kTiny * problem_.own_norm()) continue;
     if (way == Way::Careful && proven_to_stay(rho, k, residual)) {
       done = true;
       return residual;

@@ -34,8 +34,8 @@ class Lexicographic : public Method {
   void restore(StateReader& reader) override;
 
  private:
-  // Onto: as Careful, but back onto the limits. Unregularised: and a small rho taken for nothing.
-  enum class Way { Warm, Cold, Settled, Careful, Onto, Unregularised };
+  // Onto: as Careful, but back onto the limits. Wide: the same with twice the digits.
+  enum class Way { Warm, Cold, Settled, Careful, Onto, Wide };
 
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
@@ -117,7 +117,8 @@ class Lexicographic : public Method {
   KeptLevel kept_level_;
   ActiveSet active_set_;
   SettledLevel settled_level_;
-  CarefulLevel careful_level_;
+  CarefulLevel<long double> careful_level_;
+  CarefulLevel<hurcules::Wide> wide_level_;
   Optimality optimality_;
   Certificate certificate_;
   Budget budget_;

@@ -52,9 +52,16 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
 
 bool Lexicographic::solve_carefully(Way way, double rho) {
   ++solution_.factorizations;
-  careful_level_.start(rows_, *chain_, problem_, x_above_, above_scale_);
-  return careful_level_.solve(way == Way::Unregularised ? 0.0 : rho, way != Way::Careful, budget_,
-                              x_, held_, begin_norm_);
+  // so small that it would be lost in rounding
+  if (way == Way::Wide && rho <= tolerance::kTiny * problem_.own_norm()) rho = 0.0;
+  const auto go = [&](auto& level) {
+    level.start(rows_, *chain_, problem_, x_above_, above_scale_);
+    const bool done = level.solve(rho, way != Way::Careful, budget_, x_, held_, begin_norm_);
+    // with more digits it may be another answer
+    raised_ = !level.told();
+    return done;
+  };
+  return way == Way::Wide ? go(wide_level_) : go(careful_level_);
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {

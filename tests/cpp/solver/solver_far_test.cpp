@@ -171,5 +171,16 @@ TEST(SolverFar, NearlyParallelRowsInThreeLevels) {
       6, false);
 }
 
+TEST(SolverFar, ALimitOnARowThatStandsOutBy1em12SaysThatItIsNotMet) {
+  // to meet both x is 4e11, where rounding of x alone is more than the limits are apart
+  expect_honest(
+      {interval(
+           Matrix{{-1.0, -0.150390625, 1.366943359375}, {0.5, 0.5, 0.0}, {1.0 - 1e-12, 1.0, 0.0}},
+           Vector{{1.536865234375, 0.5, 0.7470703125}},
+           Vector{{1.537865234375, 0.50000000000001, 0.7470703125}}, 0.0),
+       make_bounds(Vector{{30.0, -0.5, -1.0}}, Vector{{31.0, -0.5, -0.999999999}})},
+      3, false);
+}
+
 }  // namespace
 }  // namespace hurcules

@@ -192,6 +192,52 @@ TEST(SolverFound, CopiesOfARowEachMetToRoundingAreNotMetTogether) {
                 7);
 }
 
+TEST(SolverFound, NearlyOppositeLimitsLeaveAPlayThatIsNoWay) {
+  // exactly nothing but x2 may move; limits kept to 3e-14 would leave x2 a play of 270
+  expect_solved({interval(Matrix{{0.0, 1.0, 0.5, -1000.0},
+                                 {0.001, 3.0, 1.5, -3000.0},
+                                 {-1.5703125, 0.0, -2.0, -0.001}},
+                          Vector{{-kInf, 0.001, 0.001}}, Vector{{-998.0, kInf, 1.001}}, 0.01),
+                 make_bounds(Vector{{0.001, 0.001, 1.0, 0.001}}, Vector{{kInf, kInf, 1.0, 1.001}}),
+                 make_bounds(Vector{{1.9619140625, 0.001, 0.001, 0.001}},
+                             Vector{{2.9619140625, kInf, kInf, 0.001}})},
+                4);
+}
+
+TEST(SolverFound, TinyRegularisationDecidesBetweenTwoUnknownsOfEqualWorth) {
+  // rho is 1e-8 below a row of length 2000 that is in conflict
+  expect_solved(
+      {make_bounds(Vector{{0.001, -kInf, 2.0, 0.001, 0.001, -kInf, -kInf, -kInf}},
+                   Vector{{1.001, -999.999999999, 2.000000001, 1.001, kInf, -998.0, -998.0, 4.0}}),
+       equality(Matrix{{-1000.0, -1000.0, -1000.0, -1000.0, 2.0, 0.001, 0.001, -0.001},
+                       {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                Vector{{0.001, 0.001}}, 1e-8),
+       make_bounds(Vector::Constant(8, 0.001), Vector::Constant(8, 0.001))},
+      8);
+}
+
+TEST(SolverFound, DirectionsOfWeakRowsBehindWeakRowsTurnByBoth) {
+  // x is 1.5e5; row 0 of level 2 stands out by 1e-6 of its length, row 2 from that by 1e-3 of its
+  // own: 1e-16 in the rows is 1e-7 in their last direction. The judge once counted 1e-10.
+  expect_solved(
+      {interval(Matrix{{-2.0, 1.0, -1.63916015625, 0.880615234375, -0.5, 0.0, 0.5, -1.0},
+                       {-1.0, 3.0, -2.0, -1.43994140625, -0.5, 1.425537109375, 2.0, 0.0},
+                       {-0.5, 1.5, -1.0, -0.719970703125, -0.25, 0.7127685546875, 1.0, 0.0}},
+                Vector{{-1.815673828125, 2.0, 3.0}},
+                Vector{{-1.81567382812499, 2.0009999999999999, 3.0}}, 0.1),
+       interval(Matrix{{1.0, -3.0, 2.0, 1.43994140625, 0.5, -1.425537109375, -2.0, 0.0},
+                       {0.5, -1.0, -1000.0, -2.0, 1000.0, -2.0, 0.5, -1.0},
+                       {-4.0, 2.0, -3.2783203125, 1.76123046875, -0.999, 0.0, 1.0, -2.0}},
+                Vector{{-1.845703125, -1.0, 1.882080078125}}, Vector{{-1.845703125, -1.0, kInf}},
+                1e-5),
+       equality(Matrix{{-0.4019541015625, 0.805908203125, 805.908203125, 1.61181640625,
+                        -805.908203125, 1.61181640625, -0.4029541015625, 0.805908203125},
+                       {2.0, 1.09521484375, 0.5, -2.0, -0.5, -2.0, -0.2431640625, -0.32470703125},
+                       {1.0, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+                Vector{{0.5, -0.5, 0.001}}, 1e-8)},
+      8);
+}
+
 TEST(SolverFound, AnInterruptedSolveStaysInsideTheBoundsAbove) {
   const Matrix row{{-1000.0, -1000.0, 30.0, 0.001, 0.001, 0.001, -1000.0, -1000.0}};
   const Vector fixed{{3.0, 0.001, 0.001, 0.001, 1.0, 2.0}};

@@ -7,8 +7,9 @@
 // over the rows above that stand at their limits; mu is found by nonnegative least squares. Where
 // rho is 0 or tiny, the step has to be the smallest of those with the same violations as well:
 //     (x_k - x_{k-1}) + sum over rows that settle (any sign) and rows at their limits (>= 0) = 0.
-// Rounding of the rows themselves is no fault: multipliers mu cost 1e-15 mu, and a row that stands
-// out by sigma from those before it gives a direction that is known to 1e-15 / sigma.
+// Rounding of the rows themselves is no fault: multipliers mu cost 1e-15 mu, and the directions of
+// rows whose smallest singular value at length one is sigma are known to 1e-15 / sigma (Wedin), of
+// one that pushes and stands out from them by sigma likewise.
 #pragma once
 
 #include <algorithm>
@@ -55,22 +56,36 @@ class OptimalityJudge {
   // an orthonormal basis of the rows taken so far
   struct Basis {
     std::vector<LongVector> q;
-    double weakest = 1.0;  // by how much a row stood out from those before it, relative to |a|
+    std::vector<LongVector> inverse;  // rows / |a| = L q; the rows of L^-1
+    long double inverse2 = 0.0L;      // |L^-1|^2, at least 1 / sigma^2
 
-    LongVector remove(const LongVector& y) const {
+    // parts: along each of q
+    LongVector remove(const LongVector& y, LongVector* parts = nullptr) const {
       LongVector rest = y;
+      if (parts) parts->setZero(static_cast<hurcules::Index>(q.size()));
       for (int pass = 0; pass < 2; ++pass) {
-        for (const LongVector& direction : q) rest -= direction.dot(rest) * direction;
+        for (std::size_t j = 0; j < q.size(); ++j) {
+          const long double part = q[j].dot(rest);
+          rest -= part * q[j];
+          if (parts) (*parts)[static_cast<hurcules::Index>(j)] += part;
+        }
       }
       return rest;
     }
     void add(const hurcules::Vector& a, double least = kRank) {
-      const LongVector rest = remove(a.cast<long double>());
-      const double left = static_cast<double>(rest.norm()) / a.norm();
+      if (a.norm() == 0.0) return;
+      LongVector parts;
+      const LongVector rest = remove(a.cast<long double>() / a.norm(), &parts);
+      const long double left = rest.norm();
       if (!(left > least)) return;
-      weakest = std::min(weakest, left);
-      q.push_back(rest.normalized());
+      q.push_back(rest / left);
+      LongVector row = LongVector::Unit(a.size(), static_cast<hurcules::Index>(inverse.size()));
+      for (std::size_t j = 0; j < inverse.size(); ++j) row -= parts[j] * inverse[j];
+      inverse.push_back(row / left);
+      inverse2 += inverse.back().squaredNorm();
     }
+    // how much the directions turn, at most, when the rows at length one change by one
+    [[nodiscard]] double turn() const { return std::max(1.0, std::sqrt(double(inverse2))); }
   };
 
   static constexpr double kRank = 1e-10;      // solver.md §1
@@ -151,19 +166,19 @@ class OptimalityJudge {
   // what of y no nonnegative weights on `pushing` balance outside the basis, relative to `scale`
   static double left_over(const Basis& basis, const LongVector& y,
                           const std::vector<hurcules::Vector>& pushing, double scale) {
-    double weakest = basis.weakest;
+    double turn = basis.turn();
     LongMatrix C(0, y.size());
     for (const hurcules::Vector& a : pushing) {
       const LongVector free = basis.remove(a.cast<long double>());
       if (free.norm() <= kRank) continue;
-      weakest = std::min(weakest, static_cast<double>(free.norm()));
+      turn = std::max(turn, 1.0 / static_cast<double>(free.norm()));
       C.conservativeResize(C.rows() + 1, y.size());
       C.row(C.rows() - 1) = free.transpose();
     }
     const NonnegativeLeastSquares balance(C, basis.remove(y));
     const double rounding = kRounding * static_cast<double>(balance.weights().sum());
     return static_cast<double>(balance.residual().norm()) /
-           ((scale + rounding) * (1.0 + kRounding / weakest));
+           ((scale + rounding) * (1.0 + kRounding * turn));
   }
 
   static constexpr double kRounding = 1e-6;  // 1e-15 counts as 1e-9
