@@ -12,8 +12,8 @@ namespace {
 
 // forces below this part of |a|^2 |x| are not told from rounding
 constexpr double kLeastForce = 1e-3;
-// what is left of a row that counts is rounding: a tenth of what the quicker ways take for it
-// (tolerance::kOwnRank), because nothing but the coordinates is in double here
+// what is left of a row that counts is rounding of its numbers: a tenth of what the quicker ways
+// take for it (tolerance::kOwnRank), whose factors are in double, too
 constexpr double kOwnRank = 1e-14;
 
 using std::abs;
