@@ -84,9 +84,11 @@ def run_mission(
     repetitions: Annotated[
         int, typer.Option(help="At each setting.", rich_help_panel=_TRIALS)
     ] = 10,
-    speed: Annotated[
+    pace: Annotated[
         float | None,
-        typer.Option(help="[m/s]", rich_help_panel=_TRIALS, show_default="the method's own"),
+        typer.Option(
+            help="Speed [m/s].", rich_help_panel=_TRIALS, show_default="the method's own"
+        ),
     ] = None,
     workers: Annotated[
         int, typer.Option(help="Processes; the result is the same.", rich_help_panel=_TRIALS)
@@ -114,7 +116,7 @@ def run_mission(
         _refuse_mission_options(context)
         words = tuple(context.args)
         trial = TrialOptions(
-            mission, words, robot, repetitions, seed, speed, workers, folder, video
+            mission, words, robot, repetitions, seed, pace, workers, folder, video
         )
         raise typer.Exit(run_trial(trial, Console()))
     if context.args:

@@ -179,6 +179,7 @@ def test_options_of_a_method_are_read_in_degrees():
     assert chosen.values(settings[0])["friction"] == 0.5 and chosen.fixed["length"] == 3.0
     assert [shown(chosen, one) for one in settings] == ["25 deg", "30 deg"]
     assert asked("e2803", [])[1] is None
+    assert asked("e2829", ["--speed", "5,5.56"])[1] == (5.0, 5.56)
 
 
 @pytest.mark.parametrize(
@@ -189,7 +190,8 @@ def test_options_of_a_method_are_read_in_degrees():
         (["e2803", "30"], "wanted --PARAMETER VALUE, got '30'"),
         (["e2803", "--angle", "steep"], "--angle: wanted a number, got 'steep'"),
         (["e2803", "--angle", "80"], "angle wants a number from"),
-        (["e2829", "--speed", "0"], "speed"),
+        (["e2829", "--speed", "0"], "--speed: wanted a positive number, got '0'"),
+        (["e2829", "--pace", "2"], "e2829: the speed is its setting"),
     ],
 )
 def test_wrong_options_of_a_method_are_one_line_and_exit_code_2(words, says, capsys):

@@ -104,6 +104,8 @@ def run(
     if repetitions < 1 or workers < 1 or not (speed is None or speed > 0.0):
         wanted = "wanted repetitions >= 1, workers >= 1 and a speed > 0"
         raise Error(f"{name}: {wanted}, got {repetitions}, {workers} and {speed!r}")
+    if speed is not None and chosen.parameter == "speed":
+        raise Error(f"{name}: the speed is its setting; got another one of {speed:g} m/s")
     results: list[SettingResult] = []
     seconds = 0.0
     with _pool(workers) as pool:
