@@ -95,8 +95,8 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   // too wide here, the real one never is
   const double turn = within_slip(asked, measured.yaw_rate * options_.gauge / 2.0,
                                   measured.yaw_rate * gauge_ / 2.0);
+  driving_slips_ = v != go;
   turning_slips_ = turn != asked;
-  slipping_ = v != go || turning_slips_;
   const Belt left = belt(v - turn, measured.left, left_integral_);
   const Belt right = belt(v + turn, measured.right, right_integral_);
   // turning goes before speed here too: what one drive lacks, both give up
@@ -149,14 +149,15 @@ DriveTorques DriveController::hold() {
   speed_.reset();
   yaw_rate_.reset();
   yaw_integral_ = 0.0;
-  slipping_ = turning_slips_ = false;
+  driving_slips_ = turning_slips_ = false;
   const bool shut = still_ > options_.brake_time;
   return {shut ? 0.0 : left_integral_, shut ? 0.0 : right_integral_, true};
 }
 
-// least squares of B omega = belts' difference, forgetting at the rate at which turning tells
+// least squares of B omega = belts' difference, forgetting at the rate at which turning tells. A
+// turn that is held back tells it too: where tracks skid more, the belts may then differ by more.
 void DriveController::learn_gauge(const DriveState& measured) {
-  if (slipping_) return;
+  if (driving_slips_) return;
   const double omega = measured.yaw_rate;
   const double difference = options_.radius * (measured.right - measured.left);
   const double weight = omega * omega + kLearnYaw * kLearnYaw;
@@ -228,7 +229,7 @@ void DriveController::reset() {
   left_integral_ = right_integral_ = yaw_integral_ = still_ = 0.0;
   gauge_ = options_.gauge;
   braked_ = true;
-  slipping_ = turning_slips_ = false;
+  driving_slips_ = turning_slips_ = false;
 }
 
 void DriveController::save(StateWriter& writer) const {
@@ -237,7 +238,7 @@ void DriveController::save(StateWriter& writer) const {
   yaw_rate_.save(writer);
   for (const double value :
        {command_.speed, command_.yaw_rate, left_integral_, right_integral_, yaw_integral_, gauge_,
-        still_, braked_ ? 1.0 : 0.0, slipping_ ? 1.0 : 0.0, turning_slips_ ? 1.0 : 0.0}) {
+        still_, braked_ ? 1.0 : 0.0, driving_slips_ ? 1.0 : 0.0, turning_slips_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -251,7 +252,7 @@ void DriveController::restore(StateReader& reader) {
     *value = reader.get();
   }
   braked_ = reader.get_count(1) > 0;
-  slipping_ = reader.get_count(1) > 0;
+  driving_slips_ = reader.get_count(1) > 0;
   turning_slips_ = reader.get_count(1) > 0;
 }
 

@@ -73,9 +73,8 @@ class DriveController {
   [[nodiscard]] bool braked() const { return braked_; }
   [[nodiscard]] ParkingPhase parking_phase() const { return parking_.phase(); }
   [[nodiscard]] double gauge() const { return gauge_; }  // [m] effective, as estimated
-  [[nodiscard]] bool slipping() const {
-    return slipping_;
-  }  // a belt was held back in the last tick
+  // a belt was held back in the last tick
+  [[nodiscard]] bool slipping() const { return driving_slips_ || turning_slips_; }
   // what the profiles ask for at this moment [m/s, rad/s]
   [[nodiscard]] DriveCommand reference() const { return {speed_.speed(), yaw_rate_.speed()}; }
   [[nodiscard]] const DriveOptions& options() const { return options_; }
@@ -109,7 +108,7 @@ class DriveController {
   double yaw_integral_ = 0.0;                          // [rad/s]
   double gauge_ = 0.0;                                 // [m]
   double still_ = 0.0;                                 // [s] without motion, or behind brakes
-  bool braked_ = true, slipping_ = false, turning_slips_ = false;
+  bool braked_ = true, driving_slips_ = false, turning_slips_ = false;
 };
 
 }  // namespace hurcules

@@ -80,6 +80,15 @@ TEST(DriveController, LearnsTheEffectiveGaugeAndTurnsAsAsked) {
   }
 }
 
+// From a straight, at once: the belts may lead the ground by 0.23 m/s here, and have to by 0.4.
+TEST(DriveController, LearnsTheGaugeInATurnThatTheSlipLimitHoldsBack) {
+  Vehicle vehicle;
+  vehicle.plant.skid = 0.5;
+  vehicle.controller.drive({0.0, 1.2});
+  vehicle.run(5.0);
+  EXPECT_NEAR(vehicle.plant.state.yaw_rate, 1.2, 0.02);
+}
+
 // Where tracks bear at their ends they skid, and the gauge that is learnt there is twice too wide
 // for other ground. Belts that followed the ground by it would spin the vehicle faster and faster.
 TEST(DriveController, AGaugeLearntElsewhereStillBrakesATurnThatIsTooFast) {
