@@ -41,6 +41,7 @@ ifneq ($(shell command -v clang++),)
 fuzz: setup
 	export PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)"; cmake --preset fuzz && cmake --build --preset fuzz
 	mkdir -p build/fuzz/corpus
+	test -n "$$(ls build/fuzz/corpus)" || $(BIN)/python tests/fuzz/seeds.py build/fuzz/corpus
 	build/fuzz/tests/fuzz/solver_fuzz build/fuzz/corpus -max_total_time=$(SECONDS) -max_len=400 -timeout=10 \
 	  -artifact_prefix=build/fuzz/ -print_final_stats=1
 else
