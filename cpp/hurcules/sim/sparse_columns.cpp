@@ -86,6 +86,19 @@ void split_blocks(mjData* d, const AddedColumns* added) {
 
 }  // namespace
 
+ArenaScratch::ArenaScratch(mjData* d, std::size_t bytes) : data_(d), before_(d->pstack) {
+  const std::size_t end = static_cast<std::size_t>(d->narena) - before_;
+  if (end < d->parena + bytes + alignof(mjtNum)) return;
+  const std::size_t begin = (end - bytes) / alignof(mjtNum) * alignof(mjtNum);
+  d->pstack = static_cast<std::size_t>(d->narena) - begin;
+  d->maxuse_arena = std::max(d->maxuse_arena, static_cast<mjtSize>(d->parena + d->pstack));
+  memory_ = static_cast<char*>(d->arena) + begin;
+}
+
+ArenaScratch::~ArenaScratch() {
+  data_->pstack = before_;
+}
+
 bool add_sparse_columns(mjData* d, const AddedColumns* added) {
   int size = d->nJ;
   for (int row = 0; row < d->nefc; ++row) size += count(added[row]);

@@ -5,9 +5,28 @@
 // The next step takes that memory back.
 #pragma once
 
+#include <cstddef>
+
 struct mjData_;
 
 namespace hurcules {
+
+// Memory at the far end of MuJoCo's arena, where its own stack lies, for as long as this lives.
+// (mj_markStack is missing from MuJoCo's library where a program has the address sanitizer.)
+class ArenaScratch {
+ public:
+  ArenaScratch(mjData_* data, std::size_t bytes);
+  ~ArenaScratch();
+  ArenaScratch(const ArenaScratch&) = delete;
+  ArenaScratch& operator=(const ArenaScratch&) = delete;
+  // aligned for doubles; null when the arena is full
+  [[nodiscard]] void* memory() const { return memory_; }
+
+ private:
+  mjData_* data_;
+  std::size_t before_;  // size of the stack
+  void* memory_ = nullptr;
+};
 
 // columns that a row gets, -1 for none; two at most, as a contact has two geoms
 struct AddedColumns {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -101,19 +102,20 @@ Tracks::Tracks(const mjModel* m) : track_of_geom_(static_cast<std::size_t>(m->ng
 }
 
 void Tracks::make_room(mjData* d) const {
-  mj_markStack(d);
   const auto rows = static_cast<std::size_t>(d->nefc);
-  auto* const added = static_cast<AddedColumns*>(
-      mj_stackAllocByte(d, rows * sizeof(AddedColumns), alignof(AddedColumns)));
-  std::fill_n(added, rows, AddedColumns{});
-  for (int i = 0; i < d->ncon; ++i) {
-    const mjContact& contact = d->contact[i];
-    if (contact.efc_address < 0 || contact.dim < 3) continue;
-    const AddedColumns columns{dof_of(contact.geom[0]), dof_of(contact.geom[1])};
-    std::fill_n(added + contact.efc_address, contact.dim, columns);
+  const ArenaScratch scratch(d, rows * sizeof(AddedColumns));
+  auto* const added = static_cast<AddedColumns*>(scratch.memory());
+  if (added) {
+    std::uninitialized_fill_n(added, rows, AddedColumns{});
+    for (int i = 0; i < d->ncon; ++i) {
+      const mjContact& contact = d->contact[i];
+      if (contact.efc_address < 0 || contact.dim < 3) continue;
+      const AddedColumns columns{dof_of(contact.geom[0]), dof_of(contact.geom[1])};
+      std::fill_n(added + contact.efc_address, contact.dim, columns);
+    }
   }
-  if (!add_sparse_columns(d, added)) mj_warning(d, mjWARN_CNSTRFULL, static_cast<int>(d->narena));
-  mj_freeStack(d);
+  if (!added || !add_sparse_columns(d, added))
+    mj_warning(d, mjWARN_CNSTRFULL, static_cast<int>(d->narena));
 }
 
 void Tracks::add_belts(const mjModel* m, mjData* d) const {

@@ -115,4 +115,20 @@ TEST_F(SparseColumns, AreRefusedByAFullArena) {
   EXPECT_EQ(full(), before);
 }
 
+TEST_F(SparseColumns, ScratchIsGivenBackAndNeverMoreThanThereIs) {
+  start("1M");
+  mjData* const d = data_.get();
+  const std::size_t stack = d->pstack, room = static_cast<std::size_t>(d->narena) - d->parena;
+  {
+    const ArenaScratch scratch(d, 100);
+    ASSERT_NE(scratch.memory(), nullptr);
+    EXPECT_EQ(reinterpret_cast<std::size_t>(scratch.memory()) % alignof(double), 0u);
+    EXPECT_GE(d->pstack, stack + 100);
+    std::fill_n(static_cast<char*>(scratch.memory()), 100, char{1});
+  }
+  EXPECT_EQ(d->pstack, stack);
+  EXPECT_EQ(ArenaScratch(d, room).memory(), nullptr);
+  EXPECT_EQ(d->pstack, stack);
+}
+
 }  // namespace
