@@ -8,6 +8,7 @@
 
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/control/velocity_controller.hpp"
+#include "support/accelerated_motion.hpp"
 #include "support/expect.hpp"
 #include "support/no_allocation_guard.hpp"
 #include "support/random_motion.hpp"
@@ -31,11 +32,7 @@ class Acceleration : public testing::Test {
   // one tick: q* and qdot* move by what the controller says
   void tick(AccelerationController& controller) {
     controller.compute(robot_);
-    q_ = robot_.configuration();
-    v_ = robot_.velocity();
-    controller.integrate(q_, v_);
-    robot_.set_configuration(q_);
-    robot_.set_velocity(v_);
+    follow(controller, robot_, q_, v_);
   }
 
   Robot robot_{load_model_text(kArm)};
@@ -172,11 +169,7 @@ TEST_F(Acceleration, KeepsTorquesWithinTheirLimits) {
     (limits_first || dynamic.active_limits().cwiseAbs().sum() > 0 ? braking : excess) =
         std::max(limits_first ? braking : excess, over);
     if (over > -1e-9) ++held;
-    q_ = robot_.configuration();
-    v_ = robot_.velocity();
-    dynamic.integrate(q_, v_);
-    robot_.set_configuration(q_);
-    robot_.set_velocity(v_);
+    follow(dynamic, robot_, q_, v_);
     ASSERT_LE((q_ - joint_.upper()).maxCoeff(), 0.0) << "tick " << i;
     ASSERT_GE((q_ - joint_.lower()).minCoeff(), 0.0) << "tick " << i;
   }

@@ -7,6 +7,7 @@
 
 #include "hurcules/control/acceleration_controller.hpp"
 #include "hurcules/control/tasks.hpp"
+#include "support/accelerated_motion.hpp"
 #include "support/expect.hpp"
 #include "support/tiny_models.hpp"
 
@@ -26,11 +27,7 @@ class EndOfReach : public testing::Test {
   }
   void tick(AccelerationController& controller) {
     controller.compute(robot_);
-    q_ = robot_.configuration();
-    v_ = robot_.velocity();
-    controller.integrate(q_, v_);
-    robot_.set_configuration(q_);
-    robot_.set_velocity(v_);
+    follow(controller, robot_, q_, v_);
   }
 
   Robot robot_{load_model_text(kArm)};

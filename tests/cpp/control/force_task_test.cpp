@@ -11,6 +11,7 @@
 #include "hurcules/control/acceleration_controller.hpp"
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/control/velocity_controller.hpp"
+#include "support/accelerated_motion.hpp"
 #include "support/expect.hpp"
 #include "support/no_allocation_guard.hpp"
 #include "support/tiny_models.hpp"
@@ -204,11 +205,7 @@ struct AccelerationPress : Press {
       force_law->advance(Vector::Constant(1, approach), kDt);
       force_law->sense(robot, reading());
       controller.compute(robot);
-      q = robot.configuration();
-      v = robot.velocity();
-      controller.integrate(q, v);
-      robot.set_configuration(q);
-      robot.set_velocity(v);
+      follow(controller, robot, q, v);
       hardest = std::max(hardest, controller.acceleration().cwiseAbs().maxCoeff());
     }
   }

@@ -192,18 +192,6 @@ TEST(SolverFound, CopiesOfARowEachMetToRoundingAreNotMetTogether) {
                 7);
 }
 
-TEST(SolverFound, NearlyOppositeLimitsLeaveAPlayThatIsNoWay) {
-  // exactly nothing but x2 may move; limits kept to 3e-14 would leave x2 a play of 270
-  expect_solved({interval(Matrix{{0.0, 1.0, 0.5, -1000.0},
-                                 {0.001, 3.0, 1.5, -3000.0},
-                                 {-1.5703125, 0.0, -2.0, -0.001}},
-                          Vector{{-kInf, 0.001, 0.001}}, Vector{{-998.0, kInf, 1.001}}, 0.01),
-                 make_bounds(Vector{{0.001, 0.001, 1.0, 0.001}}, Vector{{kInf, kInf, 1.0, 1.001}}),
-                 make_bounds(Vector{{1.9619140625, 0.001, 0.001, 0.001}},
-                             Vector{{2.9619140625, kInf, kInf, 0.001}})},
-                4);
-}
-
 TEST(SolverFound, TinyRegularisationDecidesBetweenTwoUnknownsOfEqualWorth) {
   // rho is 1e-8 below a row of length 2000 that is in conflict
   expect_solved(
