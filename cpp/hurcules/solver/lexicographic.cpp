@@ -198,6 +198,11 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
   const auto go = [&](Way way) {
     start_way();
     done = solve(way, rho, k);
+    // a point that a quick way left unfinished needs no proof, and one is sought for long
+    if (!done && way < Way::Careful && !budget_.spent()) {
+      proven = false;
+      return;
+    }
     residual = prove(way, rho, k);
     harm = believed(way) ? 0.0 : harm_above(k);
     // in a crowded vertex the held rows may be so near to dependent that rounding on them harms

@@ -45,7 +45,9 @@ double Lexicographic::prove(Way way, double rho, int k) {
   if (believed(way)) return 0.0 * x_scale_;  // NaN where x is
   const double residual =
       optimality_.residual(rows_, *chain_, candidates_, k, x_above_, x_scale_, record, held_);
-  return residual <= tolerance::kProven ? residual : prove_anew(residual, k);
+  // a cold start is quicker than multipliers sought anew
+  if (residual <= tolerance::kProven || way == Way::Warm) return residual;
+  return prove_anew(residual, k);
 }
 
 double Lexicographic::prove_anew(double residual, int k) {

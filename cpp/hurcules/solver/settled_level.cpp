@@ -11,6 +11,8 @@ namespace hurcules {
 namespace {
 
 constexpr double kAbsent = std::numeric_limits<double>::infinity();
+// a set of the last solve that is wrong in more places takes longer to mend than a cold start
+constexpr Index kMostMended = 8;
 
 double sign(Side side) {
   return static_cast<double>(side);
@@ -165,7 +167,7 @@ bool SettledLevel::solve(double rho, Budget& budget, double* x, std::vector<Held
                          int& begin_norm) {
   bool found = false;
   // every round changes the held rows; a set met twice is rounding, and ends here, too
-  const Index most = 4 * (level_->free() + 8);
+  const Index most = remembered_ ? kMostMended : 4 * (level_->free() + 8);
   for (Index round = 0; round < most && !budget.spent(); ++round) {
     answer(rho);
     size_ = std::max(x_scale_, kernels::chosen->largest(rows_->stride(), target_.data()));
