@@ -219,13 +219,12 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
   // what is nearest to proven, and moves the rows above least: where nothing is better
   Way best = Way::Careful, last = best;
   double least = std::numeric_limits<double>::infinity();
-  const bool least_distance = rho >= tolerance::kSmall * problem_.own_norm();
   for (const Way way : {Way::Warm, Way::Cold, Way::Settled, Way::Careful, Way::Onto, Way::Wide}) {
     if (way == Way::Warm && !has_kept(k)) continue;
     // its directions are known in double alone
     if (way == Way::Wide && !chain_->basis().whole()) continue;
     // the usual way of a level with a small rho
-    if (way == Way::Settled && !least_distance) continue;
+    if (way == Way::Settled && !regularized(rho)) continue;
     if (way == Way::Careful && proven_to_stay(rho, k, residual)) {
       done = true;
       return residual;

@@ -18,6 +18,7 @@
 #include "hurcules/solver/row_table.hpp"
 #include "hurcules/solver/settled_level.hpp"
 #include "hurcules/solver/solved_hierarchy.hpp"
+#include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {
 
@@ -60,6 +61,14 @@ class Lexicographic : public Method {
   // Limits of rows above that are nearly parallel may leave a level no way but rounding: then
   // x_above_ is its answer. `residual` when that is proven.
   bool proven_to_stay(double rho, int k, double& residual);
+  // rho is large enough for the least-distance form
+  [[nodiscard]] bool regularized(double rho) const {
+    return rho >= tolerance::kSmall * problem_.own_norm();
+  }
+  // a quick way follows, sooner done than multipliers sought anew
+  [[nodiscard]] bool quick_way_follows(Way way, double rho) const {
+    return way == Way::Warm || (way == Way::Cold && regularized(rho));
+  }
   bool solve(Way way, double rho, int k);
   bool solve_regularized(Way way, double rho, int k);
   // with the rows of the last solve, if they are the working set

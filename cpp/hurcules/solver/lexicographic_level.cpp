@@ -10,8 +10,7 @@ namespace hurcules {
 bool Lexicographic::solve(Way way, double rho, int k) {
   chain_->complete(rows_);
   if (way >= Way::Careful) return solve_carefully(way, rho);
-  return rho >= tolerance::kSmall * problem_.own_norm() ? solve_regularized(way, rho, k)
-                                                        : solve_settled(way, rho, k);
+  return regularized(rho) ? solve_regularized(way, rho, k) : solve_settled(way, rho, k);
 }
 
 bool Lexicographic::solve_kept(double rho, int k) {
