@@ -67,7 +67,7 @@ class Lexicographic : public Method {
   }
   // a quick way follows, sooner done than multipliers sought anew
   [[nodiscard]] bool quick_way_follows(Way way, double rho) const {
-    return way == Way::Warm || (way == Way::Cold && regularized(rho));
+    return !budget_.spent() && (way == Way::Warm || (way == Way::Cold && regularized(rho)));
   }
   bool solve(Way way, double rho, int k);
   bool solve_regularized(Way way, double rho, int k);

@@ -251,6 +251,23 @@ TEST(SolverFound, AnInterruptedSolveStaysInsideTheBoundsAbove) {
   }
 }
 
+TEST(SolverFound, AnswerAtTheLimitOfChangesIsProvenBeforeItIsDoubted) {
+  // the fifth change is the last of the least-distance form, whose multipliers prove nothing here
+  const Matrix first{{-0.830810546875, 1.0}, {0.0, 0.0}};
+  const Matrix second{{-1.957763671875, 0.0}, {-1.66162109375, 2.0}};
+  const Matrix last{{-3.9150493741035461, 0.0}, {0.80615234375, 1.0}, {2.0, -0.541015625}};
+  const Hierarchy levels = {
+      interval(first, Vector{{3.0, 2.0}}, Vector{{3.001, 4.0}}, 0.1),
+      interval(second, Vector{{1.0, -1.0}}, Vector{{kInf, -0.999}}, 1.0),
+      interval(last, Vector{{2.0, 1.0, -0.0869140625}},
+               Vector{{2.0000000000000102, kInf, -0.086914062499989994}}, 0.1)};
+  for (int limit = 1; limit <= 10; ++limit) {
+    Solver solver(2, {.max_changes = limit});
+    const SolverStatus status = solver.solve(levels).status;
+    EXPECT_TRUE(status == SolverStatus::Solved || status == SolverStatus::IterationLimit) << limit;
+  }
+}
+
 TEST(SolverFound, SidesBeyondInfinityAreRefusedBySolveAsByCheck) {
   const Hierarchy no_upper = {make_bounds(Vector{{1e300}}, Vector{{kInf}})};
   const Hierarchy at_infinity = {equality(Matrix{{1.0}}, Vector{{-1e20}}, 0.0)};
