@@ -115,12 +115,20 @@ class Decoder {
       if (kind != 5) level.A.row(i) *= tame();
       if (kind == 7 && problem_.wildness != Wildness::Tame) {
         const Index j = bytes_.next(problem_.unknowns), digits = 3 + bytes_.next(10);
-        level.A(i, j) += std::pow(10.0, static_cast<double>(-digits));
-        // entries reach 1e3: what is left is 1e-8 of the row and less
-        problem_.delicate |= digits > 4;
+        const double change = std::pow(10.0, static_cast<double>(-digits));
+        problem_.delicate |= digits > 4 || turned(level.A.row(i), j, change) <= 1e-8;
+        level.A(i, j) += change;
       }
     }
     rows_.push_back(level.A.row(i).transpose());
+  }
+
+  // by how much [rad] a row turns when entry j changes; little where that entry is nearly all of it
+  static double turned(const Vector& row, Index j, double change) {
+    const double norm = row.norm();
+    if (norm == 0.0) return 1.0;
+    const double across = (row - row[j] * Vector::Unit(row.size(), j)).norm() / norm;
+    return change * across / norm;
   }
 
   void limits(Level& level, Index i) {

@@ -172,6 +172,16 @@ TEST(SolverFar, NearlyParallelRowsInThreeLevels) {
       6, false);
 }
 
+TEST(SolverFar, AnOwnRowThatStandsOutBy3em11IsNotCalledSolved) {
+  // below the rank tolerance, yet the level moves along it, to x of 1e7
+  const Hierarchy levels = {
+      interval(Matrix{{-1.0, 1.0, 1.0, -1000.0}, {-2.0, 2.0, 2.0, -2000.0}}, Vector{{0.5, -0.5}},
+               Vector{{0.501, -0.5}}, 1e-3),
+      interval(Matrix{{-6.0, 6.0, 6.0, -5999.9999}, {0.0547, 0.0547, 0.0547, 0.0547}},
+               Vector{{3.0, 0.0547}}, Vector{{3.001, 0.0547}}, 1e-7)};
+  expect_honest(levels, 4, false);
+}
+
 TEST(SolverFar, ALimitOnARowThatStandsOutBy1em12SaysThatItIsNotMet) {
   // to meet both x is 4e11, where rounding of x alone is more than the limits are apart
   expect_honest(
