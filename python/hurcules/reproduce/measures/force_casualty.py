@@ -15,6 +15,7 @@ the person stays up to W_part = 0.54 W, with m = 0.35 up to 0.45 W.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
@@ -70,9 +71,8 @@ class Scoop:
         return float(np.ptp(self.chest[self.touched :]) / np.ptp(self.tip[self.touched :]))
 
 
-@cache
-def scoop(height: float | None = None) -> Scoop:
-    """With force control on the ground, or by motion alone above it.
+def approach(height: float | None = None) -> Iterator[PressRobot]:
+    """The robot after each tick: with force control on the ground, or by motion alone above it.
 
     Args:
         height: [m] of the edges above the ground; None: pressing 5 N.
@@ -83,18 +83,26 @@ def scoop(height: float | None = None) -> Scoop:
     robot = PressRobot(Setting(surface, gains, G, force=force, f_max=1e6), POSTURE)
     robot.gaze.set_target(GAZE)
     robot.settle(BEGIN)
-    # the ramps of a speed take 0.3 s
     down = ramped(-DOWN, BEGIN, 1e3)
-    if height is not None:
+    if height is not None:  # the ramps of a speed take 0.3 s
         down = ramped((height - HIGH) / (LOWERED - 0.3), BEGIN, BEGIN + LOWERED)
     ahead = ramped(AHEAD, START, 1e3)
-    chest, tip = robot.data.body("casualty_chest"), robot.data.site("L_tcp")
-    begin, rows = float(chest.xpos[0]), []
     while robot.time < END:
         robot.tick(ahead(robot.time), down(robot.time))
+        yield robot
+
+
+@cache
+def scoop(height: float | None = None) -> Scoop:
+    """One approach, at a height of the edges [m] as in `approach`."""
+    rows = []
+    for robot in approach(height):
+        chest, tip = robot.data.body("casualty_chest"), robot.data.site("L_tcp")
         push = robot.press(0)[0] + robot.press(1)[0]
-        rows.append((robot.time, tip.xpos[0], chest.xpos[0] - begin, push))
-    return Scoop(*np.array(rows).T)
+        rows.append((robot.time, tip.xpos[0], chest.xpos[0], push))
+    table = np.array(rows)
+    table[:, 2] -= table[0, 2]
+    return Scoop(*table.T)
 
 
 @measures("K20")
