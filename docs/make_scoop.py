@@ -34,7 +34,8 @@ def row(text: str, height: float | None) -> np.ndarray:
             with open_renderer(robot.model, *SIZE) as renderer:
                 renderer.update_scene(robot.data, camera())
                 image = Image.fromarray(renderer.render())
-            ImageDraw.Draw(image).text((8, 6), f"{text}, {robot.time:.1f} s", (30, 30, 30))
+            said = f"{text}, {robot.time:.1f} s"
+            ImageDraw.Draw(image).text((8, SIZE[1] - 18), said, (30, 30, 30))
             tiles.append(np.asarray(image))
     return np.concatenate(tiles, axis=1)
 
