@@ -3,8 +3,6 @@
 Metres, in the frame of the link that shows the mesh.
 """
 
-import numpy as np
-
 from solids import box, lathe, loft, mirror, panel, plate, shell
 
 
@@ -80,51 +78,52 @@ def scoop_root():
     )
 
 
-def blade_ring(z, half, bottom, floor, lip):
-    """Cross-section of the scoop: flat below, raised lips at both sides."""
-    w = 0.014
+# Blade and tip of the scoop are one wedge, flat below: (z, half width, upper face) [m]. What the
+# contact hulls in common/looks.xml say, too.
+SCOOP_BOTTOM = -0.018
+SCOOP = ((-0.16, 0.060, 0.018), (-0.58, 0.060, -0.0085), (-0.70, 0.040, -0.016))
+LINER = 0.0015  # [m] plastic on the upper face, half as thick at the edge
+
+
+def scoop_ring(z, half, top):
+    """Cross-section of the scoop: edges cut above, where a person slides."""
+    cut = min(0.005, 0.4 * (top - SCOOP_BOTTOM))
     return [
-        (bottom, -half + 0.008, z),
-        (bottom, half - 0.008, z),
-        (bottom + 0.006, half, z),
-        (lip, half, z),
-        (lip, half - w / 2, z),
-        (floor, half - 2 * w, z),
-        (floor, -half + 2 * w, z),
-        (lip, -half + w / 2, z),
-        (lip, -half, z),
-        (bottom + 0.006, -half, z),
+        (SCOOP_BOTTOM, -half, z),
+        (SCOOP_BOTTOM, half, z),
+        (top - cut, half, z),
+        (top, half - cut, z),
+        (top, cut - half, z),
+        (top - cut, -half, z),
     ][::-1]
+
+
+def scoop_part(begin, end):
+    """The wedge between two of its rings, below the liner."""
+    depth = {-0.70: 0.5 * LINER}
+    rows = [(z, half, top - depth.get(z, LINER)) for z, half, top in SCOOP]
+    return loft([scoop_ring(*row) for row in rows[begin : end + 1][::-1]])
 
 
 def scoop_blade():
     """Carrying blade, to 0.58 m from the elbow."""
-    rows = [
-        (-0.58, 0.060, -0.018, 0.002, 0.018),
-        (-0.16, 0.060, -0.018, 0.004, 0.018),
-        (-0.14, 0.058, -0.016, 0.006, 0.016),
-    ]
-    return loft([blade_ring(*r) for r in rows])
+    return scoop_part(0, 1)
 
 
 def scoop_tip():
-    """Tip of the blade, thinning to a rounded edge 0.70 m from the elbow."""
-    rows = [
-        (-0.70, 0.036, -0.018, -0.0145, -0.0125),
-        (-0.69, 0.048, -0.018, -0.012, -0.010),
-        (-0.64, 0.058, -0.018, -0.007, 0.004),
-        (-0.58, 0.060, -0.018, 0.002, 0.018),
-    ]
-    return loft([blade_ring(*r) for r in rows])
+    """Tip of the blade, 2 mm thin at its edge, 0.70 m from the elbow."""
+    return scoop_part(1, 2)
 
 
-def scoop_grip():
-    """Rubber strips on the carrying face."""
-    return [
-        f
-        for z in np.arange(-0.56, -0.20, 0.045)
-        for f in box((0.006, 0.062, 0.018), (0.004, 0, z), 0.002)
-    ]
+def scoop_liner():
+    """Sliding plastic on the carrying face, to the edge."""
+    rows = [(z, half - 0.010, top) for z, half, top in SCOOP[::-1]]
+    return loft(
+        [
+            [(top, half, z), (top - LINER, half, z), (top - LINER, -half, z), (top, -half, z)]
+            for z, half, top in rows
+        ]
+    )
 
 
 def forearm():
@@ -206,7 +205,7 @@ PARTS = (
     scoop_root,
     scoop_blade,
     scoop_tip,
-    scoop_grip,
+    scoop_liner,
     forearm,
     wrist_roll,
     wrist_pitch,

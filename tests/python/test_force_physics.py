@@ -48,7 +48,7 @@ def test_the_laws_end_where_their_formulas_say() -> None:
 
 
 def test_springs_keep_an_impact_on_the_floor_below_the_limit() -> None:
-    # K18: 50 N at 0.05 m/s; measured 35 N, and 157 N with rigid elbows
+    # K18: 50 N at 0.05 m/s; measured 35 N, and 126 N with rigid elbows
     setting = Setting(gains=GAINS, environment=G)
     log = lowered(setting, speed=0.05, end=3.5)
     assert -50.0 < log.contact[:, :, 2].min() < -5.0

@@ -268,15 +268,8 @@ FORCE = (
         "control the arms penetrate, also on stiff ground. A limp person of 75 kg; as the share of "
         "the tips' way by which the chest moves ahead, from the first touch on.",
         {
-            "above": least("tips 45 mm above the ground", 0.8),
-            "pressing": most(
-                "tips pressing with 5 N",
-                0.25,
-                ours=(0.25, 0.85),
-                why="the tips get under the round of the trunk, four times as deep as without, "
-                "then push: there the scoop has to lift on a slope of 35 degrees, which needs 1.4 "
-                "times the weight on it, while the person slides at 0.4 times the whole",
-            ),
+            "above": least("edges of the tips 50 mm above the ground", 0.8),
+            "pressing": most("tips pressing with 5 N", 0.25),
             "deeper": least("what is left for going under, with over without", 1.5),
         },
     ),

@@ -30,7 +30,7 @@ class Surface:
     Attributes:
         stiffness: [N/m] of a plate under each hand; 0: the floor.
         springs: whether the elbows have theirs; else they are rigid.
-        friction: of the lower arms on whatever they touch.
+        friction: of the lower arms on the ground: with grit, more than the 0.2 of their plastic.
         casualty: [kg] of a person who lies ahead; 0: nobody.
         distance: [m] of that person's middle from the knee axis.
         untouched: the arms pass through the floor as if there were none.
