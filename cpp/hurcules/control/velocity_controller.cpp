@@ -95,8 +95,8 @@ const Vector& VelocityController::solve() {
   return velocity_;
 }
 
-bool VelocityController::yield(const RateWindow& window) {
-  if (!hurcules::yield(window, velocity_)) return false;
+bool VelocityController::give_way(const RateWindow& window) {
+  if (!hurcules::give_way(window, velocity_)) return false;
   for (Index i = 0; limits() && i < velocity_.size(); ++i) {
     const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
     velocity_[i] = std::clamp(velocity_[i], interval.least, interval.most);

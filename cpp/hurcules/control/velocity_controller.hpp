@@ -47,7 +47,7 @@ class VelocityController {
   const Vector& solve();             // hierarchy -> qdot*
   // after solve: qdot* within what the motors can hold (yielding.hpp), sooner than accelerations
   // but no sooner than position and velocity limits; true when it changed
-  bool yield(const RateWindow& window);
+  bool give_way(const RateWindow& window);
   // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q) const;  // [T 4.3.7]
   // compute, then moves the robot by one period, q* = integrate(q*): (n) [rad]

@@ -15,7 +15,7 @@ double share_within(double velocity, double lower, double upper) {
 
 }  // namespace
 
-bool yield(const RateWindow& window, VectorRef velocity) {
+bool give_way(const RateWindow& window, VectorRef velocity) {
   double share = 1.0;
   for (Index i = 0; i < velocity.size(); ++i) {
     share = std::min(share, share_within(velocity[i], window.lower[i], window.upper[i]));

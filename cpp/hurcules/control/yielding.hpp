@@ -19,6 +19,6 @@ struct RateWindow {
 };
 
 // leaves a velocity within the window as it is, to the last bit; true when it changed it
-bool yield(const RateWindow& window, VectorRef velocity);
+bool give_way(const RateWindow& window, VectorRef velocity);
 
 }  // namespace hurcules

@@ -84,15 +84,15 @@ void Simulation::hierarchy(const Vector* command) {
 // qdot*  [T 4.3.3]
 void Simulation::solve() {
   telemetry_.qd_des = controller_->solve();
-  yield();
+  give_way();
   note_solution();
 }
 
 // no further than the motors can hold; every target then follows the robot as fast as the gain
 // would have led the robot to it
-void Simulation::yield() {
+void Simulation::give_way() {
   const RateWindow& window = servo_.find_window(telemetry_.q_des, {seen_qpos_, seen_qvel_});
-  telemetry_.yielding = controller_->yield(window) ? 1.0 : 0.0;
+  telemetry_.yielding = controller_->give_way(window) ? 1.0 : 0.0;
   if (telemetry_.yielding == 0.0) return;
   mission_->relax(controller_->options().gain * dt());
   held_back_ += dt() * (telemetry_.qd_des - controller_->velocity());

@@ -120,7 +120,7 @@ class Simulation {
   void kinematics();
   void hierarchy(const Vector* command);
   void solve();
-  void yield();
+  void give_way();
   void integrate();
   void servo();
   void advance_physics();

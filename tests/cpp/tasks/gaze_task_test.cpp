@@ -69,7 +69,7 @@ TEST_F(Gaze, HoldKeepsTheDistance) {
 }
 
 TEST_F(Gaze, ARelaxedTargetTurnsItsShareOfTheWayToTheLineOfSight) {
-  const auto left = [](double yaw) { return 3.0 * Vector3(std::cos(yaw), std::sin(yaw), 0); };
+  const auto left = [](double yaw) { return Vector3(3 * std::cos(yaw), 3 * std::sin(yaw), 0); };
   look_at(left(0.4));
   task_.relax(0.25);
   EXPECT_TRUE(near(task_.target(), camera_ + left(0.3), 1e-14));
