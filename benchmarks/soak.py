@@ -8,8 +8,11 @@ Each step, with f of the step and the mean of the velocities before and after it
 kinetic energy at constant inertia):
     stored energy (kinetic, gravity, springs) = drives + dampers + constraints + rest
 Constraints are contacts, friction, brakes, stops and the tracks' traction; dampers and constraints
-may only take. The rest is what the integrator makes or loses. A hand that is sent into the ground
-is not held back here: its servo then wants more torque than its motor gives (commanded torque).
+may only take. The rest is what the integrator makes or loses.
+
+A hand that is sent into the ground or into the robot is held back: the reference yields
+(control/yielding.hpp). What passes a limit then is told by kind; a mechanical stop gives way as any
+compliant stop does, and a joint that is pushed at the end of its range has nowhere to yield to.
 
     python benchmarks/soak.py [--seconds 3600] [--seed 0]
 """
@@ -50,7 +53,12 @@ class Ledger:
     runs: int = 0
     warnings: dict[str, int] = field(default_factory=dict)
     not_finite: int = 0
-    excess: dict[str, float] = field(default_factory=dict)
+    excess: dict[str, float] = field(default_factory=dict)  # by kind; nothing where not watched
+    endings: dict[str, int] = field(default_factory=dict)  # of runs
+
+    def note(self, kind: str, excess: float) -> None:
+        """Keeps the worst excess of a kind."""
+        self.excess[kind] = max(self.excess.get(kind, 0.0), float(excess))
 
     @property
     def rest(self) -> float:
@@ -120,11 +128,15 @@ def stretch(seconds: float, seed: int) -> Ledger:
     simulation = hurcules.Simulation("stretch", seed, record=False)
     whim = Whim(rng, len(simulation.command_names))
     accountant = Accountant(simulation.model, simulation.data, ledger)
+    stops = Stops(simulation.model)
     for _ in track(range(round(seconds / DT)), "stretch"):
         command = whim.tick() * simulation.command_scale
         accountant.step(lambda command=command: simulation.step(1, command))
+        ledger.note("mechanical stop, rad", stops.excess(simulation.data))
         if simulation.finished:
             _note_excess(ledger, simulation)
+            ending = simulation.reason.split(" at ")[0]
+            ledger.endings[ending] = ledger.endings.get(ending, 0) + 1
             accountant.end()
             seed += 1
             simulation.reset(seed)
@@ -134,13 +146,32 @@ def stretch(seconds: float, seed: int) -> Ledger:
     return ledger
 
 
+class Stops:
+    """The mechanical stops of the robot's motors' joints."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        joints = [j for j in np.unique(model.actuator_trnid[:, 0]) if model.jnt_limited[j]]
+        self._address = model.jnt_qposadr[joints]
+        self._lower, self._upper = model.jnt_range[joints].T
+
+    def excess(self, data: mujoco.MjData) -> float:
+        """How far the worst joint has pressed its stop in [rad or m]."""
+        q = data.qpos[self._address]
+        return float(np.maximum(self._lower - q, q - self._upper).max())
+
+
 def _note_excess(ledger: Ledger, simulation: hurcules.Simulation) -> None:
-    violation = simulation.limit_violation()
-    commanded = violation.pop("commanded")
-    for prefix, excess in (("", violation), ("commanded ", commanded)):
-        for name, value in excess.items():
-            key = prefix + name
-            ledger.excess[key] = max(ledger.excess.get(key, 0.0), float(value))
+    measured = simulation.limit_violation()
+    commanded = measured["commanded"]
+    for kind, excess in (
+        ("commanded range, rad", commanded["position_rad"]),
+        ("commanded speed, rad/s", commanded["velocity"]),
+        ("range in the physics, rad", measured["position_rad"]),
+        ("speed in the physics, rad/s", measured["velocity"]),
+        ("torque asked for, N m", commanded["torque"]),
+        ("torque given, N m", measured["torque"]),
+    ):
+        ledger.note(kind, excess)
 
 
 def drive(seconds: float, seed: int) -> Ledger:
@@ -163,17 +194,22 @@ def drive(seconds: float, seed: int) -> Ledger:
     return ledger
 
 
+def excess_text(kind: str) -> Callable[[Ledger], str]:
+    """What a ledger says of a kind of excess."""
+    return lambda one: f"{one.excess[kind]:.2g}" if kind in one.excess else "not watched"
+
+
 def show(ledgers: dict[str, Ledger]) -> None:
     """Prints the ledgers side by side."""
     table = Table("", *ledgers)
+    kinds = sorted({kind for one in ledgers.values() for kind in one.excess})
     rows: dict[str, Callable[[Ledger], str]] = {
         "simulated in s": lambda one: f"{one.seconds:.0f}",
         "runs": lambda one: str(one.runs),
         "steps that were not finite": lambda one: str(one.not_finite),
         "warnings of MuJoCo": lambda one: str(one.warnings or "none"),
-        "worst excess over limits": lambda one: (
-            ", ".join(f"{name} {value:.2g}" for name, value in one.excess.items()) or "not watched"
-        ),
+        "endings": lambda one: ", ".join(f"{n} x {name}" for name, n in one.endings.items()) or "-",
+        **{f"excess over {kind}": excess_text(kind) for kind in kinds},
         "drives gave in kJ": lambda one: f"{one.drives / 1e3:.2f}",
         "dampers took in kJ": lambda one: f"{-one.dampers / 1e3:.2f}",
         "constraints took in kJ": lambda one: f"{-one.constraints / 1e3:.2f}",

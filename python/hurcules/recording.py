@@ -30,6 +30,7 @@ CHANNELS = (
     ("command/K", "[m/s] or [rad/s] task-space command K"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
+    ("yielding", "1 while the reference yields to more than the motors can hold, else 0"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
     ("monitor/M", "what monitor M saw, its unit in its name: self_collision_distance_m, ..."),
     ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),

@@ -76,6 +76,13 @@ void JointPid::take_over(Index i, const JointError& error, double torque) {
   integral_[i] = integral - e * options_.dt;  // compute adds this period's
 }
 
+double JointPid::rate_at(Index i, const JointError& error, double torque) const {
+  const double dt = options_.dt, e = error.position[i];
+  const double at_rest = error.velocity[i] + options_.K_P[i] * e +
+                         options_.K_I[i] * (integral_[i] + e * dt);  // demand over gain
+  return (torque / gain_[i] - at_rest) / (1.0 + options_.K_P[i] * dt + options_.K_I[i] * dt * dt);
+}
+
 const Vector& JointPid::compute(const JointError& error) {
   for (Index i = 0; i < size(); ++i) compute_joint(i, error, 0.0);
   return torque_;

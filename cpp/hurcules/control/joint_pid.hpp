@@ -62,6 +62,9 @@ class JointPid {
   // goes on from a torque that somebody else gave: at this error joint i's next demand is `torque`
   // [N m], and the integral takes it from there
   void take_over(Index i, const JointError& error, double torque);
+  // the velocity of the reference, 0 in `error`, at which joint i would ask for this torque [N m]
+  // in this period: [rad/s]
+  [[nodiscard]] double rate_at(Index i, const JointError& error, double torque) const;
 
   [[nodiscard]] Index size() const { return torque_.size(); }
   [[nodiscard]] const JointPidOptions& options() const { return options_; }

@@ -34,6 +34,8 @@ RateInterval rate_interval(const RateState& state, const RateLimits& limits) {
   // acceleration last: what it cannot reach within a step is given up
   const double change = limits.max_acceleration * limits.dt;
   RateInterval interval;
+  interval.least = lower;
+  interval.most = upper;
   interval.lower = std::clamp(state.velocity - change, lower, upper);
   interval.upper = std::clamp(state.velocity + change, lower, upper);
   interval.lower_is_limit = interval.lower == limit_lower;

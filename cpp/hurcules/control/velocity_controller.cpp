@@ -95,6 +95,15 @@ const Vector& VelocityController::solve() {
   return velocity_;
 }
 
+bool VelocityController::give_way(const RateWindow& window) {
+  if (!hurcules::give_way(window, velocity_)) return false;
+  for (Index i = 0; limits() && i < velocity_.size(); ++i) {
+    const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
+    velocity_[i] = std::clamp(velocity_[i], interval.least, interval.most);
+  }
+  return true;
+}
+
 void VelocityController::integrate(VectorRef q) const {
   for (Index i = 0; i < q.size(); ++i) {
     const double step = velocity_[i] * options_.dt;

@@ -16,6 +16,7 @@
 #include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack_problem.hpp"
+#include "hurcules/control/yielding.hpp"
 
 namespace hurcules {
 
@@ -44,6 +45,9 @@ class VelocityController {
   // the two parts of compute, for those who time them
   void measure(const Robot& robot);  // tasks -> hierarchy
   const Vector& solve();             // hierarchy -> qdot*
+  // after solve: qdot* within what the motors can hold (yielding.hpp), sooner than accelerations
+  // but no sooner than position and velocity limits; true when it changed
+  bool give_way(const RateWindow& window);
   // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q) const;  // [T 4.3.7]
   // compute, then moves the robot by one period, q* = integrate(q*): (n) [rad]

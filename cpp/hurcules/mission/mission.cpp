@@ -44,6 +44,10 @@ void Mission::apply(const Robot& plan, const ConstVectorRef& command, double dt)
   move_targets(plan, command_, dt);
 }
 
+void Mission::relax(double share) {
+  for (Task* task : tasks_) task->relax(share);
+}
+
 void Mission::save(StateWriter& writer) const {
   writer.put(static_cast<double>(phase_));
   writer.put(phase_start_);

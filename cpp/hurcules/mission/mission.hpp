@@ -68,6 +68,9 @@ class Mission {
   const Vector& operator_command(double dt);
   // moves the targets by a command, each channel held to its scale, (k)
   void apply(const Robot& plan, const ConstVectorRef& command, double dt);
+  // where the robot yields to a load, after the stack was measured: every target follows it by
+  // this share of the way (back-calculation), so that none winds up
+  void relax(double share);
 
   [[nodiscard]] std::size_t phase() const { return phase_; }
   [[nodiscard]] const Stack& stack() const { return phases_[phase_].stack; }

@@ -10,6 +10,8 @@ namespace {
 constexpr double kSettleSeconds = 2.0;    // [s] the brakes open, the robot finds its rest
 constexpr double kHoldSeconds = 2.0;      // [s]
 constexpr double kStretchSpeed = 0.0215;  // [m/s] the operator's button; sets the thesis' times
+// of the joints' speed limits that is commanded: a servo overshoots a speed by up to 7 %
+constexpr double kSpeedShare = 0.9;
 constexpr double kStretchLength = 0.875;  // [m] where the pelvis has given way by 0.40 m
 
 // first command of each, in the order of make_channels
@@ -56,6 +58,9 @@ Stretch::Stretch(const Robot& plan)
       gaze_("gaze", plan, "gaze"),
       story_(plan, figures_) {
   set_ranges(joint_, rescue_ready_ranges());
+  for (const Coordinate& coordinate : plan.coordinates()) {
+    joint_.set_max_velocity(coordinate.name, kSpeedShare * coordinate.max_velocity);
+  }
   const StackLevel hpos("hpos", {&left_hand_, &right_hand_});
   const StackLevel hpitch("hpitch", {&left_pitch_, &right_pitch_});
   const Stack stack = joint_ < hpos < hpitch < pelvis_ < gaze_;  // [T §4.4]

@@ -2,11 +2,17 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
 
 namespace {
+
+// of the peak that a reference may ask for: rounding carries it no further
+constexpr double kShare = 1.0 - 1e-12;
 
 const ServoRow& row_of(const std::vector<ServoRow>& table, const std::string& joint) {
   std::vector<std::string> names;
@@ -62,6 +68,7 @@ Servo::Servo(const Robot& robot, const std::vector<ServoRow>& table, double dt)
   pid_ = JointPid(triple_pole(drives, dt));
   error_.position = error_.velocity = place_ = Vector::Zero(pid_.size());
   rests_.resize(motors_.size());
+  window_.lower = window_.upper = Vector::Zero(robot.size());
 }
 
 void Servo::mind(const Brakes& brakes) {
@@ -102,6 +109,27 @@ void Servo::measure(const Reference& reference, const double* qpos, const double
     error_.position[i] = position - qpos[motor.qpos];
     error_.velocity[i] = velocity - qvel[motor.dof];
   }
+}
+
+const RateWindow& Servo::find_window(const Vector& q_des, const Sensed& sensed) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  window_.lower.setConstant(-kNone);
+  window_.upper.setConstant(kNone);
+  for (Index i = 0; i < static_cast<Index>(coordinate_joints_); ++i) {
+    if (rests_[static_cast<std::size_t>(i)].on) continue;
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    error_.position[i] = motor.factor * q_des[motor.coordinate] - sensed.qpos[motor.qpos];
+    error_.velocity[i] = -sensed.qvel[motor.dof];
+    const double peak = kShare * pid_.options().max_torque[i];
+    const double a = pid_.rate_at(i, error_, -peak) / motor.factor;
+    const double b = pid_.rate_at(i, error_, peak) / motor.factor;
+    double& lower = window_.lower[motor.coordinate];
+    double& upper = window_.upper[motor.coordinate];
+    lower = std::max(lower, std::min(a, b));
+    upper = std::min(upper, std::max(a, b));
+    if (lower > upper) lower = upper = 0.5 * (lower + upper);
+  }
+  return window_;
 }
 
 // by speed and by brake

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hurcules/control/joint_pid.hpp"
+#include "hurcules/control/yielding.hpp"
 #include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/robot/robot.hpp"
 #include "hurcules/sim/brakes.hpp"
@@ -34,6 +35,10 @@ class Servo {
     const Vector& qvel;  // (nv)
   };
   void act(const Reference& reference, const Sensed& sensed, mjData_* data);
+  // velocities of the coordinates from this reference on, at which act asks no motor for more than
+  // its peak; no side where it rests behind a brake, the middle where two joints of one coordinate
+  // exclude each other
+  const RateWindow& find_window(const Vector& q_des, const Sensed& sensed);
   // before act: a motor whose brake is shut rests; one whose brake opens takes over what it bore
   void mind(const Brakes& brakes);
   // at rest and without memory; the motors that no coordinate drives hold where `data` has them
@@ -77,6 +82,7 @@ class Servo {
   std::size_t coordinate_joints_ = 0;
   JointPid pid_;
   JointError error_;
+  RateWindow window_;        // (n)
   Vector place_;             // [rad], (m): what a motor without a coordinate holds
   std::vector<Rest> rests_;  // (m)
 };

@@ -42,6 +42,7 @@ void Simulation::tick(const Vector* command) {
 void Simulation::think(const Vector* command, StageTimer& timer) {
   if (held()) {
     telemetry_.qd_des.setZero();
+    telemetry_.yielding = 0.0;
     for (const Stage stage : {Stage::Kinematics, Stage::Problem, Stage::Solve}) timer.done(stage);
     return;
   }
@@ -83,7 +84,19 @@ void Simulation::hierarchy(const Vector* command) {
 // qdot*  [T 4.3.3]
 void Simulation::solve() {
   telemetry_.qd_des = controller_->solve();
+  give_way();
   note_solution();
+}
+
+// no further than the motors can hold; every target then follows the robot as fast as the gain
+// would have led the robot to it
+void Simulation::give_way() {
+  const RateWindow& window = servo_.find_window(telemetry_.q_des, {seen_qpos_, seen_qvel_});
+  telemetry_.yielding = controller_->give_way(window) ? 1.0 : 0.0;
+  if (telemetry_.yielding == 0.0) return;
+  mission_->relax(controller_->options().gain * dt());
+  held_back_ += dt() * (telemetry_.qd_des - controller_->velocity());
+  telemetry_.qd_des = controller_->velocity();
 }
 
 // q*  [T 4.3.7]

@@ -3,10 +3,11 @@
 //
 // The planner works on the reference, not on what was sensed: q* is integrated from the solver's
 // velocities [T 4.3.7], and the robot follows by its joint servos alone. See BaseSource for where
-// it thinks it stands. The servos act on what the sensors say (sensors.hpp), which is the truth
-// unless a model or a fault is given. Where they cannot be believed the robot is held: its
-// reference stops, its brakes close. Same seed, same bits. A run that leaves the numbers' range,
-// or falls, or is held, ends with a reason; it never throws.
+// it thinks it stands. Where a motor would be asked for more than its peak the reference yields
+// (yielding.hpp). The servos act on what the sensors say (sensors.hpp), which is the truth unless a
+// model or a fault is given. Where they cannot be believed the robot is held: its reference stops,
+// its brakes close. Same seed, same bits. A run that leaves the numbers' range, or falls, or is
+// held, ends with a reason; it never throws.
 #pragma once
 
 #include <cstdint>
@@ -119,6 +120,7 @@ class Simulation {
   void kinematics();
   void hierarchy(const Vector* command);
   void solve();
+  void give_way();
   void integrate();
   void servo();
   void advance_physics();
@@ -166,6 +168,8 @@ class Simulation {
   Vector start_qpos_;             // (nq) where the plan's support stands
   Vector previous_active_;        // (n), for events
   Vector previous_alarm_;         // (Monitors::kQuantities), for events
+  Vector held_back_;              // [rad] (n) how far q* yielded so far
+  Vector wished_;                 // [rad] (n) q* if it had not
   Vector seen_qpos_, seen_qvel_;  // (nq), (nv) as sensed
   SensorWatch::Finding finding_;  // why it is held
   std::int64_t held_ticks_ = 0;

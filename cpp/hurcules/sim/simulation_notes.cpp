@@ -69,7 +69,9 @@ void Simulation::sense_base() {
 // an encoder that cannot be believed holds the robot for good: all brakes close, behind which the
 // motors rest
 void Simulation::check_sensors() {
-  if (!held()) finding_ = sensors_.watch(telemetry_.q_des);
+  // a reference that yields must not hide an encoder that is stuck
+  wished_ = telemetry_.q_des + held_back_;
+  if (!held()) finding_ = sensors_.watch(wished_);
   if (held()) physics_.brakes().close();
 }
 

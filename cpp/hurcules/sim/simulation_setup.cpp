@@ -74,6 +74,8 @@ Simulation::Simulation(ModelPtr model, const std::string& mission, SimulationOpt
       start_qpos_(plan_.qpos()),
       previous_active_(Vector::Zero(plan_.size())),
       previous_alarm_(Vector::Zero(Monitors::kQuantities)),
+      held_back_(Vector::Zero(plan_.size())),
+      wished_(held_back_),
       seen_qpos_(world_.qpos()),
       seen_qvel_(Vector::Zero(physics_.model()->nv)),
       support_(plan_.frame(mission_->setup().support)),

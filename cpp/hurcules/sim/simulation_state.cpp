@@ -33,6 +33,7 @@ void Simulation::reset(std::uint64_t seed) {
   finding_ = {};
   held_ticks_ = 0;
   previous_alarm_.setZero();
+  held_back_.setZero();
   fall_watch_.reset(world_.orientation(support_));
   previous_active_.setZero();
   mission_->reset(plan_, world_);
@@ -96,7 +97,7 @@ std::vector<double> Simulation::state() const {
   writer.put(static_cast<double>(held_ticks_));
   for (const Vector* vector :
        {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active, &telemetry_.level_active,
-        &start_qpos_, &previous_active_, &previous_alarm_}) {
+        &start_qpos_, &previous_active_, &previous_alarm_, &held_back_}) {
     writer.put(*vector);
   }
   return values;
@@ -133,7 +134,7 @@ void Simulation::read(const std::vector<double>& values) {
   held_ticks_ = reader.get_count(kMostTicks);
   for (Vector* vector :
        {&telemetry_.q_des, &telemetry_.qd_des, &telemetry_.active, &telemetry_.level_active,
-        &start_qpos_, &previous_active_, &previous_alarm_}) {
+        &start_qpos_, &previous_active_, &previous_alarm_, &held_back_}) {
     reader.get(*vector);
   }
   plan_.set_qpos(start_qpos_);

@@ -64,7 +64,7 @@ void Telemetry::clear() {
     values->setZero();
   }
   for (double* value : {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality,
-                        &power, &charge, &tick_us}) {
+                        &power, &charge, &yielding, &tick_us}) {
     *value = 0.0;
   }
 }
@@ -95,6 +95,7 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
   recorder.add("changes", &changes);
   recorder.add("optimality", &optimality);
   recorder.add("status", &status);
+  recorder.add("yielding", &yielding);
   if (timed) recorder.add("tick_us", &tick_us);
 }
 

@@ -54,9 +54,18 @@ void GazeTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
   velocity_des_ = velocity;
+  turn(velocity[0] * dt, velocity[1] * dt);
+}
+
+void GazeTask::relax(double share) {
+  turn(share * error_[0], share * error_[1]);
+}
+
+// the target around the camera of the last update, by these angles [rad]
+void GazeTask::turn(double by_yaw, double by_pitch) {
   const Vector3 seen = orientation_.transpose() * (target_ - position_);
-  const double yaw = std::atan2(seen.y(), seen.x()) + velocity[0] * dt;
-  const double pitch = std::atan2(seen.z(), std::hypot(seen.x(), seen.y())) + velocity[1] * dt;
+  const double yaw = std::atan2(seen.y(), seen.x()) + by_yaw;
+  const double pitch = std::atan2(seen.z(), std::hypot(seen.x(), seen.y())) + by_pitch;
   // beyond the zenith the target would come back on the other side
   constexpr double kQuarter = std::numbers::pi / 2;
   const double held = std::clamp(pitch, -kQuarter, kQuarter);

@@ -25,6 +25,7 @@ class GazeTask : public Task {
   // moves the target around the camera of the last update, to the left (yaw) and upward (pitch) as
   // seen from it; [rad/s], (2)
   void advance(const ConstVectorRef& velocity, double dt) override;
+  void relax(double share) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 
@@ -33,6 +34,8 @@ class GazeTask : public Task {
   void set_target(const Vector3& target);
 
  private:
+  void turn(double by_yaw, double by_pitch);
+
   Frame frame_;
   Reference camera_;
   PointMotion seen_;                           // the target from the camera

@@ -22,6 +22,8 @@ Task::Task(std::string name, Index rows, const Robot& robot)
   identity_ = robot.identity();
 }
 
+void Task::relax(double /*share*/) {}
+
 void Task::save(StateWriter& writer) const {
   writer.put(velocity_des_);
   writer.put(acceleration_des_);

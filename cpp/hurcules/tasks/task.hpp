@@ -30,6 +30,9 @@ class Task {
   // moves the target by velocity * dt and feeds the velocity forward until the next advance or
   // hold; (m), unit/s; dt [s]. The error follows at the next update.
   virtual void advance(const ConstVectorRef& velocity, double dt) = 0;
+  // moves the target by this share (0 .. 1) of its way to the value of the last update; the
+  // feed-forward stays, the error follows at the next update. Nothing where there is no target.
+  virtual void relax(double share);
   // what must be kept between ticks: the target, the feed-forwards and the interval
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;

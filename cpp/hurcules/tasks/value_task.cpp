@@ -40,6 +40,10 @@ void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   target_ += velocity_des_ * dt;
 }
 
+void ValueTask::relax(double share) {
+  target_ += share * error_;
+}
+
 void ValueTask::set_leash(double leash) {
   require(leash > 0.0, "leash of '" + name() + "' wants a positive distance, inf for none");
   leash_ = leash;

@@ -15,6 +15,7 @@ class ValueTask : public Task {
   void update(const Robot& robot) override;
   void hold(const Robot& robot) override;
   void advance(const ConstVectorRef& velocity, double dt) override;
+  void relax(double share) override;
   // Keeps `advance` from leading the target further than this from the value (Euclidean norm, task
   // unit; inf, the default: anywhere). From a fifth of it on the target goes slower, so that a
   // robot at the end of its reach stops; a velocity that leads back is never held.

@@ -145,6 +145,26 @@ TEST_F(Controller, SlowsDownBeforeALimitAndStaysThere) {
   EXPECT_LT(alone.velocity()[j], 0.0);
 }
 
+TEST_F(Controller, GivesWayToAPushFasterThanItAcceleratesButNeverBeyondALimit) {
+  const Index j = 3;
+  RateWindow window = {Vector::Constant(robot_.size(), -kInfinity),
+                       Vector::Constant(robot_.size(), kInfinity)};
+  EXPECT_FALSE(controller_.give_way(window));
+  window.lower[j] = 0.7;  // pushed up, at once
+  controller_.compute(robot_);
+  EXPECT_TRUE(controller_.give_way(window));
+  EXPECT_EQ(controller_.velocity()[j], 0.7);
+  for (int i = 0; i < 3000; ++i) {
+    controller_.compute(robot_);
+    controller_.give_way(window);
+    Vector q = robot_.configuration();
+    controller_.integrate(q);
+    robot_.set_configuration(q);
+    ASSERT_LE(q[j], joint_.upper()[j]) << "tick " << i;
+  }
+  EXPECT_NEAR(robot_.configuration()[j], joint_.upper()[j], 1e-9);
+}
+
 TEST_F(Controller, DrivesACoordinateBackThatIsFoundOutside) {
   joint_.set_range("j4", -0.5, 1.0);  // it stands at 1.2
   for (int i = 0; i < 3000; ++i) {

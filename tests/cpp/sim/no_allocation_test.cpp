@@ -27,6 +27,20 @@ TEST(Tick, AllocatesNothing) {
   expect_no_allocation({});
 }
 
+TEST(Tick, AllocatesNothingWhileItYields) {
+  Simulation simulation(stretch_scene(), "stretch");
+  Vector down = Vector::Zero(11);
+  down[2] = down[5] = -1.0;  // both hands into the tracks, at full scale
+  simulation.step(4000, &down);
+  ASSERT_EQ(simulation.telemetry().yielding, 1.0);
+  simulation.step(200, &down);
+  simulation.reset(2);  // room for the log
+  simulation.step(4000, &down);
+  const NoAllocation guard;
+  simulation.step(200, &down);
+  EXPECT_EQ(guard.count(), 0U);
+}
+
 TEST(Tick, AllocatesNothingWithNoisySensorsAScannerAndAFault) {
   SimulationOptions options;
   options.sensors.models["encoder_position"] = {.noise = 1e-5, .delay = 2, .step = 1e-5};

@@ -5,7 +5,9 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <utility>
 
 #include "support/expect.hpp"
 
@@ -61,6 +63,24 @@ TEST_F(ServoTest, DividesByTheGearAndSaturatesAtTheJoint) {
   EXPECT_EQ(servo_.torque()[2], 20.0);
   EXPECT_EQ(data_->ctrl[0], 5.0);
   EXPECT_GT(servo_.demand()[2], 20.0);
+}
+
+TEST_F(ServoTest, TellsWhichVelocityOfTheReferenceAsksForThePeakAndNoMore) {
+  Vector q(2), qd(2);
+  const Vector qpos = Vector::Zero(robot_.model()->nq), qvel = qpos;
+  q << 0.1, 0.2;
+  for (int i = 0; i < 5; ++i) act(0.1, 0.02);  // an integral, not yet saturated
+  const RateWindow window = servo_.find_window(q, {qpos, qvel});
+  EXPECT_EQ(window.upper[0], std::numeric_limits<double>::infinity());  // motors without limits
+  const Servo before = servo_;
+  using Case = std::pair<double, double>;
+  for (const auto& [rate, torque] : {Case(window.lower[1], -20.0), Case(window.upper[1], 20.0)}) {
+    servo_ = before;
+    qd << 0.0, rate;
+    servo_.act({q + 1e-3 * qd, qd}, {qpos, qvel}, data_.get());
+    EXPECT_NEAR(servo_.demand()[2], torque, 1e-9);
+    EXPECT_LE(std::abs(servo_.demand()[2]), 20.0);
+  }
 }
 
 TEST_F(ServoTest, HoldsWhatNoCoordinateDrivesWhereItStood) {

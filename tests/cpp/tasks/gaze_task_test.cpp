@@ -68,6 +68,13 @@ TEST_F(Gaze, HoldKeepsTheDistance) {
   EXPECT_TRUE(near(task_.target(), camera_ + Vector3(3, 0, 0), 1e-14));
 }
 
+TEST_F(Gaze, ARelaxedTargetTurnsItsShareOfTheWayToTheLineOfSight) {
+  const auto left = [](double yaw) { return Vector3(3 * std::cos(yaw), 3 * std::sin(yaw), 0); };
+  look_at(left(0.4));
+  task_.relax(0.25);
+  EXPECT_TRUE(near(task_.target(), camera_ + left(0.3), 1e-14));
+}
+
 TEST_F(Gaze, OddTargetsStayBounded) {
   robot_.set_velocity(Vector::Ones(13));
   for (const Vector3& target : {Vector3(0, 0, 1), Vector3(0, 0, -1), Vector3(-1, 0, 0),

@@ -44,6 +44,18 @@ TEST_F(ValuesOfTwin, HandToHandDoesNotFeelTheBase) {
   EXPECT_TRUE(near(grip.jacobian().col(robot_.coordinate("WST")), Vector3::Zero(), 1e-14));
 }
 
+TEST_F(ValuesOfTwin, ARelaxedTargetGoesItsShareOfTheWayToTheValue) {
+  PositionTask hand("hand", robot_, "hand_l");
+  const Vector value = hand.value();
+  hand.set_target(value + Vector3(0.4, 0, -0.2));
+  hand.update(robot_);
+  hand.relax(0.25);
+  EXPECT_TRUE(near(hand.target(), value + Vector3(0.3, 0, -0.15), 1e-14));
+  hand.update(robot_);
+  hand.relax(1.0);
+  EXPECT_TRUE(near(hand.target(), value, 1e-14));
+}
+
 TEST_F(ValuesOfTwin, AxesPickDirections) {
   const Matrix x = Matrix3::Identity().topRows(1);
   PositionTask pelvis("pelvis", robot_, "chest", {.axes = x});
