@@ -68,20 +68,21 @@ def quadratic(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Min 1/2 y'H y - g'y  s.t. C y >= d; the minimiser and the multipliers."""
     size = np.linalg.norm(C, axis=1)
-    keep = size > 1e-11
-    C, d, size = C[keep], d[keep], size[keep]
-    # quadprog is at its best on rows of one size
-    C, d = C / size[:, None], d / size
+    keep = np.flatnonzero(size > 1e-11)
+    # quadprog is at its best on rows of one size; on rows that stand there twice it may cycle
+    unit = np.column_stack([C, d])[keep] / size[keep, None]
+    once = np.sort(np.unique(unit.round(12), axis=0, return_index=True)[1])
+    C, d, keep = unit[once, :-1], unit[once, -1], keep[once]
     if C.shape[0] == 0:
-        return np.linalg.solve(H, g), np.zeros(keep.shape)
+        return np.linalg.solve(H, g), np.zeros(size.shape)
     # rounding can make rows that meet in one point look inconsistent: give them that much room
     for room in (0.0, 1e-13, 1e-12, 1e-11, 1e-10):
         try:
             y, *_, lagrangian, _ = quadprog.solve_qp(H, g, C.T.copy(), d - room)
         except ValueError:
             continue
-        multipliers = np.zeros(keep.shape)
-        multipliers[keep] = lagrangian / size
+        multipliers = np.zeros(size.shape)
+        multipliers[keep] = lagrangian / size[keep]
         return y, multipliers
     raise OracleError("quadprog finds the rows of a level inconsistent")
 
