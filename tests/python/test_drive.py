@@ -144,10 +144,59 @@ def test_on_the_flat_it_parks_within_3_cm_and_2_degrees(goal: tuple[float, float
     assert abs(turned) < math.radians(2)
 
 
+def turning(robot: Robot, angle: float) -> tuple[float, float]:
+    """What turns the robot in place across a slope at most, and what then holds it [N m].
+
+    At no net force along the tracks both pull with F = mu N of the uphill one, which then holds
+    nothing sideways. What the downhill one has left of its friction bears the weight's share along
+    the slope and resists the turn: at most when the greatest forces stand at both ends, one way and
+    the other.
+    """
+    model, data = robot.model, robot.data
+    mujoco.mj_forward(model, data)
+    root = model.body("upper_legs").id
+    axes, centre = data.xmat[root].reshape(3, 3), data.subtree_com[root]
+    rows, force = [], np.zeros(6)
+    for i, contact in enumerate(data.contact[: data.ncon]):
+        mujoco.mj_contactForce(model, data, i, force)
+        rows.append((*(axes.T @ (contact.pos - centre))[:2], force[0], contact.friction[0]))
+    x, y, normal, mu = np.array(rows).T
+    uphill = y > 0.0  # the hill is left
+    pull = float((mu * normal)[uphill].sum())
+    gauge = np.average(y[uphill], weights=normal[uphill]) - np.average(
+        y[~uphill], weights=normal[~uphill]
+    )
+    x, most = x[~uphill], (mu * normal)[~uphill]
+    most = most * math.sqrt(1.0 - (pull / most.sum()) ** 2)
+    left = float(model.body_subtreemass[root]) * 9.81 * math.sin(angle) + most.sum()
+    held = -float(x @ most)
+    for i in np.argsort(-x):
+        share = min(2 * most[i], left)
+        held, left = held + x[i] * share, left - share
+    return pull * gauge, held
+
+
+def test_the_friction_to_turn_across_a_slope_ends_at_15_degrees() -> None:
+    for degrees, enough in ((10, True), (15, False)):
+        angle = math.radians(degrees)
+        robot = make("slope", direction="across", angle=angle)
+        robot.run(0.5)
+        turns, holds = turning(robot, angle)
+        print(f"{degrees} degrees: {turns:.0f} N m turn, {holds:.0f} N m hold")
+        assert (turns > 1.2 * holds) == enough
+        assert (turns > holds) == enough
+
+
+@pytest.mark.slow
+def test_it_parks_across_a_slope_of_10_degrees() -> None:
+    robot = make("slope", direction="across", angle=math.radians(10))
+    offset, turned = park(robot, 0.0, 2.0, math.pi / 2, seconds=40.0)
+    assert offset < 0.03
+    assert abs(turned) < math.radians(2)
+
+
 @pytest.mark.slow
 def test_a_turn_that_traction_does_not_allow_ends_in_time() -> None:
-    # the uphill track bears 28 % of the weight: 0.9 x 0.28 x 6440 N x 0.67 m = 1.1 kN m turn it,
-    # mu W L / 4 = 1.2 kN m hold it
     robot = make("slope", direction="across", angle=math.radians(15))
     robot.chassis.controller.park(0.0, 2.0, math.pi / 2)
     until = robot.data.time + 30.0

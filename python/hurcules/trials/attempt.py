@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from hurcules import scenes
 from hurcules._core import step
 from hurcules.trials.brakes import hold_joints
-from hurcules.trials.climbing import ARMS
+from hurcules.trials.climbing import ARMS, SLOW
 from hurcules.trials.course import Course, Leg, Straight, make_course
 from hurcules.trials.drive import LineDriver, yaw_of
+from hurcules.trials.grasp import Grasp
 from hurcules.trials.lift import Lift
 from hurcules.trials.methods import Method
 from hurcules.trials.postures import Plan, Posture, PostureMover
@@ -32,6 +33,7 @@ TIPPED = math.radians(60)
 PATIENCE = 2.5  # times the time that the way takes at the speed
 TURN_TIME = 20.0  # [s] for half a turn in place
 TURNED = 0.1  # [rad] and less is left to keeping to the line
+CLOSING = 1.0  # [s] for the fingers
 GRACE = 5.0  # [s] on top, and at most to come to a stop
 
 
@@ -53,7 +55,8 @@ class Repetition:
     """One attempt."""
 
     seed: int
-    fault: str  # "" for none; "tip-over", "stuck", "off the lane", "slipped", "simulation"
+    # "" for none; "tip-over", "stuck", "off the lane", "slipped", "lost grip", "simulation"
+    fault: str
     seconds: float
     x: float  # [m] where it ended
     metres: float  # way of the base over ground, as far as it came
@@ -98,9 +101,10 @@ def repeat(
             data.joint(joint).qpos[0] = angle
     plan = chosen.plan(scene)
     mover = PostureMover(model, data, plan(0.0), PERIOD)
+    grasp = Grasp(model, data) if chosen.grasps else None
     mujoco.mj_forward(model, data)
     operator = driver or LineDriver(model, PERIOD, course.path)
-    attempt = _Attempt(model, data, course, operator, plan, mover, watch)
+    attempt = _Attempt(model, data, course, operator, plan, mover, grasp, watch)
     fault = attempt.make()
     x = float(data.qpos[0])
     return Repetition(seed, fault, float(data.time), x, attempt.metres, attempt.energy)
@@ -117,10 +121,12 @@ class _Attempt:
         driver: Driver,
         plan: Plan,
         mover: PostureMover,
+        grasp: Grasp | None,
         watch: Watch | None,
     ) -> None:
         self.model, self.data, self.course = model, data, course
         self.driver, self.plan, self.mover, self.watch = driver, plan, mover, watch
+        self.grasp = grasp
         self.metres = self.energy = 0.0
         self._posture = plan(0.0)
         self._upright = Upright(model)
@@ -128,6 +134,8 @@ class _Attempt:
 
     def make(self) -> str:
         """Drives the whole course; returns the fault, "" for none."""
+        if self.grasp and (fault := self._take_hold(self.grasp)):
+            return fault
         for leg in self.course.legs:
             if fault := self._turn(leg):
                 return fault
@@ -137,8 +145,7 @@ class _Attempt:
             while not leg.done(self.data.qpos):
                 furthest = leg.further(furthest, leg.place(float(self.data.qpos[0])))
                 self._posture = self._lifted(self.plan(furthest), leg)
-                pace = self.mover.pace * min(abs(leg.speed), self._posture.speed)
-                if fault := self._tick(math.copysign(pace, leg.speed)):
+                if fault := self._tick(self._speed(leg)):
                     return fault
                 if self.data.time > limit:
                     return "stuck"
@@ -147,10 +154,32 @@ class _Attempt:
         return ""
 
     def _lifted(self, posture: Posture, leg: Leg) -> Posture:
+        """The posture of an operator who gets free where he is stuck; turns the way with him."""
         if not self.course.lifts:
             return posture
-        x, ready = float(self.data.qpos[0]), self.mover.pace == 1.0
-        return self._lift(posture, leg.onward * x, self.data.time, ready)
+        x, y = leg.onward * self.data.qpos[:2]
+        ready = self.mover.pace == 1.0
+        posture = self._lift(posture, float(x), float(y), self.data.time, ready)
+        if isinstance(self.course.path, Straight):
+            # also tail first: what leads swings left when the robot turns left
+            self.course.path.heading = leg.heading + self._lift.retreat.slant
+        return posture
+
+    def _speed(self, leg: Leg) -> float:
+        """The speed wanted now [m/s], < 0 tail first."""
+        pace = self.mover.pace * min(abs(leg.speed), self._posture.speed)
+        if self._lift.retreat.backs_off:
+            pace = -min(pace, SLOW)
+        return math.copysign(1.0, leg.speed) * pace
+
+    def _take_hold(self, grasp: Grasp) -> str:
+        """Stands while the fingers close; returns the fault."""
+        until = self.data.time + CLOSING
+        while self.data.time < until:
+            if fault := self._tick(0.0):
+                return fault
+        grasp.begin(self.data)
+        return ""
 
     def _turn(self, leg: Leg) -> str:
         """Turns in place until the robot looks where it shall on this leg; returns the fault."""
@@ -182,6 +211,8 @@ class _Attempt:
         data, start = self.data, self.data.qpos[:2].copy()
         self.driver(self.model, data, speed)
         self.mover(data, self._posture)
+        if self.grasp:
+            self.grasp.close(data)
         step(self.model, data, PERIOD)
         self.metres += math.hypot(*(data.qpos[:2] - start))
         power = data.actuator_force[self._motors] * data.actuator_velocity[self._motors]
@@ -192,6 +223,8 @@ class _Attempt:
             return "simulation"
         if self._upright.cosine(data) < math.cos(TIPPED):
             return "tip-over"
+        if self.grasp and self.grasp.lost(data):
+            return "lost grip"
         return "" if self.course.on_lane(data.qpos) else "off the lane"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import mujoco
+import numpy as np
 
 __all__ = ["BeltBrakes", "hold_joints", "release_joint"]
 
@@ -24,8 +25,9 @@ def hold_joints(model: mujoco.MjModel) -> None:
 
 
 def release_joint(model: mujoco.MjModel, joint: str, braked: bool) -> None:
-    """Opens or shuts the brake of one joint with a motor of its name; open, 3 % friction stays."""
-    peak = model.actuator_forcerange[model.actuator(joint).id, 1]
+    """Opens or shuts the brake of one joint with a motor; open, 3 % friction stays."""
+    motor = int(np.flatnonzero(model.actuator_trnid[:, 0] == model.joint(joint).id)[0])
+    peak = model.actuator_forcerange[motor, 1]
     factor = BRAKE_FACTOR if braked else 0.03
     _set_friction(model, model.jnt_dofadr[model.joint(joint).id], factor * peak)
 

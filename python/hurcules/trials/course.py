@@ -131,7 +131,7 @@ class Course:
 
     path: Path
     legs: list[Leg]
-    lifts: bool = False  # its leading legs where it gets stuck
+    lifts: bool = False  # its leading legs where it gets stuck, then backs off
 
     def on_lane(self, qpos: Array) -> bool:
         """Whether the base is on the lane."""
@@ -154,7 +154,9 @@ def make_course(chosen: Method, setting: float | None, scene: Scene, speed: floa
         centre = (scene.spacing / 2, scene.side)
         return Course(oval, [Leg(setting, oval.length, turns=1, centre=centre)])
     if chosen.way is Way.There:
-        return Course(Straight(), [Leg(pace, chosen.distance, chosen.distance, chosen.hold)])
+        ahead = -1.0 if chosen.grasps else 1.0  # what the hands hold is before the robot
+        goal = ahead * chosen.distance
+        return Course(Straight(), [Leg(ahead * pace, chosen.distance, goal, chosen.hold)])
     goal = scene.end + (TURNING if chosen.turns_round else LENGTH)
     if not chosen.climbs:
         return Course(Straight(), [Leg(pace, goal, goal, chosen.hold), Leg(-pace, goal, 0.0)])

@@ -7,43 +7,62 @@ from dataclasses import replace
 
 from hurcules.trials.climbing import STEADY, UPPER
 from hurcules.trials.postures import Posture
+from hurcules.trials.retreat import Retreat
 
 __all__ = ["Lift"]
 
 PROGRESS = 0.02  # [m] that count as one
 STALLED = 1.0  # [s] without any: the robot is stuck
-STEP, MOST = 0.2, 0.5  # [rad] by which the legs are lifted higher; not from here on
+# [rad] by which the legs are lifted: not, higher and higher, and laid down
+LIFTS = 0.0, 0.2, 0.4, 0.6, 0.0
 
 
 class Lift:
     """Lifts the upper legs, which lead, where the robot gets stuck; lays them down behind the edge.
 
-    The trunk leans over the lower legs, so that it is these which stay on the ground.
+    The trunk leans over the lower legs, so that it is these which stay on the ground. What does not
+    help at any height may lie under the battery: the robot backs off, and comes again beside it.
+
+    Attributes:
+        retreat: where the robot is to go.
     """
 
     def __init__(self) -> None:
-        self._rise = 0.0
+        self.retreat = Retreat()
+        self._tried = 0
         self._furthest = self._edge = -1e9  # [m]
         self._since = 0.0  # [s]
 
-    def __call__(self, posture: Posture, onward: float, time: float, ready: bool) -> Posture:
+    def __call__(
+        self, posture: Posture, onward: float, left: float, time: float, ready: bool
+    ) -> Posture:
         """One period.
 
         Args:
             posture: that the plan wants.
             onward: how far the robot came [m], growing on its way.
+            left: [m] of its line.
             time: [s].
             ready: the robot has reached the posture that was wanted last.
         """
-        if onward > self._furthest + PROGRESS or not ready:
+        self.retreat.go_on(onward, left, time)
+        if self.retreat.backs_off:
+            self._furthest, self._since = onward, time
+        elif onward > self._furthest + PROGRESS or not ready:
             self._furthest = max(onward, self._furthest)
             self._since = time
         elif time - self._since > STALLED:
-            # what did not help at any height may lie under the battery: laid down, then once more
-            self._rise = self._rise + STEP if self._rise < MOST else 0.0
             self._edge, self._since = onward, time
+            self._try_next(time)
         if onward > self._edge + UPPER:
-            self._rise = 0.0
-        if self._rise == 0.0:
+            self._tried = 0
+            self.retreat.forget()
+        rise = LIFTS[self._tried]
+        if rise == 0.0:
             return posture
-        return replace(posture, knee=math.pi - self._rise, hip=STEADY - self._rise)
+        return replace(posture, knee=math.pi - rise, hip=STEADY - rise)
+
+    def _try_next(self, time: float) -> None:
+        self._tried = (self._tried + 1) % len(LIFTS)
+        if self._tried == 0:
+            self.retreat.begin(self._edge, time)

@@ -10,6 +10,7 @@ from typing import Any
 
 from hurcules.known import require_known
 from hurcules.trials.climbing import STRETCHED, OverField, OverHurdle, OverStairs
+from hurcules.trials.grasp import PULLING
 from hurcules.trials.postures import FLAT, Plan, Posture, always
 
 __all__ = ["METHODS", "Method", "Way", "method"]
@@ -38,6 +39,11 @@ def stretched(scene: Any) -> Plan:
     return always(STRETCHED)
 
 
+def pulling(scene: Any) -> Plan:
+    """The hands low, the lower legs in front of them."""
+    return always(PULLING)
+
+
 @dataclass(frozen=True)
 class Method:
     """One of the ASTM methods as a series of scenes that get harder."""
@@ -50,7 +56,8 @@ class Method:
     hold: float = 0.0  # [s] to stand still at the far end
     plan: Callable[[Any], Plan] = flat  # of postures for a scene: the operator's choice
     climbs: bool = False  # tail first, the lower legs turned over to the front
-    lifts: bool = False  # its leading legs where it gets stuck
+    lifts: bool = False  # its leading legs where it gets stuck, then backs off
+    grasps: bool = False  # the sled's handle with both hands, and goes backward
     turns_round: bool = False  # before the way back
     way: Way = Way.ThereAndBack
     speed: float = 0.6  # [m/s]
@@ -139,6 +146,16 @@ METHODS: dict[str, Method] = {
     ),
     "e2829": Method(
         "sustained speed", "pylons", "speed", (1.0, 2.0, 3.0, 4.0, 5.0, 5.56), way=Way.Laps
+    ),
+    "e2830": Method(
+        title="towing, grasped sleds",
+        scene="sled",
+        parameter="mass",
+        settings=(75.0, 100.0, 120.0, 140.0, 160.0, 180.0, 200.0),
+        plan=pulling,
+        grasps=True,
+        way=Way.There,
+        distance=10.0,
     ),
     "e2831": Method(
         title="towing, hitched sleds",
