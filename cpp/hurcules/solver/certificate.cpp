@@ -16,6 +16,8 @@ constexpr double kAtLimit = 1e-11;
 // an own row that is violated by less is not told from one that stands at its limit, relative to
 // |a| max(1, |x|): it may hold the step, but not pull at it
 constexpr double kViolated = tolerance::kProven;
+// what a multiplier counts for, as kForceRounding: its rounding is 1e-19 of it in long double
+constexpr Long kLongRounding = 1e-10L;
 // an own violated row depends on those before it
 constexpr Long kOwnRank = 1e-13L;
 
@@ -145,7 +147,7 @@ double Certificate::balance(const Long* v, Long scale, std::vector<Push>& pushes
   }
   constexpr Long kRounding = tolerance::kForceRounding;
   return static_cast<double>(balance_.left() /
-                             ((scale + kRounding * forces) * (1.0L + kRounding / weakest)));
+                             ((scale + std::min(scale, kLongRounding * forces)) * (1.0L + kRounding / weakest)));
 }
 
 double Certificate::find(const RowTable& rows, const Chain& chain, int k, const double* x_above,

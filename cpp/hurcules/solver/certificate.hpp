@@ -8,7 +8,7 @@
 // and where the step has to be the smallest, on what the violated rows leave, too,
 //     t + sum nu_w side_w a_w = 0,   nu >= 0, of all rows at their limits.
 // What is left is measured against the forces without the multipliers; those count with their
-// rounding alone.
+// rounding alone, and no more than the forces: multipliers that round by more prove nothing.
 #pragma once
 
 #include <vector>

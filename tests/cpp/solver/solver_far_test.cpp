@@ -145,6 +145,23 @@ TEST(SolverFar, ForcesOfTenToTheTwentyHideNothing) {
       8, true);
 }
 
+TEST(SolverFar, ForcesOfTenToTheTwentyProveNothing) {
+  // rows 3e-8 apart, one above its lower and one below its upper side: they balance any force
+  const Matrix first{{1.43408203125, 3.0, 0.0, 0.0, 1.531005859375, 1.0, -1000.0},
+                     {4.30224609375, 9.0, 0.0, 0.0, 4.5931175781249998, 3.0, -3000.0}};
+  const Vector lower{{-kInf, -1.3779296875, 0.5, -kInf, 0.999999999999, 1.9892578125, -kInf}};
+  const Vector upper{
+      {0.78076171975, -1.37792968749999, 0.5, -0.499, 1.999999999999, 3.9892578125, 4.0}};
+  const Hierarchy levels = {
+      interval(first, Vector{{1.999755859375, 2.0}}, Vector{{1.9997558603750001, 2.001}}, 1e-8),
+      make_bounds(lower, upper),
+      interval(Matrix{{2.0, 2.0, -2.0, -2.0, -2.0, 0.5, 2.0}}, Vector{{-kInf}}, Vector{{4.0}},
+               1e-8),
+      interval(Matrix{{0.5, -2.0, -0.5, -0.5, -0.5, -0.5, -0.5}}, Vector{{-0.5}},
+               Vector{{-0.49999999999999001}}, 0.1)};
+  expect_honest(levels, 7, true);
+}
+
 TEST(SolverFar, NearlyParallelRowsInThreeLevels) {
   expect_honest(
       {interval(Matrix{{1.999755859375, 1.0, -1.0, 1.999755859375, 1.999755859375, 2.0},
