@@ -199,6 +199,21 @@ TEST(SolverFar, AnOwnRowThatStandsOutBy3em11IsNotCalledSolved) {
   expect_honest(levels, 4, false);
 }
 
+TEST(SolverFar, AWeakRowBehindAWeakRowIsNotCalledSolved) {
+  // 1e-5 of the first row is its own, and the second, an equality, takes nearly all of that: what is
+  // left is below the rank tolerance, yet the level moves along it, to x of 2e9
+  const Hierarchy levels = {
+      equality(Matrix{{0.5, 1.0, -1000.0, -2.0, -1.0, -2.0, 3.0}}, Vector{{1.662353515625}}, 1e-4),
+      interval(Matrix{{0.044921875, 0.09084375, -89.84375, -0.1796875, -0.08984375, -0.1796875,
+                       0.26953125},
+                      {0.0, -1000.0, 0.0, 0.001, 0.001, 0.001, 0.001},
+                      {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
+               Vector{{-kInf, 0.001, 0.001}}, Vector{{-2.0, 0.001, 0.001}}, 0.0),
+      make_bounds(Vector{{0.001, 0.001, 2.0, 2.0, -kInf, 0.001, 0.0}},
+                  Vector{{0.001, 0.001, 2.0, 2.000000001, 1.001, 0.001, 0.0}})};
+  expect_honest(levels, 7, false);
+}
+
 TEST(SolverFar, ALimitOnARowThatStandsOutBy1em12SaysThatItIsNotMet) {
   // to meet both x is 4e11, where rounding of x alone is more than the limits are apart
   expect_honest(
