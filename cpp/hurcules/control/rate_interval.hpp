@@ -27,9 +27,9 @@ struct RateState {
 };
 
 struct RateInterval {
-  double lower = 0.0;           // [rad/s]
-  double upper = 0.0;           // [rad/s], >= lower always
-  double least = 0.0;           // [rad/s] the same without the acceleration limit
+  double lower = 0.0;  // [rad/s]
+  double upper = 0.0;  // [rad/s], >= lower always
+  double least = 0.0;  // [rad/s] the same without the acceleration limit
   double most = 0.0;
   bool lower_is_limit = false;  // the position limit sets this end, not velocity or acceleration
   bool upper_is_limit = false;

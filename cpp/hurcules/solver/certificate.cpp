@@ -146,8 +146,8 @@ double Certificate::balance(const Long* v, Long scale, std::vector<Push>& pushes
     weakest = std::min(weakest, push.left);
   }
   constexpr Long kRounding = tolerance::kForceRounding;
-  return static_cast<double>(balance_.left() /
-                             ((scale + std::min(scale, kLongRounding * forces)) * (1.0L + kRounding / weakest)));
+  return static_cast<double>(balance_.left() / ((scale + std::min(scale, kLongRounding * forces)) *
+                                                (1.0L + kRounding / weakest)));
 }
 
 double Certificate::find(const RowTable& rows, const Chain& chain, int k, const double* x_above,

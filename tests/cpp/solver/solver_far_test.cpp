@@ -200,8 +200,8 @@ TEST(SolverFar, AnOwnRowThatStandsOutBy3em11IsNotCalledSolved) {
 }
 
 TEST(SolverFar, AWeakRowBehindAWeakRowIsNotCalledSolved) {
-  // 1e-5 of the first row is its own, and the second, an equality, takes nearly all of that: what is
-  // left is below the rank tolerance, yet the level moves along it, to x of 2e9
+  // 1e-5 of the first row is its own, and the second, an equality, takes nearly all of that: what
+  // is left is below the rank tolerance, yet the level moves along it, to x of 2e9
   const Hierarchy levels = {
       equality(Matrix{{0.5, 1.0, -1000.0, -2.0, -1.0, -2.0, 3.0}}, Vector{{1.662353515625}}, 1e-4),
       interval(Matrix{{0.044921875, 0.09084375, -89.84375, -0.1796875, -0.08984375, -0.1796875,

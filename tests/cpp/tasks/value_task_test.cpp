@@ -97,9 +97,7 @@ TEST_F(ValuesOfTwin, ElevationOfALoweredArmIsBelowTheHorizontal) {
   pitch.set_target(Vector::Constant(1, 0.1));
   pitch.update(robot_);
   EXPECT_NEAR(pitch.error()[0], -0.5, tolerance(1e-14));
-  EXPECT_TRUE(contains(error_text([&] {
-                         AngleTask("a", robot_, "fa_l", {.axis = {0, 0, 0}});
-                       }),
+  EXPECT_TRUE(contains(error_text([&] { AngleTask("a", robot_, "fa_l", {.axis = {0, 0, 0}}); }),
                        "not zero"));
 }
 
