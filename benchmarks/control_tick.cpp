@@ -29,7 +29,7 @@
 #include "hurcules/control/acceleration_controller.hpp"
 #include "hurcules/control/velocity_controller.hpp"
 #include "hurcules/mission/robot_tables.hpp"
-#include "hurcules/sim/servo.hpp"
+#include "hurcules/control/joint_servo.hpp"
 #include "measure.hpp"
 
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bare_chain.hpp"
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -38,7 +38,7 @@ Samples run(Simulation& simulation, double seconds) {
   const double begin = processor_seconds();
   while (!simulation.finished() && simulation.time() < seconds) {
     simulation.step(10);
-    samples.hierarchies.push_back(simulation.controller().hierarchy());
+    samples.hierarchies.push_back(simulation.controller().law().hierarchy());
   }
   samples.loop = processor_seconds() - begin;
   const Recorder& timings = simulation.timings();
@@ -80,13 +80,13 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {
     if (!std::strcmp(argv[i], "--seconds")) seconds = std::atof(argv[i + 1]);
   }
-  SimulationOptions options;
+  MissionOptions options;
   options.clock = &wall;
   options.record = false;
-  Simulation simulation(load_model(HURCULES_MODELS "/scenes/stretch.xml"), "stretch", options);
+  MissionSimulation simulation(load_model(HURCULES_MODELS "/scenes/stretch.xml"), "stretch", options);
   const Samples samples = run(simulation, seconds);
   std::vector<double> solve, chain;
-  compare_with_chain(samples.hierarchies, simulation.controller().solution().x.size(), solve,
+  compare_with_chain(samples.hierarchies, simulation.controller().law().solution().x.size(), solve,
                      chain);
 
   const Quantiles tick = quantiles(samples.tick), physics = quantiles(samples.physics);

@@ -13,7 +13,7 @@
 
 #include "arguments.hpp"
 #include "hurcules/base/error.hpp"
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 #include "report.hpp"
 
 namespace {
@@ -38,10 +38,10 @@ std::ofstream open(const std::string& file) {
   return out;
 }
 
-hurcules::Simulation make_simulation(const Arguments& arguments) {
+hurcules::MissionSimulation make_simulation(const Arguments& arguments) {
   const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
   const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
-  hurcules::SimulationOptions options;
+  hurcules::MissionOptions options;
   options.seed = arguments.seed;
   options.record = !arguments.csv.empty();
   options.clock = now;
@@ -95,7 +95,7 @@ bool save(const Run& run, std::ofstream& json, std::ofstream& csv) {
 }
 
 int run(const Arguments& arguments) {
-  hurcules::Simulation simulation = make_simulation(arguments);
+  hurcules::MissionSimulation simulation = make_simulation(arguments);
   std::ofstream json = open(arguments.json), csv = open(arguments.csv);
   std::signal(SIGINT, [](int) { interrupted = 1; });
   const double started = now();

@@ -119,7 +119,7 @@ void write_json(const Run& run, std::ostream& out) {
   }
   {
     Members thesis(out, "thesis");
-    for (const hurcules::Figure& figure : simulation.mission().figures()) {
+    for (const hurcules::Figure& figure : simulation.supervisor()->figures()) {
       if (!std::isnan(figure.thesis)) thesis.add(figure.name, json(figure.thesis));
     }
   }

@@ -34,19 +34,22 @@ void check(const AccelerationControllerOptions& options) {
 
 AccelerationController::AccelerationController(const Robot& robot,
                                                AccelerationControllerOptions options)
-    : options_(std::move(options)), problem_(robot.size()), solver_(robot.size(), options_.solver) {
+    : options_(std::move(options)),
+      own_limits_("limits", robot),
+      problem_(robot.size()),
+      solver_(robot.size(), options_.solver) {
   check(options_);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
                             options_.max_acceleration, options_.return_speed});
   }
-  acceleration_ = braked_ = Vector::Zero(robot.size());
+  acceleration_ = braked_ = next_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(rate_limits_.size());
 }
 
 void AccelerationController::set_stack(const Stack& stack) {
-  problem_.set_stack(stack);
+  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
   Index rows = 0;
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
@@ -87,6 +90,18 @@ const Vector& AccelerationController::solve() {
   };
   find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
   return acceleration_;
+}
+
+bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const Vector& velocity) {
+  next_ = velocity + options_.dt * acceleration_;
+  if (!hurcules::scale_velocity(bounds, next_)) return false;
+  for (Index i = 0; i < next_.size(); ++i) {
+    const double most = problem_.joint_limits() ? problem_.joint_limits()->max_velocity()[i]
+                                                : rate_limits_[static_cast<std::size_t>(i)].max_velocity;
+    next_[i] = std::clamp(next_[i], -most, most);
+  }
+  acceleration_ = (next_ - velocity) / options_.dt;
+  return true;
 }
 
 void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {

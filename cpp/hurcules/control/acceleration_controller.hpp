@@ -18,6 +18,8 @@
 #include "hurcules/control/acceleration_interval.hpp"
 #include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/stack_problem.hpp"
+#include "hurcules/control/torque_scaling.hpp"
+#include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
 
@@ -27,6 +29,9 @@ struct AccelerationControllerOptions {
   double damping = 20;             // [1/s] L of [T 5.3.13]; 2 sqrt(K) is critical
   double horizon = 0.05;           // [s] T of acceleration_interval.hpp
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
+  // position, velocity and acceleration limits of all coordinates come before all levels, also where
+  // a stack names no JointLimits; false: only where it names them
+  bool enforce_limits = true;
   double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
   double rest = 0.0;               // [1/s] D above; 0 as in the thesis, sqrt(K) stops a swing
   // smooth: the commanded acceleration does not jump where a task loses a direction
@@ -44,6 +49,10 @@ class AccelerationController {
   // the two parts of compute, for those who time them
   void measure(const Robot& robot);  // tasks -> hierarchy
   const Vector& solve();             // hierarchy -> qddot*
+  // after solve: a velocity (n) that, one dt further, is within what the motors can hold
+  // (torque_scaling.hpp), sooner than accelerations but no sooner than velocity limits; true when it
+  // changed qddot*
+  bool scale_velocity(const VelocityBounds& bounds, const Vector& velocity);
   // one dt further, (n) [rad], (n) [rad/s]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q, VectorRef velocity) const;
   // inverse dynamics: what the drives must give for qddot*, (n) [N m]
@@ -58,8 +67,9 @@ class AccelerationController {
   [[nodiscard]] const AccelerationControllerOptions& options() const { return options_; }
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
-  // the coordinate limits of the stack, null when it has none
+  // the coordinate limits that hold, null when none do; to narrow a range, say
   [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
+  [[nodiscard]] Task* limits() { return problem_.bounds_task(); }
   // what each level fell short of at the last compute, and why; makes its texts when asked
   [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const {
     return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_});
@@ -74,9 +84,11 @@ class AccelerationController {
 
   AccelerationControllerOptions options_;
   std::vector<RateLimits> rate_limits_;  // (n)
+  JointLimits own_limits_;               // those of the robot
   StackProblem problem_;
   Solver solver_;
   Vector acceleration_;
+  Vector next_;                                  // [rad/s] scratch, one dt further
   Vector braked_;                                // D qdot, of the last measure
   Vector rate_;                                  // scratch, de/dt of a level
   std::vector<AccelerationInterval> intervals_;  // (n), of the last measure

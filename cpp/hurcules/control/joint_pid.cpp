@@ -45,6 +45,12 @@ JointPidOptions triple_pole(const std::vector<JointDrive>& drives, double dt) {
   for (Vector* values : {&options.K, &options.K_P, &options.K_I, &options.max_torque}) {
     values->resize(m);
   }
+  // K stays positive: gamma is 1, or as large as the softest joint needs
+  double softest = 2.0;
+  for (const JointDrive& drive : drives) {
+    softest = std::min(softest, 3.0 * drive.bandwidth * drive.inertia);
+  }
+  if (softest > 0.0) options.gamma = 1.0 / std::sqrt(std::min(1.0, 0.5 * softest));
   for (Index i = 0; i < m; ++i) {
     const JointDrive& drive = drives[static_cast<std::size_t>(i)];
     const double omega = drive.bandwidth;

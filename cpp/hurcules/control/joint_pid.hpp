@@ -15,6 +15,7 @@
 
 #include "hurcules/base/state.hpp"
 #include "hurcules/base/types.hpp"
+#include "hurcules/robot/motor.hpp"
 
 namespace hurcules {
 
@@ -42,12 +43,6 @@ struct JointDrive {
 struct JointError {
   Vector position;  // [rad], (m)
   Vector velocity;  // [rad/s], (m)
-};
-
-// What a drive can give at the moment.
-struct EffortRange {
-  double lower = 0.0;  // [N m] or [N], <= 0
-  double upper = 0.0;  // >= 0
 };
 
 class JointPid {

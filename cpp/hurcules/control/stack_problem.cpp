@@ -18,6 +18,14 @@ bool is_bounds(const StackLevel& level) {
   return level.tasks.size() == 1 && level.tasks.front()->bounds_coordinates();
 }
 
+Stack with_limits(const Stack& stack, JointLimits& limits) {
+  const std::vector<StackLevel>& levels = stack.levels();
+  if (std::any_of(levels.begin(), levels.end(), is_bounds)) return stack;
+  std::vector<StackLevel> all = {StackLevel(limits)};
+  all.insert(all.end(), levels.begin(), levels.end());
+  return Stack(std::move(all));
+}
+
 Level sized_level(const StackLevel& source, Index n) {
   Index rows = 0;
   for (const Task* task : source.tasks) rows += task->rows();
@@ -32,7 +40,8 @@ Level sized_level(const StackLevel& source, Index n) {
 
 }  // namespace
 
-void StackProblem::set_stack(const Stack& stack) {
+void StackProblem::set_stack(const Stack& asked, JointLimits* own) {
+  const Stack stack = own ? with_limits(asked, *own) : asked;
   Hierarchy hierarchy;
   Task* bounds_task = nullptr;
   int bounds_level = -1;

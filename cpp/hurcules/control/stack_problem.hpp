@@ -18,8 +18,9 @@ class StackProblem {
  public:
   // n unknowns
   explicit StackProblem(Index n) : n_(n) {}
-  // throws Error for tasks of another robot and for a second level of limits
-  void set_stack(const Stack& stack);
+  // With `own` these limits come first where the stack names none. Throws Error for tasks of another
+  // robot and for a second level of limits.
+  void set_stack(const Stack& stack, JointLimits* own = nullptr);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }
   [[nodiscard]] Hierarchy& hierarchy() { return hierarchy_; }

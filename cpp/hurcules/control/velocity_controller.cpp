@@ -34,7 +34,10 @@ double wanted_rate(double side, double error, double velocity_des, double gain) 
 }  // namespace
 
 VelocityController::VelocityController(const Robot& robot, VelocityControllerOptions options)
-    : options_(std::move(options)), problem_(robot.size()), solver_(robot.size(), options_.solver) {
+    : options_(std::move(options)),
+      own_limits_("limits", robot),
+      problem_(robot.size()),
+      solver_(robot.size(), options_.solver) {
   check(options_);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
@@ -53,7 +56,7 @@ void VelocityController::set_stack(const Stack& stack) {
                   "' commands accelerations: it wants an acceleration controller");
     }
   }
-  problem_.set_stack(stack);
+  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
   begin_transition();
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
@@ -95,8 +98,8 @@ const Vector& VelocityController::solve() {
   return velocity_;
 }
 
-bool VelocityController::give_way(const RateWindow& window) {
-  if (!hurcules::give_way(window, velocity_)) return false;
+bool VelocityController::scale_velocity(const VelocityBounds& window) {
+  if (!hurcules::scale_velocity(window, velocity_)) return false;
   for (Index i = 0; limits() && i < velocity_.size(); ++i) {
     const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
     velocity_[i] = std::clamp(velocity_[i], interval.least, interval.most);
@@ -149,9 +152,9 @@ void VelocityController::reset() {
   solver_.reset();
 }
 
-void VelocityController::take_over(const VelocityController& previous) {
+void VelocityController::take_over(const Vector& velocity) {
   reset();
-  velocity_ = previous.velocity_;
+  velocity_ = velocity;
   begin_transition();
 }
 

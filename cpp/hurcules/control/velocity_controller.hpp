@@ -16,7 +16,8 @@
 #include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack_problem.hpp"
-#include "hurcules/control/yielding.hpp"
+#include "hurcules/control/torque_scaling.hpp"
+#include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
 
@@ -25,6 +26,9 @@ struct VelocityControllerOptions {
   double gain = 5.0;      // [1/s] K of [T 4.3.2]
   double horizon = 0.05;  // [s] T of [T 4.3.9]: a limit is approached at distance / T at most
   double max_acceleration = 20.0;  // [rad/s^2] of every coordinate; inf for none
+  // position, velocity and acceleration limits of all coordinates come before all levels, also where
+  // a stack names no JointLimits; false: only where it names them
+  bool enforce_limits = true;
   double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
   // [s] after set_stack or take_over in motion: what the velocity was, less what the new stack asks
   // for, fades out in this time, inside the limits; meanwhile it disturbs every task. 0: none, the
@@ -45,9 +49,9 @@ class VelocityController {
   // the two parts of compute, for those who time them
   void measure(const Robot& robot);  // tasks -> hierarchy
   const Vector& solve();             // hierarchy -> qdot*
-  // after solve: qdot* within what the motors can hold (yielding.hpp), sooner than accelerations
+  // after solve: qdot* within what the motors can hold (torque_scaling.hpp), sooner than accelerations
   // but no sooner than position and velocity limits; true when it changed
-  bool give_way(const RateWindow& window);
+  bool scale_velocity(const VelocityBounds& window);
   // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q) const;  // [T 4.3.7]
   // compute, then moves the robot by one period, q* = integrate(q*): (n) [rad]
@@ -62,11 +66,12 @@ class VelocityController {
   [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const;
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
-  // the coordinate limits of the stack, null when it has none
+  // the coordinate limits that hold, null when none do; to narrow a range, say
   [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
+  [[nodiscard]] Task* limits() { return problem_.bounds_task(); }
   void reset();  // at rest, cold
-  // goes on at the velocity of another controller of the same robot, cold, with a transition
-  void take_over(const VelocityController& previous);
+  // goes on at this velocity (n), cold, with a transition
+  void take_over(const Vector& velocity);
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 
@@ -78,6 +83,7 @@ class VelocityController {
 
   VelocityControllerOptions options_;
   std::vector<RateLimits> rate_limits_;  // (n)
+  JointLimits own_limits_;               // those of the robot
   StackProblem problem_;
   Solver solver_;
   Vector velocity_;

@@ -1,68 +1,82 @@
 #include "hurcules/mission/mission.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/mission/stretch.hpp"
+#include "hurcules/mission/variation.hpp"
 
 namespace hurcules {
 
-void Mission::reset(const Robot& plan, const Robot& world) {
-  command_ = Vector::Zero(static_cast<Index>(channels_.size()));
-  operated_ = command_;
-  for (Figure& figure : figures_) figure.value = std::numeric_limits<double>::quiet_NaN();
-  start(plan, world);
-  enter(0, plan, 0.0);
+Mission::Mission(MissionSetup setup, const WholeBodyController& controller, double variation)
+    : setup_(std::move(setup)),
+      variation_(variation),
+      limits_(controller.law(0).limits()),
+      operated_(Vector::Zero(controller.scale().size())) {
+  require(variation_ >= 0.0 && std::isfinite(variation_), "variation wants a number >= 0");
 }
 
-bool Mission::select_phase(const Robot& plan, double time) {
+Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
+  Vector qpos = plant.keyframe_qpos(plant.find_keyframe(setup_.keyframe));
+  Random random(seed);
+  Variation variation;
+  variation.scale = variation_;
+  const int casualty = plant.other_free_joint(robot.root_body());
+  if (casualty >= 0) vary_place(variation, random, qpos.segment<7>(casualty));
+  // the posture varies, the support stays: the root of the robot follows
+  robot.set_qpos(qpos);
+  Vector q = robot.configuration();
+  if (limits_) vary_posture(variation, random, {limits_->lower(), limits_->upper()}, q);
+  robot.set_configuration(q);
+  return robot.qpos();
+}
+
+void Mission::reset(WholeBodyController& controller, const Robot& world) {
+  for (Figure& figure : figures_) figure.value = std::numeric_limits<double>::quiet_NaN();
+  begin(controller, world);
+  enter(0, controller, 0.0);
+}
+
+bool Mission::advance(WholeBodyController& controller, double time) {
   while (phases_[phase_].done(time - phase_start_)) {
     if (phase_ + 1 == phases_.size()) return false;
-    enter(phase_ + 1, plan, time);
+    enter(phase_ + 1, controller, time);
   }
   return true;
 }
 
-void Mission::enter(std::size_t phase, const Robot& plan, double time) {
+void Mission::enter(std::size_t phase, WholeBodyController& controller, double time) {
   phase_ = phase;
   phase_start_ = time;
-  if (phases_[phase_].enter) phases_[phase_].enter(plan, time);
+  controller.use(phases_[phase_].stack);
+  if (phases_[phase_].enter) phases_[phase_].enter(time);
 }
 
-const Vector& Mission::operator_command(double dt) {
+const Vector& Mission::command(double dt) {
   operated_.setZero();
   if (phases_[phase_].operate) phases_[phase_].operate(operated_, dt);
   return operated_;
 }
 
-void Mission::apply(const Robot& plan, const ConstVectorRef& command, double dt) {
-  for (Index i = 0; i < command_.size(); ++i) {
-    const double scale = channels_[static_cast<std::size_t>(i)].scale;
-    command_[i] = std::clamp(command[i], -scale, scale);
-  }
-  move_targets(plan, command_, dt);
-}
-
-void Mission::relax(double share) {
-  for (Task* task : tasks_) task->relax(share);
+std::vector<std::string> Mission::phase_names() const {
+  std::vector<std::string> names;
+  for (const Phase& phase : phases_) names.push_back(phase.name);
+  return names;
 }
 
 void Mission::save(StateWriter& writer) const {
   writer.put(static_cast<double>(phase_));
   writer.put(phase_start_);
-  writer.put(command_);
   for (const Figure& figure : figures_) writer.put(figure.value);
-  for (const Task* task : tasks_) task->save(writer);
   save_memory(writer);
 }
 
 void Mission::restore(StateReader& reader) {
   phase_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(phases_.size()) - 1));
   phase_start_ = reader.get();
-  reader.get(command_);
   for (Figure& figure : figures_) figure.value = reader.get_any();
-  for (Task* task : tasks_) task->restore(reader);
   restore_memory(reader);
 }
 
@@ -70,13 +84,17 @@ namespace {
 
 struct Entry {
   MissionSetup setup;
-  std::unique_ptr<Mission> (*make)(const Robot& plan);
+  std::shared_ptr<WholeBodyController> (*controller)(const Robot& robot,
+                                                     const MissionOptions& options);
+  std::unique_ptr<Mission> (*mission)(WholeBodyController& controller, double variation);
 };
 
 template <class M>
 Entry entry() {
-  return {M::setup_of(),
-          [](const Robot& plan) -> std::unique_ptr<Mission> { return std::make_unique<M>(plan); }};
+  return {M::setup_of(), &M::make_controller,
+          [](WholeBodyController& controller, double variation) -> std::unique_ptr<Mission> {
+            return std::make_unique<M>(controller, variation);
+          }};
 }
 
 // all missions that there are
@@ -92,15 +110,44 @@ const Entry& find(const std::string& name) {
   throw Error(unknown_name("mission", name, mission_names()));
 }
 
+SimulationOptions with_setup(const MissionSetup& setup, const MissionOptions& options) {
+  SimulationOptions all = options;
+  all.max_seconds = std::min(all.max_seconds, setup.max_seconds);
+  all.fall = {"pelvis", setup.min_height, setup.max_tilt};
+  return all;
+}
+
 }  // namespace
 
 const MissionSetup& mission_setup(const std::string& name) {
   return find(name).setup;
 }
 
-std::unique_ptr<Mission> make_mission(const std::string& name, const Robot& plan) {
-  return find(name).make(plan);
+std::shared_ptr<WholeBodyController> make_mission_controller(const std::string& mission,
+                                                             const ModelPtr& model,
+                                                             const MissionOptions& options) {
+  const Entry& entry = find(mission);
+  Robot robot(model);
+  robot.stand_on(entry.setup.support);
+  return entry.controller(robot, options);
 }
+
+std::unique_ptr<Mission> make_mission(const std::string& mission, WholeBodyController& controller,
+                                      double variation) {
+  return find(mission).mission(controller, variation);
+}
+
+MissionSimulation::MissionSimulation(const ModelPtr& model, const std::string& mission,
+                                     const MissionOptions& options, mjData_* data)
+    : MissionSimulation(model, make_mission_controller(mission, model, options), mission, options,
+                        data) {}
+
+MissionSimulation::MissionSimulation(const ModelPtr& model,
+                                     const std::shared_ptr<WholeBodyController>& controller,
+                                     const std::string& mission, const MissionOptions& options,
+                                     mjData_* data)
+    : Simulation(model, controller, with_setup(mission_setup(mission), options),
+                 make_mission(mission, *controller, options.variation), data) {}
 
 std::vector<std::string> mission_names() {
   std::vector<std::string> names;

@@ -5,15 +5,15 @@
 #include <functional>
 #include <string>
 
-#include "hurcules/control/stack.hpp"
+#include "hurcules/base/types.hpp"
 
 namespace hurcules {
 
 struct Phase {
   std::string name;
-  Stack stack;
-  // once, before its first tick at this time [s]: the robot stands at the reference configuration
-  std::function<void(const Robot& plan, double time)> enter;
+  std::string stack;  // of the controller
+  // once, before its first tick at this time [s]
+  std::function<void(double time)> enter;
   // each tick of dt [s]: what the operator commands, (k), in [m/s] or [rad/s]; it comes in as zero
   std::function<void(VectorRef command, double dt)> operate;
   // each tick, before anything else: true ends the phase; elapsed [s] since its start

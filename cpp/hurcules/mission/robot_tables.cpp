@@ -28,9 +28,9 @@ std::vector<ModeRange> ready_ranges(const LegRanges& legs) {
   };
 }
 
-std::vector<ServoRow> both_arms(const std::vector<ServoRow>& arm) {
-  std::vector<ServoRow> rows;
-  for (const ServoRow& row : arm) {
+std::vector<ServoGains> both_arms(const std::vector<ServoGains>& arm) {
+  std::vector<ServoGains> rows;
+  for (const ServoGains& row : arm) {
     rows.push_back({"L" + row.joint, row.inertia, row.bandwidth});
     rows.push_back({"R" + row.joint, row.inertia, row.bandwidth});
   }
@@ -39,8 +39,8 @@ std::vector<ServoRow> both_arms(const std::vector<ServoRow>& arm) {
 
 // Lower body, trunk and neck of both robots. The drives brake: half the robot, 340 kg x (0.14 m)^2,
 // hangs on each belt.
-std::vector<ServoRow> with_body(std::vector<ServoRow> arms) {
-  std::vector<ServoRow> rows = {
+std::vector<ServoGains> with_body(std::vector<ServoGains> arms) {
+  std::vector<ServoGains> rows = {
       {"LKN", 280.0, 20.0}, {"RKN", 280.0, 20.0}, {"HIP", 240.0, 20.0},
       {"WST", 26.0, 20.0},  {"NKY", 0.27, 60.0},  {"NKP", 0.30, 60.0},
   };
@@ -75,9 +75,9 @@ const std::vector<ModeRange>& ranges_of_mode(const std::string& mode) {
 // joint's dry friction f bends it by less than 2 mrad, 0.54 f / (J omega^2), and at least 20 rad/s.
 // A triple pole stays stable up to nine times the inertia that it was made for: the arms may take
 // 120 kg.
-const std::vector<ServoRow>& rescue_servo() {
-  static const std::vector<ServoRow> rows = [] {
-    std::vector<ServoRow> all = with_body(
+const std::vector<ServoGains>& rescue_servo() {
+  static const std::vector<ServoGains> rows = [] {
+    std::vector<ServoGains> all = with_body(
         both_arms({{"SP", 10.0, 30.0}, {"SR", 10.0, 30.0}, {"SY", 2.5, 40.0}, {"EB", 2.5, 50.0}}));
     // the bed [kg]: its own 23, the screws, and a person on it
     all.push_back({"bed_lift", 200.0, 20.0});
@@ -89,9 +89,9 @@ const std::vector<ServoRow>& rescue_servo() {
 }
 
 // Inertia as above, in the acquisition posture.
-const std::vector<ServoRow>& manipulation_servo() {
-  static const std::vector<ServoRow> rows = [] {
-    std::vector<ServoRow> all = with_body(both_arms({{"SP", 11.0, 30.0},
+const std::vector<ServoGains>& manipulation_servo() {
+  static const std::vector<ServoGains> rows = [] {
+    std::vector<ServoGains> all = with_body(both_arms({{"SP", 11.0, 30.0},
                                                      {"SR", 11.0, 30.0},
                                                      {"SY", 2.5, 40.0},
                                                      {"EB", 3.0, 50.0},
@@ -106,7 +106,7 @@ const std::vector<ServoRow>& manipulation_servo() {
   return rows;
 }
 
-const std::vector<ServoRow>& servo_of_robot(const std::string& robot) {
+const std::vector<ServoGains>& servo_of_robot(const std::string& robot) {
   if (robot == "rescue") return rescue_servo();
   if (robot == "manipulation") return manipulation_servo();
   throw Error(unknown_name("robot", robot, {"manipulation", "rescue"}));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/tasks.hpp"
 
 namespace hurcules {
@@ -16,13 +17,6 @@ struct ModeRange {
   double upper = 0.0;  // [rad]
 };
 
-// What a joint's servo reckons with (triple_pole in joint_pid.hpp).
-struct ServoRow {
-  std::string joint;       // MJCF joint, or a belt
-  double inertia = 0.0;    // [kg m^2], of a slide [kg], that it turns, rotor included
-  double bandwidth = 0.0;  // [rad/s]
-};
-
 // Rescue-ready: battery and transfer bed limit hip and knee, the backpack the shoulders [T §4.4].
 [[nodiscard]] const std::vector<ModeRange>& rescue_ready_ranges();
 // The same with the bed detached: the battery alone limits hip and knee.
@@ -30,10 +24,10 @@ struct ServoRow {
 // The ranges of a mode: "rescue_ready", "rescue_ready_without_bed". Throws Error with the names.
 [[nodiscard]] const std::vector<ModeRange>& ranges_of_mode(const std::string& mode);
 
-[[nodiscard]] const std::vector<ServoRow>& rescue_servo();
-[[nodiscard]] const std::vector<ServoRow>& manipulation_servo();
+[[nodiscard]] const std::vector<ServoGains>& rescue_servo();
+[[nodiscard]] const std::vector<ServoGains>& manipulation_servo();
 // of robot "rescue" or "manipulation"; throws Error with the names
-[[nodiscard]] const std::vector<ServoRow>& servo_of_robot(const std::string& robot);
+[[nodiscard]] const std::vector<ServoGains>& servo_of_robot(const std::string& robot);
 
 void set_ranges(JointLimits& limits, const std::vector<ModeRange>& ranges);
 

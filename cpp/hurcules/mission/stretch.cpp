@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace hurcules {
 
@@ -14,22 +16,25 @@ constexpr double kStretchSpeed = 0.0215;  // [m/s] the operator's button; sets t
 constexpr double kSpeedShare = 0.9;
 constexpr double kStretchLength = 0.875;  // [m] where the pelvis has given way by 0.40 m
 
-// first command of each, in the order of make_channels
-enum : Index { kLeft = 0, kRight = 3, kLeftPitch = 6, kRightPitch = 7, kPelvis = 8, kGaze = 9 };
-
-std::vector<Channel> make_channels() {
-  const double hand = 2.0 * kStretchSpeed;  // [m/s] the operator's speed is half of full scale
-  const double angle = 0.1;                 // [rad/s]
-  return {{"left_hand_x", hand},  {"left_hand_y", hand},  {"left_hand_z", hand},
-          {"right_hand_x", hand}, {"right_hand_y", hand}, {"right_hand_z", hand},
-          {"left_pitch", angle},  {"right_pitch", angle}, {"pelvis_x", hand},
-          {"gaze_yaw", angle},    {"gaze_pitch", angle}};
-}
+// first command of each, in the order of the channels
+enum : Index { kLeft = 0, kRight = 3 };
+// the tasks, in the order of the stack
+enum : std::size_t { kLeftHand, kRightHand, kLeftPitch, kRightPitch, kPelvis, kGaze };
 
 PositionTaskOptions along_x() {
   PositionTaskOptions options;
   options.axes = Matrix3::Identity().topRows(1);
   return options;
+}
+
+StretchErrors errors_of(const TickReport& report) {
+  const auto error = [&](std::size_t task) -> const Vector& { return report.tasks[task]->error(); };
+  StretchErrors errors;
+  errors.hand = std::max(error(kLeftHand).norm(), error(kRightHand).norm());
+  errors.pitch = std::max(std::abs(error(kLeftPitch)[0]), std::abs(error(kRightPitch)[0]));
+  errors.pelvis = std::abs(error(kPelvis)[0]);
+  errors.gaze = error(kGaze).norm();
+  return errors;
 }
 
 }  // namespace
@@ -47,41 +52,71 @@ MissionSetup Stretch::setup_of() {
   return setup;
 }
 
-Stretch::Stretch(const Robot& plan)
-    : Mission(setup_of()),
-      joint_("joint", plan),
-      left_hand_("lhpos", plan, "L_tcp"),
-      right_hand_("rhpos", plan, "R_tcp"),
-      left_pitch_("lhpitch", plan, "L_tcp"),
-      right_pitch_("rhpitch", plan, "R_tcp"),
-      pelvis_("pel", plan, "pelvis", along_x()),
-      gaze_("gaze", plan, "gaze"),
-      story_(plan, figures_) {
-  set_ranges(joint_, rescue_ready_ranges());
-  for (const Coordinate& coordinate : plan.coordinates()) {
-    joint_.set_max_velocity(coordinate.name, kSpeedShare * coordinate.max_velocity);
+std::shared_ptr<WholeBodyController> Stretch::make_controller(const Robot& robot,
+                                                              const MissionOptions& options) {
+  auto joint = std::make_unique<JointLimits>("joint", robot);
+  set_ranges(*joint, rescue_ready_ranges());
+  for (const Coordinate& coordinate : robot.coordinates()) {
+    joint->set_max_velocity(coordinate.name, kSpeedShare * coordinate.max_velocity);
   }
-  const StackLevel hpos("hpos", {&left_hand_, &right_hand_});
-  const StackLevel hpitch("hpitch", {&left_pitch_, &right_pitch_});
-  const Stack stack = joint_ < hpos < hpitch < pelvis_ < gaze_;  // [T §4.4]
+  auto left_hand = std::make_unique<PositionTask>("lhpos", robot, "L_tcp");
+  auto right_hand = std::make_unique<PositionTask>("rhpos", robot, "R_tcp");
+  auto left_pitch = std::make_unique<AngleTask>("lhpitch", robot, "L_tcp");
+  auto right_pitch = std::make_unique<AngleTask>("rhpitch", robot, "R_tcp");
+  auto pelvis = std::make_unique<PositionTask>("pel", robot, "pelvis", along_x());
+  auto gaze = std::make_unique<GazeTask>("gaze", robot, "gaze");
+  const StackLevel hpos("hpos", {left_hand.get(), right_hand.get()});
+  const StackLevel hpitch("hpitch", {left_pitch.get(), right_pitch.get()});
+  const Stack stack = *joint < hpos < hpitch < *pelvis < *gaze;  // [T §4.4]
 
+  const Vector hand = Vector::Constant(1, 2.0 * kStretchSpeed);  // the operator's is half of it
+  const Vector angle = Vector::Constant(1, 0.1);                 // [rad/s]
+  constexpr auto kTwist = ChannelKind::Twist;
+  std::vector<Channel> channels = {{"left_hand", kTwist, *left_hand, hand},
+                                   {"right_hand", kTwist, *right_hand, hand},
+                                   {"left_pitch", kTwist, *left_pitch, angle},
+                                   {"right_pitch", kTwist, *right_pitch, angle},
+                                   {"pelvis_x", kTwist, *pelvis, hand},
+                                   {"gaze", kTwist, *gaze, angle, {"yaw", "pitch"}}};
+  WholeBodyControllerOptions whole;
+  whole.velocity.solver.method = options.method;
+  whole.support = setup_of().support;
+  whole.base = options.base;
+  whole.servo = setup_of().servo;
+  whole.preload = false;  // the arms find their rest while the mission settles
+  auto controller = std::make_shared<WholeBodyController>(
+      robot, std::vector<NamedStack>{{"stretch", stack}}, std::move(channels), std::move(whole));
+  controller->keep(std::move(joint));
+  controller->keep(std::move(left_hand));
+  controller->keep(std::move(right_hand));
+  controller->keep(std::move(left_pitch));
+  controller->keep(std::move(right_pitch));
+  controller->keep(std::move(pelvis));
+  controller->keep(std::move(gaze));
+  return controller;
+}
+
+Stretch::Stretch(WholeBodyController& controller, double variation)
+    : Mission(setup_of(), controller, variation), story_(controller.plan(), figures_) {
   const auto after = [](double seconds) {
     return [seconds](double elapsed) { return elapsed >= seconds; };
   };
-  const auto begin = [this](const Robot&, double time) { story_.start(time); };
+  const auto begin = [this](double time) { story_.start(time); };
   const auto stretch = [this](VectorRef command, double dt) { operate(command, dt); };
   const auto stretched = [this](double) { return stretched_ >= kStretchLength; };
-  phases_ = {{"settle", stack, {}, {}, after(kSettleSeconds)},
-             {"stretch", stack, begin, stretch, stretched},
-             {"hold", stack, {}, {}, after(kHoldSeconds)}};
-  channels_ = make_channels();
-  tasks_ = {&joint_, &left_hand_, &right_hand_, &left_pitch_, &right_pitch_, &pelvis_, &gaze_};
+  phases_ = {{"settle", "stretch", {}, {}, after(kSettleSeconds)},
+             {"stretch", "stretch", begin, stretch, stretched},
+             {"hold", "stretch", {}, {}, after(kHoldSeconds)}};
 }
 
-void Stretch::start(const Robot& plan, const Robot& world) {
-  for (Task* task : tasks_) task->hold(plan);
+std::unique_ptr<Supervisor> Stretch::clone(WholeBodyController& controller) const {
+  return std::make_unique<Stretch>(controller, variation());
+}
+
+void Stretch::begin(WholeBodyController& controller, const Robot& world) {
   // where the arms will go under; the chest lies so far away that the neck would meet its stop
-  gaze_.set_target(world.position(world.frame("casualty_near_side")));
+  auto& gaze = static_cast<GazeTask&>(controller.task("gaze"));
+  gaze.set_target(world.position(world.frame("casualty_near_side")));
   stretched_ = 0.0;
   story_.reset();
 }
@@ -92,34 +127,15 @@ void Stretch::operate(VectorRef command, double dt) const {
   command[kLeft] = command[kRight] = std::min(kStretchSpeed, left / dt);
 }
 
-void Stretch::move_targets(const Robot& plan, const ConstVectorRef& command, double dt) {
-  left_hand_.advance(command.segment(kLeft, 3), dt);
-  right_hand_.advance(command.segment(kRight, 3), dt);
-  left_pitch_.advance(command.segment(kLeftPitch, 1), dt);
-  right_pitch_.advance(command.segment(kRightPitch, 1), dt);
-  pelvis_.advance(command.segment(kPelvis, 1), dt);
-  // its target turns about the camera as commanded, whatever was measured last
-  gaze_.update(plan);
-  gaze_.advance(command.segment(kGaze, 2), dt);
-  stretched_ += 0.5 * (command[kLeft] + command[kRight]) * dt;
-}
-
-StretchErrors Stretch::errors() const {
-  StretchErrors errors;
-  errors.hand = std::max(left_hand_.error().norm(), right_hand_.error().norm());
-  errors.pitch = std::max(std::abs(left_pitch_.error()[0]), std::abs(right_pitch_.error()[0]));
-  errors.pelvis = std::abs(pelvis_.error()[0]);
-  errors.gaze = gaze_.error().norm();
-  return errors;
-}
-
-void Stretch::note_commanded(const TickReport& report) {
+void Stretch::note_commanded(const WholeBodyController& controller, const TickReport& report) {
+  const Vector& command = controller.command();
+  stretched_ += 0.5 * (command[kLeft] + command[kRight]) * controller.dt();
   story_.note_stretched(stretched_);
-  if (phase() > 0) story_.note_commanded(report, errors());
+  if (phase() > 0) story_.note_commanded(report, errors_of(report));
 }
 
 void Stretch::note_measured(const TickReport& report) {
-  if (phase() > 0) story_.note_measured(report, errors());
+  if (phase() > 0) story_.note_measured(report, errors_of(report));
 }
 
 void Stretch::save_memory(StateWriter& writer) const {

@@ -14,26 +14,24 @@ namespace hurcules {
 
 class Stretch final : public Mission {
  public:
-  explicit Stretch(const Robot& plan);
+  // for a controller of make_controller, or a clone of one
+  Stretch(WholeBodyController& controller, double variation);
   [[nodiscard]] static MissionSetup setup_of();
+  // tasks, stack and channels of the stretch; the robot stands on the mission's support
+  [[nodiscard]] static std::shared_ptr<WholeBodyController> make_controller(
+      const Robot& robot, const MissionOptions& options);
 
-  void note_commanded(const TickReport& report) override;
+  void note_commanded(const WholeBodyController& controller, const TickReport& report) override;
   void note_measured(const TickReport& report) override;
   [[nodiscard]] std::string_view verdict() const override { return story_.verdict(); }
+  [[nodiscard]] std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const override;
 
  private:
-  void start(const Robot& plan, const Robot& world) override;
-  void move_targets(const Robot& plan, const ConstVectorRef& command, double dt) override;
+  void begin(WholeBodyController& controller, const Robot& world) override;
   void save_memory(StateWriter& writer) const override;
   void restore_memory(StateReader& reader) override;
   void operate(VectorRef command, double dt) const;
-  [[nodiscard]] StretchErrors errors() const;
 
-  JointLimits joint_;
-  PositionTask left_hand_, right_hand_;
-  AngleTask left_pitch_, right_pitch_;
-  PositionTask pelvis_;
-  GazeTask gaze_;
   StretchFigures story_;
   double stretched_ = 0.0;  // [m] forward command given so far, mean of both hands
 };

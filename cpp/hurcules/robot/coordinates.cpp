@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "hurcules/base/error.hpp"
 
@@ -86,6 +87,24 @@ std::vector<Coordinate> from_joints(const mjModel& m, bool with_actuator) {
   return found;
 }
 
+// each name among the tuples' coordinates, then among the joints
+std::vector<Coordinate> chosen(const mjModel& m, std::vector<Coordinate> all,
+                               const std::vector<std::string>& names) {
+  for (Coordinate& joint : from_joints(m, false)) all.push_back(std::move(joint));
+  std::vector<Coordinate> found;
+  for (const std::string& name : names) {
+    const auto same = [&](const Coordinate& coordinate) { return coordinate.name == name; };
+    const auto one = std::find_if(all.begin(), all.end(), same);
+    if (one == all.end()) {
+      std::vector<std::string> existing;
+      for (const Coordinate& coordinate : all) existing.push_back(coordinate.name);
+      throw Error(unknown_name("joint", name, existing));
+    }
+    found.push_back(*one);
+  }
+  return found;
+}
+
 // [rad/s] or [m/s] of the joint
 double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
   const std::string joint = name_of(m, mjOBJ_JOINT, driven_joint.joint);
@@ -151,10 +170,14 @@ void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinat
 
 }  // namespace
 
-std::vector<Coordinate> find_coordinates(const mjModel& m) {
+std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std::string>& names) {
   std::vector<Coordinate> found = from_tuples(m);
-  if (found.empty()) found = from_joints(m, true);
-  if (found.empty()) found = from_joints(m, false);
+  if (!names.empty()) {
+    found = chosen(m, std::move(found), names);
+  } else {
+    if (found.empty()) found = from_joints(m, true);
+    if (found.empty()) found = from_joints(m, false);
+  }
   for (Coordinate& coordinate : found) set_limits(m, coordinate);
   require_distinct(m, found);
   return found;

@@ -7,6 +7,7 @@
 // A prefix that `attach` put in front of these names goes in front of NAME and JOINT.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hurcules/robot/robot.hpp"
@@ -16,6 +17,9 @@ namespace hurcules {
 // The coordinates in the order of their tuples, else of their joints. Throws Error for a tuple of
 // something else than hinge and slide joints, a factor 0, a joint of two coordinates, ranges of
 // coupled joints that do not meet, and two coordinates of one name.
-[[nodiscard]] std::vector<Coordinate> find_coordinates(const mjModel_& model);
+// With names: these alone, in this order, each a tuple's coordinate or a hinge or slide joint. Throws
+// Error for a name that does not exist.
+[[nodiscard]] std::vector<Coordinate> find_coordinates(const mjModel_& model,
+                                                       const std::vector<std::string>& names = {});
 
 }  // namespace hurcules

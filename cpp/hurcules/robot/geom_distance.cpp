@@ -29,6 +29,16 @@ std::vector<int> geoms_of(const Robot& robot, const std::string& name) {
 
 }  // namespace
 
+GeomDistance::GeomDistance(const GeomDistance& other)
+    : model_(other.model_),
+      data_(mj_makeData(model_.get()), mj_deleteData),
+      pairs_(other.pairs_),
+      most_(other.most_),
+      linear_(other.linear_),
+      angular_(other.angular_) {
+  require(data_ != nullptr, "MuJoCo has no memory for this model");
+}
+
 GeomDistance::GeomDistance(const Robot& robot,
                            const std::vector<std::pair<std::string, std::string>>& pairs,
                            double most)

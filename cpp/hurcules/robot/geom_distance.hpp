@@ -21,6 +21,7 @@ class GeomDistance {
   // for a body without such geoms.
   GeomDistance(const Robot& robot, const std::vector<std::pair<std::string, std::string>>& pairs,
                double most);
+  GeomDistance(const GeomDistance& other);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(pairs_.size()); }
   // at the robot's configuration: distances [m] (k), negative in each other, `most` where farther;

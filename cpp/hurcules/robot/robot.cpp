@@ -55,10 +55,10 @@ std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjM
 
 }  // namespace
 
-Robot::Robot(ModelPtr model)
+Robot::Robot(ModelPtr model, const std::vector<std::string>& joints)
     : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;
-  coordinates_ = find_coordinates(m);
+  coordinates_ = find_coordinates(m, joints);
   data_.reset(mj_makeData(&m));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
@@ -69,11 +69,25 @@ Robot::Robot(ModelPtr model)
   momentum_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);
   if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
+  const int joint = m.body_jntnum[tree_] > 0 ? m.body_jntadr[tree_] : -1;
+  if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
+    root_qpos_ = m.jnt_qposadr[joint];
+    root_dof_ = m.jnt_dofadr[joint];
+  }
   find_screws();
   set_keyframe("");
 }
 
 Robot::~Robot() = default;
+
+double Robot::timestep() const {
+  return model_->opt.timestep;
+}
+
+std::string Robot::support() const {
+  const char* const name = mj_id2name(model_.get(), mjOBJ_BODY, support_ < 0 ? tree_ : support_);
+  return name ? name : "";
+}
 
 std::vector<std::string> Robot::coordinate_names() const {
   std::vector<std::string> found;

@@ -70,12 +70,21 @@ struct ModelIdentity {
 
 class Robot {
  public:
-  explicit Robot(ModelPtr model);
+  // joints: the names of its coordinates (joints or tuples), none for those of the rule above; throws
+  // Error for a name that does not exist
+  explicit Robot(ModelPtr model, const std::vector<std::string>& joints = {});
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
 
   [[nodiscard]] const ModelPtr& model() const { return model_; }
+  [[nodiscard]] double timestep() const;  // [s] of the model's physics
+  // the free joint at the root of the coordinates' tree: its addresses in qpos and qvel, -1 without
+  [[nodiscard]] int root_qpos() const { return root_qpos_; }
+  [[nodiscard]] int root_dof() const { return root_dof_; }
+  [[nodiscard]] int root_body() const { return tree_; }  // of the coordinates' tree
+  // the body that stands where it is: that of stand_on, else the root
+  [[nodiscard]] std::string support() const;
   [[nodiscard]] Index size() const { return static_cast<Index>(coordinates_.size()); }  // n
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] std::vector<std::string> coordinate_names() const;

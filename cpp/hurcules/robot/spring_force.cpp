@@ -56,6 +56,17 @@ SpringForce::SpringForce(ModelPtr model, const std::string& joint, const std::st
   update(rest, Vector::Zero(m.nv));
 }
 
+SpringForce::SpringForce(const SpringForce& other)
+    : model_(other.model_),
+      data_(mj_makeData(model_.get()), mj_deleteData),
+      joint_(other.joint_),
+      frame_(other.frame_),
+      is_site_(other.is_site_) {
+  require(data_ != nullptr, "MuJoCo has no memory for this model");
+  const Vector rest = Eigen::Map<const Vector>(model_->qpos0, model_->nq);
+  update(rest, Vector::Zero(model_->nv));
+}
+
 void SpringForce::update(const ConstVectorRef& qpos, const ConstVectorRef& qvel) {
   const mjModel& m = *model_;
   mjData& d = *data_;

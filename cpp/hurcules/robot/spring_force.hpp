@@ -21,6 +21,7 @@ class SpringForce {
   // joint: a hinge with stiffness; frame: where the contact is, a site or body behind the joint.
   // Throws Error for names that do not exist, or a joint that is no spring hinge.
   SpringForce(ModelPtr model, const std::string& joint, const std::string& frame);
+  SpringForce(const SpringForce& other);
 
   // what is sensed: qpos (nq), qvel (nv). Allocates nothing.
   void update(const ConstVectorRef& qpos, const ConstVectorRef& qvel);

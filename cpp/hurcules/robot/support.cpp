@@ -16,15 +16,12 @@ void Robot::stand_on(const std::string& body) {
   const Frame frame = this->frame(body);
   require(frame.type == mjOBJ_BODY, "a robot stands on a body; '" + body + "' is none");
   const int root = m.body_rootid[frame.id];
-  const int joint = m.body_jntnum[root] > 0 ? m.body_jntadr[root] : -1;
   require(size() > 0 && root == tree_,
           "'" + body + "' belongs to another tree than the coordinates");
-  require(joint >= 0 && m.jnt_type[joint] == mjJNT_FREE,
+  require(root_qpos_ >= 0,
           "a robot stands on a body of a tree with a free joint; '" + body +
               "' is bolted to the world");
   support_ = frame.id;
-  root_qpos_ = m.jnt_qposadr[joint];
-  root_dof_ = m.jnt_dofadr[joint];
   find_screws();
   read_qpos();
 }

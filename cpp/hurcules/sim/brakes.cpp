@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/sim/motor.hpp"
+#include "hurcules/robot/motor.hpp"
 
 namespace hurcules {
 

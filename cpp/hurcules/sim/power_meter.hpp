@@ -5,7 +5,7 @@
 
 #include "hurcules/sim/brakes.hpp"
 #include "hurcules/sim/drive_train.hpp"
-#include "hurcules/sim/motor.hpp"
+#include "hurcules/robot/motor.hpp"
 
 struct mjModel_;
 struct mjData_;

@@ -1,170 +1,421 @@
 #include "hurcules/sim/simulation.hpp"
 
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
 
+namespace {
+
+constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
+
+std::string seconds(double time) {
+  std::string text(32, '\0');
+  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.3f s", time)));
+  return text;
+}
+
+int substeps_of(double period, double timestep) {
+  const double ratio = period / timestep;
+  const double whole = std::round(ratio);
+  require(whole >= 1.0 && std::abs(ratio - whole) < 1e-6,
+          "the controller's period wants to be a whole number of physics steps of " +
+              std::to_string(timestep) + " s, it is " + std::to_string(period) + " s");
+  return static_cast<int>(whole);
+}
+
+std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController> controller,
+                                             const mjModel* m) {
+  require(controller != nullptr, "a simulation wants a controller, none came");
+  const mjModel* const own = controller->plan().model().get();
+  require(own->nq == m->nq && own->nv == m->nv && own->nu == m->nu && own->nbody == m->nbody,
+          "the controller is for another model than the simulation: nq, nv, nu " +
+              std::to_string(own->nq) + ", " + std::to_string(own->nv) + ", " +
+              std::to_string(own->nu) + " instead of " + std::to_string(m->nq) + ", " +
+              std::to_string(m->nv) + ", " + std::to_string(m->nu));
+  return controller;
+}
+
+std::vector<std::string> phases_of(const Supervisor* supervisor) {
+  return supervisor ? supervisor->phase_names() : std::vector<std::string>{};
+}
+
+}  // namespace
+
+Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> controller,
+                       SimulationOptions options, std::unique_ptr<Supervisor> supervisor,
+                       mjData* data)
+    : options_(std::move(options)),
+      plant_(std::move(model), data),
+      controller_(checked(std::move(controller), plant_.model())),
+      supervisor_(std::move(supervisor)),
+      world_(plant_.model_ptr(), controller_->plan().coordinate_names()),
+      substeps_(substeps_of(controller_->dt(), plant_.dt())),
+      power_meter_(plant_.model(), options_.power),
+      battery_(options_.battery),
+      sensors_(world_, world_.root_body(), options_.sensors),
+      monitors_(plant_.model(), world_.root_body(), options_.power.motors, options_.monitors),
+      limit_watch_(world_, controller_->servo().pid().options().max_torque),
+      fall_watch_({options_.fall.min_height, options_.fall.max_tilt}),
+      record_(*controller_, phases_of(supervisor_.get()), options_.clock != nullptr),
+      initial_qpos_(controller_->plan().qpos()),
+      seen_qpos_(world_.qpos()),
+      seen_qvel_(Vector::Zero(plant_.model()->nv)),
+      wished_(Vector::Zero(world_.size())),
+      support_(world_.frame(controller_->options().support)) {
+  if (!options_.fall.frame.empty()) fall_frame_ = world_.frame(options_.fall.frame);
+  if (mj_name2id(plant_.model(), mjOBJ_SITE, "casualty_chest") >= 0) {
+    target_ = world_.frame("casualty_chest");
+  }
+  if (sensors_.alter_state()) {
+    seen_ = std::make_unique<Robot>(plant_.model_ptr(), world_.coordinate_names());
+  }
+  for (const Task* const task : controller_->tasks()) {
+    planned_tasks_.push_back(task);
+    measured_.push_back(task->clone());
+    measured_tasks_.push_back(measured_.back().get());
+  }
+  monitors_.add_log_channels(record_.log);
+  sensors_.add_log_channels(record_.log);
+  reset(options_.seed);
+}
+
+std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
+  const ModelPtr own = model ? std::move(model) : plant_.model_ptr();
+  Robot robot(own, world_.coordinate_names());
+  robot.set_qpos(initial_qpos_);
+  std::shared_ptr<WholeBodyController> controller = controller_->clone(robot);
+  std::unique_ptr<Supervisor> supervisor;
+  if (supervisor_) supervisor = supervisor_->clone(*controller);
+  SimulationOptions options = options_;
+  options.record = false;
+  options.clock = nullptr;
+  auto copy = std::make_unique<Simulation>(own, std::move(controller), std::move(options),
+                                           std::move(supervisor));
+  copy->restore(state());
+  return copy;
+}
+
 int Simulation::step(int n, const Vector* command) {
   if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
-  const auto channels = static_cast<Index>(mission_->channels().size());
+  const Index channels = controller_->scale().size();
   if (command && !(command->size() == channels && command->allFinite())) {
     throw Error("a command wants " + std::to_string(channels) + " finite numbers, got " +
                 std::to_string(command->size()) + (command->allFinite() ? "" : ", not all finite"));
   }
-  if (options_.record) log_.reserve(static_cast<std::size_t>(n));
-  if (options_.clock) timings_.reserve(static_cast<std::size_t>(n));
-  if (!finished() && !physics_.check()) end(Ending::Diverged, time());
+  if (options_.record) record_.log.reserve(static_cast<std::size_t>(n));
+  if (options_.clock) record_.timings.reserve(static_cast<std::size_t>(n));
+  if (!finished() && !plant_.check()) end(Ending::Diverged, time());
   int done = 0;
-  for (; done < n && !finished(); ++done) tick(command);
+  for (; done < n && !finished(); ++done) tick(command, done == 0);
   observe();
   return done;
 }
 
-void Simulation::tick(const Vector* command) {
-  StageTimer timer(options_.clock, stage_seconds_);
+void Simulation::tick(const Vector* command, bool first) {
+  StageTimer timer(options_.clock, record_.stage_seconds);
   sense();
   check_sensors();
   timer.done(Stage::Sense);
-  think(command, timer);
-  servo();
+  think(command, first, timer);
+  actuate();
   timer.done(Stage::Servo);
-  advance_physics();
+  advance_plant();
   timer.done(Stage::Physics);
   record();
   timer.done(Stage::Record);
-  if (options_.clock) timings_.record();
+  if (options_.clock) record_.timings.record();
   judge();
 }
 
-// from what is seen to the reference; one who is held has no other thought than to stay
-void Simulation::think(const Vector* command, StageTimer& timer) {
+// from what is sensed to the reference; one who is held has no other thought than to stay
+void Simulation::think(const Vector* command, bool first, StageTimer& timer) {
+  WholeBodyController& controller = *controller_;
   if (held()) {
-    telemetry_.qd_des.setZero();
-    telemetry_.yielding = 0.0;
+    controller.hold();
+    record_.telemetry.qd_des.setZero();
+    record_.telemetry.yielding = 0.0;
     for (const Stage stage : {Stage::Kinematics, Stage::Problem, Stage::Solve}) timer.done(stage);
     return;
   }
-  kinematics();
+  const RobotState state = sensed();
+  controller.kinematics(state);
   timer.done(Stage::Kinematics);
-  hierarchy(command);
+  if (!command && supervisor_) command = &supervisor_->command(dt());
+  controller.apply(command, first, state);
+  controller.measure();
   timer.done(Stage::Problem);
-  solve();
+  controller.solve(state);
+  record_.note_solution(controller);
   timer.done(Stage::Solve);
-  integrate();
 }
 
 // what the joint encoders and the base say
 void Simulation::sense() {
-  seen_qpos_ = std::as_const(physics_).qpos();
-  seen_qvel_ = std::as_const(physics_).qvel();
+  seen_qpos_ = std::as_const(plant_).qpos();
+  seen_qvel_ = std::as_const(plant_).qvel();
   world_.set_qpos(seen_qpos_);
   if (seen_) {
     sensors_.overwrite(seen_qpos_, seen_qvel_);
     seen_->set_qpos(seen_qpos_);
   }
-  sense_coordinates();
-  sense_base();
+  record_.note_sensed(*controller_, {world_, seen(), std::as_const(plant_).qvel(), seen_qvel_},
+                      support_, target_);
 }
 
-// the reference configuration, on its support
-void Simulation::kinematics() {
-  if (options_.base == BaseSource::Sensed) plan_.set_qpos(seen().qpos());
-  plan_.set_configuration(telemetry_.q_des);
+RobotState Simulation::sensed() {
+  return {seen_qpos_, seen_qvel_, plant_.actuators(), plant_.data()->sensordata};
 }
 
-// targets move by the command, then tasks become levels  [T 4.3.2]
-void Simulation::hierarchy(const Vector* command) {
-  mission_->apply(plan_, command ? *command : mission_->operator_command(dt()), dt());
-  telemetry_.command = mission_->command();
-  controller_->measure(plan_);
+// an encoder that cannot be believed holds the robot for good: all brakes close, behind which the
+// motors rest
+void Simulation::check_sensors() {
+  // a reference that is scaled down must not hide an encoder that is stuck
+  wished_ = controller_->q_des() + controller_->held_back();
+  if (!held()) finding_ = sensors_.watch(wished_);
+  if (held()) plant_.brakes().close();
 }
 
-// qdot*  [T 4.3.3]
-void Simulation::solve() {
-  telemetry_.qd_des = controller_->solve();
-  give_way();
-  note_solution();
+void Simulation::actuate() {
+  Eigen::Map<Vector> ctrl(plant_.data()->ctrl, plant_.model()->nu);
+  controller_->actuate(sensed(), ctrl);
+  if (const std::optional<TrackDrive>& drive = controller_->drive(); drive && !held() && !battery_.empty()) {
+    for (const JointActuator* belt : {&drive->left(), &drive->right()}) {
+      plant_.brakes().set_closed(belt->actuator, drive->braked());
+    }
+  }
+  record_.note_servo(*controller_);
 }
 
-// no further than the motors can hold; every target then follows the robot as fast as the gain
-// would have led the robot to it
-void Simulation::give_way() {
-  const RateWindow& window = servo_.find_window(telemetry_.q_des, {seen_qpos_, seen_qvel_});
-  telemetry_.yielding = controller_->give_way(window) ? 1.0 : 0.0;
-  if (telemetry_.yielding == 0.0) return;
-  mission_->relax(controller_->options().gain * dt());
-  held_back_ += dt() * (telemetry_.qd_des - controller_->velocity());
-  telemetry_.qd_des = controller_->velocity();
-}
-
-// q*  [T 4.3.7]
-void Simulation::integrate() {
-  controller_->integrate(telemetry_.q_des);
-}
-
-// torques  [T A.2.12]
-void Simulation::servo() {
-  servo_.mind(physics_.brakes());
-  servo_.act({telemetry_.q_des, telemetry_.qd_des}, {seen_qpos_, seen_qvel_}, physics_.data());
-  telemetry_.torque = servo_.torque();
-  telemetry_.demand = servo_.demand();
-  telemetry_.joint_error = servo_.error().position;
-}
-
-void Simulation::advance_physics() {
-  physics_.step();
-  power_meter_.read(physics_.data(), physics_.brakes(), physics_.drive_train());
+void Simulation::advance_plant() {
+  plant_.step(substeps_);
+  power_meter_.read(plant_.data(), plant_.brakes(), plant_.drive_train());
   battery_.draw(power_meter_.total(), dt());
-  if (battery_.empty()) physics_.brakes().close();
-  telemetry_.power = power_meter_.total();
-  telemetry_.charge = battery_.charge();
-  if (!physics_.is_sound()) return;
-  sensors_.sample(physics_.model(), physics_.data(), static_cast<double>(ticks_ + 1) * dt());
-  monitors_.look(physics_.model(), physics_.data(), telemetry_.power);
+  if (battery_.empty()) plant_.brakes().close();
+  record_.telemetry.power = power_meter_.total();
+  record_.telemetry.charge = battery_.charge();
+  if (!plant_.is_sound()) return;
+  sensors_.sample(plant_.model(), plant_.data(), static_cast<double>(ticks_ + 1) * dt());
+  monitors_.look(plant_.model(), plant_.data(), record_.telemetry.power);
 }
 
-// figures, limits and the row of the log; the tasks are left as measured at the real motion
+// figures, limits and the row of the log
 void Simulation::record() {
-  limit_watch_.look(telemetry_);
-  const auto joints = static_cast<Index>(servo_.coordinate_joints());
-  const TickReport report = {telemetry_.time, controller_->active_limits(),
-                             telemetry_.joint_error.head(joints).cwiseAbs().maxCoeff(),
-                             limit_watch_.commanded().torque};
-  mission_->note_commanded(report);
-  measure_actual();
-  mission_->note_measured(report);
-  note_events();
-  note_alarms();
-  telemetry_.tick_us = 1e6 * stage_seconds_.head<5>().sum();  // sense to servo
-  if (options_.record) log_.record();
+  Telemetry& telemetry = record_.telemetry;
+  limit_watch_.look(telemetry);
+  if (supervisor_) {
+    const Index joints = controller_->servo().coordinate_joints();
+    const auto report = [&](const std::vector<const Task*>& tasks) {
+      return TickReport{telemetry.time, controller_->law().active_limits(),
+                        telemetry.joint_error.head(joints).cwiseAbs().maxCoeff(),
+                        limit_watch_.commanded().torque, tasks};
+    };
+    supervisor_->note_commanded(*controller_, report(planned_tasks_));
+    measure_world();
+    supervisor_->note_measured(report(measured_tasks_));
+  } else if (options_.record) {
+    measure_world();
+  }
+  record_.note_events(monitors_);
+  telemetry.tick_us = 1e6 * record_.stage_seconds.head<5>().sum();  // sense to servo
+  if (options_.record) record_.log.record();
 }
 
 // what the tick means for the run; the clock goes on
 void Simulation::judge() {
-  const double now = telemetry_.time;
-  telemetry_.time = static_cast<double>(++ticks_) * dt();
-  if (!physics_.is_sound()) return end(Ending::Diverged, now);
-  if (controller_->solution().status == SolverStatus::InvalidInput) {
+  const double now = time();
+  record_.telemetry.time = static_cast<double>(++ticks_) * dt();
+  if (!plant_.is_sound()) return end(Ending::Diverged, now);
+  if (controller_->law().solution().status == SolverStatus::InvalidInput) {
     return end(Ending::SolverFailed, now);
   }
-  const double height = world_.position(pelvis_).z() - world_.position(support_).z();
-  if (fall_watch_.fell(world_.orientation(support_), height)) {
-    return end(Ending::Fell, now);
+  if (fall_frame_) {
+    const double height = world_.position(*fall_frame_).z() - world_.position(support_).z();
+    if (fall_watch_.fell(world_.orientation(support_), height)) return end(Ending::Fell, now);
   }
-  if (telemetry_.time >= mission_->setup().max_seconds) return end(Ending::TimeUp, now);
+  if (time() >= options_.max_seconds) return end(Ending::TimeUp, now);
   if (held()) {
     ++held_ticks_;
     const double held_for = static_cast<double>(held_ticks_) * dt();
     if (held_for >= options_.sensors.hold_seconds) end(Ending::Held, now);
     return;
   }
-  const std::size_t phase = mission_->phase();
-  if (!mission_->select_phase(plan_, telemetry_.time)) {
-    return end(mission_->verdict().empty() ? Ending::Completed : Ending::Missed, now);
+  if (!supervisor_) return;
+  const std::size_t phase = supervisor_->phase();
+  if (!supervisor_->advance(*controller_, time())) {
+    return end(supervisor_->verdict().empty() ? Ending::Completed : Ending::Missed, now);
   }
-  if (mission_->phase() != phase) enter_phase();
+  if (supervisor_->phase() != phase) record_.note_phase(supervisor_->phase());
+}
+
+// what somebody outside sees between two calls: the state as it is now
+void Simulation::observe() {
+  if (!plant_.is_sound()) return;
+  sense();
+  measure_world();
+}
+
+// the tasks at the real robot, with the targets that they have now
+void Simulation::measure_world() {
+  for (std::size_t i = 0; i < measured_.size(); ++i) {
+    task_state_.clear();
+    StateWriter writer(task_state_);
+    planned_tasks_[i]->save(writer);
+    StateReader reader(task_state_);
+    measured_[i]->restore(reader);
+    measured_[i]->update(world_);
+  }
+  record_.note_measured(*controller_, measured_tasks_);
+}
+
+void Simulation::end(Ending ending, double time) {
+  ending_ = ending;
+  ending_time_ = time;
+}
+
+std::string Simulation::reason() const {
+  switch (ending_) {
+    case Ending::Running:
+      return "";
+    case Ending::Completed:
+      return "completed";
+    case Ending::Missed:
+      return std::string(supervisor_->verdict());
+    case Ending::TimeUp:
+      return "time is up at " + seconds(ending_time_);
+    case Ending::Fell:
+      return "fell over at " + seconds(ending_time_);
+    case Ending::Diverged:
+      return "diverged at " + seconds(ending_time_);
+    case Ending::SolverFailed:
+      return "the solver refused its input at " + seconds(ending_time_);
+    case Ending::Held: {
+      const double since = ending_time_ - static_cast<double>(held_ticks_ - 1) * dt();
+      return "held since " + seconds(since) + ": " + sensors_.text(finding_);
+    }
+  }
+  return "";
+}
+
+std::vector<Figure> Simulation::figures() const {
+  std::vector<Figure> figures;
+  if (supervisor_) figures = supervisor_->figures();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (Index i = 0; i < Monitors::kQuantities; ++i) {
+    figures.push_back({Monitors::names()[static_cast<std::size_t>(i)], monitors_.worst(i), none});
+  }
+  return figures;
+}
+
+Vector Simulation::operator_command() {
+  if (supervisor_) return supervisor_->command(dt());
+  return Vector::Zero(controller_->scale().size());
+}
+
+void Simulation::set_brake(const std::string& joint, bool closed) {
+  plant_.brakes().set_closed(plant_.brakes().find(joint), closed);
+}
+
+void Simulation::reset(std::uint64_t seed) {
+  options_.seed = seed;
+  ticks_ = 0;
+  ending_ = Ending::Running;
+  record_.reset();
+  battery_.reset();
+  record_.telemetry.charge = battery_.charge();
+  place(seed);
+  limit_watch_.reset();
+  monitors_.reset();
+  sensors_.reset(plant_.data(), seed);
+  finding_ = {};
+  held_ticks_ = 0;
+  fall_watch_.reset(world_.orientation(support_));
+  if (supervisor_) {
+    supervisor_->reset(*controller_, world_);
+    record_.note_phase(supervisor_->phase());
+  }
+  observe();
+}
+
+void Simulation::place(std::uint64_t seed) {
+  Vector start = initial_qpos_;
+  if (supervisor_) {
+    Robot robot(plant_.model_ptr(), world_.coordinate_names());
+    if (robot.root_qpos() >= 0) robot.stand_on(controller_->options().support);
+    start = supervisor_->start(plant_, robot, seed);
+  }
+  plant_.reset(-1);
+  plant_.qpos() = start;
+  controller_->reset(start);
+  world_.set_qpos(start);
+}
+
+std::vector<double> Simulation::state() const {
+  std::vector<double> values;
+  StateWriter writer(values);
+  writer.put(static_cast<double>(ticks_));
+  writer.put(static_cast<double>(static_cast<int>(ending_)));
+  writer.put(ending_time_);
+  plant_.save(writer);
+  if (supervisor_) supervisor_->save(writer);
+  controller_->save(writer);
+  battery_.save(writer);
+  limit_watch_.save(writer);
+  fall_watch_.save(writer);
+  monitors_.save(writer);
+  sensors_.save(writer);
+  writer.put(static_cast<double>(static_cast<int>(finding_.trouble)));
+  writer.put(static_cast<double>(finding_.entry));
+  writer.put(finding_.speed ? 1.0 : 0.0);
+  writer.put(static_cast<double>(held_ticks_));
+  record_.save(writer);
+  return values;
+}
+
+void Simulation::restore(const std::vector<double>& values) {
+  const std::vector<double> before = state();
+  try {
+    read(values);
+  } catch (...) {
+    read(before);  // a snapshot that does not fit changes nothing
+    throw;
+  }
+}
+
+void Simulation::read(const std::vector<double>& values) {
+  StateReader reader(values);
+  ticks_ = reader.get_count(kMostTicks);
+  ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::Held)));
+  ending_time_ = reader.get();
+  plant_.restore(reader);
+  if (supervisor_) supervisor_->restore(reader);
+  controller_->restore(reader);
+  battery_.restore(reader);
+  limit_watch_.restore(reader);
+  fall_watch_.restore(reader);
+  monitors_.restore(reader);
+  sensors_.restore(reader);
+  finding_.trouble = static_cast<SensorWatch::Trouble>(
+      reader.get_count(static_cast<Index>(SensorWatch::Trouble::Disagrees)));
+  finding_.entry = reader.get_count(plant_.model()->nu);
+  finding_.speed = reader.get_count(1) > 0;
+  held_ticks_ = reader.get_count(kMostTicks);
+  record_.restore(reader);
+  require(reader.at_end(), "the snapshot is too long: it belongs to another model or mission");
+  Telemetry& telemetry = record_.telemetry;
+  telemetry.qd_des = controller_->qd_des();
+  telemetry.time = static_cast<double>(ticks_) * dt();
+  telemetry.phase = supervisor_ ? static_cast<double>(supervisor_->phase()) : 0.0;
+  telemetry.charge = battery_.charge();
+  record_.truncate(telemetry.time);
+  plant_.check();
+  observe();
 }
 
 }  // namespace hurcules

@@ -11,7 +11,7 @@
 
 #include "hurcules/base/state.hpp"
 #include "hurcules/base/types.hpp"
-#include "hurcules/sim/motor.hpp"
+#include "hurcules/robot/motor.hpp"
 
 struct mjModel_;
 struct mjData_;

@@ -26,6 +26,9 @@ class AngleTask : public ValueTask {
  public:
   AngleTask(std::string name, const Robot& robot, const std::string& frame,
             const AngleTaskOptions& options = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<AngleTask>(*this);
+  }
 
  private:
   void measure(const Robot& robot) override;

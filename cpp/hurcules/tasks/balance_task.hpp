@@ -19,6 +19,9 @@ struct BalanceTaskOptions {
 class BalanceTask : public Task {
  public:
   BalanceTask(std::string name, const Robot& robot, const BalanceTaskOptions& options);
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<BalanceTask>(*this);
+  }
 
   void update(const Robot& robot) override;
   // there is no target: hold and advance change nothing

@@ -13,6 +13,9 @@ using CenterOfMassTaskOptions = PointTaskOptions;
 class CenterOfMassTask : public PointTask {
  public:
   CenterOfMassTask(std::string name, const Robot& robot, CenterOfMassTaskOptions options = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<CenterOfMassTask>(*this);
+  }
 
  private:
   void measure_point(const Robot& robot, PointMotion& point) override { point.measure_com(robot); }

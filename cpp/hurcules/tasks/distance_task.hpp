@@ -19,6 +19,9 @@ struct DistanceTaskOptions {
 class DistanceTask : public Task {
  public:
   DistanceTask(std::string name, const Robot& robot, const DistanceTaskOptions& options);
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<DistanceTask>(*this);
+  }
 
   void update(const Robot& robot) override;
   // there is no target: hold and advance change nothing

@@ -37,6 +37,9 @@ class ForceTask : public PositionTask {
   // throws Error for gains that are unstable with this environment
   ForceTask(std::string name, const Robot& robot, const std::string& frame,
             const ForceTaskOptions& options = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<ForceTask>(*this);
+  }
 
   // one tick: the reading f [N] (NaN: none), the robot where the controller will see it
   void sense(const Robot& robot, double force);

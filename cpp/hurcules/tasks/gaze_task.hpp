@@ -18,6 +18,9 @@ class GazeTask : public Task {
  public:
   // the target starts 1 m ahead
   GazeTask(std::string name, const Robot& robot, const std::string& frame);
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<GazeTask>(*this);
+  }
 
   void update(const Robot& robot) override;
   // the target comes onto the line of sight, as far away as it was

@@ -14,6 +14,9 @@ class JointLimits : public Task {
  public:
   // starts with the ranges and the velocity limits of the robot, inf where it has none
   JointLimits(std::string name, const Robot& robot);
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<JointLimits>(*this);
+  }
 
   void update(const Robot& robot) override;
   void hold(const Robot& robot) override { update(robot); }

@@ -20,6 +20,9 @@ class OrientationTask : public Task {
  public:
   OrientationTask(std::string name, const Robot& robot, const std::string& frame,
                   const OrientationTaskOptions& options = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<OrientationTask>(*this);
+  }
 
   void update(const Robot& robot) override;
   void hold(const Robot& robot) override;

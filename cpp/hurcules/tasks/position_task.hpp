@@ -15,6 +15,9 @@ class PositionTask : public PointTask {
  public:
   PositionTask(std::string name, const Robot& robot, const std::string& frame,
                PositionTaskOptions options = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<PositionTask>(*this);
+  }
 
  private:
   void measure_point(const Robot& robot, PointMotion& point) override {

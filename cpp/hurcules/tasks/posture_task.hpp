@@ -15,6 +15,9 @@ class PostureTask : public ValueTask {
   // coordinates by name, in this order; none = all of the robot
   PostureTask(std::string name, const Robot& robot,
               const std::vector<std::string>& coordinates = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<PostureTask>(*this);
+  }
 
  private:
   void measure(const Robot& robot) override;

@@ -24,6 +24,9 @@ struct SwivelTaskOptions {
 class SwivelTask : public ValueTask {
  public:
   SwivelTask(std::string name, const Robot& robot, const SwivelTaskOptions& options);
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<SwivelTask>(*this);
+  }
 
  private:
   void measure(const Robot& robot) override;

@@ -8,6 +8,7 @@
 // task's Jacobian fades instead of growing, each task says where.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "hurcules/base/state.hpp"
@@ -19,8 +20,9 @@ namespace hurcules {
 class Task {
  public:
   virtual ~Task() = default;
-  Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
+  // a copy with its own target and memory, for another controller or a look at the measured robot
+  [[nodiscard]] virtual std::unique_ptr<Task> clone() const = 0;
 
   // measures at the robot's present configuration: error, jacobian, drift; throws Error when the
   // robot is not of the model that the task was made for
@@ -56,6 +58,7 @@ class Task {
   [[nodiscard]] virtual bool commands_acceleration() const { return false; }
 
  protected:
+  Task(const Task&) = default;
   Task(std::string name, Index rows, Index coordinates);
   // the same for a task that asks only this robot, or another one of the same model
   Task(std::string name, Index rows, const Robot& robot);

@@ -12,6 +12,9 @@ class TorqueLimits : public Task {
  public:
   // starts with the efforts of the robot's coordinates, inf where it has none
   TorqueLimits(std::string name, const Robot& robot);
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<TorqueLimits>(*this);
+  }
 
   // at the robot's configuration and velocity; error() is the torque at constant velocity, h
   void update(const Robot& robot) override;

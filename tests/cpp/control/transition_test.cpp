@@ -75,10 +75,10 @@ TEST_F(Transition, EndsWithTheNewStackAlone) {
   controller.set_stack(joint_ < gaze_ < posture_);
   for (int i = 0; i < 250; ++i) tick(controller);
   fresh.set_stack(controller.stack());
-  fresh.take_over(controller);
+  fresh.take_over(controller.velocity());
   VelocityController still(robot_, {.transition = 0.0});
   still.set_stack(controller.stack());
-  still.take_over(controller);
+  still.take_over(controller.velocity());
   controller.compute(robot_);
   still.compute(robot_);
   EXPECT_TRUE(near(controller.velocity(), still.velocity(), 1e-9));

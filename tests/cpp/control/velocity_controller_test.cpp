@@ -147,16 +147,16 @@ TEST_F(Controller, SlowsDownBeforeALimitAndStaysThere) {
 
 TEST_F(Controller, GivesWayToAPushFasterThanItAcceleratesButNeverBeyondALimit) {
   const Index j = 3;
-  RateWindow window = {Vector::Constant(robot_.size(), -kInfinity),
+  VelocityBounds window = {Vector::Constant(robot_.size(), -kInfinity),
                        Vector::Constant(robot_.size(), kInfinity)};
-  EXPECT_FALSE(controller_.give_way(window));
+  EXPECT_FALSE(controller_.scale_velocity(window));
   window.lower[j] = 0.7;  // pushed up, at once
   controller_.compute(robot_);
-  EXPECT_TRUE(controller_.give_way(window));
+  EXPECT_TRUE(controller_.scale_velocity(window));
   EXPECT_EQ(controller_.velocity()[j], 0.7);
   for (int i = 0; i < 3000; ++i) {
     controller_.compute(robot_);
-    controller_.give_way(window);
+    controller_.scale_velocity(window);
     Vector q = robot_.configuration();
     controller_.integrate(q);
     robot_.set_configuration(q);
@@ -182,7 +182,7 @@ TEST_F(Controller, GoesOnAtTheVelocityOfTheControllerBefore) {
   }
   VelocityController next(robot_);
   next.set_stack(joint_ < posture_);
-  next.take_over(controller_);
+  next.take_over(controller_.velocity());
   next.compute(robot_);
   const double change = (next.velocity() - controller_.velocity()).cwiseAbs().maxCoeff();
   EXPECT_GT(controller_.velocity().cwiseAbs().maxCoeff(), 0.1);

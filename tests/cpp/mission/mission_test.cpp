@@ -1,8 +1,9 @@
 // Strategy: a made-up mission on the small arm shows what the state machine promises, tick by tick;
-// no physics, no solver. The stretch has its own file.
+// no physics. The stretch has its own file.
 #include "hurcules/mission/mission.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "hurcules/control/tasks.hpp"
 #include "support/expect.hpp"
@@ -13,59 +14,75 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
+std::shared_ptr<WholeBodyController> make_controller(const Robot& robot) {
+  auto hand = std::make_unique<PositionTask>("hand", robot, "tip");
+  Vector scale(3);
+  scale << 0.2, 0.2, 0.2;
+  WholeBodyControllerOptions options;
+  options.dt = 0.1;
+  options.velocity.horizon = options.acceleration.horizon = 0.1;
+  options.acceleration.stiffness = options.acceleration.damping = 1.0;
+  auto controller = std::make_shared<WholeBodyController>(
+      robot, std::vector<NamedStack>{{"reach", Stack({*hand})}},
+      std::vector<Channel>{{"hand", ChannelKind::Twist, *hand, scale}}, options);
+  controller->keep(std::move(hand));
+  return controller;
+}
+
 // wait 0.5 s, move the hand for 0.2 m, done
 class Wave final : public Mission {
  public:
-  explicit Wave(const Robot& plan) : Mission(MissionSetup{}), hand_("hand", plan, "tip") {
-    const Stack stack({hand_});
+  explicit Wave(const WholeBodyController& controller) : Mission({}, controller, 1.0) {
     const auto enter = [this](const char* name) {
-      return [this, name](const Robot&, double time) {
+      return [this, name](double time) {
         entered.emplace_back(name);
         entered_at.push_back(time);
       };
     };
-    phases_ = {{"wait", stack, enter("wait"), {}, [](double t) { return t >= 0.5; }},
-               {"skipped", stack, enter("skipped"), {}, [](double) { return true; }},
-               {"move", stack, enter("move"), [](VectorRef c, double) { c[0] = 0.1; },
+    phases_ = {{"wait", "reach", enter("wait"), {}, [](double t) { return t >= 0.5; }},
+               {"skipped", "reach", enter("skipped"), {}, [](double) { return true; }},
+               {"move", "reach", enter("move"), [](VectorRef c, double) { c[0] = 0.1; },
                 [this](double) { return moved >= 0.2; }}};
-    channels_ = {{"hand_x", 0.2}};
     figures_ = {{"moved_m", NAN, 0.2}};
-    tasks_ = {&hand_};
   }
-  void note_commanded(const TickReport&) override { figures_[0].value = moved; }
+  void note_commanded(const WholeBodyController& controller, const TickReport&) override {
+    moved += controller.command()[0] * controller.dt();
+    figures_[0].value = moved;
+  }
   void note_measured(const TickReport&) override {}
   std::string_view verdict() const override { return ""; }
+  std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const override {
+    return std::make_unique<Wave>(controller);
+  }
 
   std::vector<std::string> entered;
   std::vector<double> entered_at;
   double moved = 0.0;
 
  private:
-  void start(const Robot& plan, const Robot&) override {
-    hand_.hold(plan);
-    moved = 0.0;
-  }
-  void move_targets(const Robot&, const ConstVectorRef& command, double dt) override {
-    hand_.advance(Vector3(command[0], 0, 0), dt);
-    moved += command[0] * dt;
-  }
+  void begin(WholeBodyController&, const Robot&) override { moved = 0.0; }
   void save_memory(StateWriter& writer) const override { writer.put(moved); }
   void restore_memory(StateReader& reader) override { moved = reader.get(); }
-
-  PositionTask hand_;
 };
 
 class MissionTest : public testing::Test {
  protected:
-  MissionTest() { wave_.reset(robot_, robot_); }
+  MissionTest() { wave_.reset(*controller_, robot_); }
   // one tick of 0.1 s; false when the mission is over
   bool tick(const Vector* command = nullptr) {
-    wave_.apply(robot_, command ? *command : wave_.operator_command(0.1), 0.1);
+    const Vector qvel = Vector::Zero(3);
+    const std::vector<ActuatorStatus> none;
+    const RobotState state{robot_.qpos(), qvel, none};
+    controller_->apply(command ? command : &wave_.command(0.1), true, state);
+    wave_.note_commanded(*controller_, {time_, active_, 0.0, 0.0, tasks_});
     time_ += 0.1;
-    return wave_.select_phase(robot_, time_);
+    return wave_.advance(*controller_, time_);
   }
   Robot robot_{load_model_text(kArm)};
-  Wave wave_{robot_};
+  std::shared_ptr<WholeBodyController> controller_ = make_controller(robot_);
+  Wave wave_{*controller_};
+  Eigen::VectorXi active_;
+  std::vector<const Task*> tasks_;
   double time_ = 0.0;
 };
 
@@ -79,32 +96,31 @@ TEST_F(MissionTest, EntersEachPhaseOnceAndInOrder) {
 }
 
 TEST_F(MissionTest, TheOperatorHoldsStillWherePhasesSayNothing) {
-  EXPECT_EQ(wave_.operator_command(0.1), Vector::Zero(1));
+  EXPECT_EQ(wave_.command(0.1), Vector::Zero(3));
   while (wave_.phase() == 0) tick();
-  EXPECT_EQ(wave_.operator_command(0.1)[0], 0.1);
+  EXPECT_EQ(wave_.command(0.1)[0], 0.1);
 }
 
 TEST_F(MissionTest, AnotherCommandReplacesTheOperatorsInEveryPhase) {
-  const Vector command = Vector::Constant(1, 0.15);
+  const Vector command = Vector::Constant(3, 0.15);
   tick(&command);
   EXPECT_NEAR(wave_.moved, 0.015, 1e-15);
 }
 
 TEST_F(MissionTest, CommandsAreHeldToTheirScale) {
-  const Vector command = Vector::Constant(1, -5.0);
+  const Vector command = Vector::Constant(3, -5.0);
   tick(&command);
-  EXPECT_EQ(wave_.command()[0], -0.2);
+  EXPECT_EQ(controller_->command()[0], -0.2);
 }
 
 TEST_F(MissionTest, ResetStartsOver) {
   while (tick()) {
   }
-  TickReport report{0.0, Eigen::VectorXi(), 0.0, 0.0};
-  wave_.note_commanded(report);
-  wave_.reset(robot_, robot_);
+  controller_->reset(robot_.qpos());
+  wave_.reset(*controller_, robot_);
   EXPECT_EQ(wave_.phase(), 0U);
   EXPECT_TRUE(std::isnan(wave_.figures()[0].value));
-  EXPECT_EQ(wave_.command()[0], 0.0);
+  EXPECT_EQ(controller_->command()[0], 0.0);
 }
 
 TEST_F(MissionTest, ARestoredOneGoesOnTheSame) {
@@ -112,8 +128,8 @@ TEST_F(MissionTest, ARestoredOneGoesOnTheSame) {
   std::vector<double> state;
   StateWriter writer(state);
   wave_.save(writer);
-  Wave other(robot_);
-  other.reset(robot_, robot_);
+  Wave other(*controller_);
+  other.reset(*controller_, robot_);
   StateReader reader(state);
   other.restore(reader);
   EXPECT_TRUE(reader.at_end());

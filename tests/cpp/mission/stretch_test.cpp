@@ -3,11 +3,12 @@
 // B5; the same run in the physics is in sim/stretch_physics_test.cpp.
 #include "hurcules/mission/stretch.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "hurcules/control/velocity_controller.hpp"
 #include "support/expect.hpp"
 
 namespace {
@@ -20,14 +21,14 @@ struct Recorded {
   Recorded() {
     plan.stand_on(stretch.setup().support);
     plan.set_keyframe(stretch.setup().keyframe);
-    controller.set_stack(stretch.phases().front().stack);
-    stretch.reset(plan, plan);
+    controller->reset(plan.qpos());
+    stretch.reset(*controller, plan);
     const Vector start = plan.configuration();
     const Frame hand = plan.frame("L_tcp");
     const Vector3 hand_start = plan.position(hand);
     do {
       tick();
-    } while (stretch.select_phase(plan, time));
+    } while (stretch.advance(*controller, time));
     for (const Figure& figure : stretch.figures()) figures[figure.name] = figure.value;
     hand_moved = plan.position(hand) - hand_start;
     lean_start = start;
@@ -35,24 +36,31 @@ struct Recorded {
 
   [[nodiscard]] double figure(const std::string& name) const { return figures.at(name); }
   void tick() {
-    stretch.apply(plan, stretch.operator_command(1e-3), 1e-3);
-    controller.compute(plan);
-    Vector q = plan.configuration();
-    controller.integrate(q);
-    stretch.note_commanded({time, controller.active_limits(), 0.0, 0.0});
+    const Vector qpos = plan.qpos(), qvel = Vector::Zero(plan.model()->nv);
+    const RobotState state{qpos, qvel, drives};
+    controller->kinematics(state);
+    controller->apply(&stretch.command(1e-3), true, state);
+    controller->measure();
+    controller->solve(state);
+    stretch.note_commanded(*controller,
+                           {time, controller->law().active_limits(), 0.0, 0.0, tasks});
+    const Vector q = controller->q_des();
     plan.set_configuration(q);
     for (Index i = 0; i < q.size(); ++i) {
       const std::string& name = plan.coordinates()[static_cast<std::size_t>(i)].name;
       highest.try_emplace(name, q[i]).first->second = std::max(highest[name], q[i]);
     }
-    worst_status = std::max(worst_status, static_cast<int>(controller.solution().status));
-    fastest = std::max(fastest, controller.velocity().cwiseAbs().maxCoeff());
+    worst_status = std::max(worst_status, static_cast<int>(controller->law().solution().status));
+    fastest = std::max(fastest, controller->qd_des().cwiseAbs().maxCoeff());
     time = std::round(1e3 * time + 1.0) * 1e-3;
   }
 
   Robot plan{load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml")};
-  Stretch stretch{plan};
-  VelocityController controller{plan};
+  std::shared_ptr<WholeBodyController> controller =
+      make_mission_controller("stretch", plan.model());
+  Stretch stretch{*controller, 0.0};
+  std::vector<const Task*> tasks{controller->tasks().begin(), controller->tasks().end()};
+  std::vector<ActuatorStatus> drives = std::vector<ActuatorStatus>(64);
   double time = 0.0, fastest = 0.0;
   int worst_status = 0;
   std::map<std::string, double> figures, highest;
@@ -62,11 +70,11 @@ struct Recorded {
 
 void has_the_five_levels_of_the_thesis(const Recorded& run) {
   SCOPED_TRACE("has the five levels of the thesis");
-  EXPECT_EQ(run.stretch.stack().text(), "joint < hpos < hpitch < pel < gaze");
+  EXPECT_EQ(run.controller->law().stack().text(), "joint < hpos < hpitch < pel < gaze");
   const std::vector<Index> rows = {13, 6, 2, 1, 2};
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    EXPECT_EQ(run.controller.hierarchy()[k].rows(), rows[k]);
-    EXPECT_EQ(run.controller.hierarchy()[k].rho, k == 0 ? 0.0 : 0.1);
+    EXPECT_EQ(run.controller->law().hierarchy()[k].rows(), rows[k]);
+    EXPECT_EQ(run.controller->law().hierarchy()[k].rho, k == 0 ? 0.0 : 0.1);
   }
 }
 
@@ -120,10 +128,9 @@ void lasts_as_long_as_its_command(const Recorded& run) {
 
 void the_operator_presses_half_of_full_scale(const Recorded& run) {
   SCOPED_TRACE("the operator presses half of full scale");
-  const std::vector<Channel>& channels = run.stretch.channels();
-  ASSERT_EQ(channels.size(), 11U);
-  EXPECT_EQ(channels[0].name, "left_hand_x");
-  EXPECT_EQ(channels[0].scale, 2.0 * 0.0215);
+  ASSERT_EQ(run.controller->command_names().size(), 11U);
+  EXPECT_EQ(run.controller->command_names()[0], "left_hand_x");
+  EXPECT_EQ(run.controller->scale()[0], 2.0 * 0.0215);
 }
 
 void mode_ranges_narrow_the_robots_own(const Recorded& run) {
@@ -145,7 +152,7 @@ void servo_reckons_with_the_inertia_of_the_model(const Recorded& run) {
     robot.mass_matrix(M);
     largest = largest.cwiseMax(M.diagonal());
   }
-  for (const ServoRow& row : rescue_servo()) {
+  for (const ServoGains& row : rescue_servo()) {
     if (contains(row.joint, "belt") || contains(row.joint, "bed")) continue;
     const bool knee = contains(row.joint, "KN");
     const Index i = robot.coordinate(knee ? "KN" : row.joint);

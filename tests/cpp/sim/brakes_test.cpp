@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -37,7 +37,7 @@ class Beam {
   }
   [[nodiscard]] double angle() const { return physics.qpos()[0]; }
   [[nodiscard]] double speed() const { return physics.qvel()[0]; }
-  Physics physics;
+  Plant physics;
 };
 
 TEST(Brakes, HoldALoadAtNoPowerAndSayWhatTheyBear) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 
 namespace {
@@ -47,7 +47,7 @@ TEST(DriveTrain, ShiftsFromThreeToOneWithoutASteppingBack) {
 }
 
 TEST(DriveTrain, GivesTheTorqueOfItsGearAndLeavesTheControlAsItWas) {
-  Physics physics(belt());
+  Plant physics(belt());
   physics.reset(0);
   physics.data()->ctrl[0] = 1e4;
   physics.step();
@@ -61,7 +61,7 @@ TEST(DriveTrain, GivesTheTorqueOfItsGearAndLeavesTheControlAsItWas) {
 }
 
 TEST(DriveTrain, FollowsASuddenSpeedWithItsLag) {
-  Physics physics(belt());
+  Plant physics(belt());
   physics.reset(0);
   physics.data()->qvel[0] = 39.7;
   for (int i = 0; i < 150; ++i) physics.step();
@@ -69,7 +69,7 @@ TEST(DriveTrain, FollowsASuddenSpeedWithItsLag) {
 }
 
 TEST(DriveTrain, GoesOnFromASnapshotBitForBit) {
-  Physics a(belt()), b(belt());
+  Plant a(belt()), b(belt());
   a.reset(0);
   b.reset(0);
   a.data()->ctrl[0] = 500.0;

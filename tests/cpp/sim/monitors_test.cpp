@@ -11,7 +11,7 @@
 #include <string>
 
 #include "hurcules/robot/robot.hpp"
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -36,7 +36,7 @@ class MonitorsTest : public testing::Test {
     monitors.look(m_, physics_.data(), power);
   }
 
-  Physics physics_;
+  Plant physics_;
   const mjModel* m_;
 };
 
@@ -72,7 +72,7 @@ struct OnSlope {
 
 // all brakes shut: a rigid robot in this posture
 OnSlope stand_on_slope(double degrees, const char* keyframe) {
-  Physics physics(slope_scene(degrees));
+  Plant physics(slope_scene(degrees));
   const mjModel* const m = physics.model();
   Monitors monitors(m, mj_name2id(m, mjOBJ_BODY, "upper_legs"), MotorLosses{});
   physics.reset(physics.find_keyframe(keyframe));

@@ -2,7 +2,7 @@
 // (A6); its electric power against what a hand computes; then the drives of both real robots:
 // numbers present, and the rotor's inertia, the friction and the damping felt as a motor feels
 // them.
-#include "hurcules/sim/motor.hpp"
+#include "hurcules/robot/motor.hpp"
 
 #include <mujoco/mujoco.h>
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -46,7 +46,7 @@ class SensorsTest : public testing::Test {
     return sensor.reading()[std::find(entries.begin(), entries.end(), entry) - entries.begin()];
   }
 
-  Physics physics_;
+  Plant physics_;
   Robot robot_;
   int root_;
 };

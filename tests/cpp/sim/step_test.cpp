@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "support/scene.hpp"
 
 namespace {
@@ -16,8 +16,8 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
-std::unique_ptr<Physics> standing() {
-  auto physics = std::make_unique<Physics>(stretch_scene());
+std::unique_ptr<Plant> standing() {
+  auto physics = std::make_unique<Plant>(stretch_scene());
   physics->reset(physics->find_keyframe("ready"));
   physics->brakes().reset(true);
   return physics;

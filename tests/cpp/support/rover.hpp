@@ -10,7 +10,7 @@
 #include <string>
 
 #include "hurcules/robot/robot.hpp"
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
 
 namespace hurcules_test {
@@ -99,7 +99,7 @@ class Rover {
   }
 
   static constexpr double kRadius = 0.14;
-  hurcules::Physics physics;
+  hurcules::Plant physics;
   hurcules::PowerMeter meter;
   std::array<int, 2> drive{};
   bool rests = false;

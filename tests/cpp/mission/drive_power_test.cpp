@@ -10,11 +10,12 @@
 #include <cstdio>
 #include <utility>
 
+#include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/sim/battery.hpp"
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
-#include "hurcules/sim/servo.hpp"
 #include "support/expect.hpp"
+#include "support/held_posture.hpp"
 
 namespace {
 
@@ -89,7 +90,7 @@ class Vehicle {
     }
     return moved;
   }
-  Physics physics;
+  Plant physics;
   PowerMeter meter;
   double work = 0.0, electric = 0.0, energy = 0.0, seconds = 0.0, most_power = 0.0;
 
@@ -102,16 +103,16 @@ class Vehicle {
 
 // [W] of the robot working: standing at the acquisition, every brake open, its servo holding
 double working_power() {
-  Physics physics(scene());
+  Plant physics(scene());
   Robot robot(physics.model_ptr());
-  Servo servo(robot, rescue_servo(), physics.dt());
+  JointServo servo(robot, rescue_servo(), physics.dt());
   physics.reset(physics.find_keyframe("acquisition"));
   robot.set_qpos(std::as_const(physics).qpos());
-  const Vector place = robot.configuration(), rest = Vector::Zero(place.size());
-  servo.reset(physics.data());
+  const Vector place = robot.configuration();
+  servo.reset(std::as_const(physics).qpos());
   PowerMeter meter(physics.model());
   for (int i = 0; i < 3000; ++i) {
-    servo.act({place, rest}, physics.data());
+    hold_posture(servo, physics, place);
     physics.step();
     meter.read(physics.data(), physics.brakes(), physics.drive_train());
   }

@@ -1,4 +1,4 @@
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -33,15 +33,32 @@ bool all_sane(const mjtNum* values, mjtSize size) {
 
 }  // namespace
 
-Physics::Physics(ModelPtr model, mjData* borrowed)
+Plant::Plant(ModelPtr model, mjData* borrowed)
     : model_(std::move(model)),
       data_(own_or_borrow(model_.get(), borrowed)),
       tracks_(model_.get()),
       brakes_(model_.get()),
       drive_train_(model_.get()),
-      state_(Vector::Zero(mj_stateSize(model_.get(), kState))) {}
+      actuators_(static_cast<std::size_t>(model_->nu)),
+      state_(Vector::Zero(mj_stateSize(model_.get(), kState))) {
+  const mjModel* const m = model_.get();
+  for (int a = 0; a < m->nu; ++a) {
+    const int kind = m->actuator_trntype[a];
+    if (kind != mjTRN_JOINT && kind != mjTRN_JOINTINPARENT) continue;
+    motors_.push_back({a, m->jnt_dofadr[m->actuator_trnid[2 * a]], read_motor_limits(m, a)});
+  }
+}
 
-int Physics::find_keyframe(const std::string& text) const {
+const std::vector<ActuatorStatus>& Plant::actuators() {
+  for (const Motor& motor : motors_) {
+    actuators_[static_cast<std::size_t>(motor.actuator)] = {
+        motor.limits.at(data_->qvel[motor.dof]), brakes_.is_shut(motor.actuator),
+        brakes_.load(motor.actuator)};
+  }
+  return actuators_;
+}
+
+int Plant::find_keyframe(const std::string& text) const {
   std::vector<std::string> names;
   for (int key = 0; key < model_->nkey; ++key) {
     const char* const name = mj_id2name(model_.get(), mjOBJ_KEY, key);
@@ -51,8 +68,25 @@ int Physics::find_keyframe(const std::string& text) const {
   throw Error(unknown_name("keyframe", text, names));
 }
 
-void Physics::reset(int keyframe) {
-  mj_resetDataKeyframe(model_.get(), data_.get(), keyframe);
+Vector Plant::keyframe_qpos(int keyframe) const {
+  return Eigen::Map<const Vector>(model_->key_qpos + keyframe * model_->nq, model_->nq);
+}
+
+int Plant::other_free_joint(int root) const {
+  for (int j = 0; j < model_->njnt; ++j) {
+    if (model_->jnt_type[j] == mjJNT_FREE && model_->body_rootid[model_->jnt_bodyid[j]] != root) {
+      return model_->jnt_qposadr[j];
+    }
+  }
+  return -1;
+}
+
+void Plant::reset(int keyframe) {
+  if (keyframe < 0) {
+    mj_resetData(model_.get(), data_.get());
+  } else {
+    mj_resetDataKeyframe(model_.get(), data_.get(), keyframe);
+  }
   data_->time = 0.0;
   std::fill_n(data_->qvel, model_->nv, 0.0);
   std::fill_n(data_->ctrl, model_->nu, 0.0);
@@ -61,7 +95,7 @@ void Physics::reset(int keyframe) {
   sound_ = looks_sound();
 }
 
-int Physics::step(int n) {
+int Plant::step(int n) {
   int done = 0;
   while (done < n && sound_) {
     const auto one_step = ++done == n ? hurcules::step : hurcules::step_unseen;
@@ -71,12 +105,12 @@ int Physics::step(int n) {
   return done;
 }
 
-bool Physics::check() {
+bool Plant::check() {
   sound_ = sound_ && looks_sound();
   return sound_;
 }
 
-bool Physics::looks_sound() const {
+bool Plant::looks_sound() const {
   // a warning counts even where MuJoCo has quietly reset its data since
   for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC, mjWARN_BADCTRL}) {
     if (data_->warning[warning].number > 0) return false;
@@ -84,20 +118,20 @@ bool Physics::looks_sound() const {
   return all_sane(data_->qpos, model_->nq) && all_sane(data_->qvel, model_->nv);
 }
 
-double Physics::dt() const {
+double Plant::dt() const {
   return model_->opt.timestep;
 }
-Eigen::Map<Vector> Physics::qpos() {
+Eigen::Map<Vector> Plant::qpos() {
   return {data_->qpos, model_->nq};
 }
-Eigen::Map<const Vector> Physics::qpos() const {
+Eigen::Map<const Vector> Plant::qpos() const {
   return {data_->qpos, model_->nq};
 }
-Eigen::Map<const Vector> Physics::qvel() const {
+Eigen::Map<const Vector> Plant::qvel() const {
   return {data_->qvel, model_->nv};
 }
 
-void Physics::save(StateWriter& writer) const {
+void Plant::save(StateWriter& writer) const {
   mj_getState(model_.get(), data_.get(), state_.data(), kState);
   writer.put(state_);
   writer.put(sound_ ? 1.0 : 0.0);
@@ -105,7 +139,7 @@ void Physics::save(StateWriter& writer) const {
   drive_train_.save(writer);
 }
 
-void Physics::restore(StateReader& reader) {
+void Plant::restore(StateReader& reader) {
   reader.get(state_);
   mj_setState(model_.get(), data_.get(), state_.data(), kState);
   sound_ = reader.get() > 0.0;

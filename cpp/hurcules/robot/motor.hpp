@@ -11,11 +11,15 @@
 
 #include <string>
 
-#include "hurcules/control/joint_pid.hpp"
-
 struct mjModel_;
 
 namespace hurcules {
+
+// What a drive can give at the moment.
+struct EffortRange {
+  double lower = 0.0;  // [N m] or [N], <= 0
+  double upper = 0.0;  // >= 0
+};
 
 struct MotorLimits {
   double peak = 0.0;   // [N m] or [N], > 0; inf for none
@@ -37,8 +41,8 @@ struct MotorLosses {
 [[nodiscard]] int find_numeric(const mjModel_* model, const std::string& marker,
                                const std::string& joint);
 
-// The limits of the actuator's joint, which may have no others: peak from its forcerange, speed and
-// power from the model's numerics velocity_limit_JOINT and power_limit_JOINT. Without the latter
+// The limits of the actuator's joint, which may have no others: peak from its forcerange (and, of a
+// plain motor, from its ctrlrange), speed and power from the model's numerics velocity_limit_JOINT and power_limit_JOINT. Without the latter
 // the power is that of peak and speed together. Throws Error for numbers that are not above 0.
 [[nodiscard]] MotorLimits read_motor_limits(const mjModel_* model, int actuator);
 

@@ -1,4 +1,4 @@
-#include "hurcules/sim/variation.hpp"
+#include "hurcules/mission/variation.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,26 +1,33 @@
-// The simulated world: MuJoCo's model and data, the tracks, the brakes, the drive trains, and a
-// look at whether it still makes sense.
+// The simulated world: MuJoCo's model and data, the tracks, the brakes, the drive trains, the limits
+// of its motors, and a look at whether it still makes sense.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hurcules/base/state.hpp"
+#include "hurcules/control/joint_servo.hpp"
 #include "hurcules/robot/robot.hpp"
 #include "hurcules/sim/step.hpp"
 
 namespace hurcules {
 
-class Physics {
+class Plant {
  public:
   // with data of its own, or with somebody else's, who keeps it alive
-  explicit Physics(ModelPtr model, mjData_* borrowed = nullptr);
+  explicit Plant(ModelPtr model, mjData_* borrowed = nullptr);
 
   // index of the first keyframe whose name contains this text; throws Error with the names that
   // exist
   [[nodiscard]] int find_keyframe(const std::string& text) const;
-  // everything at rest in a keyframe, brakes open, time zero
+  [[nodiscard]] Vector keyframe_qpos(int keyframe) const;  // (nq)
+  // address in qpos of the first free joint outside the tree of this root body, -1 for none
+  [[nodiscard]] int other_free_joint(int root) const;
+  // everything at rest in a keyframe (-1: the model's initial posture), brakes open, time zero
   void reset(int keyframe);
+  // what the drives can do at the present speeds; valid until the next call, (nu)
+  const std::vector<ActuatorStatus>& actuators();
   // n steps, fewer when it ceases to be sound; MuJoCo's sensors are read in the last alone. Returns
   // how many it took.
   int step(int n = 1);
@@ -55,6 +62,12 @@ class Physics {
   Tracks tracks_;
   Brakes brakes_;
   DriveTrain drive_train_;
+  struct Motor {
+    int actuator = 0, dof = 0;
+    MotorLimits limits;
+  };
+  std::vector<Motor> motors_;
+  std::vector<ActuatorStatus> actuators_;  // (nu)
   bool sound_ = true;
   mutable Vector state_;  // scratch, mjSTATE_INTEGRATION
 };

@@ -1,4 +1,4 @@
-#include "hurcules/sim/motor.hpp"
+#include "hurcules/robot/motor.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -32,10 +32,24 @@ bool moves_joint(const mjModel* m, int actuator) {
   return kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT;
 }
 
+// what a range about 0 allows both ways
+double smaller_side(const mjtNum* range) {
+  return std::min(-range[0], range[1]);
+}
+
 double find_peak(const mjModel* m, int actuator) {
-  if (!m->actuator_forcelimited[actuator]) return kNone;
-  const mjtNum* const range = m->actuator_forcerange + 2 * actuator;
-  return std::min(-range[0], range[1]) * std::abs(m->actuator_gear[6 * actuator]);
+  double force = kNone;
+  if (m->actuator_forcelimited[actuator]) force = smaller_side(m->actuator_forcerange + 2 * actuator);
+  const bool plain = m->actuator_gaintype[actuator] == mjGAIN_FIXED &&
+                     m->actuator_biastype[actuator] == mjBIAS_NONE;
+  if (plain && m->actuator_ctrllimited[actuator]) {
+    const double gain = std::abs(m->actuator_gainprm[mjNGAIN * actuator]);
+    force = std::min(force, gain * smaller_side(m->actuator_ctrlrange + 2 * actuator));
+  }
+  const double peak = force * std::abs(m->actuator_gear[6 * actuator]);
+  const int joint = m->actuator_trnid[2 * actuator];
+  if (!m->jnt_actfrclimited[joint]) return peak;
+  return std::min(peak, smaller_side(m->jnt_actfrcrange + 2 * joint));
 }
 
 }  // namespace

@@ -9,9 +9,11 @@
 #include <cstdio>
 #include <utility>
 
-#include "hurcules/sim/physics.hpp"
-#include "hurcules/sim/servo.hpp"
+#include "hurcules/sim/plant.hpp"
+#include "hurcules/control/joint_servo.hpp"
+#include "hurcules/mission/robot_tables.hpp"
 #include "support/expect.hpp"
+#include "support/held_posture.hpp"
 
 namespace {
 
@@ -28,13 +30,11 @@ class Arms {
     physics.reset(physics.find_keyframe(keyframe));
     robot.set_qpos(std::as_const(physics).qpos());
     place = robot.configuration();
-    servo.reset(physics.data());
+    servo.reset(std::as_const(physics).qpos());
   }
   void step(int n) {
-    const Vector rest = Vector::Zero(place.size());
     for (int i = 0; i < n; ++i) {
-      servo.mind(physics.brakes());
-      servo.act({place, rest}, physics.data());
+      hold_posture(servo, physics, place);
       physics.step();
     }
   }
@@ -70,9 +70,9 @@ class Arms {
     }
     return sum;
   }
-  Physics physics;
+  Plant physics;
   Robot robot;
-  Servo servo;
+  JointServo servo;
   Vector place;
   std::vector<std::string> names = {"LSP", "LSR", "LSY", "LEB", "RSP", "RSR", "RSY", "REB"};
 };

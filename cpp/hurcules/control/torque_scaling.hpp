@@ -1,5 +1,5 @@
-// How a motion yields to what the motors cannot bear: it never runs further from the robot than
-// they can hold it.
+// Torque-limited scaling: a reference that slows down where the motors would be asked for too much,
+// so that it does not run away from a robot that is blocked.
 //
 //   lower <= qdot <= upper (n): where no servo is asked for more than its motor gives
 //   qdot = s qdot*, the largest s in 0 .. 1 that keeps every coordinate within, as a path is
@@ -14,11 +14,11 @@
 namespace hurcules {
 
 // Never empty.
-struct RateWindow {
+struct VelocityBounds {
   Vector lower, upper;  // [rad/s], (n), -inf and inf for no side
 };
 
-// leaves a velocity within the window as it is, to the last bit; true when it changed it
-bool give_way(const RateWindow& window, VectorRef velocity);
+// leaves a velocity within the bounds as it is, to the last bit; true when it changed it
+bool scale_velocity(const VelocityBounds& bounds, VectorRef velocity);
 
 }  // namespace hurcules

@@ -1,6 +1,6 @@
 // Strategy: the generator against published numbers and simple statistics; the variation against
 // its bounds.
-#include "hurcules/sim/variation.hpp"
+#include "hurcules/mission/variation.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -17,8 +17,8 @@ using namespace hurcules_test;
 
 constexpr double kBit = 2.0 * M_PI / (1 << 19);  // [rad] of a 19-bit encoder
 
-SimulationOptions usual() {
-  SimulationOptions options;
+MissionOptions usual() {
+  MissionOptions options;
   options.seed = 5;
   options.record = false;
   options.sensors.models["encoder_position"] = {.noise = kBit, .delay = 1, .step = kBit};
@@ -35,8 +35,8 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 // after the beginning of the stretch the joints move: 4 s of it with a fault at 3 s
-Simulation make_with(const SensorFault& fault) {
-  SimulationOptions options;
+MissionSimulation make_with(const SensorFault& fault) {
+  MissionOptions options;
   options.seed = 5;
   options.record = false;
   options.sensors.faults = {fault};
@@ -44,7 +44,7 @@ Simulation make_with(const SensorFault& fault) {
 }
 
 TEST(SimulationSensors, TheSameSeedGivesTheSameBits) {
-  Simulation a(stretch_scene(), "stretch", usual()), b(stretch_scene(), "stretch", usual());
+  MissionSimulation a(stretch_scene(), "stretch", usual()), b(stretch_scene(), "stretch", usual());
   a.step(300);
   for (int i = 0; i < 300; i += 10) b.step(10);
   EXPECT_TRUE(same_bits(a.state(), b.state()));
@@ -54,7 +54,7 @@ TEST(SimulationSensors, TheSameSeedGivesTheSameBits) {
 }
 
 TEST(SimulationSensors, ARestoredRunGoesOnBitForBit) {
-  Simulation a(stretch_scene(), "stretch", usual()), b(stretch_scene(), "stretch", usual());
+  MissionSimulation a(stretch_scene(), "stretch", usual()), b(stretch_scene(), "stretch", usual());
   a.step(137);
   const std::vector<double> state = a.state();
   const Vector seen = a.observation().snapshot();
@@ -68,12 +68,12 @@ TEST(SimulationSensors, ARestoredRunGoesOnBitForBit) {
 }
 
 TEST(SimulationSensors, IdealOnesGiveTheBitsOfNone) {
-  SimulationOptions with, without;
+  MissionOptions with, without;
   with.record = without.record = false;
   with.sensors.models["encoder_position"] = {};
   with.sensors.models["pose_rotation"] = {};
   without.monitors.on = false;
-  Simulation a(stretch_scene(), "stretch", with), b(stretch_scene(), "stretch", without);
+  MissionSimulation a(stretch_scene(), "stretch", with), b(stretch_scene(), "stretch", without);
   a.step(300);
   b.step(300);
   EXPECT_EQ(a.observation().snapshot(), b.observation().snapshot());
@@ -81,10 +81,10 @@ TEST(SimulationSensors, IdealOnesGiveTheBitsOfNone) {
 }
 
 TEST(SimulationSensors, APolicySeesReadingsAndTheLimitsGoByTheTruth) {
-  SimulationOptions options = usual();
+  MissionOptions options = usual();
   options.sensors.models["encoder_position"] = {.bias = 5.0};  // beyond any joint range
   options.sensors.watch.tolerance = 1e9;
-  Simulation simulation(stretch_scene(), "stretch", options);
+  MissionSimulation simulation(stretch_scene(), "stretch", options);
   simulation.step(1);
   EXPECT_GT((simulation.telemetry().seen_q - simulation.telemetry().q).norm(), 1.0);
   EXPECT_EQ(simulation.observation().snapshot()[0], simulation.telemetry().seen_q[0]);
@@ -92,7 +92,7 @@ TEST(SimulationSensors, APolicySeesReadingsAndTheLimitsGoByTheTruth) {
 }
 
 TEST(SimulationSensors, TheStretchSucceedsWithUsualSensors) {
-  Simulation simulation(stretch_scene(), "stretch", usual());
+  MissionSimulation simulation(stretch_scene(), "stretch", usual());
   simulation.step(60000);
   EXPECT_EQ(simulation.reason(), "completed");
   EXPECT_FALSE(simulation.held());
@@ -106,7 +106,7 @@ TEST(SimulationSensors, TheStretchSucceedsWithUsualSensors) {
 }
 
 TEST(SimulationSensors, AnEncoderThatReadsNaNHoldsTheRobotAtOnce) {
-  Simulation simulation = make_with({"encoder_position/LSP", FaultKind::NotANumber, 3.0});
+  MissionSimulation simulation = make_with({"encoder_position/LSP", FaultKind::NotANumber, 3.0});
   simulation.step(3000);
   EXPECT_FALSE(simulation.held());
   simulation.step(1);
@@ -122,7 +122,7 @@ TEST(SimulationSensors, AnEncoderThatReadsNaNHoldsTheRobotAtOnce) {
 }
 
 TEST(SimulationSensors, AnEncoderThatStandsStillHoldsTheRobotBeforeMuchHappens) {
-  Simulation simulation = make_with({"encoder_position/LSP", FaultKind::Frozen, 3.0});
+  MissionSimulation simulation = make_with({"encoder_position/LSP", FaultKind::Frozen, 3.0});
   simulation.step(9000);
   EXPECT_TRUE(contains(simulation.reason(), "held since ")) << simulation.reason();
   EXPECT_TRUE(contains(simulation.reason(), "LSP")) << simulation.reason();
@@ -135,10 +135,10 @@ TEST(SimulationSensors, AnEncoderThatStandsStillHoldsTheRobotBeforeMuchHappens) 
 }
 
 TEST(SimulationSensors, AHeldRunIsPartOfTheSnapshot) {
-  Simulation a = make_with({"encoder_speed/LKN", FaultKind::NotANumber, 0.02});
+  MissionSimulation a = make_with({"encoder_speed/LKN", FaultKind::NotANumber, 0.02});
   a.step(100);
   ASSERT_TRUE(a.held());
-  Simulation b = make_with({"encoder_speed/LKN", FaultKind::NotANumber, 0.02});
+  MissionSimulation b = make_with({"encoder_speed/LKN", FaultKind::NotANumber, 0.02});
   b.restore(a.state());
   EXPECT_TRUE(b.held());
   a.step(2000);
@@ -149,14 +149,14 @@ TEST(SimulationSensors, AHeldRunIsPartOfTheSnapshot) {
 }
 
 TEST(SimulationSensors, ABrokenSensorThatNothingActsOnStopsNothing) {
-  Simulation simulation = make_with({"imu_rate/x", FaultKind::NotANumber, 0.01});
+  MissionSimulation simulation = make_with({"imu_rate/x", FaultKind::NotANumber, 0.01});
   simulation.step(100);
   EXPECT_FALSE(simulation.held());
   EXPECT_FALSE(simulation.finished());
 }
 
 TEST(SimulationSensors, ASnapshotOfOtherSensorsDoesNotFit) {
-  Simulation plain(stretch_scene(), "stretch"), noisy(stretch_scene(), "stretch", usual());
+  MissionSimulation plain(stretch_scene(), "stretch"), noisy(stretch_scene(), "stretch", usual());
   EXPECT_TRUE(contains(error_text([&] { noisy.restore(plain.state()); }), "snapshot"));
 }
 

@@ -1,7 +1,7 @@
 // Strategy: every allocation is counted while the closed loop runs on the real scene.
 #include "support/no_allocation.hpp"
 
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -10,9 +10,9 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
-void expect_no_allocation(SimulationOptions options) {
+void expect_no_allocation(MissionOptions options) {
   options.clock = [] { return 0.0; };
-  Simulation simulation(stretch_scene(), "stretch", options);
+  MissionSimulation simulation(stretch_scene(), "stretch", options);
   const Vector command = Vector::Constant(11, 0.01);
   simulation.step(2600);  // warm, and room for the log
   simulation.reset(2);
@@ -28,7 +28,7 @@ TEST(Tick, AllocatesNothing) {
 }
 
 TEST(Tick, AllocatesNothingWhileItYields) {
-  Simulation simulation(stretch_scene(), "stretch");
+  MissionSimulation simulation(stretch_scene(), "stretch");
   Vector down = Vector::Zero(11);
   down[2] = down[5] = -1.0;  // both hands into the tracks, at full scale
   simulation.step(4000, &down);
@@ -42,7 +42,7 @@ TEST(Tick, AllocatesNothingWhileItYields) {
 }
 
 TEST(Tick, AllocatesNothingWithNoisySensorsAScannerAndAFault) {
-  SimulationOptions options;
+  MissionOptions options;
   options.sensors.models["encoder_position"] = {.noise = 1e-5, .delay = 2, .step = 1e-5};
   options.sensors.models["pose_rotation"] = {.noise = 1e-4, .bias = 1e-4, .drift = 1e-4};
   options.sensors.models["imu_rate"] = {.noise = 1e-3};

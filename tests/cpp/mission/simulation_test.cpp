@@ -1,6 +1,6 @@
 // Strategy: the real scene, a few seconds of it: sameness (seed, pieces, snapshots), what ends a
 // run, commands, servo and timings. What the mission is about is in stretch_physics_test.cpp.
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -18,8 +18,8 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 // seed 3, without time series, varied as usual
-SimulationOptions quiet(std::uint64_t seed = 3) {
-  SimulationOptions options;
+MissionOptions quiet(std::uint64_t seed = 3) {
+  MissionOptions options;
   options.seed = seed;
   options.record = false;
   return options;
@@ -32,7 +32,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 
 // A simulation on data that the test may disturb.
 struct Borrowed {
-  explicit Borrowed(const SimulationOptions& options = quiet())
+  explicit Borrowed(const MissionOptions& options = quiet())
       : data(mj_makeData(stretch_scene().get()), mj_deleteData),
         simulation(stretch_scene(), "stretch", options, data.get()) {}
   // velocity of the robot's root, (6)
@@ -44,45 +44,45 @@ struct Borrowed {
     data->xfrc_applied[6 * mj_name2id(stretch_scene().get(), mjOBJ_BODY, "waist")] = force;
   }
   std::unique_ptr<mjData, void (*)(mjData*)> data;
-  Simulation simulation;
+  MissionSimulation simulation;
 };
 
 TEST(Simulation, SameSeedGivesTheSameBitsAndAnotherSeedOthers) {
-  Simulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", quiet());
-  Simulation c(stretch_scene(), "stretch", quiet(4));
-  for (Simulation* simulation : {&a, &b, &c}) simulation->step(2500);
+  MissionSimulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", quiet());
+  MissionSimulation c(stretch_scene(), "stretch", quiet(4));
+  for (MissionSimulation* simulation : {&a, &b, &c}) simulation->step(2500);
   EXPECT_TRUE(same_bits(a.state(), b.state()));
   EXPECT_FALSE(same_bits(a.state(), c.state()));
 }
 
 TEST(Simulation, WithoutVariationTheSeedChangesNothing) {
-  SimulationOptions one = quiet(1), two = quiet(2);
+  MissionOptions one = quiet(1), two = quiet(2);
   one.variation = two.variation = 0.0;
-  Simulation a(stretch_scene(), "stretch", one), b(stretch_scene(), "stretch", two);
+  MissionSimulation a(stretch_scene(), "stretch", one), b(stretch_scene(), "stretch", two);
   a.step(100);
   b.step(100);
   EXPECT_TRUE(same_bits(a.state(), b.state()));
 }
 
 TEST(Simulation, ManySmallStepsAreOneLargeStep) {
-  Simulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", quiet());
+  MissionSimulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", quiet());
   a.step(600);
   for (int i = 0; i < 600; i += 20) EXPECT_EQ(b.step(20), 20);
   EXPECT_TRUE(same_bits(a.state(), b.state()));
 }
 
 TEST(Simulation, RecordingAndTimingChangeNothing) {
-  SimulationOptions options = quiet();
+  MissionOptions options = quiet();
   options.record = true;
   options.clock = [] { return 0.0; };
-  Simulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", options);
+  MissionSimulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", options);
   a.step(300);
   b.step(300);
   EXPECT_TRUE(same_bits(a.state(), b.state()));
 }
 
 TEST(Simulation, ResetIsANewBeginning) {
-  Simulation a(stretch_scene(), "stretch", quiet(9)), b(stretch_scene(), "stretch", quiet(1));
+  MissionSimulation a(stretch_scene(), "stretch", quiet(9)), b(stretch_scene(), "stretch", quiet(1));
   b.step(2300);
   b.reset(9);
   EXPECT_EQ(b.time(), 0.0);
@@ -92,7 +92,7 @@ TEST(Simulation, ResetIsANewBeginning) {
 }
 
 TEST(Simulation, ARestoredRunGoesOnBitForBitHereAndElsewhere) {
-  Simulation a(stretch_scene(), "stretch", quiet());
+  MissionSimulation a(stretch_scene(), "stretch", quiet());
   for (const int start : {0, 150, 1990, 2400}) {  // across the start of the stretch too
     a.reset(3);
     a.step(start);
@@ -106,7 +106,7 @@ TEST(Simulation, ARestoredRunGoesOnBitForBitHereAndElsewhere) {
     a.step(400);
     EXPECT_TRUE(same_bits(a.state(), later)) << start;
 
-    Simulation other(stretch_scene(), "stretch", quiet(77));
+    MissionSimulation other(stretch_scene(), "stretch", quiet(77));
     other.step(10);
     other.restore(state);
     other.step(400);
@@ -115,9 +115,9 @@ TEST(Simulation, ARestoredRunGoesOnBitForBitHereAndElsewhere) {
 }
 
 TEST(Simulation, TheLogKeepsWhatWasBeforeARestoredTime) {
-  SimulationOptions options = quiet();
+  MissionOptions options = quiet();
   options.record = true;
-  Simulation simulation(stretch_scene(), "stretch", options);
+  MissionSimulation simulation(stretch_scene(), "stretch", options);
   simulation.step(100);
   const std::vector<double> state = simulation.state();
   simulation.step(100);
@@ -130,7 +130,7 @@ TEST(Simulation, TheLogKeepsWhatWasBeforeARestoredTime) {
 }
 
 TEST(Simulation, ASnapshotThatDoesNotFitChangesNothing) {
-  Simulation simulation(stretch_scene(), "stretch", quiet());
+  MissionSimulation simulation(stretch_scene(), "stretch", quiet());
   simulation.step(50);
   const std::vector<double> state = simulation.state();
   std::vector<double> shorter(state.begin(), state.end() - 1), longer = state;
@@ -141,18 +141,18 @@ TEST(Simulation, ASnapshotThatDoesNotFitChangesNothing) {
 }
 
 TEST(Simulation, HalfOfFullScaleIsTheOperator) {
-  Simulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", quiet());
+  MissionSimulation a(stretch_scene(), "stretch", quiet()), b(stretch_scene(), "stretch", quiet());
   a.step(2600);
   b.step(2000);
   Vector command = Vector::Zero(11);
-  command[0] = command[3] = 0.5 * b.mission().channels()[0].scale;
+  command[0] = command[3] = 0.5 * b.controller().scale()[0];
   EXPECT_EQ(b.operator_command(), command);
   b.step(600, &command);
   EXPECT_TRUE(same_bits(a.state(), b.state()));
 }
 
 TEST(Simulation, ZeroCommandHoldsTheHands) {
-  Simulation simulation(stretch_scene(), "stretch", quiet());
+  MissionSimulation simulation(stretch_scene(), "stretch", quiet());
   const Vector zero = Vector::Zero(11);
   simulation.step(3000, &zero);
   EXPECT_EQ(simulation.mission().phases()[simulation.mission().phase()].name, "stretch");
@@ -205,16 +205,16 @@ TEST(Simulation, APushThatItCanTakeDoesNotEndTheRun) {
 }
 
 TEST(Simulation, ThePlannerMaySenseWhereTheSupportStands) {
-  SimulationOptions options = quiet();
+  MissionOptions options = quiet();
   options.base = BaseSource::Sensed;
-  Simulation simulation(stretch_scene(), "stretch", options);
+  MissionSimulation simulation(stretch_scene(), "stretch", options);
   simulation.step(6000);
   EXPECT_FALSE(simulation.finished());
   EXPECT_LT(simulation.telemetry().level_error_measured[1], 5e-4);
 }
 
 TEST(Simulation, ObservesAsManyNumbersAsItNames) {
-  Simulation simulation(stretch_scene(), "stretch", quiet());
+  MissionSimulation simulation(stretch_scene(), "stretch", quiet());
   const Recorder& observation = simulation.observation();
   EXPECT_EQ(observation.snapshot().size(), static_cast<Index>(observation.channels().size()));
   EXPECT_TRUE(observation.snapshot().allFinite());
@@ -222,9 +222,9 @@ TEST(Simulation, ObservesAsManyNumbersAsItNames) {
 }
 
 TEST(Simulation, ServesEachKneeOnItsOwnAndBrakesTheTracks) {
-  SimulationOptions options = quiet();
+  MissionOptions options = quiet();
   options.record = true;
-  Simulation simulation(stretch_scene(), "stretch", options);
+  MissionSimulation simulation(stretch_scene(), "stretch", options);
   simulation.step(1000);
   const std::vector<std::string>& names = simulation.log().channels();
   const auto worst = [&](const std::string& channel) {
@@ -241,12 +241,12 @@ TEST(Simulation, ServesEachKneeOnItsOwnAndBrakesTheTracks) {
 }
 
 TEST(Simulation, TimesEachStageOnlyWithAClock) {
-  SimulationOptions options = quiet();
+  MissionOptions options = quiet();
   options.clock = [] {
     static double now = 0.0;
     return now += 1e-6;  // every look takes a microsecond
   };
-  Simulation timed(stretch_scene(), "stretch", options), plain(stretch_scene(), "stretch", quiet());
+  MissionSimulation timed(stretch_scene(), "stretch", options), plain(stretch_scene(), "stretch", quiet());
   timed.step(10);
   plain.step(10);
   EXPECT_EQ(plain.timings().rows(), 0U);
@@ -258,19 +258,19 @@ TEST(Simulation, TimesEachStageOnlyWithAClock) {
 
 TEST(Simulation, RefusesWhatCannotBe) {
   const auto text = [](const std::string& mission, double variation) {
-    SimulationOptions options;
+    MissionOptions options;
     options.variation = variation;
-    return error_text([&] { Simulation(stretch_scene(), mission, options); });
+    return error_text([&] { MissionSimulation(stretch_scene(), mission, options); });
   };
   EXPECT_TRUE(contains(text("walk", 1.0), "there are: stretch"));
   EXPECT_TRUE(contains(text("stretch", -1.0), "variation"));
-  Simulation simulation(stretch_scene(), "stretch", quiet());
+  MissionSimulation simulation(stretch_scene(), "stretch", quiet());
   const Vector few = Vector::Zero(3), bad = Vector::Constant(11, NAN);
   EXPECT_TRUE(contains(error_text([&] { simulation.step(1, &few); }), "11 finite numbers"));
   EXPECT_TRUE(contains(error_text([&] { simulation.step(1, &bad); }), "11 finite numbers"));
   EXPECT_TRUE(contains(error_text([&] { simulation.step(-1); }), ">= 0"));
   const ModelPtr empty = load_model_text("<mujoco/>");
-  EXPECT_NE(error_text([&] { Simulation(empty, "stretch"); }), "");
+  EXPECT_NE(error_text([&] { MissionSimulation(empty, "stretch"); }), "");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -13,7 +13,7 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 TEST(SimulationPower, ComesOutOfTheBatteryTickByTick) {
-  Simulation simulation(stretch_scene(), "stretch");
+  MissionSimulation simulation(stretch_scene(), "stretch");
   double drawn = 0.0;
   for (int i = 0; i < 500; ++i) {
     simulation.step();
@@ -28,11 +28,11 @@ TEST(SimulationPower, ComesOutOfTheBatteryTickByTick) {
 }
 
 TEST(SimulationPower, IsNoneAtAJointBehindItsBrake) {
-  Simulation simulation(stretch_scene(), "stretch");
+  MissionSimulation simulation(stretch_scene(), "stretch");
   simulation.step(1500);
   simulation.set_brake("LSY", true);
   simulation.step(100);
-  const Robot& plan = simulation.plan();
+  const Robot& plan = simulation.controller().plan();
   const auto joint = static_cast<Index>(plan.coordinate("LSY"));
   const double place = simulation.telemetry().q[joint];
   simulation.step(300);
@@ -46,9 +46,9 @@ TEST(SimulationPower, IsNoneAtAJointBehindItsBrake) {
 }
 
 TEST(SimulationPower, WithAnEmptyBatteryLeavesTheRobotStandingOnItsBrakes) {
-  SimulationOptions options;
+  MissionOptions options;
   options.battery.capacity = 200.0;  // less than a second
-  Simulation simulation(stretch_scene(), "stretch", options);
+  MissionSimulation simulation(stretch_scene(), "stretch", options);
   simulation.step(1000);
   EXPECT_TRUE(simulation.battery().empty());
   EXPECT_EQ(simulation.telemetry().torque.norm(), 0.0);
@@ -59,7 +59,7 @@ TEST(SimulationPower, WithAnEmptyBatteryLeavesTheRobotStandingOnItsBrakes) {
 }
 
 TEST(SimulationPower, GoesOnFromASnapshotBitForBit) {
-  Simulation a(stretch_scene(), "stretch"), b(stretch_scene(), "stretch");
+  MissionSimulation a(stretch_scene(), "stretch"), b(stretch_scene(), "stretch");
   a.step(200);
   a.set_brake("REB", true);
   a.step(20);

@@ -1,4 +1,4 @@
-#include "hurcules/control/yielding.hpp"
+#include "hurcules/control/torque_scaling.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace hurcules {
 
 namespace {
 
-// the share of this velocity that stays within its side of the window
+// the share of this velocity that stays within its side of the bounds
 double share_within(double velocity, double lower, double upper) {
   if (velocity > upper) return upper > 0.0 ? upper / velocity : 0.0;
   if (velocity < lower) return lower < 0.0 ? lower / velocity : 0.0;
@@ -15,13 +15,13 @@ double share_within(double velocity, double lower, double upper) {
 
 }  // namespace
 
-bool give_way(const RateWindow& window, VectorRef velocity) {
+bool scale_velocity(const VelocityBounds& bounds, VectorRef velocity) {
   double share = 1.0;
   for (Index i = 0; i < velocity.size(); ++i) {
-    share = std::min(share, share_within(velocity[i], window.lower[i], window.upper[i]));
+    share = std::min(share, share_within(velocity[i], bounds.lower[i], bounds.upper[i]));
   }
   if (share == 1.0) return false;
-  velocity = (share * velocity).cwiseMax(window.lower).cwiseMin(window.upper);
+  velocity = (share * velocity).cwiseMax(bounds.lower).cwiseMin(bounds.upper);
   return true;
 }
 

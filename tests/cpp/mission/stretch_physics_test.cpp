@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -38,7 +38,7 @@ struct Recorded {
     return series("joint_error/" + joint).segment(first, rows).cwiseAbs().maxCoeff();
   }
 
-  Simulation simulation{stretch_scene(), "stretch"};
+  MissionSimulation simulation{stretch_scene(), "stretch"};
   std::map<std::string, double> figures;
   std::map<std::string, std::size_t> columns;
 };

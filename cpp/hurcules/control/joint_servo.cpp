@@ -1,0 +1,219 @@
+#include "hurcules/control/joint_servo.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+// of the peak that a reference may ask for: rounding carries it no further
+constexpr double kShare = 1.0 - 1e-12;
+constexpr double kBandwidth = 30.0;  // [rad/s]
+constexpr int kSamples = 32;         // of the ranges
+// the fastest pole of a loop is about 3 omega J_rated / J; times dt it stays below this
+constexpr double kFastest = 0.5;
+
+const ServoGains& row_of(const std::vector<ServoGains>& table, const std::string& joint) {
+  std::vector<std::string> names;
+  for (const ServoGains& row : table) {
+    if (row.joint == joint) return row;
+    names.push_back(row.joint);
+  }
+  throw Error(unknown_name("servo of joint", joint, names));
+}
+
+// the i-th point of an even, never repeating sequence in 0 .. 1, another one for each coordinate
+double spread(int i, Index coordinate) {
+  const double x = 0.5 + 0.6180339887498949 * (i + 1) * (1.0 + 0.37 * static_cast<double>(coordinate));
+  return x - std::floor(x);
+}
+
+}  // namespace
+
+std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt) {
+  const Index n = robot.size();
+  Robot sampled(robot.model(), robot.coordinate_names());
+  sampled.set_qpos(robot.qpos());
+  const Vector start = sampled.configuration();
+  Vector least = Vector::Constant(n, std::numeric_limits<double>::infinity());
+  Vector most = Vector::Zero(n), q = start;
+  Matrix M(n, n);
+  for (int i = 0; i < kSamples; ++i) {
+    for (Index k = 0; k < n && i > 0; ++k) {  // the first sample is the start
+      const Coordinate& c = robot.coordinates()[static_cast<std::size_t>(k)];
+      const double lower = std::isfinite(c.lower) ? c.lower : start[k] - 1.0;
+      const double upper = std::isfinite(c.upper) ? c.upper : start[k] + 1.0;
+      q[k] = lower + spread(i, k) * (upper - lower);
+    }
+    sampled.set_configuration(q);
+    sampled.mass_matrix(M);
+    const Matrix inverse = M.inverse();
+    most = most.cwiseMax(M.diagonal());
+    least = least.cwiseMin(inverse.diagonal().cwiseInverse());
+  }
+  std::vector<ServoGains> table;
+  for (const JointActuator& actuator : joint_actuators(robot)) {
+    double low = 1.0, high = 1.0;  // of a joint without a coordinate nothing is known
+    for (Index k = 0; k < n; ++k) {
+      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints) {
+        if (joint.joint != actuator.joint_id) continue;
+        const double share = joint.factor * joint.factor *
+                             static_cast<double>(robot.coordinates()[static_cast<std::size_t>(k)].joints.size());
+        low = least[k] / share;
+        high = most[k] / share;
+      }
+    }
+    const double rated = std::sqrt(low * high);
+    const double bandwidth = std::min(kBandwidth, kFastest * low / (3.0 * rated * dt));
+    table.push_back({actuator.joint, rated, bandwidth});
+  }
+  return table;
+}
+
+JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table, double dt)
+    : pid_(triple_pole({}, dt)) {
+  const std::vector<JointActuator> actuators = joint_actuators(robot);
+  std::vector<bool> taken(actuators.size(), false);
+  std::vector<JointDrive> drives;
+  const auto add = [&](std::size_t i, Index coordinate, double factor) {
+    const JointActuator& actuator = actuators[i];
+    const ServoGains& row = row_of(table, actuator.joint);
+    taken[i] = true;
+    names_.push_back(actuator.joint);
+    motors_.push_back({actuator, coordinate, factor});
+    drives.push_back({row.inertia, row.bandwidth, actuator.limits.peak});
+  };
+  for (Index k = 0; k < robot.size(); ++k) {
+    for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints) {
+      for (std::size_t i = 0; i < actuators.size(); ++i) {
+        if (actuators[i].actuator == joint.actuator) add(i, k, joint.factor);
+      }
+    }
+  }
+  coordinate_joints_ = static_cast<Index>(motors_.size());
+  for (std::size_t i = 0; i < actuators.size(); ++i) {
+    if (!taken[i]) add(i, -1, 1.0);
+  }
+  pid_ = JointPid(triple_pole(drives, dt));
+  error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
+  rests_.resize(motors_.size());
+  left_.resize(motors_.size(), false);
+  bounds_.lower = bounds_.upper = Vector::Zero(robot.size());
+}
+
+Index JointServo::find(const std::string& joint) const {
+  const auto found = std::find(names_.begin(), names_.end(), joint);
+  if (found == names_.end()) throw Error(unknown_name("joint with an actuator", joint, names_));
+  return found - names_.begin();
+}
+
+void JointServo::follow(const Vector& q, const Vector& velocity) {
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    position_[i] = motor.factor * q[motor.coordinate] + offset_[i];
+    velocity_[i] = motor.factor * velocity[motor.coordinate];
+  }
+}
+
+void JointServo::move(Index joint, double position, double velocity) {
+  position_[joint] = position;
+  velocity_[joint] = velocity;
+}
+
+void JointServo::release(VectorRef q) {
+  for (Index i = coordinate_joints_ - 1; i >= 0; --i) {  // the first joint of a coordinate is last
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    q[motor.coordinate] = position_[i] / motor.factor;
+  }
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    offset_[i] = position_[i] - motor.factor * q[motor.coordinate];
+  }
+}
+
+const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotState& state) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  bounds_.lower.setConstant(-kNone);
+  bounds_.upper.setConstant(kNone);
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    if (rests_[static_cast<std::size_t>(i)].on) continue;
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    error_.position[i] =
+        motor.factor * q[motor.coordinate] + offset_[i] - state.qpos[motor.actuator.qpos];
+    error_.velocity[i] = -state.qvel[motor.actuator.dof];
+    const double peak = kShare * pid_.options().max_torque[i];
+    const double a = pid_.rate_at(i, error_, -peak) / motor.factor;
+    const double b = pid_.rate_at(i, error_, peak) / motor.factor;
+    double& lower = bounds_.lower[motor.coordinate];
+    double& upper = bounds_.upper[motor.coordinate];
+    lower = std::max(lower, std::min(a, b));
+    upper = std::min(upper, std::max(a, b));
+    if (lower > upper) lower = upper = 0.5 * (lower + upper);
+  }
+  return bounds_;
+}
+
+// what held its place behind a brake holds where the brake left it
+void JointServo::read_brakes(const RobotState& state) {
+  for (Index i = 0; i < size(); ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    const bool shut = state.actuators[static_cast<std::size_t>(motor.actuator.actuator)].braked;
+    Rest& rest = rests_[static_cast<std::size_t>(i)];
+    rest = {shut, rest.on && !shut};
+    if (motor.coordinate < 0 && (rest.on || rest.over || left_[static_cast<std::size_t>(i)])) {
+      position_[i] = state.qpos[motor.actuator.qpos];
+      velocity_[i] = 0.0;
+    }
+  }
+}
+
+void JointServo::compute(const RobotState& state, VectorRef ctrl) {
+  read_brakes(state);
+  for (Index i = 0; i < size(); ++i) {
+    const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
+    const ActuatorStatus& status = state.actuators[static_cast<std::size_t>(motor.actuator)];
+    const Rest& rest = rests_[static_cast<std::size_t>(i)];
+    error_.position[i] = position_[i] - state.qpos[motor.qpos];
+    error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
+    pid_.limit(i, rest.on ? EffortRange{} : status.range);
+    if (rest.over) pid_.take_over(i, error_, status.brake_load);
+  }
+  const Vector& torque = pid_.compute(error_);
+  for (Index i = 0; i < size(); ++i) {
+    const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
+    if (left_[static_cast<std::size_t>(i)]) continue;
+    ctrl[motor.actuator] =
+        motor.control(torque[i], state.qpos[motor.qpos], state.qvel[motor.dof]);
+  }
+}
+
+void JointServo::reset(const Vector& qpos, const Vector* load) {
+  pid_.reset();
+  for (Vector* vector : {&error_.position, &error_.velocity, &velocity_, &offset_}) {
+    vector->setZero();
+  }
+  for (Rest& rest : rests_) rest = {};
+  for (Index i = 0; i < size(); ++i) {
+    position_[i] = qpos[motors_[static_cast<std::size_t>(i)].actuator.qpos];
+    if (load) pid_.take_over(i, error_, (*load)[i]);
+  }
+}
+
+void JointServo::save(StateWriter& writer) const {
+  pid_.save(writer);
+  for (const Vector* vector : {&position_, &velocity_, &offset_}) writer.put(*vector);
+  for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
+}
+
+void JointServo::restore(StateReader& reader) {
+  pid_.restore(reader);
+  for (Vector* vector : {&position_, &velocity_, &offset_}) reader.get(*vector);
+  for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
+}
+
+}  // namespace hurcules

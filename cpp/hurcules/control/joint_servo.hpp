@@ -1,0 +1,115 @@
+// The joint servos: one robust PID (joint_pid.hpp) at every joint that has an actuator.
+//
+// The joints of a coordinate follow it, each on its own:  reference = factor q* + offset. A joint of
+// no coordinate (a gripper, a bed, a belt) holds its place until it is moved. A torque goes no
+// further than the motor at its present speed, and none is given behind a brake that is shut.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/control/joint_pid.hpp"
+#include "hurcules/control/torque_scaling.hpp"
+#include "hurcules/robot/joint_actuators.hpp"
+
+namespace hurcules {
+
+// What a joint's servo reckons with (triple_pole in joint_pid.hpp).
+struct ServoGains {
+  std::string joint;
+  double inertia = 0.0;    // [kg m^2], of a slide [kg], that it turns, rotor included
+  double bandwidth = 0.0;  // [rad/s]
+};
+
+// Gains for any robot, one row a joint with an actuator. Over its ranges, sampled, a joint feels
+// inertias from 1 / (M^-1)_ii (all others free) to M_ii (all others held). The rated inertia is
+// their geometric mean, so that a triple pole, stable from a ninth of it upwards, covers them; the
+// bandwidth is 30 rad/s, less where the smallest inertia would make the loop too fast for dt.
+[[nodiscard]] std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt);
+
+// What the drive of an actuator can do at the moment.
+struct ActuatorStatus {
+  EffortRange range;        // [N m] or [N] at the joint, by its motor at its speed
+  bool braked = false;      // its brake is shut
+  double brake_load = 0.0;  // [N m] that the brake bears
+};
+
+// What is sensed of the robot, and what its drives can do.
+struct RobotState {
+  const Vector& qpos;                            // (nq)
+  const Vector& qvel;                            // (nv)
+  const std::vector<ActuatorStatus>& actuators;  // (nu)
+  const double* sensors = nullptr;               // (nsensordata) of the model
+};
+
+class JointServo {
+ public:
+  // throws Error for a joint without a row in the table, a row out of range, or an actuator that
+  // cannot be made to give an effort
+  JointServo(const Robot& robot, const std::vector<ServoGains>& table, double dt);
+
+  // where the coordinates shall be, (n) [rad], (n) [rad/s]
+  void follow(const Vector& q, const Vector& velocity);
+  // where one joint shall be, whatever its coordinate says
+  void move(Index joint, double position, double velocity);
+  // an actuator that somebody else commands from now on: no control is written for it
+  void leave(Index joint) { left_[static_cast<std::size_t>(joint)] = true; }
+  // from here on a coordinate's joints keep the distance from it that they have now; q (n) is set to
+  // the places of the first joints
+  void release(VectorRef q);
+  // velocities of the coordinates from this reference on at which no motor is asked for more than
+  // its peak; no side where it rests behind a brake, the middle where two joints of one coordinate
+  // exclude each other
+  const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state);
+  // writes the controls of its actuators, ctrl (nu)
+  void compute(const RobotState& state, VectorRef ctrl);
+  // at rest at a configuration (nq); load (m) [N m]: what the joints bear there, null for nothing
+  void reset(const Vector& qpos, const Vector* load = nullptr);
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }  // of joints, (m)
+  [[nodiscard]] Index size() const { return pid_.size(); }                        // m
+  // index of a joint; throws Error with the names that exist
+  [[nodiscard]] Index find(const std::string& joint) const;
+  // the joints of coordinates come first: how many there are
+  [[nodiscard]] Index coordinate_joints() const { return coordinate_joints_; }
+  [[nodiscard]] const JointActuator& actuator(Index joint) const {
+    return motors_[static_cast<std::size_t>(joint)].actuator;
+  }
+  [[nodiscard]] Index coordinate_of(Index joint) const {  // -1 for none
+    return motors_[static_cast<std::size_t>(joint)].coordinate;
+  }
+  [[nodiscard]] const Vector& position() const { return position_; }    // [rad] (m) reference
+  [[nodiscard]] const Vector& velocity() const { return velocity_; }    // [rad/s] (m) reference
+  [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
+  // [N m], (m), before saturation
+  [[nodiscard]] const Vector& demand() const { return pid_.demand(); }
+  [[nodiscard]] const JointError& error() const { return error_; }  // [rad], [rad/s], (m)
+  [[nodiscard]] const JointPid& pid() const { return pid_; }
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct Motor {
+    JointActuator actuator;
+    Index coordinate = -1;  // -1: holds its place
+    double factor = 1.0;    // joint = factor * coordinate
+  };
+  struct Rest {
+    bool on = false;    // the brake holds, the motor is without power
+    bool over = false;  // this tick the motor takes over what the brake bore
+  };
+  void read_brakes(const RobotState& state);
+
+  std::vector<Motor> motors_;
+  std::vector<std::string> names_;
+  Index coordinate_joints_ = 0;
+  JointPid pid_;
+  JointError error_;
+  VelocityBounds bounds_;       // (n)
+  Vector position_, velocity_;  // (m) reference
+  Vector offset_;               // [rad] (m) of a joint against its coordinate
+  std::vector<Rest> rests_;     // (m)
+  std::vector<bool> left_;      // (m) to somebody else
+};
+
+}  // namespace hurcules

@@ -1,0 +1,69 @@
+#include "hurcules/control/track_drive.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+JointActuator find(const std::vector<JointActuator>& all, const std::string& joint) {
+  std::vector<std::string> names;
+  for (const JointActuator& one : all) {
+    if (one.joint == joint) return one;
+    names.push_back(one.joint);
+  }
+  throw Error(unknown_name("belt with a drive", joint, names));
+}
+
+}  // namespace
+
+TrackDrive::TrackDrive(const Robot& robot, const TrackDriveOptions& options)
+    : controller_(options.drive), root_qpos_(robot.root_qpos()), root_dof_(robot.root_dof()) {
+  const std::vector<JointActuator> all = joint_actuators(robot);
+  left_ = find(all, options.left);
+  right_ = find(all, options.right);
+  require(root_qpos_ >= 0, "a robot that drives wants a free joint at its root");
+}
+
+DriveState TrackDrive::measure(const RobotState& state) const {
+  const double* const q = state.qpos.data() + root_qpos_;
+  const double* const v = state.qvel.data() + root_dof_;
+  const Matrix3 R = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).toRotationMatrix();
+  // the track axle, y, is level however the legs are folded: forward is at right angles to it
+  const Eigen::Vector2d forward = Eigen::Vector2d(R(1, 1), -R(0, 1)).normalized();
+  DriveState measured;
+  measured.left = state.qvel[left_.dof];
+  measured.right = state.qvel[right_.dof];
+  // of the free joint: velocity in the world, rates in the body
+  measured.yaw_rate = R.row(2).dot(Vector3(v[3], v[4], v[5]));
+  measured.speed = forward.dot(Eigen::Vector2d(v[0], v[1]));
+  measured.pose = {q[0], q[1], std::atan2(forward.y(), forward.x())};
+  return measured;
+}
+
+void TrackDrive::compute(const RobotState& state, VectorRef ctrl) {
+  const DriveTorques torques = controller_.compute(measure(state));
+  ctrl[left_.actuator] = left_.control(torques.left, 0.0, 0.0);
+  ctrl[right_.actuator] = right_.control(torques.right, 0.0, 0.0);
+  braked_ = controller_.braked();
+}
+
+void TrackDrive::reset() {
+  controller_.reset();
+  braked_ = true;
+}
+
+void TrackDrive::save(StateWriter& writer) const {
+  controller_.save(writer);
+  writer.put(braked_ ? 1.0 : 0.0);
+}
+
+void TrackDrive::restore(StateReader& reader) {
+  controller_.restore(reader);
+  braked_ = reader.get_count(1) > 0;
+}
+
+}  // namespace hurcules

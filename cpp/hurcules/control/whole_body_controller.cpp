@@ -1,0 +1,421 @@
+#include "hurcules/control/whole_body_controller.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+#include "hurcules/tasks/orientation_task.hpp"
+
+namespace hurcules {
+
+namespace {
+
+template <class Named>
+void require_distinct(const std::vector<Named>& all, const char* kind) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      require(all[i]->name() != all[k]->name(),
+              std::string("two ") + kind + " are called '" + all[i]->name() + "'");
+    }
+  }
+}
+
+WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
+  options.velocity.dt = options.acceleration.dt = options.dt;
+  if (options.servo.empty()) options.servo = default_servo_gains(robot, options.dt);
+  if (options.support.empty()) options.support = robot.support();
+  if (options.drive) options.drive->drive.dt = options.dt;
+  return options;
+}
+
+// all tasks of a stack, in its order
+std::vector<Task*> tasks_of(const Stack& stack) {
+  std::vector<Task*> all;
+  for (const StackLevel& level : stack.levels()) {
+    all.insert(all.end(), level.tasks.begin(), level.tasks.end());
+  }
+  return all;
+}
+
+void set_target(Task& task, const ConstVectorRef& target) {
+  if (auto* const value = dynamic_cast<ValueTask*>(&task)) return value->set_target(target);
+  dynamic_cast<OrientationTask&>(task).set_target(rotation_exp(Vector3(target)));
+}
+
+}  // namespace
+
+WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
+                                         std::vector<Channel> channels,
+                                         WholeBodyControllerOptions options)
+    : options_(completed(robot, std::move(options))),
+      plan_(robot.model(), robot.coordinate_names()),
+      stacks_(std::move(stacks)),
+      channels_(std::move(channels)),
+      servo_(robot, options_.servo, options_.dt) {
+  require(!stacks_.empty(), "a controller wants at least one stack");
+  plan_.set_qpos(robot.qpos());
+  if (plan_.root_qpos() >= 0) plan_.stand_on(options_.support);
+  support_ = plan_.frame(options_.support);
+  if (options_.drive) {
+    drive_.emplace(plan_, *options_.drive);
+    servo_.leave(servo_.find(options_.drive->left));
+    servo_.leave(servo_.find(options_.drive->right));
+  }
+  for (std::size_t i = 0; i < stacks_.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      require(stacks_[i].name != stacks_[k].name,
+              "two stacks are called '" + stacks_[i].name + "'");
+    }
+    laws_.push_back(stacks_[i].law == Law::Velocity
+                        ? make_law(plan_, stacks_[i].stack, options_.velocity)
+                        : make_law(plan_, stacks_[i].stack, options_.acceleration));
+  }
+  collect_tasks();
+  check_channels();
+  scale_ = command_ = Vector::Zero(static_cast<Index>(command_names_.size()));
+  Index row = 0;
+  for (const Channel& channel : channels_) {
+    scale_.segment(row, channel.size()) = channel.scale();
+    row += channel.size();
+  }
+  q_ = qd_ = held_back_ = wished_ = Vector::Zero(plan_.size());
+  delta_ = Vector::Zero(scale_.size());
+  reset(robot.qpos());
+}
+
+void WholeBodyController::collect_tasks() {
+  for (const NamedStack& stack : stacks_) {
+    for (Task* const task : tasks_of(stack.stack)) {
+      const bool known = std::find(tasks_.begin(), tasks_.end(), task) != tasks_.end();
+      if (known) continue;
+      if (!task->bounds_coordinates()) {
+        tasks_.push_back(task);
+      } else if (std::find(limits_.begin(), limits_.end(), task) == limits_.end()) {
+        limits_.push_back(task);
+      }
+    }
+  }
+  require_distinct(tasks_, "tasks");
+  twins_.resize(tasks_.size());
+}
+
+void WholeBodyController::check_channels() {
+  for (const Channel& channel : channels_) {
+    for (const Channel& other : channels_) {
+      require(&other == &channel || other.name() != channel.name(),
+              "two channels are called '" + channel.name() + "'");
+    }
+    for (const std::string& entry : channel.entries()) command_names_.push_back(entry);
+    if (channel.kind() == ChannelKind::Drive) {
+      require(drive_.has_value(), "channel '" + channel.name() +
+                                      "' drives: the controller wants options for its tracks");
+    }
+    if (channel.kind() == ChannelKind::Joint) {
+      const Index joint = servo_.find(channel.joint_name());
+      require(servo_.coordinate_of(joint) < 0,
+              "channel '" + channel.name() + "' moves joint '" + channel.joint_name() +
+                  "', which the tasks move: it wants a task");
+    }
+    if (!channel.task()) continue;
+    const auto found = std::find(tasks_.begin(), tasks_.end(), channel.task());
+    require(found != tasks_.end(), "channel '" + channel.name() + "' moves task '" +
+                                       channel.task()->name() + "', which is in no stack");
+    if (channel.kind() != ChannelKind::Delta) continue;
+    twins_[static_cast<std::size_t>(found - tasks_.begin())] = channel.task()->clone();
+    if (!sensed_) sensed_ = std::make_unique<Robot>(plan_.model(), plan_.coordinate_names());
+  }
+}
+
+Task& WholeBodyController::task(const std::string& name) const {
+  std::vector<std::string> names;
+  for (Task* const task : tasks_) {
+    if (task->name() == name) return *task;
+    names.push_back(task->name());
+  }
+  throw Error(unknown_name("task", name, names));
+}
+
+std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& robot) const {
+  std::map<const Task*, Task*> copies;
+  std::vector<std::unique_ptr<Task>> kept;
+  const auto copied = [&](Task* task) {
+    Task*& copy = copies[task];
+    if (!copy) {
+      kept.push_back(task->clone());
+      copy = kept.back().get();
+    }
+    return copy;
+  };
+  std::vector<NamedStack> stacks;
+  for (const NamedStack& stack : stacks_) {
+    std::vector<StackLevel> levels = stack.stack.levels();
+    for (StackLevel& level : levels) {
+      for (Task*& task : level.tasks) task = copied(task);
+    }
+    stacks.push_back({stack.name, Stack(std::move(levels)), stack.law});
+  }
+  std::vector<Channel> channels;
+  for (const Channel& channel : channels_) {
+    channels.push_back(channel.task() ? channel.with_task(*copied(channel.task())) : channel);
+  }
+  auto copy = std::make_unique<WholeBodyController>(robot, std::move(stacks), std::move(channels),
+                                                    options_);
+  for (const ForceReading& reading : forces_) {
+    ForceReading other = reading;
+    other.task = static_cast<ForceTask*>(copied(reading.task));
+    if (reading.spring) other.spring = std::make_shared<SpringForce>(*reading.spring);
+    copy->forces_.push_back(std::move(other));
+  }
+  copy->kept_ = std::move(kept);
+  return copy;
+}
+
+void WholeBodyController::reset(const Vector& qpos) {
+  plan_.set_qpos(qpos);
+  start_ = ahead_ = plan_.qpos();
+  q_ = plan_.configuration();
+  qd_.setZero();
+  plan_.set_velocity(qd_);
+  held_back_.setZero();
+  command_.setZero();
+  active_ = 0;
+  moves_joints_ = scaled_ = false;
+  for (Task* const task : tasks_) task->hold(plan_);
+  for (const auto& law : laws_) law->reset();
+  if (drive_) drive_->reset();
+  if (!options_.preload) return servo_.reset(start_);
+  // what the joints of a coordinate bear together, shared out by their factors
+  Vector efforts(plan_.size()), load = Vector::Zero(servo_.size());
+  plan_.inverse_dynamics(Vector::Zero(plan_.size()), efforts);
+  for (Index i = 0; i < servo_.coordinate_joints(); ++i) {
+    const Index k = servo_.coordinate_of(i);
+    double squares = 0.0, factor = 1.0;
+    for (const DrivenJoint& joint : plan_.coordinates()[static_cast<std::size_t>(k)].joints) {
+      squares += joint.factor * joint.factor;
+      if (joint.joint == servo_.actuator(i).joint_id) factor = joint.factor;
+    }
+    load[i] = efforts[k] * factor / squares;
+  }
+  servo_.reset(start_, &load);
+}
+
+void WholeBodyController::use(const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < stacks_.size(); ++i) {
+    names.push_back(stacks_[i].name);
+    if (stacks_[i].name != name) continue;
+    if (i == active_ && !moves_joints_) return;
+    active_ = i;
+    if (moves_joints_) take_over();
+    laws_[active_]->take_over(qd_);
+    return;
+  }
+  throw Error(unknown_name("stack", name, names));
+}
+
+// from joints that were moved one by one: the plan stands where they are, the tasks hold there
+void WholeBodyController::take_over() {
+  moves_joints_ = false;
+  servo_.release(q_);
+  for (Index i = servo_.coordinate_joints() - 1; i >= 0; --i) {
+    const Index k = servo_.coordinate_of(i);
+    for (const DrivenJoint& joint : plan_.coordinates()[static_cast<std::size_t>(k)].joints) {
+      if (joint.joint == servo_.actuator(i).joint_id) qd_[k] = servo_.velocity()[i] / joint.factor;
+    }
+  }
+  plan_.set_qpos(ahead_);
+  plan_.set_configuration(q_);
+  start_ = plan_.qpos();
+  for (Task* const task : tasks_) task->hold(plan_);
+}
+
+void WholeBodyController::move(const std::string& joint, double position, double velocity) {
+  servo_.move(servo_.find(joint), position, velocity);
+  moves_joints_ = true;
+}
+
+void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> spring) {
+  forces_.push_back({&task, std::move(spring), -1, 1.0});
+}
+
+void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
+  forces_.push_back({&task, nullptr, sensor_row, sign});
+}
+
+// the reference configuration, on its support
+void WholeBodyController::kinematics(const RobotState& state) {
+  if (moves_joints_) {
+    ahead_ = state.qpos;  // where a stack will find the robot
+    return;
+  }
+  if (options_.base == BaseSource::Sensed) {
+    ahead_ = state.qpos;
+    plan_.set_qpos(ahead_);
+    if (plan_.root_qpos() >= 0) {
+      // the support, and all that stands on it, 1 / K further: -K e then contains its velocity
+      const Twist twist = plan_.twist(support_, state.qvel);
+      const double lead = law().rate() > 0.0 ? 1.0 / law().rate() : 0.0;
+      const Vector3 p = plan_.position(support_);
+      const Matrix3 turn = rotation_exp(lead * twist.angular);
+      auto root = ahead_.segment<7>(plan_.root_qpos());
+      const Vector3 moved = p + lead * twist.linear + turn * (Vector3(root.head<3>()) - p);
+      const Eigen::Quaterniond turned =
+          Eigen::Quaterniond(turn) * Eigen::Quaterniond(root[3], root[4], root[5], root[6]);
+      root << moved, turned.w(), turned.vec();
+      plan_.set_qpos(ahead_);
+    }
+  }
+  plan_.set_configuration(q_);
+}
+
+void WholeBodyController::apply(const Vector* command, bool first, const RobotState& state) {
+  read_forces(state);
+  if (command) {
+    command_ = command->cwiseMax(-scale_).cwiseMin(scale_);
+  } else {
+    command_.setZero();
+  }
+  Index row = 0;
+  for (const Channel& channel : channels_) {
+    const auto part = command_.segment(row, channel.size());
+    row += channel.size();
+    apply(channel, part, first && command, state);
+  }
+}
+
+void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& command, bool first,
+                                const RobotState& state) {
+  switch (channel.kind()) {
+    case ChannelKind::Twist:
+      return channel.task()->advance(command, dt());
+    case ChannelKind::Delta:
+      if (first && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
+      return;
+    case ChannelKind::Target:
+      if (first) set_target(*channel.task(), command);
+      return;
+    case ChannelKind::Force:
+      if (first) static_cast<ForceTask*>(channel.task())->set_force(command[0]);
+      return;
+    case ChannelKind::Drive:
+      return drive_->controller().drive({command[0], command[1]});
+    case ChannelKind::Joint: {
+      const Index joint = servo_.find(channel.joint_name());
+      const JointActuator& actuator = servo_.actuator(joint);
+      const double place = servo_.position()[joint] + command[0] * dt();
+      const double held = std::clamp(place, actuator.lower, actuator.upper);
+      servo_.move(joint, held, held == place ? command[0] : 0.0);
+      return;
+    }
+  }
+}
+
+// the target where the task is measured to be, and from there by delta
+void WholeBodyController::set_delta(Task& task, const ConstVectorRef& delta,
+                                    const RobotState& state) {
+  const auto found = std::find(tasks_.begin(), tasks_.end(), &task) - tasks_.begin();
+  Task& twin = *twins_[static_cast<std::size_t>(found)];
+  sensed_->set_qpos(state.qpos);
+  twin.hold(*sensed_);
+  auto velocity = delta_.head(delta.size());
+  velocity = delta / dt();
+  twin.advance(velocity, dt());
+  velocity.setZero();
+  twin.advance(velocity, dt());
+  scratch_.clear();
+  StateWriter writer(scratch_);
+  twin.save(writer);
+  StateReader reader(scratch_);
+  task.restore(reader);
+}
+
+void WholeBodyController::read_forces(const RobotState& state) {
+  for (const ForceReading& reading : forces_) {
+    double force = 0.0;
+    if (reading.spring) {
+      reading.spring->update(state.qpos, state.qvel);
+      const double along = reading.spring->direction().dot(reading.task->options().axis);
+      force = -reading.spring->force() / along;  // the force along the axis that bends it so
+    } else if (state.sensors) {
+      force = reading.sign * state.sensors[reading.row];
+    }
+    reading.task->sense(plan_, force);
+  }
+}
+
+// tasks become levels  [T 4.3.2]
+void WholeBodyController::measure() {
+  if (moves_joints_) return;
+  laws_[active_]->measure(plan_, qd_);
+}
+
+// qdot*  [T 4.3.3], q*  [T 4.3.7]
+void WholeBodyController::solve(const RobotState& state) {
+  scaled_ = false;
+  if (moves_joints_) return;
+  MotionLaw& law = *laws_[active_];
+  law.solve();
+  wished_ = law.next_velocity(qd_);
+  scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
+  if (scaled_) {
+    // every target follows the robot as fast as the law would have led the robot to it
+    for (Task* const task : tasks_) task->relax(law.rate() * dt());
+    held_back_ += dt() * (wished_ - law.next_velocity(qd_));
+  }
+  law.integrate(q_, qd_);
+}
+
+void WholeBodyController::hold() {
+  qd_.setZero();
+  command_.setZero();
+  scaled_ = false;
+}
+
+// torques  [T A.2.12]
+void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
+  if (!moves_joints_) servo_.follow(q_, qd_);
+  servo_.compute(state, ctrl);
+  if (drive_) drive_->compute(state, ctrl);
+}
+
+void WholeBodyController::compute(const RobotState& state, const Vector* command, bool first,
+                                  VectorRef ctrl) {
+  kinematics(state);
+  apply(command, first, state);
+  measure();
+  solve(state);
+  actuate(state, ctrl);
+}
+
+void WholeBodyController::save(StateWriter& writer) const {
+  writer.put(static_cast<double>(active_));
+  writer.put(moves_joints_ ? 1.0 : 0.0);
+  for (const Vector* vector : {&start_, &ahead_, &q_, &qd_, &held_back_, &command_}) {
+    writer.put(*vector);
+  }
+  for (const Task* task : tasks_) task->save(writer);
+  for (const Task* task : limits_) task->save(writer);
+  for (const auto& law : laws_) law->save(writer);
+  servo_.save(writer);
+  if (drive_) drive_->save(writer);
+}
+
+void WholeBodyController::restore(StateReader& reader) {
+  active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
+  moves_joints_ = reader.get_count(1) > 0;
+  for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &held_back_, &command_}) {
+    reader.get(*vector);
+  }
+  for (Task* task : tasks_) task->restore(reader);
+  for (Task* task : limits_) task->restore(reader);
+  for (const auto& law : laws_) law->restore(reader);
+  servo_.restore(reader);
+  if (drive_) drive_->restore(reader);
+  plan_.set_qpos(start_);
+  scaled_ = false;
+}
+
+}  // namespace hurcules

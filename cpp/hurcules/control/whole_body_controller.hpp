@@ -1,0 +1,162 @@
+// The controller of a whole robot: named commands in, controls of the actuators out.
+//
+//   command -> targets of the tasks          channel.hpp
+//   plan    -> errors, Jacobians, hierarchy  the tasks, measured at the reference robot
+//   solve   -> qdot* (or qddot*), no faster than the motors can hold    torque_scaling.hpp
+//   q* += qdot* dt                           [T 4.3.7]
+//   q*      -> torques                       joint_servo.hpp; tracks: track_drive.hpp
+//
+// The plan is a robot of its own that stands at the reference: q* is integrated from the solver's
+// answers, not from what was sensed, and the real robot follows it by its joint servos alone. Limits
+// of position, velocity and acceleration come first in every stack. There may be several stacks, by
+// velocities or by accelerations, of which one rules at a time; joints may also be moved one by one.
+// From one to the other the velocity goes on, within the acceleration limit, and the servos keep
+// their integrals.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hurcules/control/channel.hpp"
+#include "hurcules/control/joint_servo.hpp"
+#include "hurcules/control/motion_law.hpp"
+#include "hurcules/control/track_drive.hpp"
+#include "hurcules/robot/spring_force.hpp"
+#include "hurcules/tasks/force_task.hpp"
+
+namespace hurcules {
+
+// Where the plan's support stands.
+enum class BaseSource {
+  // Where it stood at the start: the commanded motion follows from the command alone.
+  Held,
+  // Where it is now, and 1 / K ahead of it at its present velocity: targets in the world then stay
+  // where they are while the robot drives or gives way.
+  Sensed,
+};
+
+// A stack that may rule.
+struct NamedStack {
+  std::string name;
+  Stack stack;
+  Law law = Law::Velocity;
+};
+
+struct WholeBodyControllerOptions {
+  double dt = 1e-3;                            // [s] control period; also of all others
+  VelocityControllerOptions velocity = {};     // of stacks by velocities; their dt is not read
+  AccelerationControllerOptions acceleration = {};
+  std::string support = "";                    // body that stands, "" for the root
+  BaseSource base = BaseSource::Held;
+  std::vector<ServoGains> servo = {};          // none: default_servo_gains
+  bool preload = true;                         // servos start with what the joints bear at rest
+  std::optional<TrackDriveOptions> drive = {};  // tracks, where a Drive channel is to move them
+};
+
+class WholeBodyController {
+ public:
+  // Starts at the robot's configuration. The tasks of the stacks stay those of the caller, who keeps
+  // them alive. Throws Error for two stacks or channels of one name, and a channel whose task stands
+  // in no stack.
+  WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
+                      std::vector<Channel> channels = {}, WholeBodyControllerOptions options = {});
+  // the same on tasks of its own, for another simulation; `robot` has the same model or one of the
+  // same names and shapes
+  [[nodiscard]] std::unique_ptr<WholeBodyController> clone(const Robot& robot) const;
+
+  // a task that lives as long as the controller
+  void keep(std::unique_ptr<Task> task) { kept_.push_back(std::move(task)); }
+
+  // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold.
+  void reset(const Vector& qpos);
+  // which stack rules from the next tick on; throws Error with the names that exist
+  void use(const std::string& stack);
+  // where a joint with an actuator shall be in this tick [rad], [rad/s]; no stack rules until `use`
+  void move(const std::string& joint, double position, double velocity);
+  // a force task that reads the deflection of a spring, or a row of the model's sensors (its
+  // reading is `sign` times the force that the robot exerts along the task's axis)
+  void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
+  void sense(ForceTask& task, int sensor_row, double sign = 1.0);
+
+  // One tick in its stages. command (k) or null: every target holds, drives stand. `first`: the
+  // command is new, so that what it sets once (Delta, Target, Force) is set.
+  void kinematics(const RobotState& state);
+  void apply(const Vector* command, bool first, const RobotState& state);
+  void measure();
+  void solve(const RobotState& state);
+  void actuate(const RobotState& state, VectorRef ctrl);
+  // the reference stays where it is, the servos hold it
+  void hold();
+  // all of them
+  void compute(const RobotState& state, const Vector* command, bool first, VectorRef ctrl);
+
+  [[nodiscard]] double dt() const { return options_.dt; }
+  [[nodiscard]] const WholeBodyControllerOptions& options() const { return options_; }
+  [[nodiscard]] const Robot& plan() const { return plan_; }
+  [[nodiscard]] const Vector& q_des() const { return q_; }             // [rad] (n)
+  [[nodiscard]] const Vector& qd_des() const { return qd_; }           // [rad/s] (n)
+  [[nodiscard]] const Vector& command() const { return command_; }     // (k) the last, as held to scale
+  [[nodiscard]] const Vector& scale() const { return scale_; }         // (k)
+  [[nodiscard]] const std::vector<std::string>& command_names() const { return command_names_; }
+  [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+  [[nodiscard]] const std::vector<NamedStack>& stacks() const { return stacks_; }
+  [[nodiscard]] std::size_t active() const { return active_; }         // of the stacks
+  [[nodiscard]] bool moves_joints() const { return moves_joints_; }    // no stack rules
+  [[nodiscard]] const MotionLaw& law() const { return *laws_[active_]; }
+  [[nodiscard]] const MotionLaw& law(std::size_t stack) const { return *laws_[stack]; }
+  // all tasks of all stacks but the limits, each once
+  [[nodiscard]] const std::vector<Task*>& tasks() const { return tasks_; }
+  [[nodiscard]] Task& task(const std::string& name) const;  // throws Error with the names
+  [[nodiscard]] const JointServo& servo() const { return servo_; }
+  [[nodiscard]] const std::optional<TrackDrive>& drive() const { return drive_; }
+  [[nodiscard]] std::optional<TrackDrive>& drive() { return drive_; }
+  // the last tick was slowed down by what the motors can hold
+  [[nodiscard]] bool scaled() const { return scaled_; }
+  [[nodiscard]] const Vector& held_back() const { return held_back_; }  // [rad] (n) by that so far
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct ForceReading {
+    ForceTask* task = nullptr;
+    std::shared_ptr<SpringForce> spring;
+    int row = -1;
+    double sign = 1.0;
+  };
+  void collect_tasks();
+  void check_channels();
+  void apply(const Channel& channel, const ConstVectorRef& command, bool first,
+             const RobotState& state);
+  void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
+  void read_forces(const RobotState& state);
+  void take_over();
+
+  WholeBodyControllerOptions options_;
+  Robot plan_;
+  std::unique_ptr<Robot> sensed_;  // for Delta channels; null without one
+  std::vector<std::unique_ptr<Task>> kept_;
+  std::vector<NamedStack> stacks_;
+  std::vector<std::unique_ptr<MotionLaw>> laws_;
+  std::vector<Task*> tasks_, limits_;  // of all stacks
+  std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
+  std::vector<Channel> channels_;
+  std::vector<std::string> command_names_;
+  std::vector<ForceReading> forces_;
+  JointServo servo_;
+  std::optional<TrackDrive> drive_;
+  std::size_t active_ = 0;
+  bool moves_joints_ = false, scaled_ = false;
+  Vector scale_, command_;
+  Vector q_, qd_, held_back_;
+  Vector start_;         // (nq) where the plan stands
+  Vector ahead_;         // (nq) scratch
+  Vector wished_;        // (n) scratch
+  Vector delta_;         // scratch
+  Frame support_;
+  std::vector<double> scratch_;
+};
+
+}  // namespace hurcules

@@ -1,0 +1,238 @@
+#include "hurcules/sim/run_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "hurcules/base/pose.hpp"
+
+namespace hurcules {
+
+namespace {
+
+Index find(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Index>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// level and task names of a stack, after those that are there
+void add_names(const Stack& stack, TelemetryNames& names) {
+  for (const StackLevel& level : stack.levels()) {
+    if (find(names.levels, level.name) == static_cast<Index>(names.levels.size())) {
+      names.levels.push_back(level.name);
+    }
+    for (const Task* task : level.tasks) {
+      if (task->bounds_coordinates()) continue;
+      if (find(names.task_rows, task->name() + "/0") < static_cast<Index>(names.task_rows.size())) {
+        continue;
+      }
+      for (Index i = 0; i < task->rows(); ++i) {
+        names.task_rows.push_back(task->name() + "/" + std::to_string(i));
+      }
+    }
+  }
+}
+
+TelemetryNames names_of(const WholeBodyController& controller) {
+  TelemetryNames names;
+  names.coordinates = controller.plan().coordinate_names();
+  names.joints = controller.servo().names();
+  for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
+    add_names(controller.law(i).stack(), names);
+  }
+  names.commands = controller.command_names();
+  return names;
+}
+
+std::string number(double value) {
+  std::string text(32, '\0');
+  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%g", value)));
+  return text;
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::string> phases,
+                     bool timed)
+    : telemetry(names_of(controller)),
+      stage_seconds(Vector::Zero(kStages)),
+      names_(names_of(controller)),
+      phases_(std::move(phases)),
+      planned_(controller.tasks().begin(), controller.tasks().end()),
+      previous_active_(Vector::Zero(controller.plan().size())),
+      previous_alarm_(Vector::Zero(Monitors::kQuantities)) {
+  telemetry.add_log_channels(names_, timed, log);
+  telemetry.add_observation_channels(names_, observation);
+  timings.add("time", &telemetry.time);
+  for (Index i = 0; i < kStages; ++i) timings.add(stage_names()[i], stage_seconds.data() + i);
+  for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
+    StackPlaces places;
+    for (const StackLevel& level : controller.law(i).stack().levels()) {
+      places.level.push_back(find(names_.levels, level.name));
+      places.tasks.emplace_back();
+      places.first_row.push_back(0);
+      for (const Task* task : level.tasks) {
+        if (task->bounds_coordinates()) continue;
+        if (places.tasks.back().empty()) {
+          places.first_row.back() = find(names_.task_rows, task->name() + "/0");
+        }
+        const auto at = std::find(planned_.begin(), planned_.end(), task) - planned_.begin();
+        places.tasks.back().push_back(static_cast<std::size_t>(at));
+      }
+    }
+    places_.push_back(std::move(places));
+  }
+}
+
+void RunRecord::reset() {
+  for (Recorder* recorder : {&log, &timings}) recorder->truncate(0.0);
+  events.clear();
+  telemetry.clear();
+  previous_active_.setZero();
+  previous_alarm_.setZero();
+}
+
+void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed& sensed,
+                            Frame support, const std::optional<Frame>& target) {
+  Telemetry& t = telemetry;
+  const Robot &world = sensed.world, &seen = sensed.seen;
+  t.q = world.configuration();
+  t.seen_q = seen.configuration();
+  for (Index i = 0; i < world.size(); ++i) {
+    const DrivenJoint& joint = world.coordinates()[static_cast<std::size_t>(i)].joints.front();
+    t.qd[i] = sensed.qvel[joint.dof] / joint.factor;
+    t.seen_qd[i] = sensed.seen_qvel[joint.dof] / joint.factor;
+  }
+  t.q_des = controller.q_des();
+  if (const Task* const limits = controller.law().limits()) {
+    t.limit_lower = limits->lower();
+    t.limit_upper = limits->upper();
+  }
+  t.lag = t.q_des - t.seen_q;
+  t.to_lower = t.seen_q - t.limit_lower;
+  t.to_upper = t.limit_upper - t.seen_q;
+  t.base_position = world.position(support);
+  t.base_rotation = rotation_log(world.orientation(support));
+  const Matrix3 R = seen.orientation(support);
+  const Vector3 p = seen.position(support);
+  const Twist twist = seen.twist(support, sensed.seen_qvel);
+  t.seen_base_position = p;
+  t.seen_base_rotation = rotation_log(R);
+  t.base_velocity = twist.linear;
+  t.base_spin = twist.angular;
+  if (target) t.target_in_base = R.transpose() * (world.position(*target) - p);
+}
+
+void RunRecord::note_solution(const WholeBodyController& controller) {
+  Telemetry& t = telemetry;
+  t.q_des = controller.q_des();
+  t.qd_des = controller.qd_des();
+  t.command = controller.command();
+  t.yielding = controller.scaled() ? 1.0 : 0.0;
+  if (controller.moves_joints()) {
+    t.active.setZero();
+    t.level_active.setZero();
+    return;
+  }
+  const Solution& solution = controller.law().solution();
+  t.factorizations = solution.factorizations;
+  t.changes = solution.changes;
+  t.iterations = 1.0 + solution.changes;
+  t.status = static_cast<double>(static_cast<int>(solution.status));
+  t.optimality = solution.optimality;
+  t.active = controller.law().active_limits().cast<double>();
+  t.level_active.setZero();
+  const StackPlaces& places = places_[controller.active()];
+  for (const ActiveRow& active : solution.working_set) {
+    t.level_active[places.level[static_cast<std::size_t>(active.held_by)]] += 1.0;
+  }
+  copy_errors(places, planned_, t.level_error, t.task_error);
+}
+
+void RunRecord::note_servo(const WholeBodyController& controller) {
+  telemetry.torque = controller.servo().torque();
+  telemetry.demand = controller.servo().demand();
+  telemetry.joint_error = controller.servo().error().position;
+}
+
+void RunRecord::note_measured(const WholeBodyController& controller,
+                              const std::vector<const Task*>& tasks) {
+  copy_errors(places_[controller.active()], tasks, telemetry.level_error_measured,
+              telemetry.task_error_measured);
+}
+
+// the errors as the tasks were measured last; limits have none
+void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const Task*>& tasks,
+                            Vector& levels, Vector& rows) const {
+  for (std::size_t k = 0; k < places.level.size(); ++k) {
+    double square = 0.0;
+    Index row = places.first_row[k];
+    for (const std::size_t number : places.tasks[k]) {
+      const Task& task = *tasks[number];
+      square += task.error().squaredNorm();
+      rows.segment(row, task.rows()) = task.error();
+      row += task.rows();
+    }
+    levels[places.level[k]] = std::sqrt(square);
+  }
+}
+
+void RunRecord::note_events(const Monitors& monitors) {
+  for (Index i = 0; i < previous_active_.size(); ++i) {
+    if (telemetry.active[i] == previous_active_[i]) continue;
+    const bool met = telemetry.active[i] != 0.0;
+    const double side = met ? telemetry.active[i] : previous_active_[i];
+    events.add({telemetry.time, met ? EventKind::LimitMet : EventKind::LimitReleased, i,
+                static_cast<int>(side)});
+  }
+  previous_active_ = telemetry.active;
+  for (Index i = 0; i < Monitors::kQuantities; ++i) {
+    const double alarm = monitors.alarm(i) ? 1.0 : 0.0;
+    if (alarm == previous_alarm_[i]) continue;
+    events.add({telemetry.time, alarm > 0.0 ? EventKind::AlarmRaised : EventKind::AlarmFell, i,
+                Monitors::falls(i) ? -1 : 1});
+    previous_alarm_[i] = alarm;
+  }
+}
+
+void RunRecord::note_phase(std::size_t phase) {
+  telemetry.phase = static_cast<double>(phase);
+  events.add({telemetry.time, EventKind::PhaseStarted, static_cast<Index>(phase), 0});
+}
+
+std::string RunRecord::text(const Event& event, const Monitors& monitors) const {
+  if (event.kind == EventKind::AlarmRaised || event.kind == EventKind::AlarmFell) {
+    const std::string& quantity = Monitors::names()[static_cast<std::size_t>(event.what)];
+    const std::string side = event.side > 0 ? " above " : " below ";
+    return (event.kind == EventKind::AlarmRaised ? "alarm: " : "alarm over: ") + quantity + side +
+           number(monitors.threshold(event.what));
+  }
+  if (event.kind == EventKind::PhaseStarted) {
+    return "phase " + phases_[static_cast<std::size_t>(event.what)];
+  }
+  const std::string& name = names_.coordinates[static_cast<std::size_t>(event.what)];
+  const std::string side = event.side > 0 ? "upper" : "lower";
+  return name + (event.kind == EventKind::LimitMet ? " meets its " : " leaves its ") + side +
+         " limit";
+}
+
+void RunRecord::truncate(double time) {
+  for (Recorder* recorder : {&log, &timings}) recorder->truncate(time);
+  events.truncate(time);
+}
+
+void RunRecord::save(StateWriter& writer) const {
+  for (const Vector* vector : {&telemetry.active, &telemetry.level_active, &previous_active_,
+                               &previous_alarm_}) {
+    writer.put(*vector);
+  }
+}
+
+void RunRecord::restore(StateReader& reader) {
+  for (Vector* vector :
+       {&telemetry.active, &telemetry.level_active, &previous_active_, &previous_alarm_}) {
+    reader.get(*vector);
+  }
+}
+
+}  // namespace hurcules

@@ -1,0 +1,60 @@
+// Who commands a simulation from above: a mission, say. The simulation asks it each tick what to do
+// and tells it what came of it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hurcules/base/state.hpp"
+#include "hurcules/control/whole_body_controller.hpp"
+#include "hurcules/sim/plant.hpp"
+
+namespace hurcules {
+
+// One number that a run is judged by.
+struct Figure {
+  std::string name;     // with its unit: pelvis_error_m
+  double value = 0.0;   // NaN: has not happened
+  double thesis = 0.0;  // what the thesis reports, NaN for nothing
+};
+
+// What came out of a tick, for the figures.
+struct TickReport {
+  double time = 0.0;                     // [s]
+  const Eigen::VectorXi& active_limits;  // (n), -1 0 1
+  double joint_error = 0.0;              // [rad] largest of all coordinates' joints
+  double torque_excess = 0.0;            // [N m] worst demand so far above what a motor can give
+  // the controller's tasks, in its order, measured at the plan or at the real robot
+  const std::vector<const Task*>& tasks;
+};
+
+class Supervisor {
+ public:
+  virtual ~Supervisor() = default;
+
+  // qpos (nq) at which a run of this seed starts; `robot` is scratch and stands on the support
+  [[nodiscard]] virtual Vector start(const Plant& plant, Robot& robot, std::uint64_t seed) = 0;
+  // the controller and the world stand there
+  virtual void reset(WholeBodyController& controller, const Robot& world) = 0;
+  // what the operator would command for the next dt [s], (k)
+  virtual const Vector& command(double dt) = 0;
+  // after the tasks were measured at the plan; then again at the real robot
+  virtual void note_commanded(const WholeBodyController& controller, const TickReport& report) = 0;
+  virtual void note_measured(const TickReport& report) = 0;
+  // goes on to the next phase where one is over; false when the last one is
+  virtual bool advance(WholeBodyController& controller, double time) = 0;
+
+  [[nodiscard]] virtual std::vector<std::string> phase_names() const = 0;
+  [[nodiscard]] virtual std::size_t phase() const = 0;
+  [[nodiscard]] virtual const std::vector<Figure>& figures() const = 0;
+  // "" when all went well, else what is missing; asked once, at the end
+  [[nodiscard]] virtual std::string_view verdict() const = 0;
+  virtual void save(StateWriter& writer) const = 0;
+  virtual void restore(StateReader& reader) = 0;
+  // the same for a controller that was cloned from this one's
+  [[nodiscard]] virtual std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const = 0;
+};
+
+}  // namespace hurcules
