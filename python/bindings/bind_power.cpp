@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "hurcules/sim/battery.hpp"
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
 #include "mujoco_pointer.hpp"
 

@@ -95,6 +95,11 @@ std::vector<std::string> level_names(const HeldStack& self) {
 
 }  // namespace
 
+HeldStack hurcules_bindings::stack_of(const py::object& levels) {
+  if (py::isinstance<HeldStack>(levels)) return levels.cast<const HeldStack&>();
+  return make_stack(levels.cast<py::iterable>());
+}
+
 void bind_stack(py::module_& module) {
   py::class_<HeldLevel>(module, "StackLevel", kStackLevel)
       .def(py::init(&make_level), "name"_a, "tasks"_a, "rho"_a = StackLevel::kDefaultRho)

@@ -18,4 +18,7 @@ struct HeldStack {
   std::vector<pybind11::object> kept;
 };
 
+// levels as Stack takes them: a HeldStack, or a sequence of tasks, levels, lists of tasks
+[[nodiscard]] HeldStack stack_of(const pybind11::object& levels);
+
 }  // namespace hurcules_bindings

@@ -85,7 +85,14 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
     const ServoGains& row = row_of(table, actuator.joint);
     taken[i] = true;
     names_.push_back(actuator.joint);
-    motors_.push_back({actuator, coordinate, factor});
+    double squares = factor * factor;
+    if (coordinate >= 0) {
+      squares = 0.0;
+      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(coordinate)].joints) {
+        if (joint.actuator >= 0) squares += joint.factor * joint.factor;
+      }
+    }
+    motors_.push_back({actuator, coordinate, factor, factor / squares});
     drives.push_back({row.inertia, row.bandwidth, actuator.limits.peak});
   };
   for (Index k = 0; k < robot.size(); ++k) {
@@ -101,6 +108,7 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
   }
   pid_ = JointPid(triple_pole(drives, dt));
   error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
+  feed_forward_ = Vector::Zero(size());
   rests_.resize(motors_.size());
   left_.resize(motors_.size(), false);
   bounds_.lower = bounds_.upper = Vector::Zero(robot.size());
@@ -125,14 +133,22 @@ void JointServo::move(Index joint, double position, double velocity) {
   velocity_[joint] = velocity;
 }
 
-void JointServo::release(VectorRef q) {
+void JointServo::release(VectorRef q, VectorRef velocity) {
   for (Index i = coordinate_joints_ - 1; i >= 0; --i) {  // the first joint of a coordinate is last
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     q[motor.coordinate] = position_[i] / motor.factor;
+    velocity[motor.coordinate] = velocity_[i] / motor.factor;
   }
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     offset_[i] = position_[i] - motor.factor * q[motor.coordinate];
+  }
+}
+
+void JointServo::feed_forward(const Vector& efforts) {
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    feed_forward_[i] = motor.share * efforts[motor.coordinate];
   }
 }
 
@@ -147,8 +163,9 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
         motor.factor * q[motor.coordinate] + offset_[i] - state.qpos[motor.actuator.qpos];
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kShare * pid_.options().max_torque[i];
-    const double a = pid_.rate_at(i, error_, -peak) / motor.factor;
-    const double b = pid_.rate_at(i, error_, peak) / motor.factor;
+    const double beside = feed_forward_[i];
+    const double a = pid_.rate_at(i, error_, -peak - beside) / motor.factor;
+    const double b = pid_.rate_at(i, error_, peak - beside) / motor.factor;
     double& lower = bounds_.lower[motor.coordinate];
     double& upper = bounds_.upper[motor.coordinate];
     lower = std::max(lower, std::min(a, b));
@@ -181,9 +198,9 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
     error_.position[i] = position_[i] - state.qpos[motor.qpos];
     error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
     pid_.limit(i, rest.on ? EffortRange{} : status.range);
-    if (rest.over) pid_.take_over(i, error_, status.brake_load);
+    if (rest.over) pid_.take_over(i, error_, status.brake_load - feed_forward_[i]);
   }
-  const Vector& torque = pid_.compute(error_);
+  const Vector& torque = pid_.compute(error_, feed_forward_);
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     if (left_[static_cast<std::size_t>(i)]) continue;
@@ -192,27 +209,26 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   }
 }
 
-void JointServo::reset(const Vector& qpos, const Vector* load) {
+void JointServo::reset(const Vector& qpos) {
   pid_.reset();
-  for (Vector* vector : {&error_.position, &error_.velocity, &velocity_, &offset_}) {
+  for (Vector* vector : {&error_.position, &error_.velocity, &velocity_, &offset_, &feed_forward_}) {
     vector->setZero();
   }
   for (Rest& rest : rests_) rest = {};
   for (Index i = 0; i < size(); ++i) {
     position_[i] = qpos[motors_[static_cast<std::size_t>(i)].actuator.qpos];
-    if (load) pid_.take_over(i, error_, (*load)[i]);
   }
 }
 
 void JointServo::save(StateWriter& writer) const {
   pid_.save(writer);
-  for (const Vector* vector : {&position_, &velocity_, &offset_}) writer.put(*vector);
+  for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_}) writer.put(*vector);
   for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
 }
 
 void JointServo::restore(StateReader& reader) {
   pid_.restore(reader);
-  for (Vector* vector : {&position_, &velocity_, &offset_}) reader.get(*vector);
+  for (Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_}) reader.get(*vector);
   for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
 }
 

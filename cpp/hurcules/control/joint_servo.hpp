@@ -54,17 +54,19 @@ class JointServo {
   void move(Index joint, double position, double velocity);
   // an actuator that somebody else commands from now on: no control is written for it
   void leave(Index joint) { left_[static_cast<std::size_t>(joint)] = true; }
-  // from here on a coordinate's joints keep the distance from it that they have now; q (n) is set to
-  // the places of the first joints
-  void release(VectorRef q);
+  // from here on a coordinate's joints keep the distance from it that they have now; q and velocity
+  // (n) are set to those of the first joints
+  void release(VectorRef q, VectorRef velocity);
   // velocities of the coordinates from this reference on at which no motor is asked for more than
   // its peak; no side where it rests behind a brake, the middle where two joints of one coordinate
   // exclude each other
   const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state);
+  // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
+  void feed_forward(const Vector& efforts);
   // writes the controls of its actuators, ctrl (nu)
   void compute(const RobotState& state, VectorRef ctrl);
-  // at rest at a configuration (nq); load (m) [N m]: what the joints bear there, null for nothing
-  void reset(const Vector& qpos, const Vector* load = nullptr);
+  // at rest at a configuration (nq), without memory and feed-forward
+  void reset(const Vector& qpos);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }  // of joints, (m)
   [[nodiscard]] Index size() const { return pid_.size(); }                        // m
@@ -93,6 +95,7 @@ class JointServo {
     JointActuator actuator;
     Index coordinate = -1;  // -1: holds its place
     double factor = 1.0;    // joint = factor * coordinate
+    double share = 1.0;     // of the coordinate's effort
   };
   struct Rest {
     bool on = false;    // the brake holds, the motor is without power
@@ -107,6 +110,7 @@ class JointServo {
   JointError error_;
   VelocityBounds bounds_;       // (n)
   Vector position_, velocity_;  // (m) reference
+  Vector feed_forward_;         // [N m] (m)
   Vector offset_;               // [rad] (m) of a joint against its coordinate
   std::vector<Rest> rests_;     // (m)
   std::vector<bool> left_;      // (m) to somebody else

@@ -26,7 +26,7 @@ void require_distinct(const std::vector<Named>& all, const char* kind) {
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
   options.velocity.dt = options.acceleration.dt = options.dt;
   if (options.servo.empty()) options.servo = default_servo_gains(robot, options.dt);
-  if (options.support.empty()) options.support = robot.support();
+  if (options.support.empty()) options.support = robot.support_name();
   if (options.drive) options.drive->drive.dt = options.dt;
   return options;
 }
@@ -57,8 +57,8 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
       servo_(robot, options_.servo, options_.dt) {
   require(!stacks_.empty(), "a controller wants at least one stack");
   plan_.set_qpos(robot.qpos());
-  if (plan_.root_qpos() >= 0) plan_.stand_on(options_.support);
-  support_ = plan_.frame(options_.support);
+  if (!options_.support.empty()) plan_.stand_on(options_.support);
+  support_ = plan_.support();
   if (options_.drive) {
     drive_.emplace(plan_, *options_.drive);
     servo_.leave(servo_.find(options_.drive->left));
@@ -81,7 +81,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
     scale_.segment(row, channel.size()) = channel.scale();
     row += channel.size();
   }
-  q_ = qd_ = held_back_ = wished_ = Vector::Zero(plan_.size());
+  q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
   delta_ = Vector::Zero(scale_.size());
   reset(robot.qpos());
 }
@@ -183,29 +183,30 @@ void WholeBodyController::reset(const Vector& qpos) {
   command_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = false;
-  for (Task* const task : tasks_) task->hold(plan_);
+  hold_targets();
   for (const auto& law : laws_) law->reset();
   if (drive_) drive_->reset();
-  if (!options_.preload) return servo_.reset(start_);
-  // what the joints of a coordinate bear together, shared out by their factors
-  Vector efforts(plan_.size()), load = Vector::Zero(servo_.size());
-  plan_.inverse_dynamics(Vector::Zero(plan_.size()), efforts);
-  for (Index i = 0; i < servo_.coordinate_joints(); ++i) {
-    const Index k = servo_.coordinate_of(i);
-    double squares = 0.0, factor = 1.0;
-    for (const DrivenJoint& joint : plan_.coordinates()[static_cast<std::size_t>(k)].joints) {
-      squares += joint.factor * joint.factor;
-      if (joint.joint == servo_.actuator(i).joint_id) factor = joint.factor;
-    }
-    load[i] = efforts[k] * factor / squares;
-  }
-  servo_.reset(start_, &load);
+  last_qd_.setZero();
+  servo_.reset(start_);
+  feed_forward();
+}
+
+void WholeBodyController::hold_targets() {
+  for (Task* const task : tasks_) task->hold(plan_);
+}
+
+// what the plan takes at q*, qdot* and its change since the last tick
+void WholeBodyController::feed_forward() {
+  if (!options_.feed_forward) return;
+  qdd_ = (qd_ - last_qd_) / dt();
+  last_qd_ = qd_;
+  plan_.set_velocity(qd_);
+  plan_.inverse_dynamics(qdd_, efforts_);
+  servo_.feed_forward(efforts_);
 }
 
 void WholeBodyController::use(const std::string& name) {
-  std::vector<std::string> names;
   for (std::size_t i = 0; i < stacks_.size(); ++i) {
-    names.push_back(stacks_[i].name);
     if (stacks_[i].name != name) continue;
     if (i == active_ && !moves_joints_) return;
     active_ = i;
@@ -213,23 +214,18 @@ void WholeBodyController::use(const std::string& name) {
     laws_[active_]->take_over(qd_);
     return;
   }
+  std::vector<std::string> names;
+  for (const NamedStack& stack : stacks_) names.push_back(stack.name);
   throw Error(unknown_name("stack", name, names));
 }
 
 // from joints that were moved one by one: the plan stands where they are, the tasks hold there
 void WholeBodyController::take_over() {
   moves_joints_ = false;
-  servo_.release(q_);
-  for (Index i = servo_.coordinate_joints() - 1; i >= 0; --i) {
-    const Index k = servo_.coordinate_of(i);
-    for (const DrivenJoint& joint : plan_.coordinates()[static_cast<std::size_t>(k)].joints) {
-      if (joint.joint == servo_.actuator(i).joint_id) qd_[k] = servo_.velocity()[i] / joint.factor;
-    }
-  }
   plan_.set_qpos(ahead_);
   plan_.set_configuration(q_);
   start_ = plan_.qpos();
-  for (Task* const task : tasks_) task->hold(plan_);
+  hold_targets();
 }
 
 void WholeBodyController::move(const std::string& joint, double position, double velocity) {
@@ -376,7 +372,13 @@ void WholeBodyController::hold() {
 
 // torques  [T A.2.12]
 void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
-  if (!moves_joints_) servo_.follow(q_, qd_);
+  if (moves_joints_) {
+    servo_.release(q_, qd_);
+    plan_.set_configuration(q_);
+  } else {
+    servo_.follow(q_, qd_);
+  }
+  feed_forward();
   servo_.compute(state, ctrl);
   if (drive_) drive_->compute(state, ctrl);
 }
@@ -393,7 +395,7 @@ void WholeBodyController::compute(const RobotState& state, const Vector* command
 void WholeBodyController::save(StateWriter& writer) const {
   writer.put(static_cast<double>(active_));
   writer.put(moves_joints_ ? 1.0 : 0.0);
-  for (const Vector* vector : {&start_, &ahead_, &q_, &qd_, &held_back_, &command_}) {
+  for (const Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     writer.put(*vector);
   }
   for (const Task* task : tasks_) task->save(writer);
@@ -406,7 +408,7 @@ void WholeBodyController::save(StateWriter& writer) const {
 void WholeBodyController::restore(StateReader& reader) {
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
-  for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &held_back_, &command_}) {
+  for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     reader.get(*vector);
   }
   for (Task* task : tasks_) task->restore(reader);

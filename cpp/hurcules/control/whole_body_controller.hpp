@@ -52,7 +52,9 @@ struct WholeBodyControllerOptions {
   std::string support = "";                    // body that stands, "" for the root
   BaseSource base = BaseSource::Held;
   std::vector<ServoGains> servo = {};          // none: default_servo_gains
-  bool preload = true;                         // servos start with what the joints bear at rest
+  // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
+  // whatever the robot carries is a disturbance to them.
+  bool feed_forward = true;
   std::optional<TrackDriveOptions> drive = {};  // tracks, where a Drive channel is to move them
 };
 
@@ -72,6 +74,8 @@ class WholeBodyController {
 
   // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold.
   void reset(const Vector& qpos);
+  // the targets of all tasks come to where the plan is
+  void hold_targets();
   // which stack rules from the next tick on; throws Error with the names that exist
   void use(const std::string& stack);
   // where a joint with an actuator shall be in this tick [rad], [rad/s]; no stack rules until `use`
@@ -133,6 +137,7 @@ class WholeBodyController {
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
   void read_forces(const RobotState& state);
   void take_over();
+  void feed_forward();
 
   WholeBodyControllerOptions options_;
   Robot plan_;
@@ -155,6 +160,7 @@ class WholeBodyController {
   Vector ahead_;         // (nq) scratch
   Vector wished_;        // (n) scratch
   Vector delta_;         // scratch
+  Vector last_qd_, qdd_, efforts_;  // (n) for the feed-forward
   Frame support_;
   std::vector<double> scratch_;
 };

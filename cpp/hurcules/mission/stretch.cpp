@@ -83,7 +83,7 @@ std::shared_ptr<WholeBodyController> Stretch::make_controller(const Robot& robot
   whole.support = setup_of().support;
   whole.base = options.base;
   whole.servo = setup_of().servo;
-  whole.preload = false;  // the arms find their rest while the mission settles
+  whole.feed_forward = false;  // the thesis' servos know no model
   auto controller = std::make_shared<WholeBodyController>(
       robot, std::vector<NamedStack>{{"stretch", stack}}, std::move(channels), std::move(whole));
   controller->keep(std::move(joint));

@@ -84,8 +84,12 @@ double Robot::timestep() const {
   return model_->opt.timestep;
 }
 
-std::string Robot::support() const {
-  const char* const name = mj_id2name(model_.get(), mjOBJ_BODY, support_ < 0 ? tree_ : support_);
+Frame Robot::support() const {
+  return {mjOBJ_BODY, support_ < 0 ? tree_ : support_};
+}
+
+std::string Robot::support_name() const {
+  const char* const name = support_ < 0 ? nullptr : mj_id2name(model_.get(), mjOBJ_BODY, support_);
   return name ? name : "";
 }
 

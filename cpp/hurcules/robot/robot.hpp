@@ -84,7 +84,8 @@ class Robot {
   [[nodiscard]] int root_dof() const { return root_dof_; }
   [[nodiscard]] int root_body() const { return tree_; }  // of the coordinates' tree
   // the body that stands where it is: that of stand_on, else the root
-  [[nodiscard]] std::string support() const;
+  [[nodiscard]] Frame support() const;
+  [[nodiscard]] std::string support_name() const;  // that of stand_on, "" for the root
   [[nodiscard]] Index size() const { return static_cast<Index>(coordinates_.size()); }  // n
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] std::vector<std::string> coordinate_names() const;

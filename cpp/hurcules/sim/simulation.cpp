@@ -68,7 +68,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       seen_qpos_(world_.qpos()),
       seen_qvel_(Vector::Zero(plant_.model()->nv)),
       wished_(Vector::Zero(world_.size())),
-      support_(world_.frame(controller_->options().support)) {
+      support_(controller_->plan().support()) {
   if (!options_.fall.frame.empty()) fall_frame_ = world_.frame(options_.fall.frame);
   if (mj_name2id(plant_.model(), mjOBJ_SITE, "casualty_chest") >= 0) {
     target_ = world_.frame("casualty_chest");
@@ -347,7 +347,9 @@ void Simulation::place(std::uint64_t seed) {
   Vector start = initial_qpos_;
   if (supervisor_) {
     Robot robot(plant_.model_ptr(), world_.coordinate_names());
-    if (robot.root_qpos() >= 0) robot.stand_on(controller_->options().support);
+    if (const std::string& support = controller_->options().support; !support.empty()) {
+      robot.stand_on(support);
+    }
     start = supervisor_->start(plant_, robot, seed);
   }
   plant_.reset(-1);

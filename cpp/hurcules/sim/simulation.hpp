@@ -59,6 +59,7 @@ class Simulation {
   // The same loop in the same state, with data, controller and supervisor of its own; `model` may
   // differ in its numbers, null: this one's. It records nothing.
   [[nodiscard]] std::unique_ptr<Simulation> clone(ModelPtr model = nullptr) const;
+  virtual ~Simulation() = default;
 
   // up to n ticks of the controller; fewer when the run ends. command (k) in SI, held to its scale;
   // null: the supervisor's own operator, and without one all targets hold

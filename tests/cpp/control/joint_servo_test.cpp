@@ -133,20 +133,21 @@ TEST_F(JointServoTest, MakesAPositionServoGiveTheTorqueOfAMotor) {
 TEST_F(JointServoTest, GoesOnWhereAJointWasMovedByItself) {
   servo_.move(servo_.find("left"), 0.4, 0.1);
   servo_.move(servo_.find("right"), -0.5, -0.3);  // factor -2: 0.3 from its coordinate
-  Vector q = Vector::Zero(2);
-  servo_.release(q);
+  Vector q = Vector::Zero(2), qd = q;
+  servo_.release(q, qd);
   EXPECT_EQ(q[0], 0.4);
+  EXPECT_EQ(qd[0], 0.1);
   servo_.follow(q, Vector::Zero(2));
   EXPECT_NEAR(servo_.position()[1], -0.5, 1e-15);
   servo_.follow(q + Eigen::Vector2d(0.1, 0.0), Vector::Zero(2));
   EXPECT_NEAR(servo_.position()[1], -0.7, 1e-15);
 }
 
-TEST_F(JointServoTest, StartsWithTheLoadThatTheJointsBear) {
-  const Vector load = Vector::LinSpaced(4, 1.0, 4.0);
-  servo_.reset(Vector::Zero(robot_.model()->nq), &load);
+TEST_F(JointServoTest, SharesOutWhatAModelTells) {
+  servo_.feed_forward(Eigen::Vector2d(5.0, 3.0));
   act(0.0, 0.0);
-  EXPECT_TRUE(near(servo_.torque(), load, 1e-12));
+  // the wheels' factors are 1 and -2: 1 * 1 N m + (-2) * (-2 N m) = 5 N m
+  EXPECT_TRUE(near(servo_.torque(), (Vector(4) << 1.0, -2.0, 3.0, 0.0).finished(), 1e-12));
 }
 
 TEST(DefaultServoGains, CoverTheInertiasOfTheRanges) {

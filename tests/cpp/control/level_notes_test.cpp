@@ -56,7 +56,7 @@ class Notes : public testing::Test {
   JointLimits limits_{"limits", robot_};
   PositionTask hand_{"left hand", robot_, "tip", plane()};
   PostureTask posture_{"posture", robot_};
-  VelocityController controller_{robot_};
+  VelocityController controller_{robot_, {.enforce_limits = false}};
 };
 
 TEST_F(Notes, SayNothingWhereAllIsWell) {

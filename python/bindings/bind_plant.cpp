@@ -7,7 +7,7 @@
 #include <string>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/sim/physics.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "mujoco_pointer.hpp"
 #include "state.hpp"
 
@@ -16,11 +16,11 @@ using namespace pybind11::literals;
 using namespace hurcules;
 using namespace hurcules_bindings;
 
-void bind_physics(py::module_& module);
+void bind_plant(py::module_& module);
 
 namespace {
 
-constexpr const char* kPhysics =
+constexpr const char* kPlant =
     R"(MuJoCo's physics with what the robot adds: traction of tracks, brakes, limits of its drives.
 
 Controls are written to data.ctrl as ever; the model is left as it is.
@@ -53,7 +53,7 @@ constexpr const char* kBrakes =
     R"(Magnetic brakes in the drives of the joints: closed they hold without power.
 
 A brake is dry friction of 1.2 times the motor's peak torque; beyond that it slips. It takes 0.05 s
-to open or close. Made by Physics.
+to open or close. Made by Plant.
 )";
 constexpr const char* kSetClosed = R"(Closes or opens one brake.
 
@@ -83,7 +83,7 @@ Returns:
   Lowest and highest torque at the joint [N m].
 )";
 
-py::tuple effort_range(const Physics& self, const std::string& joint, double speed) {
+py::tuple effort_range(const Plant& self, const std::string& joint, double speed) {
   const int actuator = self.brakes().find(joint);
   require(self.drive_train().exists(actuator), "joint '" + joint + "' has no transmission");
   const EffortRange range = self.drive_train().range(actuator, speed);
@@ -91,7 +91,7 @@ py::tuple effort_range(const Physics& self, const std::string& joint, double spe
 }
 
 // in pieces, so that Ctrl-C is heard
-int step_physics(Physics& self, int n) {
+int step_physics(Plant& self, int n) {
   require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
   constexpr int kPiece = 500;
   int done = 0;
@@ -115,7 +115,7 @@ auto by_joint(Result (Brakes::*question)(int) const) {
 
 }  // namespace
 
-void bind_physics(py::module_& module) {
+void bind_plant(py::module_& module) {
   py::class_<Brakes>(module, "Brakes", kBrakes)
       .def_property_readonly("names", &Brakes::names, "joints that have a brake")
       .def(
@@ -132,30 +132,30 @@ void bind_physics(py::module_& module) {
            "[N m] or [N] that brake and friction bore in the last step, in the joint's direction")
       .def("max_load", by_joint(&Brakes::max_load), "joint"_a, "[N m] or [N] at which it slips")
       .def_property_readonly("power", &Brakes::power, "[W] of the coils of those held open");
-  py::class_<Physics>(module, "Physics", kPhysics)
+  py::class_<Plant>(module, "Plant", kPlant)
       .def(py::init([](const py::object& model, const py::object& data) {
              const Scene scene = scene_of(model, data);
-             return std::make_unique<Physics>(borrow_model(scene.model), scene.data);
+             return std::make_unique<Plant>(borrow_model(scene.model), scene.data);
            }),
            "model"_a, "data"_a, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
       .def("step", &step_physics, "n"_a = 1, kStep)
       .def(
           "reset",
-          [](Physics& self, const std::string& keyframe) {
+          [](Plant& self, const std::string& keyframe) {
             self.reset(self.find_keyframe(keyframe));
           },
           "keyframe"_a, kReset)
-      .def("state", &state<Physics>, kState)
-      .def("restore", &restore<Physics>, "state"_a, kRestore)
+      .def("state", &state<Plant>, kState)
+      .def("restore", &restore<Plant>, "state"_a, kRestore)
       .def(
           "ratio",
-          [](const Physics& self, const std::string& joint) {
+          [](const Plant& self, const std::string& joint) {
             return self.drive_train().ratio(self.brakes().find(joint));
           },
           "joint"_a, kRatio)
       .def("effort_range", &effort_range, "joint"_a, "speed"_a, kEffortRange)
-      .def_property_readonly("is_sound", &Physics::is_sound, kIsSound)
+      .def_property_readonly("is_sound", &Plant::is_sound, kIsSound)
       .def_property_readonly(
-          "brakes", [](Physics& self) -> Brakes& { return self.brakes(); },
+          "brakes", [](Plant& self) -> Brakes& { return self.brakes(); },
           py::return_value_policy::reference_internal);
 }

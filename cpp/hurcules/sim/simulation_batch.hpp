@@ -1,0 +1,58 @@
+// Many simulations on a pool of threads: one call steps them all.
+//
+// Each has a controller and data of its own and shares nothing but the model, which nobody writes;
+// with models of their own (randomised masses, say) not even that. The bits of each are those that
+// it has alone, whatever the number of threads.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "hurcules/sim/simulation.hpp"
+
+namespace hurcules {
+
+class SimulationBatch {
+ public:
+  // Copies of a simulation in its present state. models: none to share its model, else one each,
+  // of the same names and shapes. threads: 0 for one a processor. Throws Error for n < 1 and models
+  // that do not fit.
+  SimulationBatch(const Simulation& original, std::size_t n, int threads = 0,
+                  const std::vector<ModelPtr>& models = {});
+  ~SimulationBatch();
+  SimulationBatch(const SimulationBatch&) = delete;
+  SimulationBatch& operator=(const SimulationBatch&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return simulations_.size(); }
+  [[nodiscard]] std::size_t threads() const { return workers_.size() + 1; }
+  [[nodiscard]] Simulation& operator[](std::size_t i) { return *simulations_[i]; }
+  [[nodiscard]] const Simulation& operator[](std::size_t i) const { return *simulations_[i]; }
+
+  // each up to this many ticks with its row of commands (n, k), null for none; those that are
+  // finished stand still. mask (n): which are stepped, null for all
+  void step(int ticks, const Matrix* commands = nullptr, const std::vector<bool>* mask = nullptr);
+  // runs work(i) for each i on the pool; throws what the first failing one threw
+  void for_each(const std::function<void(std::size_t)>& work);
+
+ private:
+  void work();
+  void take_jobs();
+
+  std::vector<std::unique_ptr<Simulation>> simulations_;
+  std::vector<Vector> commands_;  // (n) of (k)
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  const std::function<void(std::size_t)>* job_ = nullptr;
+  std::size_t round_ = 0, busy_ = 0;
+  std::atomic<std::size_t> next_ = 0;
+  std::exception_ptr thrown_;
+  bool ends_ = false;
+  std::vector<std::thread> workers_;
+};
+
+}  // namespace hurcules

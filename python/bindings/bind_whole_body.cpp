@@ -1,0 +1,345 @@
+// control: the whole-body controller and its channels.
+#include <mujoco/mujoco.h>
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bind_stack.hpp"
+#include "hurcules/base/error.hpp"
+#include "hurcules/control/whole_body_controller.hpp"
+#include "solver_levels.hpp"
+#include "state.hpp"
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+using namespace hurcules;
+using namespace hurcules_bindings;
+
+void bind_whole_body(py::module_& module);
+
+namespace {
+
+constexpr const char* kTwistChannel =
+    R"(A channel that leads the target of a task by a velocity; zero holds it.
+
+Args:
+  task: Task with a target.
+  scale: full scale, one number or one a row [m/s] or [rad/s]; a command is held to it.
+)";
+constexpr const char* kDeltaChannel =
+    R"(A channel that puts the target of a task at its measured value plus an increment.
+
+It acts once a call of `step`; zero leaves the target where it is.
+
+Args:
+  task: Task with a target.
+  scale: full scale [m] or [rad].
+)";
+constexpr const char* kTargetChannel = R"(A channel that sets the target of a task.
+
+It acts once a call of `step`. An orientation is given as a rotation vector.
+
+Args:
+  task: Task whose target is a list of numbers, or OrientationTask.
+  scale: largest magnitude [m] or [rad].
+)";
+constexpr const char* kForceChannel = R"(A channel that sets the force that a ForceTask keeps.
+
+Args:
+  task: ForceTask.
+  scale: largest magnitude [N].
+)";
+constexpr const char* kDriveChannel = R"(A channel that drives the tracks: speed and yaw rate.
+
+Args:
+  speed: full scale [m/s].
+  yaw_rate: full scale [rad/s].
+)";
+constexpr const char* kJointChannel =
+    R"(A channel that moves a joint of no coordinate (a gripper, a bed) by a velocity.
+
+Args:
+  joint: name of a joint with an actuator.
+  scale: full scale [rad/s] or [m/s].
+)";
+constexpr const char* kController =
+    R"(The controller of a whole robot: named commands in, controls of the actuators out.
+
+Each tick: the command moves the targets; the tasks are measured at the plan, a robot that stands at
+the reference; the hierarchy is solved; the reference follows; the servos follow the reference.
+Position, velocity and acceleration limits of all coordinates come before every level.
+
+Args:
+  robot: Robot where it starts; any MJCF robot.
+  levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
+  channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate.
+  stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
+    first one rules at the start if no `levels` are given.
+  law: "velocity" or "acceleration", of `levels`.
+  dt: control period [s]; by default the time step of the model.
+  base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
+    now: targets in the world stay where they are while the robot drives).
+  support: body that stands on the ground; by default the robot's own, see Robot.stand_on.
+  servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
+    default reckoned from the model.
+  feed_forward: servos are told the torques that the model says.
+  drive: DriveOptions of a robot on tracks; needed for a Drive channel.
+  belts: names of the left and right joint of the driven belts.
+  velocity: VelocityControllerOptions; its dt is not read.
+  acceleration: AccelerationControllerOptions; its dt is not read.
+
+Raises:
+  Error: no level, an unknown name, a joint that cannot be servoed; the text says which.
+)";
+constexpr const char* kUse = R"(Lets another stack rule from the next tick on.
+
+The velocity goes on within the acceleration limit, the servos keep their integrals. After joints
+were moved one by one, all targets come to where the plan is.
+
+Args:
+  stack: its name.
+
+Raises:
+  Error: an unknown name, with those that exist.
+)";
+constexpr const char* kMove = R"(Where a joint shall be in the next tick; no stack rules until `use`.
+
+Args:
+  joint: name of a joint with an actuator.
+  position: [rad] or [m].
+  velocity: [rad/s] or [m/s].
+)";
+constexpr const char* kSense = R"(What a force task reads, each tick.
+
+Args:
+  task: ForceTask of the controller.
+  source: SpringForce, or the name of a sensor of the model.
+  row: of the sensor.
+  sign: of the sensor: its reading times this is what the robot exerts along the task's axis.
+
+Raises:
+  Error: an unknown sensor.
+)";
+
+struct ChannelSpec {
+  ChannelKind kind;
+  py::object task = py::none();
+  Vector scale;
+  std::string joint = {};
+};
+
+Vector scale_of(const py::object& scale) {
+  if (py::isinstance<py::float_>(scale) || py::isinstance<py::int_>(scale)) {
+    return Vector::Constant(1, scale.cast<double>());
+  }
+  return scale.cast<Vector>();
+}
+
+template <ChannelKind kind>
+ChannelSpec task_channel(const py::object& task, const py::object& scale) {
+  require(py::isinstance<Task>(task),
+          "a channel wants a task, a " +
+              std::string(py::str(py::type::of(task).attr("__name__"))) + " came");
+  return {kind, task, scale_of(scale)};
+}
+
+Channel channel_of(const std::string& name, const ChannelSpec& spec) {
+  if (spec.kind == ChannelKind::Drive) return Channel::drive(name, spec.scale[0], spec.scale[1]);
+  if (spec.kind == ChannelKind::Joint) return Channel::joint(name, spec.joint, spec.scale[0]);
+  return {name, spec.kind, *spec.task.cast<Task*>(), spec.scale};
+}
+
+Law law_of(const std::string& name) {
+  if (name == "velocity") return Law::Velocity;
+  if (name == "acceleration") return Law::Acceleration;
+  throw Error(unknown_name("law", name, {"acceleration", "velocity"}));
+}
+
+BaseSource base_of(const std::string& name) {
+  if (name == "held") return BaseSource::Held;
+  if (name == "sensed") return BaseSource::Sensed;
+  throw Error(unknown_name("base", name, {"held", "sensed"}));
+}
+
+// the controller, and the Python objects that its tasks live in
+struct Held {
+  std::vector<py::object> kept;
+  std::unique_ptr<WholeBodyController> controller;
+};
+
+std::shared_ptr<WholeBodyController> make(
+    const Robot& robot, const std::optional<py::object>& levels,
+    const py::dict& channels, const py::dict& stacks, const std::string& law, std::optional<double> dt, const std::string& base,
+    const std::string& support, const std::map<std::string, std::pair<double, double>>& servo,
+    bool feed_forward, const std::optional<DriveOptions>& drive,
+    const std::pair<std::string, std::string>& belts,
+    const std::optional<VelocityControllerOptions>& velocity,
+    const std::optional<AccelerationControllerOptions>& acceleration) {
+  auto held = std::make_shared<Held>();
+  std::vector<NamedStack> all;
+  const auto add = [&](const std::string& name, const py::object& source, Law how) {
+    HeldStack stack = stack_of(source);
+    all.push_back({name, stack.stack, how});
+    for (py::object& object : stack.kept) held->kept.push_back(std::move(object));
+  };
+  if (levels && !levels->is_none()) add("stack", *levels, law_of(law));
+  for (const auto& [name, source] : stacks) {
+    const auto object = py::reinterpret_borrow<py::object>(source);
+    if (py::isinstance<py::tuple>(object) && py::len(object) == 2 &&
+        py::isinstance<py::str>(object[py::int_(1)])) {
+      add(name.cast<std::string>(), object[py::int_(0)],
+          law_of(object[py::int_(1)].cast<std::string>()));
+    } else {
+      add(name.cast<std::string>(), object, Law::Velocity);
+    }
+  }
+  std::vector<Channel> made;
+  for (const auto& [name, spec] : channels) {  // in the order in which they were written
+    const auto text = name.cast<std::string>();
+    require(py::isinstance<ChannelSpec>(spec),
+            "channel '" + text + "' wants Twist, Delta, Target, ForceReference, Drive or JointRate");
+    made.push_back(channel_of(text, spec.cast<const ChannelSpec&>()));
+  }
+  WholeBodyControllerOptions options;
+  if (velocity) options.velocity = *velocity;
+  if (acceleration) options.acceleration = *acceleration;
+  options.dt = dt.value_or(robot.timestep());
+  options.base = base_of(base);
+  options.support = support;
+  options.feed_forward = feed_forward;
+  for (const auto& [joint, row] : servo) options.servo.push_back({joint, row.first, row.second});
+  if (drive) options.drive = TrackDriveOptions{belts.first, belts.second, *drive};
+  held->controller = std::make_unique<WholeBodyController>(robot, std::move(all), std::move(made),
+                                                           std::move(options));
+  return {held, held->controller.get()};
+}
+
+void sense(WholeBodyController& self, ForceTask& task, const py::object& source, int row,
+           double sign) {
+  if (py::isinstance<SpringForce>(source)) {
+    return self.sense(task, std::make_unique<SpringForce>(source.cast<const SpringForce&>()));
+  }
+  const auto name = source.cast<std::string>();
+  const mjModel* const m = self.plan().model().get();
+  const int sensor = mj_name2id(m, mjOBJ_SENSOR, name.c_str());
+  std::vector<std::string> names;
+  for (int i = 0; i < m->nsensor; ++i) {
+    const char* const one = mj_id2name(m, mjOBJ_SENSOR, i);
+    names.emplace_back(one ? one : "");
+  }
+  if (sensor < 0) throw Error(unknown_name("sensor", name, names));
+  require(row >= 0 && row < m->sensor_dim[sensor], "sensor '" + name + "' has " +
+                                                       std::to_string(m->sensor_dim[sensor]) +
+                                                       " rows, row " + std::to_string(row) +
+                                                       " was asked for");
+  self.sense(task, m->sensor_adr[sensor] + row, sign);
+}
+
+void bind_channels(py::module_& module) {
+  py::class_<ChannelSpec>(module, "Channel", "What a command moves; see Twist and the others.")
+      .def_property_readonly("scale", [](const ChannelSpec& self) { return self.scale; })
+      .def_property_readonly("task", [](const ChannelSpec& self) { return self.task; });
+  const double none = std::numeric_limits<double>::infinity();
+  module.def("Twist", &task_channel<ChannelKind::Twist>, "task"_a, "scale"_a, kTwistChannel);
+  module.def("Delta", &task_channel<ChannelKind::Delta>, "task"_a, "scale"_a, kDeltaChannel);
+  module.def("Target", &task_channel<ChannelKind::Target>, "task"_a, "scale"_a = py::float_(none),
+             kTargetChannel);
+  module.def("ForceReference", &task_channel<ChannelKind::Force>, "task"_a, "scale"_a,
+             kForceChannel);
+  module.def(
+      "Drive",
+      [](double speed, double yaw_rate) {
+        return ChannelSpec{ChannelKind::Drive, py::none(), Eigen::Vector2d(speed, yaw_rate)};
+      },
+      "speed"_a, "yaw_rate"_a, kDriveChannel);
+  module.def(
+      "JointRate",
+      [](const std::string& joint, double scale) {
+        return ChannelSpec{ChannelKind::Joint, py::none(), Vector::Constant(1, scale), joint};
+      },
+      "joint"_a, "scale"_a, kJointChannel);
+}
+
+std::vector<std::pair<std::string, Index>> sizes(const WholeBodyController& self) {
+  std::vector<std::pair<std::string, Index>> all;
+  for (const Channel& channel : self.channels()) all.emplace_back(channel.name(), channel.size());
+  return all;
+}
+
+}  // namespace
+
+void bind_whole_body(py::module_& module) {
+  bind_channels(module);
+  py::class_<WholeBodyController, std::shared_ptr<WholeBodyController>> controller(
+      module, "WholeBodyController", kController);
+  controller.def(
+      py::init(&make),
+      "robot"_a, "levels"_a = py::none(), "channels"_a = py::dict(), py::kw_only(),
+      "stacks"_a = py::dict(), "law"_a = "velocity", "dt"_a = py::none(), "base"_a = "held",
+      "support"_a = "", "servo"_a = std::map<std::string, std::pair<double, double>>{},
+      "feed_forward"_a = true, "drive"_a = py::none(),
+      "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
+      "velocity"_a = py::none(), "acceleration"_a = py::none());
+  const auto solution = [](const WholeBodyController& self) { return self.law().solution(); };
+  const auto active = [](const WholeBodyController& self) -> std::optional<std::string> {
+    if (self.moves_joints()) return std::nullopt;
+    return self.stacks()[self.active()].name;
+  };
+  const auto names = [](const WholeBodyController& self) {
+    std::vector<std::string> all;
+    for (const NamedStack& stack : self.stacks()) all.push_back(stack.name);
+    return all;
+  };
+  const auto drive = [](WholeBodyController& self) -> DriveController* {
+    return self.drive() ? &self.drive()->controller() : nullptr;
+  };
+  const auto joints = [](const WholeBodyController& self) { return self.servo().names(); };
+  const auto copy = py::return_value_policy::copy;
+  controller.def("use", &WholeBodyController::use, "stack"_a, kUse)
+      .def("move", &WholeBodyController::move, "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
+      .def("hold_targets", &WholeBodyController::hold_targets,
+           "The targets of all tasks come to where the plan is.")
+      .def("sense", &sense, "task"_a, "source"_a, "row"_a = 0, "sign"_a = 1.0,
+           py::keep_alive<1, 2>(), kSense)
+      .def("state", &state<WholeBodyController>, kState)
+      .def("restore", &restore<WholeBodyController>, "state"_a, kRestore)
+      .def("diagnostics",
+           [](const WholeBodyController& self) { return self.law().diagnostics(self.plan()); },
+           "What each level falls short of and why: list of LevelNote, decreasing priority.")
+      .def_property_readonly("dt", &WholeBodyController::dt, "[s]")
+      .def_property_readonly("plan", &WholeBodyController::plan,
+                             py::return_value_policy::reference_internal,
+                             "Robot at the reference; look at it, but do not move it")
+      .def_property_readonly("channels", &sizes, "list of (name, number of values)")
+      .def_property_readonly("command_names", &WholeBodyController::command_names, copy,
+                             "(k,) of all values of all channels")
+      .def_property_readonly("command_scale", &WholeBodyController::scale, copy, "(k,) SI")
+      .def_property_readonly("command", &WholeBodyController::command, copy,
+                             "(k,) the last one, as held to scale")
+      .def_property_readonly("stacks", names, "names of the stacks")
+      .def_property_readonly("active", active, "the stack that rules; None while joints are moved")
+      .def_property_readonly("joints", joints, "(m,) joints with a servo")
+      .def_property_readonly("q_des", &WholeBodyController::q_des, copy, "(n,) [rad] reference")
+      .def_property_readonly("qd_des", &WholeBodyController::qd_des, copy, "(n,) [rad/s]")
+      .def_property_readonly("scaled", &WholeBodyController::scaled,
+                             "the last tick was slowed down by what the motors can hold")
+      .def_property_readonly(
+          "active_limits",
+          [](const WholeBodyController& self) { return self.law().active_limits(); },
+          "(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one")
+      .def_property_readonly("solution", solution, "ControlSolution, of the last tick")
+      .def_property_readonly("drive", drive, py::return_value_policy::reference_internal,
+                             "DriveController of the tracks, None without")
+      .def("__repr__", [](const WholeBodyController& self) {
+        std::string text = "WholeBodyController(" + self.law().stack().text() + "; channels:";
+        for (const Channel& channel : self.channels()) text += " " + channel.name();
+        return text + ")";
+      });
+}

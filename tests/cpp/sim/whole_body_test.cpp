@@ -1,0 +1,268 @@
+// Strategy: a fixed three-joint arm with motors, made of text, in the physics: the loop without a
+// mission. What it does in the end, sameness of bits, hand-over, what is refused.
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "hurcules/sim/simulation_batch.hpp"
+#include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/position_task.hpp"
+#include "hurcules/tasks/posture_task.hpp"
+#include "support/expect.hpp"
+#include "support/no_allocation.hpp"
+
+namespace {
+
+using namespace hurcules;
+using namespace hurcules_test;
+
+// an arm of 2 kg links under gravity, a finger that no coordinate moves
+std::string arm(const std::string& actuators) {
+  return R"(<mujoco><compiler angle="radian"/><option timestep="0.002" integrator="implicitfast"/>
+  <default><joint axis="0 1 0" armature="0.05" damping="0.5" range="-2.5 2.5"/>
+    <geom type="capsule" size="0.04" fromto="0 0 0 0.4 0 0" mass="2"/></default>
+  <worldbody><body pos="0 0 1"><joint name="j1"/><geom/>
+    <body pos="0.4 0 0"><joint name="j2"/><geom/>
+      <body pos="0.4 0 0"><joint name="j3"/><geom/><site name="tip" pos="0.4 0 0"/>
+        <body pos="0.4 0 0"><joint name="finger" type="slide" axis="1 0 0" range="0 0.05"/>
+          <geom fromto="0 0 0 0.02 0 0" size="0.01" mass="0.1"/></body>
+      </body></body></body></worldbody>
+  <actuator>)" + actuators +
+         R"(</actuator><keyframe><key name="bent" qpos="0.3 0.8 -0.6 0"/></keyframe></mujoco>)";
+}
+
+const char* const kMotors =
+    R"(<motor joint="j1" forcerange="-200 200"/><motor joint="j2" forcerange="-200 200"/>
+       <motor joint="j3" forcerange="-100 100"/><motor joint="finger" forcerange="-20 20"/>)";
+const char* const kServos =
+    R"(<position joint="j1" kp="2000" kv="100"/><position joint="j2" kp="2000" kv="100"/>
+       <position joint="j3" kp="1000" kv="50"/><position joint="finger" kp="100"/>)";
+
+std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.002) {
+  Robot robot(model, {"j1", "j2", "j3"});
+  robot.set_keyframe("bent");
+  auto tip = std::make_unique<PositionTask>(
+      "tip", robot, "tip",
+      PositionTaskOptions{.axes = (Matrix(2, 3) << 1, 0, 0, 0, 0, 1).finished()});
+  auto posture = std::make_unique<PostureTask>("posture", robot);
+  WholeBodyControllerOptions options;
+  options.dt = dt;
+  const Stack reach({*tip, *posture}), rest({*posture});
+  std::vector<Channel> channels = {
+      {"tip", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5), {"x", "z"}},
+      Channel::joint("finger", "finger", 0.1)};
+  auto controller = std::make_shared<WholeBodyController>(
+      robot,
+      std::vector<NamedStack>{
+          {"reach", reach}, {"rest", rest}, {"accelerate", reach, Law::Acceleration}},
+      std::move(channels), options);
+  controller->keep(std::move(tip));
+  controller->keep(std::move(posture));
+  return controller;
+}
+
+Simulation simulate(const char* actuators = kMotors) {
+  const ModelPtr model = load_model_text(arm(actuators));
+  SimulationOptions options;
+  options.record = false;
+  return {model, make(model), options};
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+TEST(WholeBody, StandsStillUnderGravityFromTheFirstTick) {
+  for (const char* const actuators : {kMotors, kServos}) {
+    Simulation simulation = simulate(actuators);
+    const Vector start = simulation.world().configuration();
+    for (int i = 0; i < 100; ++i) {
+      simulation.step(5);
+      // the smallest bandwidth bends by less than a tenth of a milliradian
+      EXPECT_LT((simulation.world().configuration() - start).cwiseAbs().maxCoeff(), 1e-4);
+    }
+  }
+}
+
+TEST(WholeBody, LeadsTheTipByACommandAndHoldsItAfterwards) {
+  for (const char* const actuators : {kMotors, kServos}) {
+    Simulation simulation = simulate(actuators);
+    const Frame tip = simulation.world().frame("tip");
+    const Vector3 start = simulation.world().position(tip);
+    const Vector command = Eigen::Vector3d(-0.1, 0.05, 0.01);
+    simulation.step(500, &command);
+    simulation.step(1000);
+    const Vector3 moved = simulation.world().position(tip) - start;
+    EXPECT_NEAR(moved.x(), -0.1, 1e-3);
+    EXPECT_NEAR(moved.z(), 0.05, 1e-3);
+    EXPECT_NEAR(simulation.plant().qpos()[3], 0.01, 1e-3);  // the finger
+    EXPECT_FALSE(simulation.finished());
+  }
+}
+
+TEST(WholeBody, HoldsAJointWithoutACoordinateWithinItsRange) {
+  Simulation simulation = simulate();
+  const Vector command = Eigen::Vector3d(0.0, 0.0, 0.1);
+  simulation.step(1000, &command);  // 0.2 m are asked for, 0.05 are there
+  EXPECT_NEAR(simulation.plant().qpos()[3], 0.05, 2e-3);
+}
+
+TEST(WholeBody, KeepsJointLimitsThatNobodyAskedFor) {
+  Simulation simulation = simulate();
+  const Vector command = Eigen::Vector3d(0.5, -0.5, 0.0);
+  for (int i = 0; i < 200; ++i) {
+    simulation.step(20, &command);
+    EXPECT_EQ(simulation.limits().commanded().position, 0.0);
+    EXPECT_LT(simulation.limits().measured().position, 5e-3);
+  }
+}
+
+// what a hand-over does to a loaded arm: largest error of a joint [rad], largest jump of qdot*
+struct HandOver {
+  double drop = 0.0, jump = 0.0;
+};
+
+HandOver watch(Simulation& simulation, int ticks, const Vector* command) {
+  HandOver worst;
+  Vector last = simulation.controller().qd_des();
+  for (int i = 0; i < ticks; ++i) {
+    simulation.step(1, command);
+    const Vector& now = simulation.controller().qd_des();
+    worst.jump = std::max(worst.jump, (now - last).cwiseAbs().maxCoeff());
+    worst.drop = std::max(worst.drop, simulation.telemetry().joint_error.cwiseAbs().maxCoeff());
+    last = now;
+  }
+  return worst;
+}
+
+constexpr double kMostChange = 20.0 * 0.002 * (1.0 + 1e-9);  // [rad/s] the acceleration limit, a tick
+const char* const kStacks[] = {"rest", "accelerate", "reach", "accelerate", "rest", "reach"};
+
+TEST(WholeBody, GoesFromStackToStackAndLawToLawInMotionWithoutAJump) {
+  Simulation simulation = simulate();
+  const Vector command = Eigen::Vector3d(-0.2, 0.1, 0.0);
+  simulation.step(250, &command);
+  for (const char* const stack : kStacks) {
+    simulation.controller().use(stack);
+    EXPECT_LE(watch(simulation, 200, &command).jump, kMostChange) << stack;
+  }
+}
+
+TEST(WholeBody, HandsALoadedArmOverWithoutADrop) {
+  Simulation simulation = simulate();
+  // a load that the model of the controller does not know
+  simulation.plant().data()->xfrc_applied[6 * 3 + 2] = -40.0;
+  simulation.step(2000);
+  simulation.controller().hold_targets();
+  for (const char* const stack : kStacks) {
+    simulation.controller().use(stack);
+    const HandOver worst = watch(simulation, 300, nullptr);
+    EXPECT_LT(worst.drop, 1e-3) << stack;
+    EXPECT_LE(worst.jump, kMostChange) << stack;
+  }
+}
+
+TEST(WholeBody, TakesOverFromJointsThatWereMovedByThemselves) {
+  Simulation simulation = simulate();
+  simulation.step(200);
+  const double start = simulation.controller().servo().position()[1];
+  for (int i = 0; i < 250; ++i) {
+    const double u = 0.002 * (i + 1) / 0.5;  // 0.2 rad in 0.5 s, smoothly
+    simulation.controller().move("j2", start + 0.2 * u * u * (3.0 - 2.0 * u),
+                                 0.2 * 6.0 * u * (1.0 - u) / 0.5);
+    simulation.step(1);
+  }
+  simulation.controller().use("reach");
+  const HandOver worst = watch(simulation, 500, nullptr);
+  EXPECT_LT(worst.drop, 1e-3);
+  EXPECT_LE(worst.jump, kMostChange);
+  EXPECT_NEAR(simulation.world().configuration()[1], start + 0.2, 1e-3);
+}
+
+TEST(WholeBody, GoesOnFromASnapshotBitForBitInAnotherCopyToo) {
+  Simulation simulation = simulate();
+  const Vector command = Eigen::Vector3d(-0.2, 0.1, 0.02);
+  simulation.step(100, &command);
+  simulation.controller().use("accelerate");
+  simulation.step(50, &command);
+  const std::vector<double> state = simulation.state();
+  const std::unique_ptr<Simulation> copy = simulation.clone();
+  EXPECT_TRUE(same_bits(copy->state(), state));
+  simulation.step(200, &command);
+  const std::vector<double> later = simulation.state();
+  copy->step(200, &command);
+  EXPECT_TRUE(same_bits(copy->state(), later));
+  simulation.restore(state);
+  simulation.step(200, &command);
+  EXPECT_TRUE(same_bits(simulation.state(), later));
+}
+
+TEST(SimulationBatch, HasTheBitsOfEachAloneOnOneThreadAndOnTwo) {
+  const Simulation original = simulate();
+  SimulationBatch one(original, 5, 1), two(original, 5, 2);
+  Matrix commands(5, 3);
+  for (int i = 0; i < 5; ++i) commands.row(i) << -0.05 * i, 0.03 * i, 0.0;
+  std::vector<std::unique_ptr<Simulation>> alone;
+  for (int i = 0; i < 5; ++i) alone.push_back(original.clone());
+  for (int k = 0; k < 10; ++k) {
+    one.step(20, &commands);
+    two.step(20, &commands);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Vector command = commands.row(static_cast<Index>(i)).transpose();
+      alone[i]->step(20, &command);
+    }
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_TRUE(same_bits(one[i].state(), alone[i]->state())) << i;
+    EXPECT_TRUE(same_bits(two[i].state(), alone[i]->state())) << i;
+  }
+  EXPECT_FALSE(same_bits(one[1].state(), one[2].state()));
+}
+
+TEST(SimulationBatch, TakesModelsOfItsOwn) {
+  const Simulation original = simulate();
+  std::vector<ModelPtr> models;
+  for (int i = 0; i < 3; ++i) {
+    mjModel* const m = mj_copyModel(nullptr, original.plant().model());
+    for (int b = 1; b < m->nbody; ++b) m->body_mass[b] *= 1.0 + 0.2 * i;
+    models.emplace_back(m, [](const mjModel* p) { mj_deleteModel(const_cast<mjModel*>(p)); });
+  }
+  SimulationBatch batch(original, 3, 2, models);
+  const Matrix commands = Matrix::Constant(3, 3, 0.05);
+  batch.step(100, &commands);
+  EXPECT_FALSE(same_bits(batch[0].state(), batch[2].state()));
+  EXPECT_NE(error_text([&] { SimulationBatch(original, 2, 1, models); }), "");
+  EXPECT_NE(error_text([&] { batch.step(1, nullptr, nullptr), batch.step(-1); }), "");
+}
+
+TEST(WholeBody, ATickAllocatesNothing) {
+  Simulation simulation = simulate();
+  const Vector command = Eigen::Vector3d(-0.2, 0.1, 0.02);
+  simulation.step(300, &command);
+  const NoAllocation guard;
+  simulation.step(300, &command);
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+TEST(WholeBody, RefusesWhatCannotBe) {
+  const ModelPtr model = load_model_text(arm(kMotors));
+  EXPECT_TRUE(contains(error_text([&] { Simulation(model, make(model, 0.003)); }), "whole number"));
+  const auto controller = make(model);
+  EXPECT_TRUE(contains(error_text([&] { controller->use("walk"); }), "there are: reach, rest"));
+  EXPECT_TRUE(contains(error_text([&] { controller->move("j9", 0.0, 0.0); }), "j9"));
+  EXPECT_TRUE(contains(error_text([&] { (void)Robot(model, {"j1", "jx"}); }), "'jx' does not exist"));
+  const ModelPtr other = load_model_text("<mujoco/>");
+  EXPECT_TRUE(contains(error_text([&] { Simulation(other, controller); }), "another model"));
+  Robot robot(model, {"j1", "j2", "j3"});
+  PostureTask posture("posture", robot), stranger("stranger", robot);
+  EXPECT_TRUE(contains(error_text([&] {
+                         WholeBodyController(robot, {{"a", Stack({posture})}},
+                                             {{"s", ChannelKind::Twist, stranger,
+                                               Vector::Constant(1, 1.0)}});
+                       }),
+                       "which is in no stack"));
+}
+
+}  // namespace
