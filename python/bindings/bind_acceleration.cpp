@@ -58,19 +58,21 @@ void bind_options(py::module_& module) {
   const Options d;
   py::class_<Options>(module, "AccelerationControllerOptions", kOptions)
       .def(py::init([](double dt, double stiffness, double damping, double horizon,
-                       double max_acceleration, double return_speed, double rest,
-                       const SolverOptions& solver) {
-             return Options{dt,           stiffness, damping, horizon, max_acceleration,
-                            return_speed, rest,      solver};
+                       double max_acceleration, bool enforce_limits, double return_speed,
+                       double rest, const SolverOptions& solver) {
+             return Options{dt,             stiffness,    damping, horizon, max_acceleration,
+                            enforce_limits, return_speed, rest,    solver};
            }),
            py::kw_only(), "dt"_a = d.dt, "stiffness"_a = d.stiffness, "damping"_a = d.damping,
            "horizon"_a = d.horizon, "max_acceleration"_a = d.max_acceleration,
+           "enforce_limits"_a = d.enforce_limits,
            "return_speed"_a = d.return_speed, "rest"_a = d.rest, "solver"_a = d.solver)
       .def_readwrite("dt", &Options::dt, "[s]")
       .def_readwrite("stiffness", &Options::stiffness, "[1/s^2]")
       .def_readwrite("damping", &Options::damping, "[1/s]")
       .def_readwrite("horizon", &Options::horizon, "[s]")
       .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
+      .def_readwrite("enforce_limits", &Options::enforce_limits, "limits before all levels")
       .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
       .def_readwrite("rest", &Options::rest, "[1/s]")
       .def_readwrite("solver", &Options::solver, "SolverOptions");

@@ -65,17 +65,21 @@ void bind_controller(py::module_& module) {
   const Options defaults;
   py::class_<Options>(module, "VelocityControllerOptions", kOptions)
       .def(py::init([](double dt, double gain, double horizon, double max_acceleration,
-                       double return_speed, double transition, const SolverOptions& solver) {
-             return Options{dt, gain, horizon, max_acceleration, return_speed, transition, solver};
+                       bool enforce_limits, double return_speed, double transition,
+                       const SolverOptions& solver) {
+             return Options{dt,           gain,       horizon, max_acceleration, enforce_limits,
+                            return_speed, transition, solver};
            }),
            py::kw_only(), "dt"_a = defaults.dt, "gain"_a = defaults.gain,
            "horizon"_a = defaults.horizon, "max_acceleration"_a = defaults.max_acceleration,
+           "enforce_limits"_a = defaults.enforce_limits,
            "return_speed"_a = defaults.return_speed, "transition"_a = defaults.transition,
            "solver"_a = defaults.solver)
       .def_readwrite("dt", &Options::dt, "[s]")
       .def_readwrite("gain", &Options::gain, "[1/s]")
       .def_readwrite("horizon", &Options::horizon, "[s]")
       .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
+      .def_readwrite("enforce_limits", &Options::enforce_limits, "limits before all levels")
       .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
       .def_readwrite("transition", &Options::transition, "[s]")
       .def_readwrite("solver", &Options::solver, "SolverOptions");

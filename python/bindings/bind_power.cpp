@@ -52,7 +52,7 @@ void bind_power(py::module_& module) {
            "model"_a)
       .def(
           "read",
-          [](PowerMeter& self, const Physics& physics) {
+          [](PowerMeter& self, const Plant& physics) {
             self.read(physics.data(), physics.brakes(), physics.drive_train());
           },
           "physics"_a, kRead)

@@ -98,16 +98,21 @@ auto by_name(Result (Robot::*question)(Frame) const) {
   };
 }
 
-std::unique_ptr<Robot> robot_of_object(const py::object& model) {
+using Names = std::vector<std::string>;
+
+std::unique_ptr<Robot> robot_of_object(const py::object& model,
+                                       const std::optional<Names>& joints) {
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
   const auto address = model.attr("_address").cast<std::uintptr_t>();
-  return std::make_unique<Robot>(borrow_model(reinterpret_cast<const mjModel_*>(address)));
+  return std::make_unique<Robot>(borrow_model(reinterpret_cast<const mjModel_*>(address)),
+                                 joints.value_or(Names{}));
 }
 
-std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model) {
-  return std::make_unique<Robot>(load_model(model.string()));
+std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
+                                     const std::optional<Names>& joints) {
+  return std::make_unique<Robot>(load_model(model.string()), joints.value_or(Names{}));
 }
 
 void bind_coordinate(py::module_& module) {

@@ -169,7 +169,7 @@ py::dict motor_temperatures(const Simulation& self) {
 }
 
 std::vector<Names> self_collision_pairs(const Simulation& self) {
-  return self.monitors().self_distance().names(self.physics().model());
+  return self.monitors().self_distance().names(self.plant().model());
 }
 
 std::optional<Names> nearest_pair(const Simulation& self) {

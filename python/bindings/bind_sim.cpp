@@ -1,5 +1,6 @@
-// sim: the closed loop of a mission, and one physics step with tracks.
+// sim and mission: the closed loop, many of them, missions, and one physics step with tracks.
 #include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -12,7 +13,8 @@
 #include "bind_sensors.hpp"
 #include "bind_sim_docs.hpp"
 #include "hurcules/base/error.hpp"
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission.hpp"
+#include "hurcules/sim/simulation_batch.hpp"
 #include "mujoco_pointer.hpp"
 
 namespace py = pybind11;
@@ -40,9 +42,18 @@ void step_physics(const py::object& model, const py::object& data, int n) {
 
 std::unique_ptr<Simulation> make_simulation(const py::object& model, const py::object& data,
                                             const std::string& mission,
-                                            const SimulationOptions& options) {
+                                            const MissionOptions& options) {
   const Scene scene = scene_of(model, data);
-  return std::make_unique<Simulation>(borrow_model(scene.model), mission, options, scene.data);
+  return std::make_unique<MissionSimulation>(borrow_model(scene.model), mission, options,
+                                             scene.data);
+}
+
+std::unique_ptr<Simulation> make_own(const py::object& model, const py::object& data,
+                                     const std::shared_ptr<WholeBodyController>& controller,
+                                     const MissionOptions& options) {
+  const Scene scene = scene_of(model, data);
+  return std::make_unique<Simulation>(borrow_model(scene.model), controller, options, nullptr,
+                                      scene.data);
 }
 
 // in pieces, so that Ctrl-C is heard
@@ -88,7 +99,8 @@ py::dict figures(const Simulation& self) {
 
 py::dict thesis_figures(const Simulation& self) {
   py::dict result;
-  for (const Figure& figure : self.mission().figures()) {
+  if (!self.supervisor()) return result;
+  for (const Figure& figure : self.supervisor()->figures()) {
     if (figure.thesis == figure.thesis) result[py::str(figure.name)] = figure.thesis;
   }
   return result;
@@ -109,23 +121,44 @@ std::vector<std::pair<double, std::string>> events(const Simulation& self) {
 }
 
 std::vector<std::string> phase_names(const Simulation& self) {
-  std::vector<std::string> names;
-  for (const Phase& phase : self.mission().phases()) names.push_back(phase.name);
-  return names;
+  return self.supervisor() ? self.supervisor()->phase_names() : std::vector<std::string>{};
 }
 
-std::vector<std::string> command_names(const Simulation& self) {
-  std::vector<std::string> names;
-  for (const Channel& channel : self.mission().channels()) names.push_back(channel.name);
-  return names;
+std::optional<std::string> phase(const Simulation& self) {
+  if (!self.supervisor()) return std::nullopt;
+  return phase_names(self)[self.supervisor()->phase()];
 }
 
-Vector command_scale(const Simulation& self) {
-  const std::vector<Channel>& channels = self.mission().channels();
-  Vector scale(static_cast<Index>(channels.size()));
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    scale[static_cast<Index>(i)] = channels[i].scale;
-  return scale;
+const std::vector<std::string>& command_names(const Simulation& self) {
+  return self.controller().command_names();
+}
+
+const Vector& command_scale(const Simulation& self) {
+  return self.controller().scale();
+}
+
+// the reference of joints, row by row: one tick each
+int follow(Simulation& self, const std::vector<std::string>& joints, const Matrix& position,
+           const Matrix& velocity) {
+  const auto m = static_cast<Index>(joints.size());
+  require(position.cols() == m && velocity.cols() == m && position.rows() == velocity.rows() &&
+              position.allFinite() && velocity.allFinite(),
+          "positions and velocities want shape (ticks, " + std::to_string(m) +
+              ") each and finite numbers; (" + std::to_string(position.rows()) + ", " +
+              std::to_string(position.cols()) + ") and (" + std::to_string(velocity.rows()) + ", " +
+              std::to_string(velocity.cols()) + ") came");
+  int done = 0;
+  for (Index i = 0; i < position.rows() && !self.finished(); ++i) {
+    {
+      py::gil_scoped_release release;
+      for (Index k = 0; k < m; ++k) {
+        self.controller().move(joints[static_cast<std::size_t>(k)], position(i, k), velocity(i, k));
+      }
+      done += self.step(1);
+    }
+    if (i % 1000 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  return done;
 }
 
 Vector state(const Simulation& self) {
@@ -154,7 +187,7 @@ py::dict mode_ranges(const std::string& mode) {
 }
 
 void bind_options(py::module_& module) {
-  using Options = SimulationOptions;
+  using Options = MissionOptions;
   const Options defaults;
   py::enum_<BaseSource>(module, "BaseSource", "Where the planner's support stands.")
       .value("Held", BaseSource::Held, "where it stood at the start")
@@ -162,7 +195,7 @@ void bind_options(py::module_& module) {
   py::class_<Options>(module, "SimulationOptions", kOptions)
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
                        bool timed, BaseSource base, SensorOptions sensors,
-                       const MonitorOptions& monitors) {
+                       const MonitorOptions& monitors, double max_seconds) {
              Options options;
              options.seed = seed;
              options.variation = variation;
@@ -172,12 +205,14 @@ void bind_options(py::module_& module) {
              options.base = base;
              options.sensors = std::move(sensors);
              options.monitors = monitors;
+             options.max_seconds = max_seconds;
              return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
            "method"_a = defaults.method, "record"_a = defaults.record,
            "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
-           "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors)
+           "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors,
+           "max_seconds"_a = defaults.max_seconds)
       .def_readwrite("seed", &Options::seed)
       .def_readwrite("variation", &Options::variation)
       .def_readwrite("method", &Options::method)
@@ -187,7 +222,8 @@ void bind_options(py::module_& module) {
           [](Options& self, bool timed) { self.clock = timed ? now : nullptr; })
       .def_readwrite("base", &Options::base)
       .def_readwrite("sensors", &Options::sensors)
-      .def_readwrite("monitors", &Options::monitors);
+      .def_readwrite("monitors", &Options::monitors)
+      .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer");
 }
 
 void bind_run(py::class_<Simulation>& simulation) {
@@ -201,11 +237,19 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("finished", &Simulation::finished)
       .def_property_readonly("success", &Simulation::success)
       .def_property_readonly("reason", &Simulation::reason, kReason)
-      .def_property_readonly(
-          "phase", [](const Simulation& self) { return phase_names(self)[self.mission().phase()]; })
+      .def_property_readonly("phase", &phase, "of the mission; None without one")
       .def_property_readonly("phases", &phase_names)
       .def_property_readonly("command_names", &command_names)
-      .def_property_readonly("command_scale", &command_scale, "(k,) [m/s] or [rad/s]");
+      .def_property_readonly("command_scale", &command_scale, py::return_value_policy::copy,
+                             "(k,) SI")
+      .def_property_readonly(
+          "controller",
+          [](Simulation& self) -> WholeBodyController& { return self.controller(); },
+          py::return_value_policy::reference_internal, "WholeBodyController of the loop")
+      .def_property_readonly(
+          "brakes", [](Simulation& self) -> Brakes& { return self.plant().brakes(); },
+          py::return_value_policy::reference_internal, "Brakes of the joints' drives")
+      .def("follow", &follow, "joints"_a, "positions"_a, "velocities"_a, kFollow);
 }
 
 void bind_results(py::class_<Simulation>& simulation) {
@@ -236,6 +280,118 @@ void bind_results(py::class_<Simulation>& simulation) {
       .def("limit_violation", &limit_violation, kViolation);
 }
 
+std::unique_ptr<SimulationBatch> make_batch(const Simulation& original, std::size_t n, int threads,
+                                            const std::vector<py::object>& models) {
+  std::vector<ModelPtr> own;
+  for (const py::object& model : models) {
+    own.push_back(borrow_model(pointer<const mjModel_>(model, "mujoco.MjModel")));
+  }
+  return std::make_unique<SimulationBatch>(original, n, threads, own);
+}
+
+void step_batch(SimulationBatch& self, int ticks, const std::optional<Matrix>& commands,
+                const std::optional<std::vector<bool>>& mask) {
+  py::gil_scoped_release release;
+  self.step(ticks, commands ? &*commands : nullptr, mask ? &*mask : nullptr);
+}
+
+// one row a simulation
+template <class Row>
+Matrix rows_of(const SimulationBatch& self, const Row& row) {
+  Matrix all;
+  for (std::size_t i = 0; i < self.size(); ++i) {
+    const Vector one = row(self[i]);
+    if (i == 0) all.resize(static_cast<Index>(self.size()), one.size());
+    require(one.size() == all.cols(), "simulations of a batch differ in size");
+    all.row(static_cast<Index>(i)) = one.transpose();
+  }
+  return all;
+}
+
+void reset_batch(SimulationBatch& self, const std::vector<std::uint64_t>& seeds,
+                 const std::optional<std::vector<bool>>& mask) {
+  require(seeds.size() == self.size() && (!mask || mask->size() == self.size()),
+          "reset wants " + std::to_string(self.size()) + " seeds, and as many entries of a mask");
+  py::gil_scoped_release release;
+  self.for_each([&](std::size_t i) {
+    if (!mask || (*mask)[i]) self[i].reset(seeds[i]);
+  });
+}
+
+void restore_batch(SimulationBatch& self, const Matrix& states,
+                   const std::optional<std::vector<bool>>& mask) {
+  require(states.rows() == static_cast<Index>(self.size()) &&
+              (!mask || mask->size() == self.size()),
+          "restore wants " + std::to_string(self.size()) + " rows, " +
+              std::to_string(states.rows()) + " came");
+  py::gil_scoped_release release;
+  self.for_each([&](std::size_t i) {
+    if (mask && !(*mask)[i]) return;
+    const Vector row = states.row(static_cast<Index>(i)).transpose();
+    self[i].restore({row.begin(), row.end()});
+  });
+}
+
+void bind_batch(py::module_& module) {
+  using Batch = SimulationBatch;
+  const auto item = [](Batch& self, std::size_t i) -> Simulation& {
+    if (i >= self.size()) throw py::index_error();
+    return self[i];
+  };
+  py::class_<Batch>(module, "SimulationBatch", kBatch)
+      .def(py::init(&make_batch), "simulation"_a, "n"_a, "threads"_a = 0,
+           "models"_a = std::vector<py::object>{}, py::keep_alive<1, 2>(), py::keep_alive<1, 5>())
+      .def("step", &step_batch, "ticks"_a, "commands"_a = py::none(), "mask"_a = py::none(),
+           kBatchStep)
+      .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(),
+           "Back to the start; seeds (n,), mask (n,) bool: which.")
+      .def("state",
+           [](const Batch& self) {
+             return rows_of(self, [](const Simulation& one) { return state(one); });
+           },
+           "(n, s): all that decides how each goes on, see Simulation.state.")
+      .def("restore", &restore_batch, "states"_a, "mask"_a = py::none(), "Goes on from state().")
+      .def("observation",
+           [](const Batch& self) {
+             return rows_of(self, [](const Simulation& one) { return one.observation().snapshot(); });
+           },
+           "(n, m) what a policy sees now, see Simulation.observation_names.")
+      .def("__getitem__", item, py::return_value_policy::reference_internal)
+      .def("__len__", &Batch::size)
+      .def_property_readonly("threads", &Batch::threads)
+      .def_property_readonly("qpos",
+                             [](const Batch& self) {
+                               return rows_of(self, [](const Simulation& one) -> Vector {
+                                 return one.plant().qpos();
+                               });
+                             },
+                             "(n, nq) of the physics")
+      .def_property_readonly("qvel",
+                             [](const Batch& self) {
+                               return rows_of(self, [](const Simulation& one) -> Vector {
+                                 return one.plant().qvel();
+                               });
+                             },
+                             "(n, nv) of the physics")
+      .def_property_readonly("time",
+                             [](const Batch& self) {
+                               return Vector(rows_of(self, [](const Simulation& one) {
+                                               return Vector(Vector::Constant(1, one.time()));
+                                             }).col(0));
+                             },
+                             "(n,) [s]")
+      .def_property_readonly(
+          "finished",
+          [](const Batch& self) {
+            py::array_t<bool> all(static_cast<py::ssize_t>(self.size()));
+            for (std::size_t i = 0; i < self.size(); ++i) {
+              all.mutable_at(static_cast<py::ssize_t>(i)) = self[i].finished();
+            }
+            return all;
+          },
+          "(n,) bool");
+}
+
 }  // namespace
 
 void bind_sim(py::module_& module) {
@@ -249,9 +405,13 @@ void bind_sim(py::module_& module) {
   bind_sensors(module);
   bind_options(module);
   py::class_<Simulation> simulation(module, "Simulation", kSimulation);
-  simulation.def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",
-                 "options"_a = SimulationOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
+  simulation
+      .def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",
+           "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
+      .def(py::init(&make_own), "model"_a, "data"_a, "controller"_a,
+           "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
   bind_run(simulation);
   bind_results(simulation);
   bind_sensor_results(simulation);
+  bind_batch(module);
 }

@@ -55,28 +55,69 @@ Args:
   monitors: MonitorOptions.
 )";
 inline constexpr const char* kSimulation =
-    R"(The closed loop of a mission at 1 kHz, in C++, on a model and data that Python owns.
+    R"(The closed loop in C++, on a model and data that Python owns.
 
 Args:
   model: mujoco.MjModel of the mission's scene.
   data: mujoco.MjData of this model; the simulation resets and steps it.
-  mission: name of the mission.
+  mission: name of the mission that commands it.
+  controller: WholeBodyController instead of a mission.
   options: SimulationOptions.
 
 Raises:
   Error: the model lacks something that the mission asks for.
 )";
-inline constexpr const char* kStep = R"(Control ticks of 1 ms. Releases the interpreter lock.
+inline constexpr const char* kStep = R"(Control ticks of dt. Releases the interpreter lock.
 
 Args:
   n: how many.
-  command: (k,) [m/s] or [rad/s] in task space, held to command_scale; None is the operator.
+  command: (k,) SI, in the order of command_names, held to command_scale; None: the mission's
+    operator, and without a mission every target holds.
 
 Returns:
   The ticks done: fewer when the mission ends.
 
 Raises:
   Error: a command of another size, or not finite.
+)";
+inline constexpr const char* kFollow = R"(Leads joints along a motion, one tick a row.
+
+No stack rules meanwhile; `controller.use` hands the robot back to one.
+
+Args:
+  joints: names of joints with an actuator; the others stay.
+  positions: (ticks, joints) [rad] or [m].
+  velocities: (ticks, joints) [rad/s] or [m/s].
+
+Returns:
+  The ticks done: fewer when the run ends.
+
+Raises:
+  Error: an unknown joint, or arrays that do not fit.
+)";
+inline constexpr const char* kBatch = R"(Many copies of a simulation on threads, stepped in one call.
+
+Each has controller and data of its own; they share the model unless each gets its own. Its bits
+are those that it has alone, whatever the number of threads. Copies record nothing.
+
+Args:
+  simulation: Simulation to copy, in its present state.
+  n: how many.
+  threads: 0 for one a processor.
+  models: one mujoco.MjModel each, of the same names and shapes, or none.
+
+Raises:
+  Error: n < 1, or models that do not fit.
+)";
+inline constexpr const char* kBatchStep = R"(Control ticks of all. Releases the interpreter lock.
+
+Args:
+  ticks: how many; one that is finished stands still.
+  commands: (n, k) SI, or None.
+  mask: (n,) bool: which are stepped; None: all.
+
+Raises:
+  Error: arrays of another shape, or not finite.
 )";
 inline constexpr const char* kReset = "Back to the start of the mission, varied by this seed.";
 inline constexpr const char* kState =

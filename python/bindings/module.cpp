@@ -20,6 +20,7 @@ void bind_control(py::module_& module);
 void bind_acceleration(py::module_& module);
 void bind_joint_pid(py::module_& module);
 void bind_drive(py::module_& module);
+void bind_whole_body(py::module_& module);
 void bind_plant(py::module_& module);
 void bind_sim(py::module_& module);
 void bind_power(py::module_& module);
@@ -73,6 +74,7 @@ PYBIND11_MODULE(_core, module) {
   bind_acceleration(module);
   bind_joint_pid(module);
   bind_drive(module);
+  bind_whole_body(module);
   bind_plant(module);
   bind_sim(module);
   bind_power(module);
