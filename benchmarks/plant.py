@@ -45,7 +45,7 @@ class Plant:
         scene, values = ("casualty", {"mass": self.mass}) if self.mass else ("flat", {})
         self.model = scenes.load(scene, self.robot, **values)
         self.data = mujoco.MjData(self.model)
-        self.physics = hurcules.Physics(self.model, self.data)
+        self.physics = hurcules.Plant(self.model, self.data)
         self.physics.reset(self.posture)
         self.physics.brakes.reset(closed=True)
         if self.turning:

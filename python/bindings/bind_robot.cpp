@@ -25,6 +25,8 @@ A frame is the name of a site, body, camera or geom, looked for in this order. W
 
 Args:
   model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
+  joints: names of the coordinates (joints, or tuples without their prefix), in this order; None: by
+    the rule above.
 
 Raises:
   Error: the file cannot be read, or the tuples name no proper coordinates.
@@ -206,8 +208,9 @@ void bind_robot(py::module_& module);
 void bind_robot(py::module_& module) {
   bind_coordinate(module);
   py::class_<Robot> robot(module, "Robot", kRobot);
-  robot.def(py::init(&robot_of_path), py::arg("model"))
-      .def(py::init(&robot_of_object), py::arg("model"), py::keep_alive<1, 2>())
+  robot.def(py::init(&robot_of_path), py::arg("model"), py::arg("joints") = py::none())
+      .def(py::init(&robot_of_object), py::arg("model"), py::arg("joints") = py::none(),
+           py::keep_alive<1, 2>())
       .def("__repr__", [](const Robot& self) {
         return "Robot(" + std::to_string(self.size()) + " coordinates)";
       });

@@ -172,7 +172,7 @@ void restore(Simulation& self, const Vector& state) {
 
 py::dict servo_table(const std::string& robot) {
   py::dict table;
-  for (const ServoRow& row : servo_of_robot(robot)) {
+  for (const ServoGains& row : servo_of_robot(robot)) {
     table[py::str(row.joint)] = py::make_tuple(row.inertia, row.bandwidth);
   }
   return table;

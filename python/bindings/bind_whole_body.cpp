@@ -116,6 +116,12 @@ Args:
   position: [rad] or [m].
   velocity: [rad/s] or [m/s].
 )";
+constexpr const char* kMoveAll = R"(The same for all joints with a servo, in the order of `joints`.
+
+Args:
+  positions: (m,) [rad] or [m].
+  velocities: (m,) [rad/s] or [m/s].
+)";
 constexpr const char* kSense = R"(What a force task reads, each tick.
 
 Args:
@@ -301,9 +307,18 @@ void bind_whole_body(py::module_& module) {
     return self.drive() ? &self.drive()->controller() : nullptr;
   };
   const auto joints = [](const WholeBodyController& self) { return self.servo().names(); };
+  const auto move_one = [](WholeBodyController& self, const std::string& joint, double position,
+                           double velocity) { self.move(joint, position, velocity); };
+  const auto move_all = [](WholeBodyController& self, const Vector& positions,
+                           const Vector& velocities) { self.move(positions, velocities); };
+  const auto places = [](const WholeBodyController& self) { return self.servo().position(); };
+  const auto torque = [](const WholeBodyController& self) { return self.servo().torque(); };
+  const auto demand = [](const WholeBodyController& self) { return self.servo().demand(); };
+  const auto error = [](const WholeBodyController& self) { return self.servo().error().position; };
   const auto copy = py::return_value_policy::copy;
   controller.def("use", &WholeBodyController::use, "stack"_a, kUse)
-      .def("move", &WholeBodyController::move, "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
+      .def("move", move_one, "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
+      .def("move_all", move_all, "positions"_a, "velocities"_a, kMoveAll)
       .def("hold_targets", &WholeBodyController::hold_targets,
            "The targets of all tasks come to where the plan is.")
       .def("sense", &sense, "task"_a, "source"_a, "row"_a = 0, "sign"_a = 1.0,
@@ -326,6 +341,10 @@ void bind_whole_body(py::module_& module) {
       .def_property_readonly("stacks", names, "names of the stacks")
       .def_property_readonly("active", active, "the stack that rules; None while joints are moved")
       .def_property_readonly("joints", joints, "(m,) joints with a servo")
+      .def_property_readonly("joint_places", places, "(m,) [rad] or [m] where the servos hold them")
+      .def_property_readonly("joint_error", error, "(m,) [rad] or [m] place minus sensed")
+      .def_property_readonly("torque", torque, "(m,) [N m] or [N] of the servos")
+      .def_property_readonly("demand", demand, "(m,) the same before saturation")
       .def_property_readonly("q_des", &WholeBodyController::q_des, copy, "(n,) [rad] reference")
       .def_property_readonly("qd_des", &WholeBodyController::qd_des, copy, "(n,) [rad/s]")
       .def_property_readonly("scaled", &WholeBodyController::scaled,

@@ -1,6 +1,7 @@
 """Hierarchical optimal control of the rescue robot Hurcules, simulated in MuJoCo."""
 
-from types import ModuleType
+import warnings
+from typing import Any
 
 from hurcules._version import __version__, require_mujoco
 from hurcules.opengl import choose_backend
@@ -35,7 +36,9 @@ from hurcules._core import (  # noqa: E402
     ContactState,
     ControlSolution,
     Coordinate,
+    Delta,
     DistanceTask,
+    Drive,
     DriveController,
     DrivenJoint,
     DriveOptions,
@@ -43,17 +46,19 @@ from hurcules._core import (  # noqa: E402
     FaultKind,
     ForceGains,
     ForceLoop,
+    ForceReference,
     ForceTask,
     GazeTask,
     JointLimits,
     JointPid,
     JointPidOptions,
+    JointRate,
     LevelNote,
     MonitorOptions,
     OrientationTask,
     ParkingOptions,
     ParkingPhase,
-    Physics,
+    Plant,
     PointTask,
     PositionTask,
     PostureTask,
@@ -71,24 +76,31 @@ from hurcules._core import (  # noqa: E402
     StackLevel,
     StiffnessOptions,
     SwivelTask,
+    Target,
     Task,
     TorqueLimits,
+    Twist,
     ValueTask,
     VelocityController,
     VelocityControllerOptions,
+    WholeBodyController,
     largest_stiffness,
     missions,
     mode_ranges,
     servo_table,
     step,
 )
-from hurcules.simulation import Simulation  # noqa: E402
+from hurcules.simulation import Simulation, SimulationBatch  # noqa: E402
 
 _moved.install()
 
 
-def __getattr__(name: str) -> ModuleType:
-    """A module of this package that has moved."""
+def __getattr__(name: str) -> Any:
+    """What has moved, or has another name now."""
+    if name == "Physics":
+        text = "hurcules.Physics is called hurcules.Plant; the old name goes with the next release"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
+        return Plant
     if _moved.new_name(f"hurcules.{name}"):
         globals()[name] = _moved.forward(f"hurcules.{name}", 3)
         return globals()[name]
@@ -109,7 +121,9 @@ __all__ = [
     "ContactState",
     "ControlSolution",
     "Coordinate",
+    "Delta",
     "DistanceTask",
+    "Drive",
     "DriveController",
     "DriveOptions",
     "DrivenJoint",
@@ -117,17 +131,19 @@ __all__ = [
     "FaultKind",
     "ForceGains",
     "ForceLoop",
+    "ForceReference",
     "ForceTask",
     "GazeTask",
     "JointLimits",
     "JointPid",
     "JointPidOptions",
+    "JointRate",
     "LevelNote",
     "MonitorOptions",
     "OrientationTask",
     "ParkingOptions",
     "ParkingPhase",
-    "Physics",
+    "Plant",
     "PointTask",
     "PositionTask",
     "PostureTask",
@@ -139,6 +155,7 @@ __all__ = [
     "SensorOptions",
     "ShortTask",
     "Simulation",
+    "SimulationBatch",
     "SimulationOptions",
     "SpeedLimits",
     "SpringForce",
@@ -146,11 +163,14 @@ __all__ = [
     "StackLevel",
     "StiffnessOptions",
     "SwivelTask",
+    "Target",
     "Task",
     "TorqueLimits",
+    "Twist",
     "ValueTask",
     "VelocityController",
     "VelocityControllerOptions",
+    "WholeBodyController",
     "__version__",
     "cameras",
     "casualties",

@@ -1,64 +1,79 @@
-"""A mission in its scene: the C++ loop, stepped from Python.
+"""The closed loop: physics and controller, for any robot, with a mission or without one.
 
-`simulation = hurcules.Simulation("stretch", seed=0)`, then `simulation.step(100)` for 0.1 s, as
-long as it is not `simulation.finished`.
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(1000, {"hand": [0.1, 0.0, 0.0]})
+
+    simulation = hurcules.Simulation(mission="stretch", seed=0)
+    simulation.step(1000)
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from hurcules import _core, models
-from hurcules._core import Error, MonitorOptions, SensorOptions
+from hurcules._core import Error, MonitorOptions, SensorOptions, WholeBodyController
 from hurcules.validation import require_known
 
-__all__ = ["Simulation"]
+__all__ = ["Simulation", "SimulationBatch"]
+
+Array = NDArray[np.float64]
+Command = Mapping[str, ArrayLike] | ArrayLike
 
 
 class Simulation(_core.Simulation):
-    """Robot, scene, controller and mission, closed at 1 kHz.
+    """Plant and controller, closed at the controller's rate.
 
-    Same mission, seed and commands: same bits, here, in `hurcules run` and in `hurcules-sim`.
+    Same start, seed and commands: same bits, here, in `hurcules run` and in `hurcules-sim`.
 
     Attributes:
-        mission: name of the mission.
+        mission: name of the mission, None without one.
         model: mujoco.MjModel of the scene.
         data: mujoco.MjData, the physics. Read it freely; who writes to it changes the run.
     """
 
     def __init__(
         self,
-        mission: str = "stretch",
+        mission: str | None = None,
         seed: int = 0,
         *,
+        model: mujoco.MjModel | str | Path | None = None,
+        controller: WholeBodyController | None = None,
         variation: float = 1.0,
         method: str = "lexicographic",
         record: bool = True,
         timed: bool = False,
         sensors: SensorOptions | None = None,
         monitors: MonitorOptions | None = None,
+        max_seconds: float = math.inf,
     ) -> None:
-        """Loads the mission's scene and stands at its start.
+        """A mission in its scene, or a controller of your own in any model.
 
         Args:
-            mission: one of `hurcules.missions()`.
+            mission: one of `hurcules.missions()`; with neither a mission nor a model: "stretch".
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
-            variation: how much differs between seeds: 1 as the mission says, 0 nothing.
-            method: how the hierarchy is solved, see `rhqp.SolverOptions`.
+            model: of a simulation without a mission, or the path of one. It starts where the
+                controller's robot stands.
+            controller: of a simulation without a mission, for this model.
+            variation: of a mission, how much differs between seeds: 1 as the mission says, 0 nothing.
+            method: of a mission, how the hierarchy is solved, see `rhqp.SolverOptions`.
             record: keeps every signal of every tick for `log`.
             timed: keeps the time of each stage of each tick for `timings`.
             sensors: what the control loop sees of the physics; None: all of it, exactly. See
                 `hurcules.sensors.realistic`.
             monitors: thresholds of the alarms; None: those of `MonitorOptions`.
+            max_seconds: the run ends when it takes longer [s].
 
         Raises:
-            Error: no such mission, method or sensor (the text names those that exist), or a bad
-                number.
+            Error: no such mission, method or sensor (the text names those that exist), a bad number,
+                or a controller that does not fit the model.
         """
-        require_known("mission", mission, _core.missions())
         options = _core.SimulationOptions(
             seed=_seed(seed),
             variation=_variation(variation),
@@ -67,14 +82,26 @@ class Simulation(_core.Simulation):
             timed=timed,
             sensors=sensors or SensorOptions(),
             monitors=monitors or MonitorOptions(),
+            max_seconds=max_seconds,
         )
-        self.mission = mission
-        self.model = models.load(mission=mission)
+        if (model is None) != (controller is None):
+            raise Error("a simulation without a mission wants both a model and a controller")
+        if model is not None and mission is not None:
+            raise Error("a simulation wants a mission, or a model and a controller, not all three")
+        if controller is not None:
+            self.mission = None
+            self.model = _model(model)
+            self.data = mujoco.MjData(self.model)
+            super().__init__(self.model, self.data, controller, options)
+            return
+        self.mission = mission or "stretch"
+        require_known("mission", self.mission, _core.missions())
+        self.model = models.load(mission=self.mission)
         self.data = mujoco.MjData(self.model)
-        super().__init__(self.model, self.data, mission, options)
+        super().__init__(self.model, self.data, self.mission, options)
 
-    def reset(self, seed: int) -> None:
-        """Back to the start of the mission.
+    def reset(self, seed: int = 0) -> None:
+        """Back to the start.
 
         Args:
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
@@ -83,6 +110,100 @@ class Simulation(_core.Simulation):
             Error: another seed.
         """
         super().reset(_seed(seed))
+
+    def step(self, n: int = 1, command: Command | None = None) -> int:
+        """Takes control ticks. Releases the interpreter lock.
+
+        Args:
+            n: how many.
+            command: SI values by the name of their channel (the others hold), or (k,) in the order
+                of `command_names`; each is held to `command_scale`. None: the mission's operator;
+                without a mission every target holds.
+
+        Returns:
+            The ticks done: fewer when the run ends.
+
+        Raises:
+            Error: an unknown channel, a wrong shape, or numbers that are not finite.
+        """
+        return super().step(n, None if command is None else _flat(self.controller, command))
+
+    def __repr__(self) -> str:
+        """What runs, and how far it is."""
+        what = f"mission {self.mission!r}" if self.mission else repr(self.controller)
+        return f"Simulation({what}, time={self.time:.3f} s{', ' * self.finished}{self.reason})"
+
+
+class SimulationBatch(_core.SimulationBatch):
+    """Many copies of a simulation on threads, stepped in one call.
+
+    The bits of each are those that it has alone, whatever the number of threads. `batch[i]` is one
+    of them.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        n: int,
+        threads: int = 0,
+        models: Sequence[mujoco.MjModel] = (),
+    ) -> None:
+        """Copies a simulation in its present state; copies record nothing.
+
+        Args:
+            simulation: to copy.
+            n: how many.
+            threads: 0 for one a processor.
+            models: one each, of the same names and shapes (masses or friction may differ), or none
+                to share the simulation's.
+
+        Raises:
+            Error: n < 1, or models that do not fit.
+        """
+        if n < 1:
+            raise Error(f"a batch wants n >= 1, {n} came")
+        super().__init__(simulation, n, threads, list(models))
+        self._controller = simulation.controller
+
+    def step(
+        self, ticks: int, commands: Command | None = None, mask: ArrayLike | None = None
+    ) -> None:
+        """Takes control ticks in all. Releases the interpreter lock.
+
+        Args:
+            ticks: how many; one that is finished stands still.
+            commands: SI values (n, size) by the name of their channel, or (n, k) in the order of
+                `command_names`; None as in `Simulation.step`.
+            mask: (n,) bool, which are stepped; None: all.
+
+        Raises:
+            Error: an unknown channel, a wrong shape, or numbers that are not finite.
+        """
+        flat = None if commands is None else _flat(self._controller, commands, len(self))
+        super().step(ticks, flat, None if mask is None else np.asarray(mask, bool).tolist())
+
+
+def _flat(controller: WholeBodyController, command: Command, rows: int | None = None) -> Array:
+    """A command as one array, (k,) or (rows, k)."""
+    if not isinstance(command, Mapping):
+        return np.asarray(command, dtype=np.float64)
+    known = [name for name, _ in controller.channels]
+    for name in command:
+        require_known("channel", name, known)
+    parts = []
+    for name, size in controller.channels:
+        shape = (size,) if rows is None else (rows, size)
+        part = np.asarray(command.get(name, np.zeros(shape)), dtype=np.float64)
+        if part.shape != shape and part.size != math.prod(shape):
+            raise Error(f"channel {name!r}: wanted shape {shape}, got {part.shape}")
+        parts.append(part.reshape(shape))
+    return np.concatenate(parts, axis=-1)
+
+
+def _model(model: mujoco.MjModel | str | Path | None) -> mujoco.MjModel:
+    if isinstance(model, str | Path):
+        return mujoco.MjModel.from_xml_path(str(model))
+    return model
 
 
 def _seed(value: object) -> int:

@@ -182,7 +182,7 @@ def test_a_brake_holds_what_falls_without_it() -> None:
     falls = []
     for braked in (True, False):
         data = mujoco.MjData(model)
-        physics = hurcules.Physics(model, data)
+        physics = hurcules.Plant(model, data)
         physics.reset("ready")
         physics.brakes.reset(closed=braked)
         address = model.joint("LSP").qposadr[0]
@@ -227,7 +227,7 @@ WRONG: list[tuple[Callable[[hurcules.Robot], object], str]] = [
         "too high for a control period",
     ),
     (
-        lambda r: hurcules.Physics(r, mujoco.MjData(mujoco.MjModel.from_xml_string(ARM))),
+        lambda r: hurcules.Plant(r, mujoco.MjData(mujoco.MjModel.from_xml_string(ARM))),
         "a mujoco.MjModel is wanted, a Robot came",
     ),
 ]

@@ -233,6 +233,15 @@ void WholeBodyController::move(const std::string& joint, double position, double
   moves_joints_ = true;
 }
 
+void WholeBodyController::move(const Vector& position, const Vector& velocity) {
+  require(position.size() == servo_.size() && velocity.size() == servo_.size() &&
+              position.allFinite() && velocity.allFinite(),
+          "move wants " + std::to_string(servo_.size()) + " finite positions and velocities, " +
+              std::to_string(position.size()) + " and " + std::to_string(velocity.size()) + " came");
+  for (Index i = 0; i < servo_.size(); ++i) servo_.move(i, position[i], velocity[i]);
+  moves_joints_ = true;
+}
+
 void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> spring) {
   forces_.push_back({&task, std::move(spring), -1, 1.0});
 }

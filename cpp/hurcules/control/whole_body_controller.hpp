@@ -80,6 +80,8 @@ class WholeBodyController {
   void use(const std::string& stack);
   // where a joint with an actuator shall be in this tick [rad], [rad/s]; no stack rules until `use`
   void move(const std::string& joint, double position, double velocity);
+  // the same for all of them, in the order of the servo: (m) each
+  void move(const Vector& position, const Vector& velocity);
   // a force task that reads the deflection of a spring, or a row of the model's sensors (its
   // reading is `sign` times the force that the robot exerts along the task's axis)
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);

@@ -49,6 +49,11 @@ Plant::Plant(ModelPtr model, mjData* borrowed)
   }
 }
 
+void Plant::place(const Vector& configuration) {
+  qpos() = configuration;
+  mj_kinematics(model_.get(), data_.get());
+}
+
 const std::vector<ActuatorStatus>& Plant::actuators() {
   for (const Motor& motor : motors_) {
     actuators_[static_cast<std::size_t>(motor.actuator)] = {

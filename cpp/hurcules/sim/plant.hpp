@@ -26,6 +26,8 @@ class Plant {
   [[nodiscard]] int other_free_joint(int root) const;
   // everything at rest in a keyframe (-1: the model's initial posture), brakes open, time zero
   void reset(int keyframe);
+  // everything at this configuration (nq); poses of bodies and sites follow
+  void place(const Vector& qpos);
   // what the drives can do at the present speeds; valid until the next call, (nu)
   const std::vector<ActuatorStatus>& actuators();
   // n steps, fewer when it ceases to be sound; MuJoCo's sensors are read in the last alone. Returns

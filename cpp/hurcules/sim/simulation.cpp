@@ -353,7 +353,7 @@ void Simulation::place(std::uint64_t seed) {
     start = supervisor_->start(plant_, robot, seed);
   }
   plant_.reset(-1);
-  plant_.qpos() = start;
+  plant_.place(start);
   controller_->reset(start);
   world_.set_qpos(start);
 }

@@ -65,7 +65,7 @@ class Powered:
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        self.physics = hurcules.Physics(model, data)
+        self.physics = hurcules.Plant(model, data)
         self.meter = hurcules.PowerMeter(model)
         self.work = self.energy = 0.0
         self._dt = float(model.opt.timestep)
