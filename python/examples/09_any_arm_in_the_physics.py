@@ -36,7 +36,7 @@ def main() -> None:
     simulation = hurcules.Simulation(model=path, controller=controller)
     second = round(1.0 / simulation.dt)
     start = simulation.data.site("end_effector").xpos.copy()
-    simulation.step(second, {"hand": [0.1, 0.2, 0.1]})  # [m/s], for a second
+    simulation.step(second, {"hand": [0.05, 0.1, 0.05]})  # [m/s], for a second
     simulation.step(second)  # every target holds
     moved = simulation.data.site("end_effector").xpos - start
 

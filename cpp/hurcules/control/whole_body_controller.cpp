@@ -195,10 +195,16 @@ void WholeBodyController::hold_targets() {
   for (Task* const task : tasks_) task->hold(plan_);
 }
 
-// what the plan takes at q*, qdot* and its change since the last tick
+// What the plan takes at q* and qdot*, with the accelerations that a law commands; a velocity that
+// is scaled down may jump, and what that would take is left to the servos.
 void WholeBodyController::feed_forward() {
   if (!options_.feed_forward) return;
-  qdd_ = (qd_ - last_qd_) / dt();
+  const bool commanded = !moves_joints_ && law().law() == Law::Acceleration && !scaled_;
+  if (commanded) {
+    qdd_ = (qd_ - last_qd_) / dt();
+  } else {
+    qdd_.setZero();
+  }
   last_qd_ = qd_;
   plan_.set_velocity(qd_);
   plan_.inverse_dynamics(qdd_, efforts_);
