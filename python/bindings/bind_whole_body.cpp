@@ -162,9 +162,9 @@ Channel channel_of(const std::string& name, const ChannelSpec& spec) {
   return {name, spec.kind, *spec.task.cast<Task*>(), spec.scale};
 }
 
-Law law_of(const std::string& name) {
-  if (name == "velocity") return Law::Velocity;
-  if (name == "acceleration") return Law::Acceleration;
+ControlOrder law_of(const std::string& name) {
+  if (name == "velocity") return ControlOrder::Velocity;
+  if (name == "acceleration") return ControlOrder::Acceleration;
   throw Error(unknown_name("law", name, {"acceleration", "velocity"}));
 }
 
@@ -190,7 +190,7 @@ std::shared_ptr<WholeBodyController> make(
     const std::optional<AccelerationControllerOptions>& acceleration) {
   auto held = std::make_shared<Held>();
   std::vector<NamedStack> all;
-  const auto add = [&](const std::string& name, const py::object& source, Law how) {
+  const auto add = [&](const std::string& name, const py::object& source, ControlOrder how) {
     HeldStack stack = stack_of(source);
     all.push_back({name, stack.stack, how});
     for (py::object& object : stack.kept) held->kept.push_back(std::move(object));
@@ -203,7 +203,7 @@ std::shared_ptr<WholeBodyController> make(
       add(name.cast<std::string>(), object[py::int_(0)],
           law_of(object[py::int_(1)].cast<std::string>()));
     } else {
-      add(name.cast<std::string>(), object, Law::Velocity);
+      add(name.cast<std::string>(), object, ControlOrder::Velocity);
     }
   }
   std::vector<Channel> made;

@@ -33,7 +33,7 @@ class LawOf : public MotionLaw {
 class VelocityLaw final : public LawOf<VelocityController> {
  public:
   using LawOf::LawOf;
-  Law law() const override { return Law::Velocity; }
+  ControlOrder order() const override { return ControlOrder::Velocity; }
   void measure(Robot& plan, const Vector&) override { controller_.measure(plan); }
   bool scale(const VelocityBounds& bounds, const Vector&) override {
     return controller_.scale_velocity(bounds);
@@ -52,7 +52,7 @@ class AccelerationLaw final : public LawOf<AccelerationController> {
   AccelerationLaw(const Robot& robot, const Stack& stack,
                   const AccelerationControllerOptions& options)
       : LawOf(robot, stack, options), next_(Vector::Zero(robot.size())) {}
-  Law law() const override { return Law::Acceleration; }
+  ControlOrder order() const override { return ControlOrder::Acceleration; }
   void measure(Robot& plan, const Vector& velocity) override {
     plan.set_velocity(velocity);
     controller_.measure(plan);

@@ -10,7 +10,8 @@
 
 namespace hurcules {
 
-enum class Law { Velocity, Acceleration };
+// What the unknowns of a stack are.
+enum class ControlOrder { Velocity, Acceleration };
 
 class MotionLaw {
  public:
@@ -30,7 +31,7 @@ class MotionLaw {
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
 
-  [[nodiscard]] virtual Law law() const = 0;
+  [[nodiscard]] virtual ControlOrder order() const = 0;
   [[nodiscard]] virtual const Stack& stack() const = 0;
   [[nodiscard]] virtual const Hierarchy& hierarchy() const = 0;
   [[nodiscard]] virtual const Solution& solution() const = 0;

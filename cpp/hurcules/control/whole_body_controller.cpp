@@ -69,7 +69,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
       require(stacks_[i].name != stacks_[k].name,
               "two stacks are called '" + stacks_[i].name + "'");
     }
-    laws_.push_back(stacks_[i].law == Law::Velocity
+    laws_.push_back(stacks_[i].order == ControlOrder::Velocity
                         ? make_law(plan_, stacks_[i].stack, options_.velocity)
                         : make_law(plan_, stacks_[i].stack, options_.acceleration));
   }
@@ -155,7 +155,7 @@ std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& rob
     for (StackLevel& level : levels) {
       for (Task*& task : level.tasks) task = copied(task);
     }
-    stacks.push_back({stack.name, Stack(std::move(levels)), stack.law});
+    stacks.push_back({stack.name, Stack(std::move(levels)), stack.order});
   }
   std::vector<Channel> channels;
   for (const Channel& channel : channels_) {
@@ -199,7 +199,7 @@ void WholeBodyController::hold_targets() {
 // is scaled down may jump, and what that would take is left to the servos.
 void WholeBodyController::feed_forward() {
   if (!options_.feed_forward) return;
-  const bool commanded = !moves_joints_ && law().law() == Law::Acceleration && !scaled_;
+  const bool commanded = !moves_joints_ && law().order() == ControlOrder::Acceleration && !scaled_;
   if (commanded) {
     qdd_ = (qd_ - last_qd_) / dt();
   } else {

@@ -42,7 +42,7 @@ enum class BaseSource {
 struct NamedStack {
   std::string name;
   Stack stack;
-  Law law = Law::Velocity;
+  ControlOrder order = ControlOrder::Velocity;
 };
 
 struct WholeBodyControllerOptions {

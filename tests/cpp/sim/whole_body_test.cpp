@@ -56,7 +56,7 @@ std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.0
   auto controller = std::make_shared<WholeBodyController>(
       robot,
       std::vector<NamedStack>{
-          {"reach", reach}, {"rest", rest}, {"accelerate", reach, Law::Acceleration}},
+          {"reach", reach}, {"rest", rest}, {"accelerate", reach, ControlOrder::Acceleration}},
       std::move(channels), options);
   controller->keep(std::move(tip));
   controller->keep(std::move(posture));
