@@ -16,7 +16,7 @@ SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings tests/
 $(shell mkdir -p build && find cpp python envs tests/cpp tests/fuzz benchmarks -type f -not -name '*.pyc' | sort > build/names.new; \
   cmp -s build/names.new build/names || mv build/names.new build/names)
 
-.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions setup clean
+.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture setup clean
 
 demo: setup
 	$(BIN)/hurcules run $(MISSION) $(DEMO_ARGS)
@@ -62,6 +62,14 @@ bench: setup
 # exact, but slow under valgrind (Debian: valgrind)
 bench-instructions: setup
 	$(BIN)/python benchmarks/count_instructions.py
+
+# python/hurcules/_core.pyi out of the compiled module
+stubs: setup
+	$(BIN)/python python/bindings/stubs.py
+
+# docs/architecture.md out of the include and import lines
+architecture: setup
+	$(BIN)/python benchmarks/figures/architecture.py
 
 setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
 

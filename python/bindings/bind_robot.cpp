@@ -6,11 +6,13 @@
 
 #include <cstdint>
 
+#include "annotated.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace py = pybind11;
 using namespace hurcules;
+using hurcules_bindings::ModelObject;
 
 namespace {
 
@@ -102,7 +104,7 @@ auto by_name(Result (Robot::*question)(Frame) const) {
 
 using Names = std::vector<std::string>;
 
-std::unique_ptr<Robot> robot_of_object(const py::object& model,
+std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
                                        const std::optional<Names>& joints) {
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +

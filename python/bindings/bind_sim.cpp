@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "annotated.hpp"
 #include "bind_sensors.hpp"
 #include "bind_sim_docs.hpp"
 #include "hurcules/base/error.hpp"
@@ -31,7 +32,7 @@ double now() {
   return std::chrono::duration<double>(since).count();
 }
 
-void step_physics(const py::object& model, const py::object& data, int n) {
+void step_physics(const ModelObject& model, const DataObject& data, int n) {
   const Scene scene = scene_of(model, data);
   require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
   py::gil_scoped_release release;
@@ -40,7 +41,7 @@ void step_physics(const py::object& model, const py::object& data, int n) {
   if (n > 0) step(scene.model, scene.data, tracks);
 }
 
-std::unique_ptr<Simulation> make_simulation(const py::object& model, const py::object& data,
+std::unique_ptr<Simulation> make_simulation(const ModelObject& model, const DataObject& data,
                                             const std::string& mission,
                                             const MissionOptions& options) {
   const Scene scene = scene_of(model, data);
@@ -48,7 +49,7 @@ std::unique_ptr<Simulation> make_simulation(const py::object& model, const py::o
                                              scene.data);
 }
 
-std::unique_ptr<Simulation> make_own(const py::object& model, const py::object& data,
+std::unique_ptr<Simulation> make_own(const ModelObject& model, const DataObject& data,
                                      const std::shared_ptr<WholeBodyController>& controller,
                                      const MissionOptions& options) {
   const Scene scene = scene_of(model, data);
@@ -281,9 +282,9 @@ void bind_results(py::class_<Simulation>& simulation) {
 }
 
 std::unique_ptr<SimulationBatch> make_batch(const Simulation& original, std::size_t n, int threads,
-                                            const std::vector<py::object>& models) {
+                                            const std::vector<ModelObject>& models) {
   std::vector<ModelPtr> own;
-  for (const py::object& model : models) {
+  for (const ModelObject& model : models) {
     own.push_back(borrow_model(pointer<const mjModel_>(model, "mujoco.MjModel")));
   }
   return std::make_unique<SimulationBatch>(original, n, threads, own);
@@ -340,7 +341,7 @@ void bind_batch(py::module_& module) {
   };
   py::class_<Batch>(module, "SimulationBatch", kBatch)
       .def(py::init(&make_batch), "simulation"_a, "n"_a, "threads"_a = 0,
-           "models"_a = std::vector<py::object>{}, py::keep_alive<1, 2>(), py::keep_alive<1, 5>())
+           "models"_a = std::vector<ModelObject>{}, py::keep_alive<1, 2>(), py::keep_alive<1, 5>())
       .def("step", &step_batch, "ticks"_a, "commands"_a = py::none(), "mask"_a = py::none(),
            kBatchStep)
       .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(),

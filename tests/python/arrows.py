@@ -18,7 +18,8 @@ PACKAGES = {
     "hurcules_envs": "envs/hurcules_envs",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"][^>"]+[>"])', re.MULTILINE)
-ROOM_HEADER = re.compile(r'"hurcules/(\w+)/\w+\.hpp"')
+# a room may have folders; its arrows are those of the whole room
+ROOM_HEADER = re.compile(r'"hurcules/(\w+)/(?:\w+/)*\w+\.hpp"')
 
 
 def imports(source: str) -> list[tuple[int, str, str]]:
