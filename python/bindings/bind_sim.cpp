@@ -125,8 +125,8 @@ std::vector<std::string> phase_names(const Simulation& self) {
   return self.supervisor() ? self.supervisor()->phase_names() : std::vector<std::string>{};
 }
 
-std::optional<std::string> phase(const Simulation& self) {
-  if (!self.supervisor()) return std::nullopt;
+std::string phase(const Simulation& self) {
+  if (!self.supervisor()) return "";
   return phase_names(self)[self.supervisor()->phase()];
 }
 
@@ -238,7 +238,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("finished", &Simulation::finished)
       .def_property_readonly("success", &Simulation::success)
       .def_property_readonly("reason", &Simulation::reason, kReason)
-      .def_property_readonly("phase", &phase, "of the mission; None without one")
+      .def_property_readonly("phase", &phase, "of the mission; '' without one")
       .def_property_readonly("phases", &phase_names)
       .def_property_readonly("command_names", &command_names)
       .def_property_readonly("command_scale", &command_scale, py::return_value_policy::copy,

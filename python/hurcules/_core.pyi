@@ -425,14 +425,22 @@ class Robot:
 
     Args:
       model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
+      joints: names of the coordinates (joints, or tuples without their prefix), in this order; None: by
+        the rule above.
 
     Raises:
       Error: the file cannot be read, or the tuples name no proper coordinates."""
 
     @overload
-    def __init__(self, model: os.PathLike[str] | str | bytes) -> None: ...
+    def __init__(
+        self,
+        model: os.PathLike[str] | str | bytes,
+        joints: collections.abc.Sequence[str] | None = None,
+    ) -> None: ...
     @overload
-    def __init__(self, model: mujoco.MjModel) -> None: ...
+    def __init__(
+        self, model: mujoco.MjModel, joints: collections.abc.Sequence[str] | None = None
+    ) -> None: ...
     def __repr__(self) -> str: ...
     def com_drift(self) -> NDArray[np.float64]:
         """(3,) [m/s^2]: Jdot v of the centre of mass."""
@@ -1358,7 +1366,7 @@ class VelocityController:
         Returns:
           q* (n,) [rad] or [m], one dt later. Releases the interpreter lock."""
 
-    def take_over(self, previous: VelocityController) -> None:
+    def take_over(self, previous: ArrayLike) -> None:
         """Goes on at the velocity of another controller of the same robot, with a transition.
 
         Args:
@@ -2058,11 +2066,195 @@ class DriveController:
     def slipping(self) -> bool:
         """whether a belt was held back in the last period"""
 
+class Channel:
+    """What a command moves; see Twist and the others."""
+
+    @property
+    def scale(self) -> NDArray[np.float64]: ...
+    @property
+    def task(self) -> Any: ...
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+class WholeBodyController:
+    """The controller of a whole robot: named commands in, controls of the actuators out.
+
+    Each tick: the command moves the targets; the tasks are measured at the plan, a robot that stands at
+    the reference; the hierarchy is solved; the reference follows; the servos follow the reference.
+    Position, velocity and acceleration limits of all coordinates come before every level.
+
+    Args:
+      robot: Robot where it starts; any MJCF robot.
+      levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
+      channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate.
+      stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
+        first one rules at the start if no `levels` are given.
+      law: "velocity" or "acceleration", of `levels`.
+      dt: control period [s]; by default the time step of the model.
+      base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
+        now: targets in the world stay where they are while the robot drives).
+      support: body that stands on the ground; by default the robot's own, see Robot.stand_on.
+      servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
+        default reckoned from the model.
+      feed_forward: servos are told the torques that the model says.
+      drive: DriveOptions of a robot on tracks; needed for a Drive channel.
+      belts: names of the left and right joint of the driven belts.
+      velocity: VelocityControllerOptions; its dt is not read.
+      acceleration: AccelerationControllerOptions; its dt is not read.
+
+    Raises:
+      Error: no level, an unknown name, a joint that cannot be servoed; the text says which."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        levels: Any | None = None,
+        channels: dict[str, Any] = {},
+        *,
+        stacks: dict[str, Any] = {},
+        law: str = "velocity",
+        dt: float | None = None,
+        base: str = "held",
+        support: str = "",
+        servo: collections.abc.Mapping[str, tuple[float, float]] = {},
+        feed_forward: bool = True,
+        drive: DriveOptions | None = None,
+        belts: tuple[str, str] = ("L_lower_belt", "R_lower_belt"),
+        velocity: VelocityControllerOptions | None = None,
+        acceleration: AccelerationControllerOptions | None = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def diagnostics(self) -> list[LevelNote]:
+        """What each level falls short of and why: list of LevelNote, decreasing priority."""
+
+    def hold_targets(self) -> None:
+        """The targets of all tasks come to where the plan is."""
+
+    def move(self, joint: str, position: float, velocity: float = 0.0) -> None:
+        """Where a joint shall be in the next tick; no stack rules until `use`.
+
+        Args:
+          joint: name of a joint with an actuator.
+          position: [rad] or [m].
+          velocity: [rad/s] or [m/s]."""
+
+    def move_all(self, positions: ArrayLike, velocities: ArrayLike) -> None:
+        """The same for all joints with a servo, in the order of `joints`.
+
+        Args:
+          positions: (m,) [rad] or [m].
+          velocities: (m,) [rad/s] or [m/s]."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def sense(self, task: ForceTask, source: Any, row: int = 0, sign: float = 1.0) -> None:
+        """What a force task reads, each tick.
+
+        Args:
+          task: ForceTask of the controller.
+          source: SpringForce, or the name of a sensor of the model.
+          row: of the sensor.
+          sign: of the sensor: its reading times this is what the robot exerts along the task's axis.
+
+        Raises:
+          Error: an unknown sensor."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    def use(self, stack: str) -> None:
+        """Lets another stack rule from the next tick on.
+
+        The velocity goes on within the acceleration limit, the servos keep their integrals. After joints
+        were moved one by one, all targets come to where the plan is.
+
+        Args:
+          stack: its name.
+
+        Raises:
+          Error: an unknown name, with those that exist."""
+
+    @property
+    def active(self) -> str | None:
+        """the stack that rules; None while joints are moved"""
+
+    @property
+    def active_limits(self) -> NDArray[np.int32]:
+        """(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one"""
+
+    @property
+    def channels(self) -> list[tuple[str, int]]:
+        """list of (name, number of values)"""
+
+    @property
+    def command(self) -> NDArray[np.float64]:
+        """(k,) the last one, as held to scale"""
+
+    @property
+    def command_names(self) -> list[str]:
+        """(k,) of all values of all channels"""
+
+    @property
+    def command_scale(self) -> NDArray[np.float64]:
+        """(k,) SI"""
+
+    @property
+    def demand(self) -> NDArray[np.float64]:
+        """(m,) the same before saturation"""
+
+    @property
+    def drive(self) -> DriveController:
+        """DriveController of the tracks, None without"""
+
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
+    @property
+    def joint_error(self) -> NDArray[np.float64]:
+        """(m,) [rad] or [m] place minus sensed"""
+
+    @property
+    def joint_places(self) -> NDArray[np.float64]:
+        """(m,) [rad] or [m] where the servos hold them"""
+
+    @property
+    def joints(self) -> list[str]:
+        """(m,) joints with a servo"""
+
+    @property
+    def plan(self) -> Robot:
+        """Robot at the reference; look at it, but do not move it"""
+
+    @property
+    def q_des(self) -> NDArray[np.float64]:
+        """(n,) [rad] reference"""
+
+    @property
+    def qd_des(self) -> NDArray[np.float64]:
+        """(n,) [rad/s]"""
+
+    @property
+    def scaled(self) -> bool:
+        """the last tick was slowed down by what the motors can hold"""
+
+    @property
+    def solution(self) -> ControlSolution:
+        """ControlSolution, of the last tick"""
+
+    @property
+    def stacks(self) -> list[str]:
+        """names of the stacks"""
+
+    @property
+    def torque(self) -> NDArray[np.float64]:
+        """(m,) [N m] or [N] of the servos"""
+
 class Brakes:
     """Magnetic brakes in the drives of the joints: closed they hold without power.
 
     A brake is dry friction of 1.2 times the motor's peak torque; beyond that it slips. It takes 0.05 s
-    to open or close. Made by Physics."""
+    to open or close. Made by Plant."""
 
     def close(self) -> None:
         """All of them."""
@@ -2098,7 +2290,7 @@ class Brakes:
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 
-class Physics:
+class Plant:
     """MuJoCo's physics with what the robot adds: traction of tracks, brakes, limits of its drives.
 
     Controls are written to data.ctrl as ever; the model is left as it is.
@@ -2422,7 +2614,14 @@ class SimulationOptions:
         base: BaseSource = ...,
         sensors: SensorOptions = ...,
         monitors: MonitorOptions = ...,
+        max_seconds: float = ...,
     ) -> None: ...
+    @property
+    def max_seconds(self) -> float:
+        """[s] the run ends when it takes longer"""
+
+    @max_seconds.setter
+    def max_seconds(self, arg0: float) -> None: ...
     @property
     def seed(self) -> int: ...
     @seed.setter
@@ -2433,19 +2632,33 @@ class SimulationOptions:
     def variation(self, arg0: float) -> None: ...
 
 class Simulation:
-    """The closed loop of a mission at 1 kHz, in C++, on a model and data that Python owns.
+    """The closed loop in C++, on a model and data that Python owns.
 
     Args:
       model: mujoco.MjModel of the mission's scene.
       data: mujoco.MjData of this model; the simulation resets and steps it.
-      mission: name of the mission.
+      mission: name of the mission that commands it.
+      controller: WholeBodyController instead of a mission.
       options: SimulationOptions.
 
     Raises:
       Error: the model lacks something that the mission asks for."""
 
+    @overload
     def __init__(
-        self, model: Any, data: Any, mission: str = "stretch", options: SimulationOptions = ...
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        mission: str = "stretch",
+        options: SimulationOptions = ...,
+    ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        controller: WholeBodyController,
+        options: SimulationOptions = ...,
     ) -> None: ...
     def commanded_level_errors(self) -> NDArray[np.float64]:
         """The same of the commanded motion, at the last tick."""
@@ -2455,6 +2668,24 @@ class Simulation:
 
     def figures(self) -> dict[str, Any]:
         """The mission's own figures and the worst that the monitors saw; NaN: has not happened."""
+
+    def follow(
+        self, joints: collections.abc.Sequence[str], positions: ArrayLike, velocities: ArrayLike
+    ) -> int:
+        """Leads joints along a motion, one tick a row.
+
+        No stack rules meanwhile; `controller.use` hands the robot back to one.
+
+        Args:
+          joints: names of joints with an actuator; the others stay.
+          positions: (ticks, joints) [rad] or [m].
+          velocities: (ticks, joints) [rad/s] or [m/s].
+
+        Returns:
+          The ticks done: fewer when the run ends.
+
+        Raises:
+          Error: an unknown joint, or arrays that do not fit."""
 
     def level_errors(self) -> NDArray[np.float64]:
         """Norm of the errors of each level in the physics now, in the unit of its tasks."""
@@ -2510,11 +2741,12 @@ class Simulation:
         """All that decides how the run goes on, as one array; the log and the events are not in it."""
 
     def step(self, n: int = 1, command: ArrayLike | None = None) -> int:
-        """Control ticks of 1 ms. Releases the interpreter lock.
+        """Control ticks of dt. Releases the interpreter lock.
 
         Args:
           n: how many.
-          command: (k,) [m/s] or [rad/s] in task space, held to command_scale; None is the operator.
+          command: (k,) SI, in the order of command_names, held to command_scale; None: the mission's
+            operator, and without a mission every target holds.
 
         Returns:
           The ticks done: fewer when the mission ends.
@@ -2529,12 +2761,20 @@ class Simulation:
         """Seconds that each stage of each tick took: dict of (ticks,)."""
 
     @property
+    def brakes(self) -> Brakes:
+        """Brakes of the joints' drives"""
+
+    @property
     def channels(self) -> list[str]: ...
     @property
     def command_names(self) -> list[str]: ...
     @property
     def command_scale(self) -> NDArray[np.float64]:
-        """(k,) [m/s] or [rad/s]"""
+        """(k,) SI"""
+
+    @property
+    def controller(self) -> WholeBodyController:
+        """WholeBodyController of the loop"""
 
     @property
     def dt(self) -> float:
@@ -2553,7 +2793,9 @@ class Simulation:
     @property
     def observation_names(self) -> list[str]: ...
     @property
-    def phase(self) -> str: ...
+    def phase(self) -> str | None:
+        """of the mission; None without one"""
+
     @property
     def phases(self) -> list[str]: ...
     @property
@@ -2566,6 +2808,82 @@ class Simulation:
     def time(self) -> float:
         """[s] since reset"""
 
+class SimulationBatch:
+    """Many copies of a simulation on threads, stepped in one call.
+
+    Each has controller and data of its own; they share the model unless each gets its own. Its bits
+    are those that it has alone, whatever the number of threads. Copies record nothing.
+
+    Args:
+      simulation: Simulation to copy, in its present state.
+      n: how many.
+      threads: 0 for one a processor.
+      models: one mujoco.MjModel each, of the same names and shapes, or none.
+
+    Raises:
+      Error: n < 1, or models that do not fit."""
+
+    def __getitem__(self, arg0: int) -> Simulation: ...
+    def __init__(
+        self,
+        simulation: Simulation,
+        n: int,
+        threads: int = 0,
+        models: collections.abc.Sequence[mujoco.MjModel] = [],
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def observation(self) -> NDArray[np.float64]:
+        """(n, m) what a policy sees now, see Simulation.observation_names."""
+
+    def reset(
+        self,
+        seeds: collections.abc.Sequence[int],
+        mask: collections.abc.Sequence[bool] | None = None,
+    ) -> None:
+        """Back to the start; seeds (n,), mask (n,) bool: which."""
+
+    def restore(
+        self, states: ArrayLike, mask: collections.abc.Sequence[bool] | None = None
+    ) -> None:
+        """Goes on from state()."""
+
+    def state(self) -> NDArray[np.float64]:
+        """(n, s): all that decides how each goes on, see Simulation.state."""
+
+    def step(
+        self,
+        ticks: int,
+        commands: ArrayLike | None = None,
+        mask: collections.abc.Sequence[bool] | None = None,
+    ) -> None:
+        """Control ticks of all. Releases the interpreter lock.
+
+        Args:
+          ticks: how many; one that is finished stands still.
+          commands: (n, k) SI, or None.
+          mask: (n,) bool: which are stepped; None: all.
+
+        Raises:
+          Error: arrays of another shape, or not finite."""
+
+    @property
+    def finished(self) -> NDArray[np.bool]:
+        """(n,) bool"""
+
+    @property
+    def qpos(self) -> NDArray[np.float64]:
+        """(n, nq) of the physics"""
+
+    @property
+    def qvel(self) -> NDArray[np.float64]:
+        """(n, nv) of the physics"""
+
+    @property
+    def threads(self) -> int: ...
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """(n,) [s]"""
+
 class PowerMeter:
     """What the robot takes from its battery: motors, open brakes, and 300 W that are always on.
 
@@ -2576,7 +2894,7 @@ class PowerMeter:
       Error: a model without the numbers that motors and transmissions want."""
 
     def __init__(self, model: mujoco.MjModel) -> None: ...
-    def read(self, physics: Physics) -> None:
+    def read(self, physics: Plant) -> None:
         """Reads a step that was just taken.
 
         Args:
@@ -2636,6 +2954,52 @@ def BoundsStack(lower: ArrayLike, upper: ArrayLike) -> LevelStack:
 
     Args:
       lower, upper: (B, n) float64, or (n,) when all have the same."""
+
+def Delta(task: Any, scale: Any) -> Channel:
+    """A channel that puts the target of a task at its measured value plus an increment.
+
+    It acts once a call of `step`; zero leaves the target where it is.
+
+    Args:
+      task: Task with a target.
+      scale: full scale [m] or [rad]."""
+
+def Drive(speed: float, yaw_rate: float) -> Channel:
+    """A channel that drives the tracks: speed and yaw rate.
+
+    Args:
+      speed: full scale [m/s].
+      yaw_rate: full scale [rad/s]."""
+
+def ForceReference(task: Any, scale: Any) -> Channel:
+    """A channel that sets the force that a ForceTask keeps.
+
+    Args:
+      task: ForceTask.
+      scale: largest magnitude [N]."""
+
+def JointRate(joint: str, scale: float) -> Channel:
+    """A channel that moves a joint of no coordinate (a gripper, a bed) by a velocity.
+
+    Args:
+      joint: name of a joint with an actuator.
+      scale: full scale [rad/s] or [m/s]."""
+
+def Target(task: Any, scale: Any = ...) -> Channel:
+    """A channel that sets the target of a task.
+
+    It acts once a call of `step`. An orientation is given as a rotation vector.
+
+    Args:
+      task: Task whose target is a list of numbers, or OrientationTask.
+      scale: largest magnitude [m] or [rad]."""
+
+def Twist(task: Any, scale: Any) -> Channel:
+    """A channel that leads the target of a task by a velocity; zero holds it.
+
+    Args:
+      task: Task with a target.
+      scale: full scale, one number or one a row [m/s] or [rad/s]; a command is held to it."""
 
 def largest_stiffness(gains: ForceGains) -> float:
     """Largest stiffness G [N/m] of an environment that the gains keep stable in steps of dt.
@@ -2708,7 +3072,7 @@ def solve_batch(
     Raises:
       Error: as Solver.solve, with the number of the problem."""
 
-def step(model: Any, data: Any, n: int = 1) -> None:
+def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None:
     """mj_step with the traction of the tracks; plain mj_step leaves the belts without any.
 
     MuJoCo's sensors are read in the last step alone.
