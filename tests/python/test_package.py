@@ -16,7 +16,7 @@ from types import ModuleType
 import pytest
 
 import hurcules
-from hurcules import _core, _exec, _version, doctor, models
+from hurcules import _core, _exec, _version, doctor, mjcf, models
 
 
 @pytest.fixture(scope="module")
@@ -92,8 +92,10 @@ def test_import_with_another_mujoco_ends_with_that_message(tmp_path: Path, pin: 
         "hurcules.doctor",
         "hurcules.scenes",
         "hurcules.casualties",
-        "hurcules.trials",
-        "hurcules.reproduce",
+        "hurcules.driving",
+        "hurcules.plugins",
+        "hurcules_studies.field_tests",
+        "hurcules_studies.thesis",
     ],
 )
 def test_all_names_exactly_what_is_there(name: str) -> None:
@@ -148,7 +150,7 @@ def test_broken_mjcf_gives_the_text_of_what_is_wrong(
     for kind, text in (("robots", "<mujoco><size/></mujoco>"), ("scenes", scene)):
         (tmp_path / kind).mkdir()
         (tmp_path / kind / "x.xml").write_text(text)
-    monkeypatch.setattr(models, "folder", lambda: tmp_path)
+    monkeypatch.setattr(mjcf, "folder", lambda: tmp_path)
     with pytest.raises(hurcules.Error, match=says):
         models.load("x", scene="x")
 
