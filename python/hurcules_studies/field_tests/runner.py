@@ -17,7 +17,14 @@ from functools import partial
 import numpy as np
 
 from hurcules._core import Error
-from hurcules_studies.field_tests.attempt import USUAL, Driver, Repetition, Variation, repeat
+from hurcules_studies.field_tests.attempt import (
+    USUAL,
+    Driver,
+    Repetition,
+    Stopped,
+    Variation,
+    repeat,
+)
 from hurcules_studies.field_tests.methods import METHODS, Method, method
 from hurcules_studies.field_tests.reliability import confidence, lower_bound
 
@@ -26,6 +33,7 @@ __all__ = ["Result", "SettingResult", "attempt_seed", "run"]
 # told of each repetition that has ended: setting, repetitions so far, failures so far
 Progress = Callable[[float | None, int, int], None]
 Job = tuple[object, ...]  # the arguments of repeat
+TOP_SPEED = 20 / 3.6  # [m/s] of the drives
 HOPELESS = 3  # failures at the start of a setting, after which it is not repeated any more
 
 
@@ -101,9 +109,12 @@ def run(
     """
     chosen = method(name) if isinstance(name, str) else name
     name = next((key for key, one in METHODS.items() if one.title == chosen.title), chosen.title)
-    if repetitions < 1 or workers < 1 or not (speed is None or speed > 0.0):
-        wanted = "wanted repetitions >= 1, workers >= 1 and a speed > 0"
-        raise Error(f"{name}: {wanted}, got {repetitions}, {workers} and {speed!r}")
+    for what, count in (("repetitions", repetitions), ("workers", workers)):
+        if count < 1:
+            raise Error(f"{name}: {what}: wanted a whole number from 1 up, got {count}")
+    if speed is not None and not 0.0 < speed <= TOP_SPEED:
+        wanted = f"wanted a speed above 0, {TOP_SPEED:.2f} m/s (20 km/h) at most"
+        raise Error(f"{name}: pace: {wanted}, got {speed:g}")
     if speed is not None and chosen.parameter == "speed":
         raise Error(f"{name}: the speed is its setting; got another one of {speed:g} m/s")
     results: list[SettingResult] = []
@@ -131,6 +142,12 @@ def run(
 def attempt_seed(seed: int, index: int) -> int:
     """The seed of a repetition."""
     return 1000 * seed + index
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """Ends the processes in the middle of their repetitions."""
+    for process in list((getattr(pool, "_processes", None) or {}).values()):
+        process.terminate()
 
 
 @contextmanager
@@ -178,7 +195,11 @@ def _all(
         for index, job in enumerate(jobs):
             if stopped() or _hopeless(done):
                 break
-            note(index, repeat(*job))  # type: ignore[arg-type]  # a tuple of its arguments
+            try:
+                # a tuple of its arguments
+                note(index, repeat(*job, stopped=stopped))  # type: ignore[arg-type]
+            except Stopped:
+                break
     else:
         waiting: dict[Future[Repetition], int] = {
             pool.submit(repeat, *job): index  # type: ignore[arg-type]
@@ -190,6 +211,8 @@ def _all(
                 note(waiting.pop(future), future.result())
         for future in waiting:
             future.cancel()
+        if stopped():
+            _end(pool)
     kept = range(HOPELESS) if _hopeless(done) else sorted(done)
     return [done[index] for index in kept]
 
