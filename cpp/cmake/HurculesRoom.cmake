@@ -1,4 +1,4 @@
-# One library a room: its links are the arrows of the house, and nothing else may link.
+# One library a module: its links are its dependencies, and nothing else may link.
 
 function(hurcules_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
@@ -13,7 +13,7 @@ function(hurcules_precompile target)
   target_precompile_headers(${target} PRIVATE ${HURCULES_GUARD} ${ARGN})
 endfunction()
 
-# hurcules_room(NAME [LINKS room or target ...]): every source in cpp/hurcules/NAME
+# hurcules_room(NAME [LINKS module or target ...]): every source in cpp/hurcules/NAME
 function(hurcules_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/hurcules/${name}/*.cpp")
