@@ -15,6 +15,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PRODUCT := build/product
 BUILD := build/make
+RELEASE := build/release
 STEP := .ci/step build/logs
 PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings -name '*.?pp' -o -name CMakeLists.txt -o -name '*.cmake*')
@@ -124,7 +125,7 @@ wheel: $(VENV)/ready | machine
 	@$(BIN)/python .ci/requirements release > build/requirements-release.txt
 	@$(STEP)/packages-release.log "downloading auditwheel" $(PIP) install -r build/requirements-release.txt
 	@$(STEP)/wheel.log "compiling the wheel" $(PIP) wheel --verbose --no-build-isolation --no-deps --wheel-dir build/wheel . \
-	  --config-settings build-dir=build/release
+	  --config-settings build-dir=$(RELEASE)
 	@PATH="$(CURDIR)/$(BIN):$$PATH" $(STEP)/auditwheel.log "auditwheel" \
 	  $(BIN)/auditwheel repair --exclude 'libmujoco.so.*' --wheel-dir dist build/wheel/hurcules-*.whl
 	@.ci/try_wheel $(PYTHON)

@@ -8,7 +8,7 @@ from hurcules._version import NOT_COMPILED, __version__, require_mujoco
 require_mujoco()
 
 try:
-    from hurcules import _core  # noqa: F401  for the error below
+    import hurcules._core  # noqa: F401  tried for the error below
 except ModuleNotFoundError as error:
     if error.name != "hurcules._core":
         raise

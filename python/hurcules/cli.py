@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 import hurcules
@@ -226,7 +227,8 @@ def doctor() -> None:
     findings = examine()
     table = _plain_table()
     for finding in findings:
-        detail = finding.detail + (f"\nremedy: {finding.remedy}" if finding.remedy else "")
+        detail = escape(finding.detail)
+        detail += escape(f"\nremedy: {finding.remedy}") if finding.remedy else ""
         mark = f"[{colours[finding.status]}]{finding.status}"
         table.add_row(f"[bold]{finding.what}", mark, detail)
     console.print(table)

@@ -26,7 +26,7 @@ LEVELS = {
     "hpos": "hand positions",
     "hpitch": "pitch of the lower arms",
     "pel": "pelvis, forward",
-    "gaze": "gaze",
+    "gaze": "gaze direction",
 }
 _SIDES = {"L": "left", "R": "right"}
 

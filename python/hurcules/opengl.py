@@ -55,7 +55,7 @@ def import_mujoco() -> Any:
     Returns:
         The module; as it is, where somebody has imported it before.
     """
-    if "mujoco" in sys.modules:
+    if sys.modules.get("mujoco") is not None:
         return sys.modules["mujoco"]
     chosen = os.environ.get("MUJOCO_GL")
     os.environ["MUJOCO_GL"] = "disable"
@@ -67,7 +67,10 @@ def import_mujoco() -> Any:
         else:
             os.environ["MUJOCO_GL"] = chosen
     if (chosen or "").lower() not in _DISABLED:
-        context: Any = importlib.import_module("mujoco.rendering.classic.gl_context")
+        try:
+            context: Any = importlib.import_module("mujoco.rendering.classic.gl_context")
+        except ImportError:  # another MuJoCo, which is for others to complain about
+            return mujoco
         context.GLContext = mujoco.GLContext = _first_context  # type: ignore[attr-defined]
     return mujoco
 

@@ -72,7 +72,9 @@ def run(options: RunOptions, console: Console) -> int:
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
         if lost := extras.without():
-            console.print(f"no film and no report: {lost}", style="yellow", highlight=False)
+            console.print(
+                f"no film and no report: {lost}", style="yellow", highlight=False, markup=False
+            )
         recording = _simulate(simulation, ticks, console, interrupts)
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
@@ -147,7 +149,7 @@ def _save(
                 snapshots = _snapshots(painter, recording, summary)
         except RendererError as missing:
             video = str(missing)
-            console.print(f"no video: {missing}", style="yellow", highlight=False)
+            console.print(f"no video: {missing}", style="yellow", highlight=False, markup=False)
     from hurcules import report  # with the packages of the extra hurcules[report]
 
     output.write(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import time
 import warnings
 from collections.abc import Callable
@@ -39,6 +40,7 @@ def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
     _require_display()
     import mujoco.viewer
 
+    threads = set(threading.enumerate())
     with mujoco.viewer.launch_passive(model, data, show_left_ui=False) as window:
         started, begun = time.perf_counter(), data.time
         while window.is_running():
@@ -51,6 +53,8 @@ def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
                 advance(round((until - data.time) / model.opt.timestep))
             window.sync()
             time.sleep(max(0.0, 1.0 / FPS - (time.perf_counter() - started - passed)))
+    for thread in set(threading.enumerate()) - threads:
+        thread.join()  # the window still draws this model
 
 
 def _subject(name: str, seed: int) -> tuple[Any, Any, Callable[[int], Any]]:

@@ -7,25 +7,32 @@ cannot be imported end in one line, and `hurcules doctor` works without either.
 from __future__ import annotations
 
 import importlib.util
+import os
+import signal
 import sys
-from types import ModuleType
+from types import FrameType, ModuleType
 
 __all__ = ["main"]
 
 
 def main() -> int:
     """Imports the package and runs its command line; returns the exit code."""
+    before = signal.signal(signal.SIGINT, _end)
     try:
         from hurcules import cli
-    except KeyboardInterrupt:
-        print("hurcules: interrupted", file=sys.stderr)
-        return 130
     except ImportError as error:
         if sys.argv[1:] == ["doctor"]:
             return _doctor()
         print(f"hurcules: error: {error}", file=sys.stderr)
         return 1
+    signal.signal(signal.SIGINT, before)
     return cli.main()
+
+
+def _end(_number: int, _frame: FrameType | None) -> None:
+    """Ends at once: an exception inside an import would come out as an ImportError."""
+    os.write(2, b"hurcules: interrupted\n")
+    os._exit(130)
 
 
 def _doctor() -> int:

@@ -1,4 +1,4 @@
-""".ci/machine and .ci/step: what is missing is named, asked for, waited for; failures show their cause.
+""".ci/machine and .ci/step: missing packages are named, asked for, waited for; failures explained.
 
 Strategy: a made-up apt-get and a made-up compiler that finds nothing stand in for the machine. Not
 tested: real package managers (bare machines were tried by hand).
@@ -42,15 +42,18 @@ class Machine:
         self.apt("touch compiler")
 
     def program(self, name: str, text: str) -> None:
+        """Puts a script before the machine's own program of that name."""
         path = self.bin / name
         path.write_text(text)
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
 
     def apt(self, outcome: str) -> None:
+        """Says what an installation does."""
         names = {"log": self.folder / "calls", "locks": self.folder / "locks"}
         self.program("apt-get", APT.format(outcome=outcome, **names))
 
     def check(self, **environment: str) -> tuple[int, str]:
+        """Exit code of `.ci/machine check`, and what it said."""
         clean = {k: v for k, v in os.environ.items() if k not in ("CI", "YES", "CXX")}
         done = subprocess.run(
             [self.folder / ".ci" / "machine", "check", sys.executable],
@@ -63,6 +66,7 @@ class Machine:
         return done.returncode, done.stdout + done.stderr
 
     def calls(self) -> list[str]:
+        """What apt-get was called with."""
         path = self.folder / "calls"
         return path.read_text().splitlines() if path.exists() else []
 

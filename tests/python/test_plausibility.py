@@ -38,7 +38,9 @@ def test_radians_read_as_degrees_warn_at_the_callers_line() -> None:
 
 
 def test_degrees_read_as_radians_warn() -> None:
-    with pytest.warns(UserWarning, match="many turns, were degrees meant.*'shoulder' -90 to 90 rad"):
+    with pytest.warns(
+        UserWarning, match="many turns, were degrees meant.*'shoulder' -90 to 90 rad"
+    ):
         robot(RADIAN, "-90 90")
 
 

@@ -67,6 +67,7 @@ def run_method(options: MethodOptions, console: Console) -> int:
     """
     chosen, settings = parse(options.method, options.words)
     require_known("robot", options.robot, robot_names())
+    runner.check(chosen, options.repetitions, options.workers, options.speed)
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
         started = perf_counter()
@@ -80,7 +81,9 @@ def run_method(options: MethodOptions, console: Console) -> int:
         summary = summarize(result, chosen, options, success, wall)
         output.write_json("summary.json", summary)
         if lost := extras.without():
-            console.print(f"no film and no report: {lost}", style="yellow", highlight=False)
+            console.print(
+                f"no film and no report: {lost}", style="yellow", highlight=False, markup=False
+            )
         else:
             picture, video = _show(options, chosen, result, output, console, interrupts)
             output.write("report.html", lambda path: page.write(path, summary, picture, video))
@@ -175,7 +178,7 @@ def _show(
                     lambda path: _film(painter, path, frames, lambda: interrupts.noted),
                 )
     except RendererError as missing:
-        console.print(f"no pictures: {missing}", style="yellow", highlight=False)
+        console.print(f"no pictures: {missing}", style="yellow", highlight=False, markup=False)
         return None, str(missing)
     return picture, video
 

@@ -108,15 +108,7 @@ def run(
         Error: no such method or robot, or a bad number.
     """
     chosen = method(name) if isinstance(name, str) else name
-    name = next((key for key, one in METHODS.items() if one.title == chosen.title), chosen.title)
-    for what, count in (("repetitions", repetitions), ("workers", workers)):
-        if count < 1:
-            raise Error(f"{name}: {what}: wanted a whole number from 1 up, got {count}")
-    if speed is not None and not 0.0 < speed <= TOP_SPEED:
-        wanted = f"wanted a speed above 0, {TOP_SPEED:.2f} m/s (20 km/h) at most"
-        raise Error(f"{name}: pace: {wanted}, got {speed:g}")
-    if speed is not None and chosen.parameter == "speed":
-        raise Error(f"{name}: the speed is its setting; got another one of {speed:g} m/s")
+    check(chosen, repetitions, workers, speed)
     results: list[SettingResult] = []
     seconds = 0.0
     with _pool(workers) as pool:
@@ -135,8 +127,34 @@ def run(
     largest = passed[-1].setting if passed else None
     cut = not _ended(tries, repetitions)
     return Result(
-        name, chosen.title, robot, chosen.parameter, largest, bool(passed), cut, seconds, results
+        _name(chosen),
+        chosen.title,
+        robot,
+        chosen.parameter,
+        largest,
+        bool(passed),
+        cut,
+        seconds,
+        results,
     )
+
+
+def check(chosen: Method, repetitions: int, workers: int, speed: float | None) -> None:
+    """Raises Error for a number that `run` would refuse."""
+    name = _name(chosen)
+    for what, count in (("repetitions", repetitions), ("workers", workers)):
+        if count < 1:
+            raise Error(f"{name}: {what}: wanted a whole number from 1 up, got {count}")
+    if speed is not None and not 0.0 < speed <= TOP_SPEED:
+        wanted = f"wanted a speed above 0, {TOP_SPEED:.2f} m/s (20 km/h) at most"
+        raise Error(f"{name}: pace: {wanted}, got {speed:g}")
+    if speed is not None and chosen.parameter == "speed":
+        raise Error(f"{name}: the speed is its setting; got another one of {speed:g} m/s")
+
+
+def _name(chosen: Method) -> str:
+    """The name of a method; its title for one that has none."""
+    return next((key for key, one in METHODS.items() if one.title == chosen.title), chosen.title)
 
 
 def attempt_seed(seed: int, index: int) -> int:
