@@ -27,7 +27,7 @@ $(shell mkdir -p build && find cpp python envs tests/cpp tests/fuzz benchmarks -
 # a virtual environment whose Python is gone is made anew
 $(shell test ! -d $(VENV) || $(BIN)/python -c '' 2>/dev/null || rm -rf $(VENV))
 
-.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions product setup wheel machine machine-test clean
+.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture product setup wheel machine machine-test clean
 
 # where the tests are built already, the demo uses that build
 demo: $(if $(wildcard $(BUILD)/installed-*),setup,product)
@@ -75,6 +75,13 @@ bench: setup
 bench-instructions: setup
 	$(BIN)/python benchmarks/count_instructions.py
 
+# python/hurcules/_core.pyi out of the compiled module
+stubs: setup
+	$(BIN)/python python/bindings/stubs.py
+
+# docs/architecture.md out of the include and import lines
+architecture: setup
+	$(BIN)/python benchmarks/figures/architecture.py
 product: $(PRODUCT)/installed-$(WERROR)-$(ASSERTS)
 
 setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)

@@ -1,6 +1,7 @@
 // control: the acceleration controller.
 #include "bind_controller.hpp"
 #include "hurcules/control/acceleration_controller.hpp"
+#include "options.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -53,33 +54,21 @@ Returns:
   (n,) [N m] or [N].
 )";
 
-void bind_options(py::module_& module) {
+void bind_acceleration_options(py::module_& module) {
   using Options = AccelerationControllerOptions;
-  const Options d;
-  py::class_<Options>(module, "AccelerationControllerOptions", kOptions)
-      .def(py::init([](double dt, double stiffness, double damping, double horizon,
-                       double max_acceleration, double return_speed, double rest,
-                       const SolverOptions& solver) {
-             return Options{dt,           stiffness, damping, horizon, max_acceleration,
-                            return_speed, rest,      solver};
-           }),
-           py::kw_only(), "dt"_a = d.dt, "stiffness"_a = d.stiffness, "damping"_a = d.damping,
-           "horizon"_a = d.horizon, "max_acceleration"_a = d.max_acceleration,
-           "return_speed"_a = d.return_speed, "rest"_a = d.rest, "solver"_a = d.solver)
-      .def_readwrite("dt", &Options::dt, "[s]")
-      .def_readwrite("stiffness", &Options::stiffness, "[1/s^2]")
-      .def_readwrite("damping", &Options::damping, "[1/s]")
-      .def_readwrite("horizon", &Options::horizon, "[s]")
-      .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
-      .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
-      .def_readwrite("rest", &Options::rest, "[1/s]")
-      .def_readwrite("solver", &Options::solver, "SolverOptions");
+  bind_options<Options>(
+      module, "AccelerationControllerOptions", kOptions,
+      {field("dt", &Options::dt, "[s]"), field("stiffness", &Options::stiffness, "[1/s^2]"),
+       field("damping", &Options::damping, "[1/s]"), field("horizon", &Options::horizon, "[s]"),
+       field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
+       field("return_speed", &Options::return_speed, "[rad/s]"),
+       field("rest", &Options::rest, "[1/s]"), field("solver", &Options::solver, "SolverOptions")});
 }
 
 }  // namespace
 
 void bind_acceleration(py::module_& module) {
-  bind_options(module);
+  bind_acceleration_options(module);
   const auto step = [](AccelerationController& self, Robot& robot) {
     require_stack(self);
     py::gil_scoped_release release;

@@ -6,6 +6,7 @@
 #include "bind_controller.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/velocity_controller.hpp"
+#include "options.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -63,22 +64,13 @@ the level's equality rows on the directions that the levels above left; 1 withou
 void bind_controller(py::module_& module) {
   using Options = VelocityControllerOptions;
   const Options defaults;
-  py::class_<Options>(module, "VelocityControllerOptions", kOptions)
-      .def(py::init([](double dt, double gain, double horizon, double max_acceleration,
-                       double return_speed, double transition, const SolverOptions& solver) {
-             return Options{dt, gain, horizon, max_acceleration, return_speed, transition, solver};
-           }),
-           py::kw_only(), "dt"_a = defaults.dt, "gain"_a = defaults.gain,
-           "horizon"_a = defaults.horizon, "max_acceleration"_a = defaults.max_acceleration,
-           "return_speed"_a = defaults.return_speed, "transition"_a = defaults.transition,
-           "solver"_a = defaults.solver)
-      .def_readwrite("dt", &Options::dt, "[s]")
-      .def_readwrite("gain", &Options::gain, "[1/s]")
-      .def_readwrite("horizon", &Options::horizon, "[s]")
-      .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
-      .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
-      .def_readwrite("transition", &Options::transition, "[s]")
-      .def_readwrite("solver", &Options::solver, "SolverOptions");
+  bind_options<Options>(module, "VelocityControllerOptions", kOptions,
+                        {field("dt", &Options::dt, "[s]"), field("gain", &Options::gain, "[1/s]"),
+                         field("horizon", &Options::horizon, "[s]"),
+                         field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
+                         field("return_speed", &Options::return_speed, "[rad/s]"),
+                         field("transition", &Options::transition, "[s]"),
+                         field("solver", &Options::solver, "SolverOptions")});
   const auto integrate = [](const VelocityController& self, const ConstVectorRef& q) {
     require(q.size() == self.velocity().size() && q.allFinite(),
             "integrate wants " + std::to_string(self.velocity().size()) + " finite numbers, got " +

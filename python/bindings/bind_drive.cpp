@@ -8,6 +8,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/drive_controller.hpp"
+#include "options.hpp"
 #include "state.hpp"
 
 namespace py = pybind11;
@@ -136,108 +137,54 @@ std::array<double, 2> compute(DriveController& self, double left, double right, 
   return {torques.left, torques.right};
 }
 
-void bind_options(py::module_& module) {
-  py::class_<SpeedLimits>(module, "SpeedLimits", kSpeedLimits)
-      .def(py::init(
-               [](double acceleration, double jerk) { return SpeedLimits{acceleration, jerk}; }),
-           "acceleration"_a, "jerk"_a)
-      .def_readwrite("acceleration", &SpeedLimits::acceleration, "[m/s^2] or [rad/s^2]")
-      .def_readwrite("jerk", &SpeedLimits::jerk, "[m/s^3] or [rad/s^3]");
+void bind_parking_options(py::module_& module) {
+  bind_options<SpeedLimits>(
+      module, "SpeedLimits", kSpeedLimits,
+      {required("acceleration", &SpeedLimits::acceleration, "[m/s^2] or [rad/s^2]"),
+       required("jerk", &SpeedLimits::jerk, "[m/s^3] or [rad/s^3]")},
+      Arguments::Positional);
   using Park = ParkingOptions;
-  const Park park;
-  py::class_<Park>(module, "ParkingOptions", kParkingOptions)
-      .def(py::init([](double speed, double yaw_rate, double deceleration, double turn_centre,
-                       double run_in, double line_gain, double heading_gain, double max_offset,
-                       double max_turn, int attempts, double patience) {
-             return Park{speed,        yaw_rate,   deceleration, turn_centre, run_in,  line_gain,
-                         heading_gain, max_offset, max_turn,     attempts,    patience};
-           }),
-           py::kw_only(), "speed"_a = park.speed, "yaw_rate"_a = park.yaw_rate,
-           "deceleration"_a = park.deceleration, "turn_centre"_a = park.turn_centre,
-           "run_in"_a = park.run_in, "line_gain"_a = park.line_gain,
-           "heading_gain"_a = park.heading_gain, "max_offset"_a = park.max_offset,
-           "max_turn"_a = park.max_turn, "attempts"_a = park.attempts, "patience"_a = park.patience)
-      .def_readwrite("speed", &Park::speed, "[m/s]")
-      .def_readwrite("yaw_rate", &Park::yaw_rate, "[rad/s]")
-      .def_readwrite("deceleration", &Park::deceleration, "[m/s^2]")
-      .def_readwrite("turn_centre", &Park::turn_centre, "[m]")
-      .def_readwrite("run_in", &Park::run_in, "[m]")
-      .def_readwrite("line_gain", &Park::line_gain, "[rad/m]")
-      .def_readwrite("heading_gain", &Park::heading_gain, "[1/s]")
-      .def_readwrite("max_offset", &Park::max_offset, "[m]")
-      .def_readwrite("max_turn", &Park::max_turn, "[rad]")
-      .def_readwrite("attempts", &Park::attempts)
-      .def_readwrite("patience", &Park::patience);
+  bind_options<Park>(
+      module, "ParkingOptions", kParkingOptions,
+      {field("speed", &Park::speed, "[m/s]"), field("yaw_rate", &Park::yaw_rate, "[rad/s]"),
+       field("deceleration", &Park::deceleration, "[m/s^2]"),
+       field("turn_centre", &Park::turn_centre, "[m]"), field("run_in", &Park::run_in, "[m]"),
+       field("line_gain", &Park::line_gain, "[rad/m]"),
+       field("heading_gain", &Park::heading_gain, "[1/s]"),
+       field("max_offset", &Park::max_offset, "[m]"), field("max_turn", &Park::max_turn, "[rad]"),
+       field("attempts", &Park::attempts), field("patience", &Park::patience)});
 }
 
 void bind_drive_options(py::module_& module) {
   using Drive = DriveOptions;
-  const Drive d;
-  py::class_<Drive>(module, "DriveOptions", kDriveOptions)
-      .def(py::init([](double dt, double radius, double gauge, double mass, double max_torque,
-                       double max_power, double max_speed, double max_yaw_rate, double max_sideways,
-                       const SpeedLimits& forward, const SpeedLimits& turning, double gain,
-                       double integral_gain, double speed_gain, double yaw_gain,
-                       double yaw_integral_gain, double slip_speed, double slip_ratio,
-                       double standstill_time, double brake_time, const ParkingOptions& parking) {
-             return Drive{dt,
-                          radius,
-                          gauge,
-                          mass,
-                          max_torque,
-                          max_power,
-                          max_speed,
-                          max_yaw_rate,
-                          max_sideways,
-                          forward,
-                          turning,
-                          gain,
-                          integral_gain,
-                          speed_gain,
-                          yaw_gain,
-                          yaw_integral_gain,
-                          slip_speed,
-                          slip_ratio,
-                          standstill_time,
-                          brake_time,
-                          parking};
-           }),
-           py::kw_only(), "dt"_a = d.dt, "radius"_a = d.radius, "gauge"_a = d.gauge,
-           "mass"_a = d.mass, "max_torque"_a = d.max_torque, "max_power"_a = d.max_power,
-           "max_speed"_a = d.max_speed, "max_yaw_rate"_a = d.max_yaw_rate,
-           "max_sideways"_a = d.max_sideways, "forward"_a = d.forward, "turning"_a = d.turning,
-           "gain"_a = d.gain, "integral_gain"_a = d.integral_gain, "speed_gain"_a = d.speed_gain,
-           "yaw_gain"_a = d.yaw_gain, "yaw_integral_gain"_a = d.yaw_integral_gain,
-           "slip_speed"_a = d.slip_speed, "slip_ratio"_a = d.slip_ratio,
-           "standstill_time"_a = d.standstill_time, "brake_time"_a = d.brake_time,
-           "parking"_a = d.parking)
-      .def_readwrite("dt", &Drive::dt, "[s]")
-      .def_readwrite("radius", &Drive::radius, "[m]")
-      .def_readwrite("gauge", &Drive::gauge, "[m]")
-      .def_readwrite("mass", &Drive::mass, "[kg]")
-      .def_readwrite("max_torque", &Drive::max_torque, "[N m]")
-      .def_readwrite("max_power", &Drive::max_power, "[W]")
-      .def_readwrite("max_speed", &Drive::max_speed, "[m/s]")
-      .def_readwrite("max_yaw_rate", &Drive::max_yaw_rate, "[rad/s]")
-      .def_readwrite("max_sideways", &Drive::max_sideways, "[m/s^2]")
-      .def_readwrite("forward", &Drive::forward, "SpeedLimits")
-      .def_readwrite("turning", &Drive::turning, "SpeedLimits")
-      .def_readwrite("gain", &Drive::gain, "[N m s/rad]")
-      .def_readwrite("integral_gain", &Drive::integral_gain, "[N m/rad]")
-      .def_readwrite("speed_gain", &Drive::speed_gain)
-      .def_readwrite("yaw_gain", &Drive::yaw_gain)
-      .def_readwrite("yaw_integral_gain", &Drive::yaw_integral_gain, "[1/s]")
-      .def_readwrite("slip_speed", &Drive::slip_speed, "[m/s]")
-      .def_readwrite("slip_ratio", &Drive::slip_ratio)
-      .def_readwrite("standstill_time", &Drive::standstill_time, "[s]")
-      .def_readwrite("brake_time", &Drive::brake_time, "[s]")
-      .def_readwrite("parking", &Drive::parking, "ParkingOptions");
+  bind_options<Drive>(module, "DriveOptions", kDriveOptions,
+                      {field("dt", &Drive::dt, "[s]"),
+                       field("radius", &Drive::radius, "[m]"),
+                       field("gauge", &Drive::gauge, "[m]"),
+                       field("mass", &Drive::mass, "[kg]"),
+                       field("max_torque", &Drive::max_torque, "[N m]"),
+                       field("max_power", &Drive::max_power, "[W]"),
+                       field("max_speed", &Drive::max_speed, "[m/s]"),
+                       field("max_yaw_rate", &Drive::max_yaw_rate, "[rad/s]"),
+                       field("max_sideways", &Drive::max_sideways, "[m/s^2]"),
+                       field("forward", &Drive::forward, "SpeedLimits"),
+                       field("turning", &Drive::turning, "SpeedLimits"),
+                       field("gain", &Drive::gain, "[N m s/rad]"),
+                       field("integral_gain", &Drive::integral_gain, "[N m/rad]"),
+                       field("speed_gain", &Drive::speed_gain),
+                       field("yaw_gain", &Drive::yaw_gain),
+                       field("yaw_integral_gain", &Drive::yaw_integral_gain, "[1/s]"),
+                       field("slip_speed", &Drive::slip_speed, "[m/s]"),
+                       field("slip_ratio", &Drive::slip_ratio),
+                       field("standstill_time", &Drive::standstill_time, "[s]"),
+                       field("brake_time", &Drive::brake_time, "[s]"),
+                       field("parking", &Drive::parking, "ParkingOptions")});
 }
 
 }  // namespace
 
 void bind_drive(py::module_& module) {
-  bind_options(module);
+  bind_parking_options(module);
   bind_drive_options(module);
   py::enum_<ParkingPhase>(module, "ParkingPhase", kPhase)
       .value("Off", ParkingPhase::Off)

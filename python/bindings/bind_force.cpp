@@ -9,10 +9,12 @@
 
 #include "bind_force_docs.hpp"
 #include "hurcules/tasks/force_task.hpp"
+#include "options.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
 using namespace hurcules;
+using namespace hurcules_bindings;
 
 void bind_force(py::module_& module);
 
@@ -24,22 +26,14 @@ void bind_gains(py::module_& module) {
       .value("Velocity", ForceLoop::Velocity)
       .value("Position", ForceLoop::Position)
       .value("PositionIntegral", ForceLoop::PositionIntegral);
-  const ForceGains d;
-  py::class_<ForceGains>(module, "ForceGains", kForceGains)
-      .def(py::init([](ForceLoop loop, double compliance, double integral, double mass,
-                       double damping, double stiffness, double dt) {
-             return ForceGains{loop, compliance, integral, mass, damping, stiffness, dt};
-           }),
-           py::kw_only(), "loop"_a = d.loop, "compliance"_a = d.compliance,
-           "integral"_a = d.integral, "mass"_a = d.mass, "damping"_a = d.damping,
-           "stiffness"_a = d.stiffness, "dt"_a = d.dt)
-      .def_readwrite("loop", &ForceGains::loop)
-      .def_readwrite("compliance", &ForceGains::compliance, "[m/s/N] or [m/N]")
-      .def_readwrite("integral", &ForceGains::integral, "[m/s/N]")
-      .def_readwrite("mass", &ForceGains::mass, "[kg]")
-      .def_readwrite("damping", &ForceGains::damping, "[kg/s]")
-      .def_readwrite("stiffness", &ForceGains::stiffness, "[kg/s^2]")
-      .def_readwrite("dt", &ForceGains::dt, "[s]");
+  bind_options<ForceGains>(
+      module, "ForceGains", kForceGains,
+      {field("loop", &ForceGains::loop),
+       field("compliance", &ForceGains::compliance, "[m/s/N] or [m/N]"),
+       field("integral", &ForceGains::integral, "[m/s/N]"),
+       field("mass", &ForceGains::mass, "[kg]"), field("damping", &ForceGains::damping, "[kg/s]"),
+       field("stiffness", &ForceGains::stiffness, "[kg/s^2]"),
+       field("dt", &ForceGains::dt, "[s]")});
   module.def(
       "largest_stiffness",
       [](const ForceGains& gains) {
@@ -49,39 +43,25 @@ void bind_gains(py::module_& module) {
       "gains"_a, kLargestStiffness);
 }
 
-void bind_options(py::module_& module) {
-  const ContactOptions c;
-  py::class_<ContactOptions>(module, "ContactOptions", kContactOptions)
-      .def(py::init([](double f_min, double f_max, double release_time, double patience,
-                       double frozen_move) {
-             return ContactOptions{f_min, f_max, release_time, patience, frozen_move};
-           }),
-           py::kw_only(), "f_min"_a = c.f_min, "f_max"_a = c.f_max,
-           "release_time"_a = c.release_time, "patience"_a = c.patience,
-           "frozen_move"_a = c.frozen_move)
-      .def_readwrite("f_min", &ContactOptions::f_min, "[N]")
-      .def_readwrite("f_max", &ContactOptions::f_max, "[N]")
-      .def_readwrite("release_time", &ContactOptions::release_time, "[s]")
-      .def_readwrite("patience", &ContactOptions::patience, "[s]")
-      .def_readwrite("frozen_move", &ContactOptions::frozen_move, "[m]");
-  const StiffnessOptions s;
-  py::class_<StiffnessOptions>(module, "StiffnessOptions", kStiffnessOptions)
-      .def(py::init([](double lower, double upper, double forgetting, double step) {
-             return StiffnessOptions{lower, upper, forgetting, step};
-           }),
-           py::kw_only(), "lower"_a = s.lower, "upper"_a = s.upper, "forgetting"_a = s.forgetting,
-           "step"_a = s.step)
-      .def_readwrite("lower", &StiffnessOptions::lower, "[N/m]")
-      .def_readwrite("upper", &StiffnessOptions::upper, "[N/m]")
-      .def_readwrite("forgetting", &StiffnessOptions::forgetting)
-      .def_readwrite("step", &StiffnessOptions::step, "[m]");
+void bind_force_options(py::module_& module) {
+  bind_options<ContactOptions>(
+      module, "ContactOptions", kContactOptions,
+      {field("f_min", &ContactOptions::f_min, "[N]"), field("f_max", &ContactOptions::f_max, "[N]"),
+       field("release_time", &ContactOptions::release_time, "[s]"),
+       field("patience", &ContactOptions::patience, "[s]"),
+       field("frozen_move", &ContactOptions::frozen_move, "[m]")});
+  bind_options<StiffnessOptions>(module, "StiffnessOptions", kStiffnessOptions,
+                                 {field("lower", &StiffnessOptions::lower, "[N/m]"),
+                                  field("upper", &StiffnessOptions::upper, "[N/m]"),
+                                  field("forgetting", &StiffnessOptions::forgetting),
+                                  field("step", &StiffnessOptions::step, "[m]")});
 }
 
 }  // namespace
 
 void bind_force(py::module_& module) {
   bind_gains(module);
-  bind_options(module);
+  bind_force_options(module);
   py::enum_<ContactState>(module, "ContactState", "What a ForceTask takes its readings for.")
       .value("Free", ContactState::Free)
       .value("Contact", ContactState::Contact)

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/joint_pid.hpp"
+#include "options.hpp"
 #include "state.hpp"
 
 namespace py = pybind11;
@@ -49,19 +50,12 @@ Args:
 
 void bind_joint_pid(py::module_& module) {
   using Options = JointPidOptions;
-  const Options defaults;
-  py::class_<Options>(module, "JointPidOptions", kPidOptions)
-      .def(py::init([](const Vector& K, const Vector& K_P, const Vector& K_I,
-                       const Vector& max_torque, double gamma,
-                       double dt) { return Options{K, K_P, K_I, gamma, max_torque, dt}; }),
-           py::kw_only(), "K"_a, "K_P"_a, "K_I"_a, "max_torque"_a, "gamma"_a = defaults.gamma,
-           "dt"_a = defaults.dt)
-      .def_readwrite("K", &Options::K, "(m,) [N m s/rad]")
-      .def_readwrite("K_P", &Options::K_P, "(m,) [1/s]")
-      .def_readwrite("K_I", &Options::K_I, "(m,) [1/s^2]")
-      .def_readwrite("gamma", &Options::gamma)
-      .def_readwrite("max_torque", &Options::max_torque, "(m,) [N m]")
-      .def_readwrite("dt", &Options::dt, "[s]");
+  bind_options<Options>(
+      module, "JointPidOptions", kPidOptions,
+      {required("K", &Options::K, "(m,) [N m s/rad]"), required("K_P", &Options::K_P, "(m,) [1/s]"),
+       required("K_I", &Options::K_I, "(m,) [1/s^2]"),
+       required("max_torque", &Options::max_torque, "(m,) [N m]"), field("gamma", &Options::gamma),
+       field("dt", &Options::dt, "[s]")});
   const auto compute = [](JointPid& self, const Vector& position, const Vector& velocity) {
     require(position.size() == self.size() && velocity.size() == self.size(),
             "position and velocity want " + std::to_string(self.size()) + " numbers each");

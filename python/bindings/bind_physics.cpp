@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "annotated.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/physics.hpp"
 #include "mujoco_pointer.hpp"
@@ -83,11 +84,12 @@ Returns:
   Lowest and highest torque at the joint [N m].
 )";
 
-py::tuple effort_range(const Physics& self, const std::string& joint, double speed) {
+std::pair<double, double> effort_range(const Physics& self, const std::string& joint,
+                                       double speed) {
   const int actuator = self.brakes().find(joint);
   require(self.drive_train().exists(actuator), "joint '" + joint + "' has no transmission");
   const EffortRange range = self.drive_train().range(actuator, speed);
-  return py::make_tuple(range.lower, range.upper);
+  return {range.lower, range.upper};
 }
 
 // in pieces, so that Ctrl-C is heard
@@ -133,7 +135,7 @@ void bind_physics(py::module_& module) {
       .def("max_load", by_joint(&Brakes::max_load), "joint"_a, "[N m] or [N] at which it slips")
       .def_property_readonly("power", &Brakes::power, "[W] of the coils of those held open");
   py::class_<Physics>(module, "Physics", kPhysics)
-      .def(py::init([](const py::object& model, const py::object& data) {
+      .def(py::init([](const ModelObject& model, const DataObject& data) {
              const Scene scene = scene_of(model, data);
              return std::make_unique<Physics>(borrow_model(scene.model), scene.data);
            }),

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "annotated.hpp"
 #include "hurcules/sim/battery.hpp"
 #include "hurcules/sim/physics.hpp"
 #include "hurcules/sim/power_meter.hpp"
@@ -46,7 +47,7 @@ Raises:
 
 void bind_power(py::module_& module) {
   py::class_<PowerMeter>(module, "PowerMeter", kMeter)
-      .def(py::init([](const py::object& model) {
+      .def(py::init([](const ModelObject& model) {
              return std::make_unique<PowerMeter>(pointer<const mjModel_>(model, "mujoco.MjModel"));
            }),
            "model"_a)

@@ -6,12 +6,14 @@
 
 #include <cstdint>
 
+#include "annotated.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/plausibility.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace py = pybind11;
 using namespace hurcules;
+using hurcules_bindings::ModelObject;
 
 namespace {
 
@@ -111,7 +113,7 @@ std::unique_ptr<Robot> checked(std::unique_ptr<Robot> robot) {
   return robot;
 }
 
-std::unique_ptr<Robot> robot_of_object(const py::object& model) {
+std::unique_ptr<Robot> robot_of_object(const ModelObject& model) {
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");

@@ -9,6 +9,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/solver/batch.hpp"
 #include "hurcules/solver/method.hpp"
+#include "options.hpp"
 #include "solver_answer.hpp"
 #include "solver_levels.hpp"
 #include "solver_stacks.hpp"
@@ -32,7 +33,8 @@ struct SharedSolver {
   std::mutex mutex;
 };
 
-Answer solve(SharedSolver& self, const py::object& levels) {
+Answer solve(SharedSolver& self,
+             const As<"collections.abc.Sequence[hurcules._core.Level]">& levels) {
   const HeldLevels held(levels);
   Answer answer;
   {
@@ -76,7 +78,12 @@ void refuse_invalid(const std::vector<Answer>& answers, Refuse&& refuse) {
   }
 }
 
-std::vector<Answer> solve_problems(const py::object& problems, const py::object& threads,
+// what solve_batch takes
+using Problems =
+    As<"collections.abc.Sequence[collections.abc.Sequence[hurcules._core.Level]] | "
+       "collections.abc.Sequence[hurcules._core.LevelStack]">;
+
+std::vector<Answer> solve_problems(const Problems& problems, const As<"int | None">& threads,
                                    const SolverOptions& options) {
   const BatchOptions batch{.solver = options, .threads = count_of(threads)};
   // a text only when it is needed: that of a thousand problems costs more than their solves
@@ -144,46 +151,30 @@ void bind_solver(py::module_& module) {
   bind_level(module);
   bind_stack(module);
   bind_solver_answer(module);
-  py::class_<SolverOptions>(module, "SolverOptions")
-      .def(py::init([](std::string method, bool proof, int max_changes, int max_iterations,
-                       const std::string& handover, const std::string& regularization,
-                       double singular_threshold) {
-             return SolverOptions{.method = std::move(method),
-                                  .proof = proof,
-                                  .max_changes = max_changes,
-                                  .max_iterations = max_iterations,
-                                  .handover = handover_named(handover),
-                                  .regularization = regularization_named(regularization),
-                                  .singular_threshold = singular_threshold};
-           }),
-           py::kw_only(), "method"_a = SolverOptions{}.method, "proof"_a = SolverOptions{}.proof,
-           "max_changes"_a = SolverOptions{}.max_changes,
-           "max_iterations"_a = SolverOptions{}.max_iterations,
-           "handover"_a = to_string(SolverOptions{}.handover),
-           "regularization"_a = to_string(SolverOptions{}.regularization),
-           "singular_threshold"_a = SolverOptions{}.singular_threshold)
-      .def_readwrite("method", &SolverOptions::method, "one of method_names()")
-      .def_readwrite("proof", &SolverOptions::proof,
-                     "evaluate Solution.optimality at every solve; without, it is NaN")
-      .def_readwrite("max_changes", &SolverOptions::max_changes,
-                     "working-set changes a solve, after which it ends with IterationLimit")
-      .def_readwrite("max_iterations", &SolverOptions::max_iterations,
-                     "of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp")
-      .def_property(
-          "handover", [](const SolverOptions& self) { return to_string(self.handover); },
-          [](SolverOptions& self, const std::string& name) {
-            self.handover = handover_named(name);
-          },
-          kHandoverDoc)
-      .def_property(
-          "regularization",
-          [](const SolverOptions& self) { return to_string(self.regularization); },
-          [](SolverOptions& self, const std::string& name) {
-            self.regularization = regularization_named(name);
-          },
-          kRegularizationDoc)
-      .def_readwrite("singular_threshold", &SolverOptions::singular_threshold,
-                     "> 0, unit of A; below it 'adaptive' regularises");
+  bind_options<SolverOptions>(
+      module, "SolverOptions", kOptionsDoc,
+      {field("method", &SolverOptions::method, "one of method_names()"),
+       field("proof", &SolverOptions::proof,
+             "evaluate Solution.optimality at every solve; without, it is NaN"),
+       field("max_changes", &SolverOptions::max_changes,
+             "working-set changes a solve, after which it ends with IterationLimit"),
+       field("max_iterations", &SolverOptions::max_iterations,
+             "of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp"),
+       text_field<SolverOptions>(
+           "handover", [](const SolverOptions& self) { return to_string(self.handover); },
+           [](SolverOptions& self, const std::string& name) {
+             self.handover = handover_named(name);
+           },
+           kHandoverDoc),
+       text_field<SolverOptions>(
+           "regularization",
+           [](const SolverOptions& self) { return to_string(self.regularization); },
+           [](SolverOptions& self, const std::string& name) {
+             self.regularization = regularization_named(name);
+           },
+           kRegularizationDoc),
+       field("singular_threshold", &SolverOptions::singular_threshold,
+             "> 0, unit of A; below it 'adaptive' regularises")});
   module.def("method_names", &method_names, kMethodNamesDoc);
   py::class_<SharedSolver>(module, "Solver", kSolverDoc)
       .def(py::init<Index, SolverOptions>(), "n"_a, "options"_a = SolverOptions{})

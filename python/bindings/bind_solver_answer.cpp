@@ -3,6 +3,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
+#include <type_traits>
+
+#include "annotated.hpp"
 #include "arrays.hpp"
 #include "hurcules/base/error.hpp"
 #include "solver_answer.hpp"
@@ -14,7 +18,10 @@ void bind_solver_answer(py::module_& module);
 
 using namespace hurcules;
 using hurcules_bindings::Answer;
+using hurcules_bindings::ArrayLike;
+using hurcules_bindings::As;
 using hurcules_bindings::matrix_of;
+using hurcules_bindings::OptionalArrayLike;
 using hurcules_bindings::vector_of;
 
 namespace {
@@ -62,8 +69,8 @@ Args:
   rho: of the regularisation.
 )";
 
-LevelChange make_change(const py::object& A, const py::object& lower, const py::object& upper,
-                        double rho) {
+LevelChange make_change(const OptionalArrayLike& A, const OptionalArrayLike& lower,
+                        const OptionalArrayLike& upper, double rho) {
   LevelChange change;
   if (!A.is_none()) change.A = matrix_of(A, "A", "(m, n)");
   if (!lower.is_none()) change.lower = vector_of(lower, "lower", "(m,)");
@@ -72,7 +79,8 @@ LevelChange make_change(const py::object& A, const py::object& lower, const py::
   return change;
 }
 
-Vector jvp(Answer& self, const py::object& changes) {
+Vector jvp(Answer& self,
+           const As<"collections.abc.Sequence[hurcules._core.LevelChange | None]">& changes) {
   require(py::isinstance<py::sequence>(changes),
           "jvp wants a list of LevelChange or None, got " + std::string(py::repr(changes)));
   std::vector<LevelChange> list;
@@ -84,7 +92,7 @@ Vector jvp(Answer& self, const py::object& changes) {
   return self.sensitivity().forward(list);
 }
 
-std::vector<LevelChange> vjp(Answer& self, const py::object& x_bar) {
+std::vector<LevelChange> vjp(Answer& self, const ArrayLike& x_bar) {
   return self.sensitivity().transposed(vector_of(x_bar, "x_bar", "(n,)"));
 }
 
@@ -136,8 +144,9 @@ void bind_level_report(py::module_& module) {
 
 void bind_level_change(py::module_& module) {
   const auto none = py::none();
-  const auto array = [](const auto& values) -> py::object {
-    return values.size() > 0 ? py::cast(values) : py::none();
+  const auto array = [](const auto& values) {
+    using Values = std::decay_t<decltype(values)>;
+    return values.size() > 0 ? std::optional<Values>(values) : std::nullopt;
   };
   py::class_<LevelChange>(module, "LevelChange", kChangeDoc)
       .def(py::init(&make_change), "A"_a = none, "lower"_a = none, "upper"_a = none, "rho"_a = 0.0)

@@ -88,6 +88,7 @@ inline constexpr const char* kMethodNamesDoc = R"(The names that SolverOptions(m
 'cascade': one general QP a level; the same answers as 'lexicographic', slow, for comparison.
 )";
 
+inline constexpr const char* kOptionsDoc = "How a hierarchy is solved; see its properties.";
 inline constexpr const char* kHandoverDoc =
     R"('strict': a direction that a level's equality rows see is lost to the levels below, however
 weak its singular value; x jumps where a rank changes. 'smooth': it goes back to them gradually as

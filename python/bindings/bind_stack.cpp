@@ -2,6 +2,7 @@
 #include "bind_stack.hpp"
 
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <string>
 #include <utility>
@@ -50,7 +51,7 @@ Task* task_of(py::handle item) {
   return item.cast<Task*>();
 }
 
-HeldLevel make_level(const std::string& name, const py::iterable& tasks, double rho) {
+HeldLevel make_level(const std::string& name, const py::typing::Iterable<Task>& tasks, double rho) {
   std::vector<Task*> pointers;
   std::vector<py::object> kept;
   for (const py::handle task : tasks) {
@@ -79,7 +80,11 @@ StackLevel level_of(py::handle item, std::vector<py::object>& kept) {
   return level;
 }
 
-HeldStack make_stack(const py::iterable& levels) {
+// what Stack takes
+using Levels = py::typing::Iterable<
+    py::typing::Union<Task, HeldLevel, py::typing::Iterable<py::typing::Union<Task, HeldLevel>>>>;
+
+HeldStack make_stack(const Levels& levels) {
   std::vector<StackLevel> made;
   std::vector<py::object> kept;
   for (const py::handle item : levels) made.push_back(level_of(item, kept));

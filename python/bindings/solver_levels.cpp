@@ -65,8 +65,8 @@ LevelView ArrayLevel::view() const {
           .bounds = bounds};
 }
 
-ArrayLevel make_level(const py::object& A, const py::object& lower, const py::object& upper,
-                      const py::object& rho) {
+ArrayLevel make_level(const ArrayLike& A, const ArrayLike& lower, const ArrayLike& upper,
+                      const As<"float">& rho) {
   ArrayLevel level{.A = shared_array(A, 2, "A", "(m, n)"),
                    .lower = shared_array(lower, 1, "lower", "(m,)"),
                    .upper = shared_array(upper, 1, "upper", "(m,)"),
@@ -75,7 +75,7 @@ ArrayLevel make_level(const py::object& A, const py::object& lower, const py::ob
   return level;
 }
 
-ArrayLevel make_bounds_level(const py::object& lower, const py::object& upper) {
+ArrayLevel make_bounds_level(const ArrayLike& lower, const ArrayLike& upper) {
   ArrayLevel level{.A = SharedArray(py::array::ShapeContainer{0, 0}),
                    .lower = shared_array(lower, 1, "lower", "(n,)"),
                    .upper = shared_array(upper, 1, "upper", "(n,)"),
@@ -84,8 +84,8 @@ ArrayLevel make_bounds_level(const py::object& lower, const py::object& upper) {
   return level;
 }
 
-py::list copies_of(const hurcules::Hierarchy& hierarchy) {
-  py::list levels;
+py::typing::List<ArrayLevel> copies_of(const hurcules::Hierarchy& hierarchy) {
+  py::typing::List<ArrayLevel> levels;
   for (const hurcules::Level& level : hierarchy) {
     levels.append(ArrayLevel{
         .A = SharedArray(py::array::ShapeContainer{level.A.rows(), level.A.cols()}, level.A.data()),

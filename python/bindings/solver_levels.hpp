@@ -3,10 +3,12 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
 
 #include <string>
 #include <vector>
 
+#include "annotated.hpp"
 #include "hurcules/solver/hierarchy.hpp"
 
 namespace hurcules_bindings {
@@ -37,12 +39,11 @@ struct ArrayLevel {
   [[nodiscard]] hurcules::LevelView view() const;
 };
 
-[[nodiscard]] ArrayLevel make_level(const pybind11::object& A, const pybind11::object& lower,
-                                    const pybind11::object& upper, const pybind11::object& rho);
-[[nodiscard]] ArrayLevel make_bounds_level(const pybind11::object& lower,
-                                           const pybind11::object& upper);
+[[nodiscard]] ArrayLevel make_level(const ArrayLike& A, const ArrayLike& lower,
+                                    const ArrayLike& upper, const As<"float">& rho);
+[[nodiscard]] ArrayLevel make_bounds_level(const ArrayLike& lower, const ArrayLike& upper);
 // levels of their own numbers
-[[nodiscard]] pybind11::list copies_of(const hurcules::Hierarchy& hierarchy);
+[[nodiscard]] pybind11::typing::List<ArrayLevel> copies_of(const hurcules::Hierarchy& hierarchy);
 
 // A sequence of levels for the time of a solve: whatever another thread does to the sequence, the
 // arrays stay.

@@ -94,8 +94,8 @@ bool ArrayStack::is_readable() const {
   return (bounds || fits(slices(A, 2))) && fits(slices(lower, 1)) && fits(slices(upper, 1));
 }
 
-ArrayStack make_stack(const py::object& A, const py::object& lower, const py::object& upper,
-                      const py::object& rho) {
+ArrayStack make_stack(const ArrayLike& A, const ArrayLike& lower, const ArrayLike& upper,
+                      const As<"float">& rho) {
   ArrayStack stack{.A = stacked(A, 2, "A", "(m, n)"),
                    .lower = stacked(lower, 1, "lower", "(m,)"),
                    .upper = stacked(upper, 1, "upper", "(m,)"),
@@ -104,7 +104,7 @@ ArrayStack make_stack(const py::object& A, const py::object& lower, const py::ob
   return stack;
 }
 
-ArrayStack make_bounds_stack(const py::object& lower, const py::object& upper) {
+ArrayStack make_bounds_stack(const ArrayLike& lower, const ArrayLike& upper) {
   ArrayStack stack{.A = SharedArray(py::array::ShapeContainer{0, 0}),
                    .lower = stacked(lower, 1, "lower", "(n,)"),
                    .upper = stacked(upper, 1, "upper", "(n,)"),

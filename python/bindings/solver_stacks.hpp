@@ -25,10 +25,9 @@ struct ArrayStack {
   [[nodiscard]] bool is_readable() const;
 };
 
-[[nodiscard]] ArrayStack make_stack(const pybind11::object& A, const pybind11::object& lower,
-                                    const pybind11::object& upper, const pybind11::object& rho);
-[[nodiscard]] ArrayStack make_bounds_stack(const pybind11::object& lower,
-                                           const pybind11::object& upper);
+[[nodiscard]] ArrayStack make_stack(const ArrayLike& A, const ArrayLike& lower,
+                                    const ArrayLike& upper, const As<"float">& rho);
+[[nodiscard]] ArrayStack make_bounds_stack(const ArrayLike& lower, const ArrayLike& upper);
 [[nodiscard]] bool is_stack(pybind11::handle object);
 
 // The hierarchies of a sequence of stacks, for the time of a batch.

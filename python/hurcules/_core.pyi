@@ -1,26 +1,25 @@
-"""The compiled part of hurcules: float64 arrays, all copies but those of Level; shapes beside."""
+"""Compiled part of hurcules; use it through the package hurcules.
 
+Written by python/bindings/stubs.py out of the compiled module; not to be edited.
+"""
+
+import collections.abc
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, ClassVar, NoReturn, overload, type_check_only
+from typing import Any, ClassVar, overload, type_check_only
 
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-_Vector = NDArray[np.float64]  # one axis
-_Matrix = NDArray[np.float64]  # two axes
-
 build: dict[str, str | bool]  # version, mujoco, eigen, simd, compiler, build_type, flags, asserts
 
-class Error(ValueError): ...
+class Error(ValueError):
+    """Bad input: what was wanted, what came, and where."""
 
 @type_check_only
-class _Given:  # only the library makes these
-    def __init__(self, *args: object, **kwargs: object) -> None: ...
+class _Enum:
+    """What pybind11 gives each enumeration."""
 
-@type_check_only
-class _Enum:  # what pybind11 gives each enumeration
     def __init__(self, value: int) -> None: ...
     @property
     def name(self) -> str: ...
@@ -32,131 +31,247 @@ class _Enum:  # what pybind11 gives each enumeration
     def __int__(self) -> int: ...
     def __index__(self) -> int: ...
 
-# solver: see hurcules.rhqp
-
 class Level:
+    """A level of bounded rows: lower <= A x <= upper.
+
+    Args:
+      A: (m, n) float64.
+      lower, upper: (m,) float64. +-inf or a magnitude >= 1e20 means no side; lower == upper is an equality.
+      rho: regularisation coefficient >= 0 (thesis: 0.1). A level of limits wants 0.
+
+    Arrays of float64 in C order are held, not copied: what is written into them is seen by the next
+    solve. Anything else is copied once.
+
+    Raises:
+      Error: wrong shapes, NaN, lower > upper, rho < 0."""
+
     def __init__(
         self, A: ArrayLike, lower: ArrayLike, upper: ArrayLike, rho: float = 0.0
-    ) -> None: ...  # (m, n), (m,), (m,)
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def A(self) -> _Matrix: ...  # (m, n); empty for bounds
+    def A(self) -> NDArray[np.float64]:
+        """(m, n), the array that is solved; empty for bounds"""
+
     @property
-    def lower(self) -> _Vector: ...  # (m,)
-    @property
-    def upper(self) -> _Vector: ...  # (m,)
+    def lower(self) -> NDArray[np.float64]:
+        """(m,), the array that is solved"""
+
     @property
     def rho(self) -> float: ...
     @property
-    def rows(self) -> int: ...  # m
-
-def Bounds(lower: ArrayLike, upper: ArrayLike) -> Level: ...  # (n,), (n,)
+    def rows(self) -> int: ...
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """(m,), the array that is solved"""
 
 class LevelStack:
+    """One level of many hierarchies of a batch, see solve_batch.
+
+    Args:
+      A: (B, m, n) float64, or (m, n) when all have the same.
+      lower, upper: (B, m), or (m,) when all have the same.
+      rho: regularisation coefficient >= 0 of all.
+
+    Arrays are held and read as those of Level.
+
+    Raises:
+      Error: as Level; numbers behind the first slice are looked at by solve_batch."""
+
     def __init__(
         self, A: ArrayLike, lower: ArrayLike, upper: ArrayLike, rho: float = 0.0
-    ) -> None: ...  # (B, m, n) or (m, n), (B, m) or (m,) each
+    ) -> None: ...
     @property
-    def A(self) -> NDArray[np.float64]: ...
+    def A(self) -> NDArray[np.float64]:
+        """the array that is solved; empty for bounds"""
+
     @property
-    def lower(self) -> NDArray[np.float64]: ...
-    @property
-    def upper(self) -> NDArray[np.float64]: ...
+    def lower(self) -> NDArray[np.float64]:
+        """the array that is solved"""
+
     @property
     def rho(self) -> float: ...
-
-def BoundsStack(lower: ArrayLike, upper: ArrayLike) -> LevelStack: ...  # (B, n) or (n,) each
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """the array that is solved"""
 
 class Status(_Enum):
-    Solved: ClassVar[Status]
-    ReducedAccuracy: ClassVar[Status]
+    """How a solve ended."""
+
+    InvalidInput: ClassVar[Status]
     IterationLimit: ClassVar[Status]
     LostPrecision: ClassVar[Status]
-    InvalidInput: ClassVar[Status]
+    ReducedAccuracy: ClassVar[Status]
+    Solved: ClassVar[Status]
     __members__: ClassVar[dict[str, Status]]
 
 class Side(_Enum):
+    """The side at which a row is held."""
+
     Lower: ClassVar[Side]
     Upper: ClassVar[Side]
     __members__: ClassVar[dict[str, Side]]
 
-class ActiveRow(_Given):
+class ActiveRow:
+    """A row that holds x back."""
+
+    def __repr__(self) -> str: ...
     @property
-    def level(self) -> int: ...
+    def held_by(self) -> int:
+        """level that pushes against it"""
+
     @property
-    def row(self) -> int: ...
+    def level(self) -> int:
+        """level that the row belongs to"""
+
+    @property
+    def multiplier(self) -> float:
+        """>= 0, of that level's problem"""
+
+    @property
+    def row(self) -> int:
+        """its row there"""
+
     @property
     def side(self) -> Side: ...
-    @property
-    def held_by(self) -> int: ...  # level that pushes against it
-    @property
-    def multiplier(self) -> float: ...  # >= 0
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
-@type_check_only
-class _Solved(_Given):
-    @property
-    def x(self) -> _Vector: ...  # (n,)
-    @property
-    def status(self) -> Status: ...
-    @property
-    def violations(self) -> list[_Vector]: ...  # a level (m,)
-    @property
-    def working_set(self) -> list[ActiveRow]: ...
-    @property
-    def factorizations(self) -> int: ...
-    @property
-    def changes(self) -> int: ...
-    @property
-    def final_levels(self) -> int: ...
-    @property
-    def optimality(self) -> float: ...
+class LevelReport:
+    """What a level could do, and what it cost."""
 
-class LevelReport(_Given):
     @property
-    def rho(self) -> float: ...
+    def handed_over(self) -> NDArray[np.float64]:
+        """of each of these directions the weight with which the levels below get it: 0 where the level keeps it, 1 where it sees nothing, between them by smooth hand-over only"""
+
     @property
-    def rank(self) -> int: ...
+    def infeasible(self) -> NDArray[np.float64]:
+        """(m,) v_k: the part of the violation that no x allowed by the rows above and the limits it meets removes [T 3.3.78]"""
+
     @property
-    def singular_values(self) -> _Vector: ...  # (min(equality rows, free directions),)
+    def rank(self) -> int:
+        """directions that its equality rows take from the levels below"""
+
     @property
-    def handed_over(self) -> _Vector: ...  # as singular_values
+    def regularized(self) -> NDArray[np.float64]:
+        """(m,) u_k: the part that the regularisation costs, 0 for rho = 0 [T 3.3.80]"""
+
     @property
-    def infeasible(self) -> _Vector: ...  # (m,)
+    def rho(self) -> float:
+        """the regularisation that was used"""
+
     @property
-    def regularized(self) -> _Vector: ...  # (m,)
+    def singular_values(self) -> NDArray[np.float64]:
+        """of its equality rows in the directions left by the equality rows above, largest first"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class LevelChange:
+    """A change of the numbers of one level, or a gradient in them. None: no change.
+
+    Args:
+      A: (m, n). Bounds have none.
+      lower, upper: (m,). An equality row moves with the mean of both.
+      rho: of the regularisation."""
+
     def __init__(
         self,
         A: ArrayLike | None = None,
         lower: ArrayLike | None = None,
         upper: ArrayLike | None = None,
         rho: float = 0.0,
-    ) -> None: ...  # (m, n), (m,), (m,)
+    ) -> None: ...
     @property
-    def A(self) -> _Matrix | None: ...  # (m, n)
+    def A(self) -> NDArray[np.float64] | None:
+        """(m, n) or None"""
+
     @property
-    def lower(self) -> _Vector | None: ...  # (m,)
-    @property
-    def upper(self) -> _Vector | None: ...  # (m,)
+    def lower(self) -> NDArray[np.float64] | None:
+        """(m,) or None"""
+
     @property
     def rho(self) -> float: ...
+    @property
+    def upper(self) -> NDArray[np.float64] | None:
+        """(m,) or None"""
 
-class Solution(_Solved):
+class Solution:
+    """The answer of one solve. No later solve and no later change of an array moves it.
+
+    multipliers, levels, jvp and vjp are computed when they are asked for."""
+
+    def jvp(self, changes: collections.abc.Sequence[LevelChange | None]) -> NDArray[np.float64]:
+        """How x moves with the numbers of the hierarchy: exact, with the working set held.
+
+        Args:
+          changes: a LevelChange, or None for no change, a level; levels left out do not change.
+
+        Returns:
+          dx (n,).
+
+        Raises:
+          Error: shapes that do not fit; a solve that did not end Solved; a method without sensitivities."""
+
+    def vjp(self, x_bar: ArrayLike) -> list[LevelChange]:
+        """jvp transposed: the gradient of f(x) in all numbers of the hierarchy, from its gradient in x.
+
+        Args:
+          x_bar: (n,) df/dx.
+
+        Returns:
+          a LevelChange a level, with df/dA (m, n) (None for Bounds), df/dlower (m,), df/dupper (m,), df/drho.
+          Where lower == upper is one number, its gradient is the sum of both.
+
+        Raises:
+          Error: as jvp."""
+
     @property
-    def multipliers(self) -> list[list[_Vector]]: ...  # [k][j] (m_j,), j <= k
+    def changes(self) -> int:
+        """working-set changes"""
+
     @property
-    def levels(self) -> list[LevelReport]: ...
-    def jvp(self, changes: Sequence[LevelChange | None]) -> _Vector: ...  # (n,)
-    def vjp(self, x_bar: ArrayLike) -> list[LevelChange]: ...  # (n,)
+    def factorizations(self) -> int:
+        """level factorisations done, at least one a non-empty level"""
+
+    @property
+    def final_levels(self) -> int:
+        """levels known to be optimal"""
+
+    @property
+    def levels(self) -> list[LevelReport]:
+        """a LevelReport a final level"""
+
+    @property
+    def multipliers(self) -> list[list[NDArray[np.float64]]]:
+        """multipliers[k][j] (m_j,): multipliers of level j's rows in the optimality of level k, j <= k.
+
+        multipliers[k][k] are the violations of level k. [T 3.4.116]"""
+
+    @property
+    def optimality(self) -> float:
+        """worst relative residual of the optimality conditions of all levels"""
+
+    @property
+    def status(self) -> Status: ...
+    @property
+    def violations(self) -> list[NDArray[np.float64]]:
+        """per level (m,): A x - clip(A x, lower, upper)"""
+
+    @property
+    def working_set(self) -> list[ActiveRow]: ...
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """(n,)"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class SolverOptions:
-    method: str
-    proof: bool
-    max_changes: int
-    max_iterations: int
-    handover: str  # "strict" or "smooth"
-    regularization: str  # "constant" or "adaptive"
-    singular_threshold: float  # unit of A
+    """How a hierarchy is solved; see its properties."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> SolverOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> SolverOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -168,181 +283,479 @@ class SolverOptions:
         regularization: str = "constant",
         singular_threshold: float = 0.1,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def handover(self) -> str:
+        """'strict': a direction that a level's equality rows see is lost to the levels below, however
+        weak its singular value; x jumps where a rank changes. 'smooth': it goes back to them gradually as
+        its singular value falls below rho of the level; x is continuous there, the level loses at most
+        0.033 of each lower level's residual (unit rows, rho 0.1, no limit in the way). Strict all the same
+        where the level or a level below has rho = 0. Of the method 'lexicographic'."""
 
-def method_names() -> list[str]: ...
+    @handover.setter
+    def handover(self, arg1: str) -> None: ...
+    @property
+    def max_changes(self) -> int:
+        """working-set changes a solve, after which it ends with IterationLimit"""
+
+    @max_changes.setter
+    def max_changes(self, arg0: int) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """of Algorithm 1 (rhqp_thesis, hqp, dls_hqp); thesis: 12 for dls_hqp"""
+
+    @max_iterations.setter
+    def max_iterations(self, arg0: int) -> None: ...
+    @property
+    def method(self) -> str:
+        """one of method_names()"""
+
+    @method.setter
+    def method(self, arg0: str) -> None: ...
+    @property
+    def proof(self) -> bool:
+        """evaluate Solution.optimality at every solve; without, it is NaN"""
+
+    @proof.setter
+    def proof(self, arg0: bool) -> None: ...
+    @property
+    def regularization(self) -> str:
+        """'constant': rho of each level. 'adaptive': rho sqrt(1 - (sigma / singular_threshold)^2) with the
+        smallest singular value sigma of the level's equality rows on the directions left to it, and 0 where
+        sigma >= singular_threshold. Of the method 'lexicographic'."""
+
+    @regularization.setter
+    def regularization(self, arg1: str) -> None: ...
+    @property
+    def singular_threshold(self) -> float:
+        """> 0, unit of A; below it 'adaptive' regularises"""
+
+    @singular_threshold.setter
+    def singular_threshold(self, arg0: float) -> None: ...
 
 class Solver:
+    """Solves hierarchies over n unknowns; keeps its working sets between solves.
+
+    Args:
+      n: number of unknowns.
+      options: SolverOptions."""
+
     def __init__(self, n: int, options: SolverOptions = ...) -> None: ...
-    def solve(self, levels: Sequence[Level]) -> Solution: ...
-    def reset(self) -> None: ...
-    @property
-    def n(self) -> int: ...
+    def reset(self) -> None:
+        """Forgets the working sets: the next solve is cold."""
 
-def solve_batch(
-    problems: Sequence[Sequence[Level]] | Sequence[LevelStack],
-    threads: int | None = None,
-    options: SolverOptions = ...,
-) -> list[Solution]: ...
+    def solve(self, levels: collections.abc.Sequence[Level]) -> Solution:
+        """Solves the levels in decreasing priority.
 
-# robot
+        The interpreter lock is released meanwhile: let no other thread write into the arrays. A solver that
+        two threads share takes one after the other.
 
-class DrivenJoint(_Given):
+        Args:
+          levels: sequence of Level (and Bounds).
+
+        Returns:
+          Solution. A hard problem is no error: look at status and optimality.
+
+        Raises:
+          Error: shapes that do not fit n unknowns or each other; NaN, infinite A, lower > upper."""
+
     @property
-    def joint(self) -> int: ...
+    def n(self) -> int:
+        """number of unknowns"""
+
+class DrivenJoint:
+    """One joint of a coordinate: its position = factor * coordinate."""
+
     @property
-    def qpos(self) -> int: ...
+    def actuator(self) -> int:
+        """actuator id, -1 for none"""
+
     @property
-    def dof(self) -> int: ...
-    @property
-    def actuator(self) -> int: ...
+    def dof(self) -> int:
+        """address in qvel"""
+
     @property
     def factor(self) -> float: ...
+    @property
+    def joint(self) -> int:
+        """joint id of the model"""
 
-class Coordinate(_Given):
+    @property
+    def qpos(self) -> int:
+        """address in qpos"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+class Coordinate:
+    """What the controller moves: one joint, or several together."""
+
+    def __repr__(self) -> str: ...
+    @property
+    def joints(self) -> list[DrivenJoint]:
+        """list of DrivenJoint; the first one is read"""
+
+    @property
+    def lower(self) -> float:
+        """[rad] or [m], -inf when unlimited"""
+
+    @property
+    def max_effort(self) -> float:
+        """[N m] or [N], sum over its actuators, inf without force ranges"""
+
+    @property
+    def max_velocity(self) -> float:
+        """[rad/s] or [m/s], from the numeric velocity_limit_JOINT, else inf"""
+
     @property
     def name(self) -> str: ...
     @property
-    def joints(self) -> list[DrivenJoint]: ...
-    @property
-    def lower(self) -> float: ...  # [rad] or [m]
-    @property
-    def upper(self) -> float: ...  # [rad] or [m]
-    @property
-    def max_velocity(self) -> float: ...  # [rad/s] or [m/s]
-    @property
-    def max_effort(self) -> float: ...  # [N m] or [N]
+    def upper(self) -> float:
+        """[rad] or [m], inf when unlimited"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class Robot:
+    """Any MJCF robot as the controller sees it: coordinates, frames, Jacobians.
+
+    The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
+    names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
+    joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
+    It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
+    A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
+
+    Args:
+      model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
+
+    Raises:
+      Error: the file cannot be read, or the tuples name no proper coordinates."""
+
     @overload
-    def __init__(self, model: str | os.PathLike[str]) -> None: ...
+    def __init__(self, model: os.PathLike[str] | str | bytes) -> None: ...
     @overload
     def __init__(self, model: mujoco.MjModel) -> None: ...
+    def __repr__(self) -> str: ...
+    def com_drift(self) -> NDArray[np.float64]:
+        """(3,) [m/s^2]: Jdot v of the centre of mass."""
+
+    def com_jacobian(self) -> NDArray[np.float64]:
+        """(3, n) [m/rad]: velocity of the centre of mass in W."""
+
+    def coordinate(self, name: str) -> int:
+        """Index of a coordinate."""
+
+    def coordinates_of(self, qpos: ArrayLike) -> NDArray[np.float64]:
+        """Coordinates (n,) out of a whole qpos (nq,)."""
+
+    def inverse_dynamics(self, acceleration: ArrayLike) -> NDArray[np.float64]:
+        """Torque (n,) [N m] or [N] that the coordinates take at an acceleration and the present velocity.
+
+        Inertia with armature, gravity, Coriolis, springs and dampers; without dry friction and contacts.
+
+        Args:
+          acceleration: (n,) [rad/s^2] or [m/s^2]."""
+
+    def mass_matrix(self) -> NDArray[np.float64]:
+        """(n, n) [kg m^2]: joint-space inertia of the coordinates with armature, base held."""
+
+    def orientation(self, frame: str) -> NDArray[np.float64]:
+        """R_WF (3, 3); for a camera as MuJoCo has it: it looks along its -z."""
+
+    def position(self, frame: str) -> NDArray[np.float64]:
+        """p_WF (3,) [m]: origin of the frame in W."""
+
+    def position_drift(self, frame: str) -> NDArray[np.float64]:
+        """(3,) [m/s^2]: Jdot v, acceleration of the origin when the coordinates do not accelerate."""
+
+    def position_jacobian(self, frame: str) -> NDArray[np.float64]:
+        """(3, n) [m/rad]: velocity of the frame's origin in W by the coordinates."""
+
+    def rotation_drift(self, frame: str) -> NDArray[np.float64]:
+        """(3,) [rad/s^2]: Jdot v, angular acceleration when the coordinates do not accelerate."""
+
+    def rotation_jacobian(self, frame: str) -> NDArray[np.float64]:
+        """(3, n): angular velocity of the frame in W by the coordinates."""
+
+    def set_configuration(self, q: ArrayLike) -> None:
+        """Sets the coordinates q (n,) [rad] or [m]; all else stays as it is."""
+
+    def set_keyframe(self, name: str) -> None:
+        """Takes the posture of a keyframe, or the model's initial one for ''."""
+
+    def set_qpos(self, qpos: ArrayLike) -> None:
+        """Sets the whole qpos (nq,), base and loose bodies too."""
+
+    def set_velocity(self, velocity: ArrayLike) -> None:
+        """Sets the velocity (n,) [rad/s] or [m/s]; only drifts use it."""
+
+    def stand_on(self, body: str) -> None:
+        """The body that stays where it is when the coordinates move; by default the root of its tree.
+
+        A robot with folding legs stands on those that lie on the ground: its root, and all above, then
+        moves with the knees, and Jacobians, drifts and inertia count that.
+
+        Raises:
+          Error: no such body, a body of another tree, or a tree without a free joint."""
+
+    def view_orientation(self, frame: str) -> NDArray[np.float64]:
+        """R_WF (3, 3) with x along the line of sight of a camera and z up; else like orientation."""
+
     @property
-    def size(self) -> int: ...  # n
+    def com(self) -> NDArray[np.float64]:
+        """(3,) [m]: centre of mass in W of the tree of the first coordinate."""
+
     @property
-    def coordinates(self) -> list[Coordinate]: ...
+    def configuration(self) -> NDArray[np.float64]:
+        """q (n,) [rad] or [m]"""
+
     @property
     def coordinate_names(self) -> list[str]: ...
-    def coordinate(self, name: str) -> int: ...
-    def set_qpos(self, qpos: ArrayLike) -> None: ...  # (nq,)
-    def set_configuration(self, q: ArrayLike) -> None: ...  # (n,) [rad] or [m]
-    def set_velocity(self, velocity: ArrayLike) -> None: ...  # (n,) [rad/s] or [m/s]
-    def stand_on(self, body: str) -> None: ...
-    def set_keyframe(self, name: str) -> None: ...
     @property
-    def configuration(self) -> _Vector: ...  # (n,) [rad] or [m]
+    def coordinates(self) -> list[Coordinate]:
+        """list of Coordinate, n of them"""
+
     @property
-    def velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    def qpos(self) -> NDArray[np.float64]:
+        """(nq,)"""
+
     @property
-    def qpos(self) -> _Vector: ...  # (nq,)
-    def coordinates_of(self, qpos: ArrayLike) -> _Vector: ...  # (nq,) -> (n,)
-    def position(self, frame: str) -> _Vector: ...  # (3,) [m]
-    def orientation(self, frame: str) -> _Matrix: ...  # (3, 3)
-    def view_orientation(self, frame: str) -> _Matrix: ...  # (3, 3)
-    def position_jacobian(self, frame: str) -> _Matrix: ...  # (3, n)
-    def rotation_jacobian(self, frame: str) -> _Matrix: ...  # (3, n)
-    def position_drift(self, frame: str) -> _Vector: ...  # (3,) [m/s^2]
-    def rotation_drift(self, frame: str) -> _Vector: ...  # (3,) [rad/s^2]
+    def size(self) -> int:
+        """n"""
+
     @property
-    def com(self) -> _Vector: ...  # (3,) [m]
-    def com_drift(self) -> _Vector: ...  # (3,) [m/s^2]
-    def com_jacobian(self) -> _Matrix: ...  # (3, n)
-    def inverse_dynamics(self, acceleration: ArrayLike) -> _Vector: ...  # (n,) -> (n,) [N m]
-    def mass_matrix(self) -> _Matrix: ...  # (n, n) [kg m^2]
+    def velocity(self) -> NDArray[np.float64]:
+        """(n,) [rad/s] or [m/s]"""
 
 class SpringForce:
+    """The contact force on a link that hangs on a spring, from the deflection of the spring.
+
+    The hinge has no motor; contact = damping - spring - weight of what hangs on it. True at rest and in
+    slow motion, between the stops of the spring.
+
+    Args:
+      robot: Robot whose model it is.
+      joint: hinge with stiffness, LEBS say.
+      frame: site or body behind it, where the contact is supposed.
+
+    Raises:
+      Error: a name that does not exist, a joint that is no spring hinge, a frame before it."""
+
     def __init__(self, robot: Robot, joint: str, frame: str) -> None: ...
-    def update(self, qpos: ArrayLike, qvel: ArrayLike) -> None: ...  # (nq,), (nv,)
-    @property
-    def deflection(self) -> float: ...  # [rad]
-    @property
-    def moment(self) -> float: ...  # [N m]
-    @property
-    def force(self) -> float: ...  # [N]
-    @property
-    def lever(self) -> float: ...  # [m]
-    @property
-    def direction(self) -> _Vector: ...  # (3,)
-    @property
-    def at_stop(self) -> bool: ...
+    def update(self, qpos: ArrayLike, qvel: ArrayLike) -> None:
+        """Takes what is sensed: qpos (nq,), qvel (nv,)."""
 
-# tasks
+    @property
+    def at_stop(self) -> bool:
+        """whether a stop bears a share that the spring does not tell"""
 
-class Task(_Given):
-    def update(self, robot: Robot) -> None: ...
-    def hold(self, robot: Robot) -> None: ...
-    def advance(self, velocity: ArrayLike, dt: float) -> None: ...  # (m,) unit/s, [s]
-    def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None: ...  # (m,), (m,)
-    def state(self) -> list[float]: ...
-    def restore(self, state: Sequence[float]) -> None: ...
+    @property
+    def deflection(self) -> float:
+        """[rad]"""
+
+    @property
+    def direction(self) -> NDArray[np.float64]:
+        """(3,) of the force, in W"""
+
+    @property
+    def force(self) -> float:
+        """[N] at the frame, across its lever"""
+
+    @property
+    def lever(self) -> float:
+        """[m]"""
+
+    @property
+    def moment(self) -> float:
+        """[N m] of the contact, at the joint"""
+
+class Task:
+    """What a task is: it measures, a controller decides.
+
+    Error e (m,) with de/dt = J qdot - velocity_des, and the wish lower <= e <= upper (a point: both 0).
+    A new task holds the robot's present value. Arrays are copies, as of the last update."""
+
+    def __gt__(self, arg0: Any) -> bool: ...
+    def __lt__(self, arg0: Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def advance(self, velocity: ArrayLike, dt: float) -> None:
+        """Moves the target and feeds the velocity forward until the next advance or hold.
+
+        Args:
+          velocity: (m,) unit of the task per second.
+          dt: [s]. The target moves by velocity * dt; the error follows at the next update."""
+
+    def hold(self, robot: Robot) -> None:
+        """Makes the present value the target, at rest, and updates."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
+        """The interval that the error shall be in: (m,) each, -inf or inf for no side."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    def update(self, robot: Robot) -> None:
+        """Measures at the robot's present configuration."""
+
+    @property
+    def bounds_coordinates(self) -> bool: ...
+    @property
+    def drift(self) -> NDArray[np.float64]:
+        """(m,): Jdot qdot"""
+
+    @property
+    def error(self) -> NDArray[np.float64]:
+        """e (m,)"""
+
+    @property
+    def jacobian(self) -> NDArray[np.float64]:
+        """J (m, n)"""
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """(m,), of the error"""
+
     @property
     def name(self) -> str: ...
     @property
-    def rows(self) -> int: ...  # m
+    def rows(self) -> int:
+        """m"""
+
     @property
-    def error(self) -> _Vector: ...  # (m,)
+    def upper(self) -> NDArray[np.float64]:
+        """(m,), of the error"""
+
     @property
-    def jacobian(self) -> _Matrix: ...  # (m, n)
-    @property
-    def drift(self) -> _Vector: ...  # (m,)
-    @property
-    def velocity_des(self) -> _Vector: ...  # (m,)
-    @property
-    def lower(self) -> _Vector: ...  # (m,), of the error
-    @property
-    def upper(self) -> _Vector: ...  # (m,), of the error
-    @property
-    def bounds_coordinates(self) -> bool: ...
-    def __lt__(self, other: Any) -> NoReturn: ...  # use Stack([a, b, c])
-    def __gt__(self, other: Any) -> NoReturn: ...
+    def velocity_des(self) -> NDArray[np.float64]:
+        """(m,)"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class ValueTask(Task):
+    """A task whose value is a list of numbers: e = value - target, angles the short way round."""
+
+    def set_target(self, target: ArrayLike) -> None:
+        """Sets the target (m,), at rest; seen at the next update."""
+
     @property
-    def value(self) -> _Vector: ...  # (m,)
+    def leash(self) -> float:
+        """Distance [task unit] that advance leads the target from the value at most, inf for any.
+
+        From a fifth of it on the target goes slower; a velocity that leads back is never held."""
+
+    @leash.setter
+    def leash(self, arg1: float) -> None: ...
     @property
-    def target(self) -> _Vector: ...  # (m,)
-    leash: float  # task unit
-    def set_target(self, target: ArrayLike) -> None: ...  # (m,)
+    def target(self) -> NDArray[np.float64]:
+        """s_des (m,)"""
+
+    @property
+    def value(self) -> NDArray[np.float64]:
+        """s (m,), at the last update"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class JointLimits(Task):
+    """Ranges and speed limits of all coordinates; e = q (n,), J = 1.
+
+    Args:
+      name: shown in plots and messages.
+      robot: Robot, whose limits it starts with."""
+
     def __init__(self, name: str, robot: Robot) -> None: ...
-    def set_range(self, coordinate: str, lower: float, upper: float) -> None: ...  # [rad] or [m]
-    def reset_ranges(self) -> None: ...
+    def reset_ranges(self) -> None:
+        """The ranges of the robot again."""
+
+    def set_max_velocity(self, coordinate: str, limit: float) -> None:
+        """Speed limit of one coordinate [rad/s] or [m/s], above 0."""
+
+    def set_range(self, coordinate: str, lower: float, upper: float) -> None:
+        """Narrows the range of one coordinate [rad] or [m]; never wider than the robot's."""
+
     @property
-    def max_velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
-    def set_max_velocity(self, coordinate: str, limit: float) -> None: ...
+    def max_velocity(self) -> NDArray[np.float64]:
+        """(n,) [rad/s]"""
 
 class PostureTask(ValueTask):
-    def __init__(self, name: str, robot: Robot, coordinates: Sequence[str] = ...) -> None: ...
+    """Coordinates at chosen positions [rad] or [m] (m,).
+
+    Args:
+      name, robot: see JointLimits.
+      coordinates: their names, in this order; none means all."""
+
+    def __init__(
+        self, name: str, robot: Robot, coordinates: collections.abc.Sequence[str] = []
+    ) -> None: ...
 
 class PointTask(ValueTask):
+    """A point of the robot at a target."""
+
     @property
-    def position(self) -> _Vector: ...  # (3,) [m]
+    def position(self) -> NDArray[np.float64]:
+        """p_RF (3,) [m]"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class PositionTask(PointTask):
+    """The origin of a frame at a target position [m] (m,).
+
+    Args:
+      name, robot: see JointLimits.
+      frame: name of a site, body, camera or geom.
+      reference: frame in whose axes the position is measured, '' for the world.
+      axes: (m, 3), m = 1 to 3 directions in the axes of the reference."""
+
     def __init__(
         self, name: str, robot: Robot, frame: str, reference: str = "", axes: ArrayLike = ...
-    ) -> None: ...  # axes (m, 3)
+    ) -> None: ...
 
 class CenterOfMassTask(PointTask):
+    """The centre of mass of the whole tree at a target [m] (m,).
+
+    Args:
+      name, robot, reference, axes: see PositionTask."""
+
     def __init__(
         self, name: str, robot: Robot, reference: str = "", axes: ArrayLike = ...
-    ) -> None: ...  # axes (m, 3)
+    ) -> None: ...
 
 class OrientationTask(Task):
+    """The orientation of a frame at a target orientation.
+
+    e = log(R R_des^T) [rad] (3,) in the axes of the reference; advance takes an angular velocity
+    [rad/s] (3,) in these axes.
+
+    Args:
+      name, robot, frame, reference: see PositionTask."""
+
     def __init__(self, name: str, robot: Robot, frame: str, reference: str = "") -> None: ...
+    def set_target(self, target: ArrayLike) -> None:
+        """Sets the target, a rotation (3, 3), at rest; seen at the next update."""
+
     @property
-    def orientation(self) -> _Matrix: ...  # (3, 3)
+    def orientation(self) -> NDArray[np.float64]:
+        """R_RF (3, 3)"""
+
     @property
-    def target(self) -> _Matrix: ...  # (3, 3)
-    def set_target(self, target: ArrayLike) -> None: ...  # (3, 3)
+    def target(self) -> NDArray[np.float64]:
+        """R_des (3, 3)"""
 
 class AngleKind(_Enum):
+    """Which angle an AngleTask measures."""
+
     Elevation: ClassVar[AngleKind]
     Heading: ClassVar[AngleKind]
     __members__: ClassVar[dict[str, AngleKind]]
 
 class AngleTask(ValueTask):
+    """One angle [rad] (1,) of an axis that is fixed in a frame.
+
+    Args:
+      name, robot, frame, reference: see PositionTask.
+      kind: AngleKind.Elevation over the x-y plane, or AngleKind.Heading about z, of the reference.
+      axis: (3,) in the frame."""
+
     def __init__(
         self,
         name: str,
@@ -351,9 +764,18 @@ class AngleTask(ValueTask):
         kind: AngleKind = ...,
         axis: ArrayLike = ...,
         reference: str = "",
-    ) -> None: ...  # axis (3,)
+    ) -> None: ...
 
 class SwivelTask(ValueTask):
+    """The turn [rad] (1,) of an arm's plane about the line from shoulder to wrist.
+
+    Zero where the elbow lies on the side of `direction`; fades where the arm is straight.
+
+    Args:
+      name, robot: see JointLimits.
+      shoulder, elbow, wrist, torso: names of frames; the torso carries the shoulder.
+      direction: (3,) in the axes of the torso."""
+
     def __init__(
         self,
         name: str,
@@ -364,52 +786,109 @@ class SwivelTask(ValueTask):
         wrist: str,
         torso: str,
         direction: ArrayLike = ...,
-    ) -> None: ...  # direction (3,)
+    ) -> None: ...
 
 class GazeTask(Task):
+    """The camera looks at a point of the world; e = (yaw, pitch) [rad] (2,).
+
+    A positive error: the camera looks to the left of, above the target. advance moves the target
+    around the camera, [rad/s] (2,) to the left and upward.
+
+    Args:
+      name, robot: see JointLimits.
+      frame: a camera, or any other frame, which then looks along its x axis."""
+
     def __init__(self, name: str, robot: Robot, frame: str) -> None: ...
+    def set_target(self, target: ArrayLike) -> None:
+        """Sets the target (3,) [m] in W, at rest; seen at the next update."""
+
     @property
-    def target(self) -> _Vector: ...  # (3,) [m]
-    def set_target(self, target: ArrayLike) -> None: ...  # (3,) [m]
+    def target(self) -> NDArray[np.float64]:
+        """p_WT (3,) [m]"""
 
 class TorqueLimits(Task):
+    """What the drives of the coordinates can give: lower <= M qddot + h <= upper [N m] (n,).
+
+    A level of its own, below the joint limits; for AccelerationController.
+
+    Args:
+      name: shown in plots and messages.
+      robot: Robot, whose efforts it starts with (inf where it has none)."""
+
     def __init__(self, name: str, robot: Robot) -> None: ...
 
 class BalanceTask(Task):
+    """The centre of mass stays over a polygon: e (k,) [m], distances from its sides, margin <= e.
+
+    Args:
+      name, robot: see TorqueLimits.
+      polygon: (k, 2) [m] corners of a convex polygon in x and y of the reference.
+      margin: [m] kept from its sides.
+      reference: frame whose axes the corners are in, '' for the world.
+
+    Raises:
+      Error: fewer than three corners, or corners that are not convex."""
+
     def __init__(
-        self,
-        name: str,
-        robot: Robot,
-        polygon: ArrayLike,
-        margin: float = 0.05,
-        reference: str = "",
-    ) -> None: ...  # (k, 2) [m], [m]
+        self, name: str, robot: Robot, polygon: ArrayLike, margin: float = 0.05, reference: str = ""
+    ) -> None: ...
 
 class DistanceTask(Task):
+    """Bodies keep away from each other: e (k,) [m], a distance a pair, margin <= e.
+
+    Args:
+      name, robot: see TorqueLimits.
+      pairs: of names of bodies or geoms.
+      margin: [m].
+      most: [m] > margin; pairs farther apart ask for nothing.
+
+    Raises:
+      Error: a name that does not exist, or most <= margin."""
+
     def __init__(
         self,
         name: str,
         robot: Robot,
-        pairs: Sequence[tuple[str, str]],
+        pairs: collections.abc.Sequence[tuple[str, str]],
         margin: float = 0.03,
         most: float = 0.3,
-    ) -> None: ...  # [m], [m]
+    ) -> None: ...
 
 class ForceLoop(_Enum):
+    """The law of a force loop, see ForceGains."""
+
     FirstOrder: ClassVar[ForceLoop]
-    Velocity: ClassVar[ForceLoop]
     Position: ClassVar[ForceLoop]
     PositionIntegral: ClassVar[ForceLoop]
+    Velocity: ClassVar[ForceLoop]
     __members__: ClassVar[dict[str, ForceLoop]]
 
 class ForceGains:
+    """Law and gains of a force loop; f = G (s - r) is what the robot exerts along the axis.
+
+    FirstOrder        ds/dt = C (f_d - f)                                    [T 5.7.62]
+    Velocity          M s'' = -L s' + K delta, delta = C (f_d - f)           [T 5.4.35]
+    Position          M s'' = -L s' + K (delta - s)                          [T 5.4.28-29]
+    PositionIntegral  the same, delta with N times the integral of f_d - f   [T 5.4.34]
+
+    Position ends at f = (C G f_d - G r) / (1 + C G), the others at f_d. FirstOrder is for both
+    controllers, the others for AccelerationController.
+
+    Args:
+      loop: ForceLoop.
+      compliance: C > 0, [m/s/N] of FirstOrder, [m/N] of the others.
+      integral: N > 0 [m/s/N], of PositionIntegral alone.
+      mass: M > 0 [kg], as damping L [kg/s] and stiffness K [kg/s^2] not of FirstOrder.
+      damping: see mass.
+      stiffness: see mass.
+      dt: [s] control period."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     loop: ForceLoop
-    compliance: float  # [m/s/N] or [m/N]
-    integral: float  # [m/s/N]
-    mass: float  # [kg]
-    damping: float  # [kg/s]
-    stiffness: float  # [kg/s^2]
-    dt: float  # [s]
+
+    def __copy__(self) -> ForceGains: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> ForceGains: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -421,15 +900,60 @@ class ForceGains:
         stiffness: float = 100.0,
         dt: float = 0.001,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def compliance(self) -> float:
+        """[m/s/N] or [m/N]"""
 
-def largest_stiffness(gains: ForceGains) -> float: ...  # [N/m]
+    @compliance.setter
+    def compliance(self, arg0: float) -> None: ...
+    @property
+    def damping(self) -> float:
+        """[kg/s]"""
+
+    @damping.setter
+    def damping(self, arg0: float) -> None: ...
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
+    @dt.setter
+    def dt(self, arg0: float) -> None: ...
+    @property
+    def integral(self) -> float:
+        """[m/s/N]"""
+
+    @integral.setter
+    def integral(self, arg0: float) -> None: ...
+    @property
+    def mass(self) -> float:
+        """[kg]"""
+
+    @mass.setter
+    def mass(self, arg0: float) -> None: ...
+    @property
+    def stiffness(self) -> float:
+        """[kg/s^2]"""
+
+    @stiffness.setter
+    def stiffness(self, arg0: float) -> None: ...
 
 class ContactOptions:
-    f_min: float  # [N]
-    f_max: float  # [N]
-    release_time: float  # [s]
-    patience: float  # [s]
-    frozen_move: float  # [m]
+    """When there is contact, too much of it, or no sensor.
+
+    Args:
+      f_min: [N] > 0 at which contact begins; it ends below half of it for release_time.
+      f_max: [N] > f_min beyond which the row stops until reset.
+      release_time: [s].
+      patience: [s] for which the last reading stands for missing ones (NaN); then the sensor is lost.
+      frozen_move: [m] along the axis with the same reading in contact: the sensor is lost; 0: not
+        looked for."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> ContactOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> ContactOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -439,12 +963,52 @@ class ContactOptions:
         patience: float = 0.01,
         frozen_move: float = 0.0005,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def f_max(self) -> float:
+        """[N]"""
+
+    @f_max.setter
+    def f_max(self, arg0: float) -> None: ...
+    @property
+    def f_min(self) -> float:
+        """[N]"""
+
+    @f_min.setter
+    def f_min(self, arg0: float) -> None: ...
+    @property
+    def frozen_move(self) -> float:
+        """[m]"""
+
+    @frozen_move.setter
+    def frozen_move(self, arg0: float) -> None: ...
+    @property
+    def patience(self) -> float:
+        """[s]"""
+
+    @patience.setter
+    def patience(self, arg0: float) -> None: ...
+    @property
+    def release_time(self) -> float:
+        """[s]"""
+
+    @release_time.setter
+    def release_time(self, arg0: float) -> None: ...
 
 class StiffnessOptions:
-    lower: float  # [N/m]
-    upper: float  # [N/m]
-    forgetting: float
-    step: float  # [m]
+    """How the stiffness of an environment is learnt: least squares on increments, with forgetting.
+
+    Args:
+      lower: [N/m] bounds of the estimate.
+      upper: [N/m], and what it starts from.
+      forgetting: of an increment, 0 to 1.
+      step: [m] shortest increment."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> StiffnessOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> StiffnessOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -453,15 +1017,62 @@ class StiffnessOptions:
         forgetting: float = 0.9,
         step: float = 5e-05,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def forgetting(self) -> float: ...
+    @forgetting.setter
+    def forgetting(self, arg0: float) -> None: ...
+    @property
+    def lower(self) -> float:
+        """[N/m]"""
+
+    @lower.setter
+    def lower(self, arg0: float) -> None: ...
+    @property
+    def step(self) -> float:
+        """[m]"""
+
+    @step.setter
+    def step(self, arg0: float) -> None: ...
+    @property
+    def upper(self) -> float:
+        """[N/m]"""
+
+    @upper.setter
+    def upper(self, arg0: float) -> None: ...
 
 class ContactState(_Enum):
-    Free: ClassVar[ContactState]
+    """What a ForceTask takes its readings for."""
+
     Contact: ClassVar[ContactState]
-    Stopped: ClassVar[ContactState]
+    Free: ClassVar[ContactState]
     SensorLost: ClassVar[ContactState]
+    Stopped: ClassVar[ContactState]
     __members__: ClassVar[dict[str, ContactState]]
 
 class ForceTask(PositionTask):
+    """The contact force along one axis as a row: in the air a position, in contact a force law.
+
+    Pressing down with 5 N along z is -5 N. Each tick: sense(robot, f), then the controller. From motion
+    to force and back the row goes over within `blend`; with 0 it jumps [T Fig. 5.17].
+
+    Args:
+      name: shown in plots and messages.
+      robot: Robot.
+      frame: name of a site, body, camera or geom.
+      reference: frame that the axis belongs to, '' for the world.
+      axis: (3,), made a unit vector.
+      force_des: f_d [N].
+      blend: [s].
+      environment: G [N/m] where it is known; 0: learnt in contact.
+      max_rate: [1/s] where G is learnt, the compliance is held so low that an error vanishes no faster.
+      gains: ForceGains.
+      contact: ContactOptions.
+      stiffness: StiffnessOptions of the estimate.
+
+    Raises:
+      Error: a name that does not exist, gains that are unstable with this environment."""
+
     def __init__(
         self,
         name: str,
@@ -477,67 +1088,171 @@ class ForceTask(PositionTask):
         gains: ForceGains = ...,
         contact: ContactOptions = ...,
         stiffness: StiffnessOptions = ...,
-    ) -> None: ...  # (3,), [N], [s], [N/m], [1/s]
-    def sense(self, robot: Robot, force: float) -> None: ...  # [N], NaN for none
-    def set_force(self, force_des: float) -> None: ...  # [N]
-    def enable(self, on: bool) -> None: ...
-    def reset(self, robot: Robot) -> None: ...
-    @property
-    def contact(self) -> ContactState: ...
-    @property
-    def force(self) -> float: ...  # [N]
-    @property
-    def force_des(self) -> float: ...  # [N]
-    @property
-    def learnt_stiffness(self) -> float: ...  # [N/m]
+    ) -> None: ...
+    def enable(self, on: bool) -> None:
+        """False: motion alone, whatever is read; readings are still watched."""
 
-# control
+    def reset(self, robot: Robot) -> None:
+        """Out of Stopped and SensorLost, at rest where the frame is."""
+
+    def sense(self, robot: Robot, force: float) -> None:
+        """One tick: the reading.
+
+        Args:
+          robot: Robot where the controller will see it.
+          force: f [N], NaN for none."""
+
+    def set_force(self, force_des: float) -> None:
+        """f_d [N]."""
+
+    @property
+    def contact(self) -> ContactState:
+        """ContactState"""
+
+    @property
+    def force(self) -> float:
+        """[N] last reading"""
+
+    @property
+    def force_des(self) -> float:
+        """[N]"""
+
+    @property
+    def learnt_stiffness(self) -> float:
+        """[N/m] given or learnt"""
 
 class StackLevel:
-    def __init__(self, name: str, tasks: Iterable[Task], rho: float = 0.1) -> None: ...
+    """Tasks of one priority.
+
+    Args:
+      name: shown in plots and messages.
+      tasks: sequence of Task, all on this level.
+      rho: regularisation coefficient >= 0; a level of coordinate limits is never regularised.
+
+    Raises:
+      Error: no task, or a rho that is negative or not finite."""
+
+    def __init__(
+        self, name: str, tasks: collections.abc.Iterable[Task], rho: float = 0.1
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def name(self) -> str: ...
     @property
     def rho(self) -> float: ...
     @property
-    def tasks(self) -> list[Task]: ...
+    def tasks(self) -> list[Any]: ...
 
 class Stack:
-    def __init__(self, levels: Iterable[Task | StackLevel | Iterable[Task]]) -> None: ...
-    @property
-    def levels(self) -> list[str]: ...  # decreasing priority
+    """Tasks by priority, first comes first: Stack([limits, [left, right], posture]).
+
+    Args:
+      levels: sequence of Task, StackLevel, or a list of tasks that share a level.
+
+    Raises:
+      Error: a task stands twice."""
+
+    def __init__(
+        self,
+        levels: collections.abc.Iterable[
+            Task | StackLevel | collections.abc.Iterable[Task | StackLevel]
+        ],
+    ) -> None: ...
     def __len__(self) -> int: ...
+    def __repr__(self) -> str: ...
+    @property
+    def levels(self) -> list[str]:
+        """list of str, decreasing priority"""
 
-class ControlSolution(_Solved): ...
+class ControlSolution:
+    """The solution of a controller's last solve."""
 
-class ShortTask(_Given):
+    @property
+    def changes(self) -> int:
+        """working-set changes"""
+
+    @property
+    def factorizations(self) -> int: ...
+    @property
+    def final_levels(self) -> int:
+        """levels known to be optimal"""
+
+    @property
+    def optimality(self) -> float:
+        """worst relative residual of the optimality conditions of all levels"""
+
+    @property
+    def status(self) -> Status: ...
+    @property
+    def violations(self) -> list[NDArray[np.float64]]:
+        """per level (m,): A x - clip(A x, lower, upper)"""
+
+    @property
+    def working_set(self) -> list[ActiveRow]:
+        """list of ActiveRow"""
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """(n,)"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+class ShortTask:
+    """A task that is off its interval and is not brought back as it asks; str() is the plain words."""
+
+    def __str__(self) -> str: ...
+    @property
+    def held_by(self) -> list[str]:
+        """list of str"""
+
+    @property
+    def short_by(self) -> float:
+        """[unit]"""
+
     @property
     def task(self) -> str: ...
     @property
-    def short_by(self) -> float: ...  # [unit]
-    @property
-    def unit(self) -> str: ...  # "m" or "rad"
-    @property
-    def held_by(self) -> list[str]: ...
+    def unit(self) -> str:
+        """'m' or 'rad'"""
 
-class LevelNote(_Given):
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+class LevelNote:
+    """What a level fell short of at the last compute, and why.
+
+    The smallest singular value (distance to singularity) and the product of all (manipulability) are of
+    the level's equality rows on the directions that the levels above left; 1 without such rows."""
+
     @property
     def level(self) -> str: ...
     @property
-    def smallest_singular_value(self) -> float: ...
-    @property
     def manipulability(self) -> float: ...
     @property
-    def shorts(self) -> list[ShortTask]: ...
+    def shorts(self) -> list[ShortTask]:
+        """list of ShortTask; empty: all is well"""
+
+    @property
+    def smallest_singular_value(self) -> float: ...
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class VelocityControllerOptions:
-    dt: float  # [s]
-    gain: float  # [1/s]
-    horizon: float  # [s]
-    max_acceleration: float  # [rad/s^2]
-    return_speed: float  # [rad/s]
-    transition: float  # [s]
-    solver: SolverOptions
+    """Options of the velocity controller.
+
+    Args:
+      dt: [s] control period.
+      gain: [1/s] with which errors vanish.
+      horizon: [s] a position limit is approached no faster than distance / horizon.
+      max_acceleration: [rad/s^2] of every coordinate, inf for none.
+      return_speed: [rad/s] at which a coordinate outside its limits is driven back.
+      transition: [s] in which the velocity goes over to a stack that was set in motion; 0 for none.
+      solver: SolverOptions; the default is SolverOptions(handover="smooth"), so that no velocity jumps
+        where a task loses a direction."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> VelocityControllerOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> VelocityControllerOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -549,40 +1264,146 @@ class VelocityControllerOptions:
         transition: float = 0.2,
         solver: SolverOptions = ...,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
+    @dt.setter
+    def dt(self, arg0: float) -> None: ...
+    @property
+    def gain(self) -> float:
+        """[1/s]"""
+
+    @gain.setter
+    def gain(self, arg0: float) -> None: ...
+    @property
+    def horizon(self) -> float:
+        """[s]"""
+
+    @horizon.setter
+    def horizon(self, arg0: float) -> None: ...
+    @property
+    def max_acceleration(self) -> float:
+        """[rad/s^2]"""
+
+    @max_acceleration.setter
+    def max_acceleration(self, arg0: float) -> None: ...
+    @property
+    def return_speed(self) -> float:
+        """[rad/s]"""
+
+    @return_speed.setter
+    def return_speed(self, arg0: float) -> None: ...
+    @property
+    def solver(self) -> SolverOptions:
+        """SolverOptions"""
+
+    @solver.setter
+    def solver(self, arg0: SolverOptions) -> None: ...
+    @property
+    def transition(self) -> float:
+        """[s]"""
+
+    @transition.setter
+    def transition(self, arg0: float) -> None: ...
 
 class VelocityController:
+    """From a stack to velocities: first-order closed-loop inverse kinematics.
+
+    Args:
+      robot: Robot that the tasks were made for.
+      options: VelocityControllerOptions."""
+
     def __init__(self, robot: Robot, options: VelocityControllerOptions = ...) -> None: ...
-    def set_stack(self, stack: Stack) -> None: ...
-    def compute(self, robot: Robot) -> _Vector: ...  # (n,) [rad/s] or [m/s]
-    def integrate(self, q: ArrayLike) -> _Vector: ...  # (n,) -> (n,) [rad] or [m]
-    def notes(self, robot: Robot) -> list[LevelNote]: ...  # decreasing priority
-    def take_over(self, previous: VelocityController) -> None: ...
-    def step(self, robot: Robot) -> _Vector: ...  # (n,) [rad] or [m], the next q*
-    def reset(self) -> None: ...
-    def state(self) -> list[float]: ...
-    def restore(self, state: Sequence[float]) -> None: ...
+    def compute(self, robot: Robot) -> NDArray[np.float64]:
+        """Measures the tasks at the robot, builds the hierarchy, solves it.
+
+        Args:
+          robot: Robot at the configuration (and velocity) to start from.
+
+        Returns:
+          qdot* (n,) [rad/s] or [m/s]. Releases the interpreter lock."""
+
+    def integrate(self, q: ArrayLike) -> NDArray[np.float64]:
+        """q* after one dt: q + qdot* dt (n,); rounding never carries it over a limit."""
+
+    def notes(self, robot: Robot) -> list[LevelNote]:
+        """What each level fell short of at the last compute, and why.
+
+        Args:
+          robot: Robot as it was at compute.
+
+        Returns:
+          list of LevelNote, decreasing priority."""
+
+    def reset(self) -> None:
+        """At rest, cold."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def set_stack(self, stack: Stack) -> None:
+        """Takes over another stack; keeps its tasks alive."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    def step(self, robot: Robot) -> NDArray[np.float64]:
+        """compute, integrate and set_configuration in one: the robot moves by one dt.
+
+        Args:
+          robot: Robot at the reference configuration q*; it ends at the next one.
+
+        Returns:
+          q* (n,) [rad] or [m], one dt later. Releases the interpreter lock."""
+
+    def take_over(self, previous: VelocityController) -> None:
+        """Goes on at the velocity of another controller of the same robot, with a transition.
+
+        Args:
+          previous: VelocityController that was in command."""
+
+    @property
+    def active_limits(self) -> NDArray[np.int32]:
+        """(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one"""
+
+    @property
+    def hierarchy(self) -> list[Level]:
+        """list of Level, of the last compute"""
+
     @property
     def options(self) -> VelocityControllerOptions: ...
     @property
-    def velocity(self) -> _Vector: ...  # (n,) [rad/s] or [m/s]
+    def solution(self) -> ControlSolution:
+        """ControlSolution, of the last compute"""
+
     @property
-    def active_limits(self) -> NDArray[np.int32]: ...  # (n,) -1, 0, 1
+    def stack(self) -> str:
+        """'joint < hpos < ...'"""
+
     @property
-    def solution(self) -> ControlSolution: ...
-    @property
-    def hierarchy(self) -> list[Level]: ...
-    @property
-    def stack(self) -> str: ...  # "joint < hpos < ..."
+    def velocity(self) -> NDArray[np.float64]:
+        """(n,) [rad/s] or [m/s], the last qdot*"""
 
 class AccelerationControllerOptions:
-    dt: float  # [s]
-    stiffness: float  # [1/s^2]
-    damping: float  # [1/s]
-    horizon: float  # [s]
-    max_acceleration: float  # [rad/s^2]
-    return_speed: float  # [rad/s]
-    rest: float  # [1/s]
-    solver: SolverOptions
+    """Options of the acceleration controller.
+
+    Args:
+      dt: [s] control period.
+      stiffness: [1/s^2] K on errors.
+      damping: [1/s] L on their rates; 2 sqrt(K) is critical.
+      horizon: [s] a position limit is approached no faster than distance / horizon.
+      max_acceleration: [rad/s^2] of every coordinate, inf for none.
+      return_speed: [rad/s] at which a coordinate outside its limits is driven back.
+      rest: [1/s] rate at which weak and free directions brake; 0: they keep their speed.
+      solver: SolverOptions; the default is SolverOptions(handover="smooth")."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> AccelerationControllerOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> AccelerationControllerOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -595,37 +1416,155 @@ class AccelerationControllerOptions:
         rest: float = 0.0,
         solver: SolverOptions = ...,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def damping(self) -> float:
+        """[1/s]"""
+
+    @damping.setter
+    def damping(self, arg0: float) -> None: ...
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
+    @dt.setter
+    def dt(self, arg0: float) -> None: ...
+    @property
+    def horizon(self) -> float:
+        """[s]"""
+
+    @horizon.setter
+    def horizon(self, arg0: float) -> None: ...
+    @property
+    def max_acceleration(self) -> float:
+        """[rad/s^2]"""
+
+    @max_acceleration.setter
+    def max_acceleration(self, arg0: float) -> None: ...
+    @property
+    def rest(self) -> float:
+        """[1/s]"""
+
+    @rest.setter
+    def rest(self, arg0: float) -> None: ...
+    @property
+    def return_speed(self) -> float:
+        """[rad/s]"""
+
+    @return_speed.setter
+    def return_speed(self, arg0: float) -> None: ...
+    @property
+    def solver(self) -> SolverOptions:
+        """SolverOptions"""
+
+    @solver.setter
+    def solver(self, arg0: SolverOptions) -> None: ...
+    @property
+    def stiffness(self) -> float:
+        """[1/s^2]"""
+
+    @stiffness.setter
+    def stiffness(self, arg0: float) -> None: ...
 
 class AccelerationController:
+    """From a stack to accelerations: second-order closed-loop inverse kinematics.
+
+    Integrated for joint servos (step), or turned into torques by inverse dynamics (torque).
+
+    Args:
+      robot: Robot that the tasks were made for.
+      options: AccelerationControllerOptions.
+
+    Raises:
+      Error: gains too high for dt, or an option out of range."""
+
     def __init__(self, robot: Robot, options: AccelerationControllerOptions = ...) -> None: ...
-    def set_stack(self, stack: Stack) -> None: ...
-    def compute(self, robot: Robot) -> _Vector: ...  # (n,) [rad/s^2] or [m/s^2]
-    def step(self, robot: Robot) -> _Vector: ...  # (n,) [rad] or [m], the next q*
-    def torque(self, robot: Robot) -> _Vector: ...  # (n,) [N m] or [N]
-    def notes(self, robot: Robot) -> list[LevelNote]: ...  # decreasing priority
-    def reset(self) -> None: ...
-    def state(self) -> list[float]: ...
-    def restore(self, state: Sequence[float]) -> None: ...
+    def compute(self, robot: Robot) -> NDArray[np.float64]:
+        """Measures the tasks at the robot, builds the hierarchy, solves it.
+
+        Args:
+          robot: Robot at the configuration (and velocity) to start from.
+
+        Returns:
+          qddot* (n,) [rad/s^2] or [m/s^2]. Releases the interpreter lock."""
+
+    def notes(self, robot: Robot) -> list[LevelNote]:
+        """What each level fell short of at the last compute, and why.
+
+        Args:
+          robot: Robot as it was at compute.
+
+        Returns:
+          list of LevelNote, decreasing priority."""
+
+    def reset(self) -> None:
+        """At rest, cold."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def set_stack(self, stack: Stack) -> None:
+        """Takes over another stack; keeps its tasks alive."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    def step(self, robot: Robot) -> NDArray[np.float64]:
+        """compute, then moves the robot by one dt along qddot*.
+
+        Args:
+          robot: Robot at the reference configuration and velocity; it ends at the next ones.
+
+        Returns:
+          q* (n,) [rad] or [m], one dt later; the velocity is robot.velocity. Releases the interpreter lock."""
+
+    def torque(self, robot: Robot) -> NDArray[np.float64]:
+        """What the drives must give for the last qddot*, by inverse dynamics.
+
+        Args:
+          robot: Robot as it was at compute.
+
+        Returns:
+          (n,) [N m] or [N]."""
+
+    @property
+    def acceleration(self) -> NDArray[np.float64]:
+        """(n,) [rad/s^2] or [m/s^2], the last qddot*"""
+
+    @property
+    def active_limits(self) -> NDArray[np.int32]:
+        """(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one"""
+
+    @property
+    def hierarchy(self) -> list[Level]:
+        """list of Level, of the last compute"""
+
     @property
     def options(self) -> AccelerationControllerOptions: ...
     @property
-    def acceleration(self) -> _Vector: ...  # (n,) [rad/s^2] or [m/s^2]
+    def solution(self) -> ControlSolution:
+        """ControlSolution, of the last compute"""
+
     @property
-    def active_limits(self) -> NDArray[np.int32]: ...  # (n,) -1, 0, 1
-    @property
-    def solution(self) -> ControlSolution: ...
-    @property
-    def hierarchy(self) -> list[Level]: ...
-    @property
-    def stack(self) -> str: ...  # "joint < hpos < ..."
+    def stack(self) -> str:
+        """'joint < hpos < ...'"""
 
 class JointPidOptions:
-    K: _Vector  # (m,) [N m s/rad]
-    K_P: _Vector  # (m,) [1/s]
-    K_I: _Vector  # (m,) [1/s^2]
-    gamma: float
-    max_torque: _Vector  # (m,) [N m]
-    dt: float  # [s]
+    """Gains of the joint servo, (m,) each.
+
+    Args:
+      K: [N m s/rad] > 0, state weight.
+      K_P: [1/s] > 0.
+      K_I: [1/s^2] > 0, K_P^2 > 2 K_I.
+      max_torque: [N m] > 0, inf for none.
+      gamma: > 0, L2 gain from disturbance to error.
+      dt: [s]."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> JointPidOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> JointPidOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -636,43 +1575,132 @@ class JointPidOptions:
         gamma: float = 1.0,
         dt: float = 0.001,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def K(self) -> NDArray[np.float64]:
+        """(m,) [N m s/rad]"""
+
+    @K.setter
+    def K(self, arg0: ArrayLike) -> None: ...
+    @property
+    def K_I(self) -> NDArray[np.float64]:
+        """(m,) [1/s^2]"""
+
+    @K_I.setter
+    def K_I(self, arg0: ArrayLike) -> None: ...
+    @property
+    def K_P(self) -> NDArray[np.float64]:
+        """(m,) [1/s]"""
+
+    @K_P.setter
+    def K_P(self, arg0: ArrayLike) -> None: ...
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
+    @dt.setter
+    def dt(self, arg0: float) -> None: ...
+    @property
+    def gamma(self) -> float: ...
+    @gamma.setter
+    def gamma(self, arg0: float) -> None: ...
+    @property
+    def max_torque(self) -> NDArray[np.float64]:
+        """(m,) [N m]"""
+
+    @max_torque.setter
+    def max_torque(self, arg0: ArrayLike) -> None: ...
 
 class JointPid:
+    """Inverse-optimal joint servo with torque limits and anti-windup:
+
+    tau = (K + 1 / gamma^2) (de/dt + K_P e + K_I int e dt),  e = q_d - q
+
+    Args:
+      options: JointPidOptions.
+
+    Raises:
+      Error: sizes that differ, or gains outside the conditions of JointPidOptions."""
+
     def __init__(self, options: JointPidOptions) -> None: ...
-    def compute(
-        self, position: ArrayLike, velocity: ArrayLike
-    ) -> _Vector: ...  # (m,) [rad], (m,) [rad/s] -> (m,) [N m]
-    def reset(self) -> None: ...
-    def state(self) -> list[float]: ...
-    def restore(self, state: Sequence[float]) -> None: ...
+    def compute(self, position: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Torque (m,) [N m] for this tick.
+
+        Args:
+          position: e = q_d - q (m,) [rad].
+          velocity: de/dt (m,) [rad/s]."""
+
+    def reset(self) -> None:
+        """At rest, without memory."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    @property
+    def demand(self) -> NDArray[np.float64]:
+        """(m,) [N m], before saturation"""
+
+    @property
+    def integral(self) -> NDArray[np.float64]:
+        """(m,) [rad s]"""
+
     @property
     def options(self) -> JointPidOptions: ...
     @property
-    def torque(self) -> _Vector: ...  # (m,) [N m]
-    @property
-    def demand(self) -> _Vector: ...  # (m,) [N m], before saturation
-    @property
-    def integral(self) -> _Vector: ...  # (m,) [rad s]
-
-# control: the drives
+    def torque(self) -> NDArray[np.float64]:
+        """(m,) [N m], of the last compute"""
 
 class SpeedLimits:
-    acceleration: float  # [m/s^2] or [rad/s^2]
-    jerk: float  # [m/s^3] or [rad/s^3]
+    """How fast a commanded speed may change.
+
+    Args:
+      acceleration: > 0, [m/s^2] or [rad/s^2].
+      jerk: > 0, [m/s^3] or [rad/s^3]."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> SpeedLimits: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> SpeedLimits: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(self, acceleration: float, jerk: float) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def acceleration(self) -> float:
+        """[m/s^2] or [rad/s^2]"""
+
+    @acceleration.setter
+    def acceleration(self, arg0: float) -> None: ...
+    @property
+    def jerk(self) -> float:
+        """[m/s^3] or [rad/s^3]"""
+
+    @jerk.setter
+    def jerk(self, arg0: float) -> None: ...
 
 class ParkingOptions:
-    speed: float  # [m/s]
-    yaw_rate: float  # [rad/s]
-    deceleration: float  # [m/s^2]
-    turn_centre: float  # [m]
-    run_in: float  # [m]
-    line_gain: float  # [rad/m]
-    heading_gain: float  # [1/s]
-    max_offset: float  # [m]
-    max_turn: float  # [rad]
-    attempts: int
-    patience: float
+    """How a robot parks: turn, drive, turn, run in.
+
+    Args:
+      speed: [m/s] at most.
+      yaw_rate: [rad/s] at most, turning in place.
+      deceleration: [m/s^2] towards the end of a line.
+      turn_centre: [m] forward of the pose's origin: what turns in place are about.
+      run_in: [m] driven along the goal's own line at the end.
+      line_gain: [rad/m] heading against an offset from a line.
+      heading_gain: [1/s] yaw rate against a heading error.
+      max_offset: [m] of the turning centre at the end.
+      max_turn: [rad] of the heading at the end.
+      attempts: run-ins at most.
+      patience: times what a turn or a line takes at full speed, and 5 s on top; then parking has failed."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> ParkingOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> ParkingOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -688,29 +1716,103 @@ class ParkingOptions:
         attempts: int = 4,
         patience: float = 3.0,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def attempts(self) -> int: ...
+    @attempts.setter
+    def attempts(self, arg0: int) -> None: ...
+    @property
+    def deceleration(self) -> float:
+        """[m/s^2]"""
+
+    @deceleration.setter
+    def deceleration(self, arg0: float) -> None: ...
+    @property
+    def heading_gain(self) -> float:
+        """[1/s]"""
+
+    @heading_gain.setter
+    def heading_gain(self, arg0: float) -> None: ...
+    @property
+    def line_gain(self) -> float:
+        """[rad/m]"""
+
+    @line_gain.setter
+    def line_gain(self, arg0: float) -> None: ...
+    @property
+    def max_offset(self) -> float:
+        """[m]"""
+
+    @max_offset.setter
+    def max_offset(self, arg0: float) -> None: ...
+    @property
+    def max_turn(self) -> float:
+        """[rad]"""
+
+    @max_turn.setter
+    def max_turn(self, arg0: float) -> None: ...
+    @property
+    def patience(self) -> float: ...
+    @patience.setter
+    def patience(self, arg0: float) -> None: ...
+    @property
+    def run_in(self) -> float:
+        """[m]"""
+
+    @run_in.setter
+    def run_in(self, arg0: float) -> None: ...
+    @property
+    def speed(self) -> float:
+        """[m/s]"""
+
+    @speed.setter
+    def speed(self, arg0: float) -> None: ...
+    @property
+    def turn_centre(self) -> float:
+        """[m]"""
+
+    @turn_centre.setter
+    def turn_centre(self, arg0: float) -> None: ...
+    @property
+    def yaw_rate(self) -> float:
+        """[rad/s]"""
+
+    @yaw_rate.setter
+    def yaw_rate(self, arg0: float) -> None: ...
 
 class DriveOptions:
-    dt: float  # [s]
-    radius: float  # [m]
-    gauge: float  # [m]
-    mass: float  # [kg]
-    max_torque: float  # [N m]
-    max_power: float  # [W]
-    max_speed: float  # [m/s]
-    max_yaw_rate: float  # [rad/s]
-    max_sideways: float  # [m/s^2]
-    forward: SpeedLimits  # [m/s^2], [m/s^3]
-    turning: SpeedLimits  # [rad/s^2], [rad/s^3]
-    gain: float  # [N m s/rad]
-    integral_gain: float  # [N m/rad]
-    speed_gain: float
-    yaw_gain: float
-    yaw_integral_gain: float  # [1/s]
-    slip_speed: float  # [m/s]
-    slip_ratio: float
-    standstill_time: float  # [s]
-    brake_time: float  # [s]
-    parking: ParkingOptions
+    """Options of the drive controller.
+
+    Args:
+      dt: [s] control period.
+      radius: [m] belt speed over belt rate.
+      gauge: [m] between the middles of the driven tracks.
+      mass: [kg] for the feed-forward of acceleration, 0 for none.
+      max_torque: [N m] of one drive.
+      max_power: [W] of one drive.
+      max_speed: [m/s] of a belt.
+      max_yaw_rate: [rad/s].
+      max_sideways: [m/s^2] speed times yaw rate; who is to turn sharper slows down.
+      forward: SpeedLimits [m/s^2, m/s^3].
+      turning: SpeedLimits [rad/s^2, rad/s^3].
+      gain: [N m s/rad] belt rate to torque.
+      integral_gain: [N m/rad].
+      speed_gain: share of a speed error that is added to what the belts are asked for.
+      yaw_gain: share of a yaw rate error that is added to what the belts are asked for.
+      yaw_integral_gain: [1/s].
+      slip_speed: [m/s] by which a belt may slip.
+      slip_ratio: share of the ground speed by which it may slip on top.
+      standstill_time: [s] without motion before the brakes close.
+      brake_time: [s] for which the drives hold on until the brakes are shut.
+      parking: ParkingOptions.
+
+    Numbers out of range are refused by DriveController."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> DriveOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> DriveOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -736,115 +1838,342 @@ class DriveOptions:
         brake_time: float = 0.1,
         parking: ParkingOptions = ...,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def brake_time(self) -> float:
+        """[s]"""
+
+    @brake_time.setter
+    def brake_time(self, arg0: float) -> None: ...
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
+    @dt.setter
+    def dt(self, arg0: float) -> None: ...
+    @property
+    def forward(self) -> SpeedLimits:
+        """SpeedLimits"""
+
+    @forward.setter
+    def forward(self, arg0: SpeedLimits) -> None: ...
+    @property
+    def gain(self) -> float:
+        """[N m s/rad]"""
+
+    @gain.setter
+    def gain(self, arg0: float) -> None: ...
+    @property
+    def gauge(self) -> float:
+        """[m]"""
+
+    @gauge.setter
+    def gauge(self, arg0: float) -> None: ...
+    @property
+    def integral_gain(self) -> float:
+        """[N m/rad]"""
+
+    @integral_gain.setter
+    def integral_gain(self, arg0: float) -> None: ...
+    @property
+    def mass(self) -> float:
+        """[kg]"""
+
+    @mass.setter
+    def mass(self, arg0: float) -> None: ...
+    @property
+    def max_power(self) -> float:
+        """[W]"""
+
+    @max_power.setter
+    def max_power(self, arg0: float) -> None: ...
+    @property
+    def max_sideways(self) -> float:
+        """[m/s^2]"""
+
+    @max_sideways.setter
+    def max_sideways(self, arg0: float) -> None: ...
+    @property
+    def max_speed(self) -> float:
+        """[m/s]"""
+
+    @max_speed.setter
+    def max_speed(self, arg0: float) -> None: ...
+    @property
+    def max_torque(self) -> float:
+        """[N m]"""
+
+    @max_torque.setter
+    def max_torque(self, arg0: float) -> None: ...
+    @property
+    def max_yaw_rate(self) -> float:
+        """[rad/s]"""
+
+    @max_yaw_rate.setter
+    def max_yaw_rate(self, arg0: float) -> None: ...
+    @property
+    def parking(self) -> ParkingOptions:
+        """ParkingOptions"""
+
+    @parking.setter
+    def parking(self, arg0: ParkingOptions) -> None: ...
+    @property
+    def radius(self) -> float:
+        """[m]"""
+
+    @radius.setter
+    def radius(self, arg0: float) -> None: ...
+    @property
+    def slip_ratio(self) -> float: ...
+    @slip_ratio.setter
+    def slip_ratio(self, arg0: float) -> None: ...
+    @property
+    def slip_speed(self) -> float:
+        """[m/s]"""
+
+    @slip_speed.setter
+    def slip_speed(self, arg0: float) -> None: ...
+    @property
+    def speed_gain(self) -> float: ...
+    @speed_gain.setter
+    def speed_gain(self, arg0: float) -> None: ...
+    @property
+    def standstill_time(self) -> float:
+        """[s]"""
+
+    @standstill_time.setter
+    def standstill_time(self, arg0: float) -> None: ...
+    @property
+    def turning(self) -> SpeedLimits:
+        """SpeedLimits"""
+
+    @turning.setter
+    def turning(self, arg0: SpeedLimits) -> None: ...
+    @property
+    def yaw_gain(self) -> float: ...
+    @yaw_gain.setter
+    def yaw_gain(self, arg0: float) -> None: ...
+    @property
+    def yaw_integral_gain(self) -> float:
+        """[1/s]"""
+
+    @yaw_integral_gain.setter
+    def yaw_integral_gain(self, arg0: float) -> None: ...
 
 class ParkingPhase(_Enum):
-    Off: ClassVar[ParkingPhase]
-    Face: ClassVar[ParkingPhase]
-    Approach: ClassVar[ParkingPhase]
+    """Where a parking robot is; Off: none was asked for."""
+
     Align: ClassVar[ParkingPhase]
-    RunIn: ClassVar[ParkingPhase]
+    Approach: ClassVar[ParkingPhase]
     Done: ClassVar[ParkingPhase]
+    Face: ClassVar[ParkingPhase]
     Failed: ClassVar[ParkingPhase]
+    Off: ClassVar[ParkingPhase]
+    RunIn: ClassVar[ParkingPhase]
     __members__: ClassVar[dict[str, ParkingPhase]]
 
 class DriveController:
+    """Drives a robot on two tracks by speed and yaw rate, or to a pose.
+
+    Speeds follow their commands with limited acceleration and jerk; a belt that slips is held back; the
+    effective gauge of skid steering is learnt from the gyro. At standstill the brakes close.
+
+    Args:
+      options: DriveOptions.
+
+    Raises:
+      Error: an option out of range."""
+
     def __init__(self, options: DriveOptions = ...) -> None: ...
-    def drive(self, speed: float, yaw_rate: float = 0.0) -> None: ...  # [m/s], [rad/s]
-    def park(self, x: float, y: float, yaw: float) -> None: ...  # [m], [m], [rad]
     def compute(
         self,
         left: float,
         right: float,
         yaw_rate: float,
         speed: float,
-        pose: Sequence[float] | None = None,
-    ) -> list[float]: ...  # [rad/s], [rad/s], [rad/s], [m/s], (3,) -> (2,) [N m]
-    def reset(self) -> None: ...
-    def state(self) -> list[float]: ...
-    def restore(self, state: Sequence[float]) -> None: ...
+        pose: collections.abc.Sequence[float] | None = None,
+    ) -> list[float]:
+        """One control period.
+
+        Args:
+          left: [rad/s] rate of the left driven belt, > 0 forward.
+          right: [rad/s] of the right one.
+          yaw_rate: [rad/s] of the gyro about the vertical, > 0 to the left.
+          speed: [m/s] over ground along the heading.
+          pose: (x, y, yaw) [m, m, rad]; wanted while the robot parks.
+
+        Returns:
+          (left, right) torques of the drives [N m]; see also `braked`.
+
+        Raises:
+          Error: a measurement is not finite, or the pose is missing."""
+
+    def drive(self, speed: float, yaw_rate: float = 0.0) -> None:
+        """Drives like this from now on, ends parking.
+
+        Args:
+          speed: [m/s] forward; beyond max_speed it is held there.
+          yaw_rate: [rad/s] to the left; beyond max_yaw_rate it is held there.
+
+        Raises:
+          Error: a number is not finite."""
+
+    def park(self, x: float, y: float, yaw: float) -> None:
+        """Goes to this pose and stays there, brakes shut.
+
+        Args:
+          x: [m] of the pose's origin in the world.
+          y: [m].
+          yaw: [rad] of the heading from x towards y.
+
+        Raises:
+          Error: a number is not finite."""
+
+    def reset(self) -> None:
+        """Stands, braked, knows nothing of the ground."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    @property
+    def braked(self) -> bool:
+        """whether the brakes of both drives are to be shut"""
+
+    @property
+    def gauge(self) -> float:
+        """[m] effective, as estimated"""
+
     @property
     def options(self) -> DriveOptions: ...
     @property
-    def braked(self) -> bool: ...
-    @property
-    def slipping(self) -> bool: ...
-    @property
-    def gauge(self) -> float: ...  # [m]
-    @property
     def parking_phase(self) -> ParkingPhase: ...
     @property
-    def reference(self) -> list[float]: ...  # (2,) [m/s], [rad/s]
+    def reference(self) -> list[float]:
+        """(2,) speed [m/s] and yaw rate [rad/s] of the moment"""
 
-# sim
-
-class Brakes(_Given):
     @property
-    def names(self) -> list[str]: ...
-    def set_closed(self, joint: str, closed: bool) -> None: ...
-    def close(self) -> None: ...
-    def reset(self, closed: bool = False) -> None: ...
-    def is_shut(self, joint: str) -> bool: ...
+    def slipping(self) -> bool:
+        """whether a belt was held back in the last period"""
+
+class Brakes:
+    """Magnetic brakes in the drives of the joints: closed they hold without power.
+
+    A brake is dry friction of 1.2 times the motor's peak torque; beyond that it slips. It takes 0.05 s
+    to open or close. Made by Physics."""
+
+    def close(self) -> None:
+        """All of them."""
+
     def is_open(self, joint: str) -> bool: ...
-    def load(self, joint: str) -> float: ...  # [N m] or [N]
-    def max_load(self, joint: str) -> float: ...  # [N m] or [N]
+    def is_shut(self, joint: str) -> bool: ...
+    def load(self, joint: str) -> float:
+        """[N m] or [N] that brake and friction bore in the last step, in the joint's direction"""
+
+    def max_load(self, joint: str) -> float:
+        """[N m] or [N] at which it slips"""
+
+    def reset(self, closed: bool = False) -> None:
+        """All at once and at once shut or open."""
+
+    def set_closed(self, joint: str, closed: bool) -> None:
+        """Closes or opens one brake.
+
+        Args:
+          joint: name of its joint.
+          closed: bool.
+
+        Raises:
+          Error: that joint has no brake, with the names that have one."""
+
     @property
-    def power(self) -> float: ...  # [W]
+    def names(self) -> list[str]:
+        """joints that have a brake"""
+
+    @property
+    def power(self) -> float:
+        """[W] of the coils of those held open"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
 
 class Physics:
+    """MuJoCo's physics with what the robot adds: traction of tracks, brakes, limits of its drives.
+
+    Controls are written to data.ctrl as ever; the model is left as it is.
+
+    Args:
+      model: mujoco.MjModel.
+      data: mujoco.MjData of it."""
+
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None: ...
-    def step(self, n: int = 1) -> int: ...
-    def reset(self, keyframe: str) -> None: ...
-    def state(self) -> list[float]: ...
-    def restore(self, state: Sequence[float]) -> None: ...
-    def ratio(self, joint: str) -> float: ...
-    def effort_range(self, joint: str, speed: float) -> tuple[float, float]: ...  # [N m]
-    @property
-    def is_sound(self) -> bool: ...
+    def effort_range(self, joint: str, speed: float) -> tuple[float, float]:
+        """What a drive behind its transmission can give, now.
+
+        Args:
+          joint: one with a brake and a transmission.
+          speed: of the joint [rad/s].
+
+        Returns:
+          Lowest and highest torque at the joint [N m]."""
+
+    def ratio(self, joint: str) -> float:
+        """The ratio of motor to joint speed in a transmission, now.
+
+        Args:
+          joint: one with a brake.
+
+        Returns:
+          1 without a transmission."""
+
+    def reset(self, keyframe: str) -> None:
+        """Everything at rest in a keyframe, brakes open, time zero.
+
+        Args:
+          keyframe: part of its name; the first one that has it.
+
+        Raises:
+          Error: none has it, with the names that exist."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    def step(self, n: int = 1) -> int:
+        """Takes n steps of model.opt.timestep.
+
+        MuJoCo's sensors are read in the last one alone.
+
+        Args:
+          n: >= 0.
+
+        Returns:
+          Steps taken: fewer than n when the state stopped making sense, see is_sound."""
+
     @property
     def brakes(self) -> Brakes: ...
-
-def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None: ...
-
-class PowerMeter:
-    def __init__(self, model: mujoco.MjModel) -> None: ...
-    def read(self, physics: Physics) -> None: ...
     @property
-    def mechanical(self) -> float: ...  # [W]
-    @property
-    def motors(self) -> float: ...  # [W]
-    @property
-    def total(self) -> float: ...  # [W]
-
-class Battery:
-    def __init__(
-        self, *, capacity: float = 22320000.0, voltage: float = 96.0, resistance: float = 0.05
-    ) -> None: ...
-    def draw(self, power: float, seconds: float) -> None: ...  # [W], [s]
-    @property
-    def energy(self) -> float: ...  # [J]
-    @property
-    def charge(self) -> float: ...
-    @property
-    def lost(self) -> float: ...  # [J]
-    @property
-    def empty(self) -> bool: ...
-
-def missions() -> list[str]: ...
-def mission_scene(mission: str) -> str: ...
-def servo_table(robot: str) -> dict[str, tuple[float, float]]: ...  # [kg m^2] or [kg], [rad/s]
-def mode_ranges(mode: str) -> dict[str, tuple[float, float]]: ...  # [rad]
-
-class BaseSource(_Enum):
-    Held: ClassVar[BaseSource]
-    Sensed: ClassVar[BaseSource]
-    __members__: ClassVar[dict[str, BaseSource]]
+    def is_sound(self) -> bool:
+        """False once a position, velocity or acceleration was not finite or huge; it then stands still"""
 
 class SensorModel:
-    noise: float
-    bias: float
-    drift: float
-    delay: int  # [samples]
-    step: float
+    """How a sensor departs from the truth; all zero: not at all, to the last bit.
+
+    Args:
+      noise: standard deviation of each sample, in the unit of the sensor.
+      bias: standard deviation of a constant that is drawn at the start.
+      drift: of a bias that walks, its standard deviation after 1 s.
+      delay: samples, 0 to 1000.
+      step: of the last bit; 0 is as fine as a double."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> SensorModel: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> SensorModel: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -854,15 +2183,47 @@ class SensorModel:
         delay: int = 0,
         step: float = 0.0,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def bias(self) -> float: ...
+    @bias.setter
+    def bias(self, arg0: float) -> None: ...
+    @property
+    def delay(self) -> int: ...
+    @delay.setter
+    def delay(self, arg0: int) -> None: ...
+    @property
+    def drift(self) -> float: ...
+    @drift.setter
+    def drift(self, arg0: float) -> None: ...
+    @property
+    def noise(self) -> float: ...
+    @noise.setter
+    def noise(self, arg0: float) -> None: ...
+    @property
+    def step(self) -> float: ...
+    @step.setter
+    def step(self, arg0: float) -> None: ...
 
 class RangeFinder:
-    rays: int
-    period: int  # [ticks]
-    angle: float  # [rad]
-    min_range: float  # [m]
-    max_range: float  # [m]
-    model: SensorModel  # [m]
+    """A planar laser scanner in the x-y plane of a site; its mirror turns a few rays each tick.
+
+    Args:
+      rays: of a scan; 0: there is no scanner.
+      period: ticks a scan.
+      angle: [rad] field of view about x of the site, at most 2 pi.
+      min_range: [m] what is nearer reads 0.
+      max_range: [m] what is further reads inf.
+      model: SensorModel [m]; its delay in whole scans.
+      site: of the model; its own body is not seen."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    model: SensorModel
     site: str
+
+    def __copy__(self) -> RangeFinder: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> RangeFinder: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -874,41 +2235,113 @@ class RangeFinder:
         model: SensorModel = ...,
         site: str = "lidar",
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle(self) -> float: ...
+    @angle.setter
+    def angle(self, arg0: float) -> None: ...
+    @property
+    def max_range(self) -> float: ...
+    @max_range.setter
+    def max_range(self, arg0: float) -> None: ...
+    @property
+    def min_range(self) -> float: ...
+    @min_range.setter
+    def min_range(self, arg0: float) -> None: ...
+    @property
+    def period(self) -> int: ...
+    @period.setter
+    def period(self, arg0: int) -> None: ...
+    @property
+    def rays(self) -> int: ...
+    @rays.setter
+    def rays(self, arg0: int) -> None: ...
 
 class FaultKind(_Enum):
-    NotANumber: ClassVar[FaultKind]
+    """What is wrong with an entry of a sensor."""
+
     Frozen: ClassVar[FaultKind]
+    NotANumber: ClassVar[FaultKind]
     __members__: ClassVar[dict[str, FaultKind]]
 
 class SensorFault:
+    """A fault of one entry of a sensor.
+
+    Args:
+      entry: e.g. "encoder_position/LSP".
+      kind: FaultKind.
+      start: [s] from when on."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     entry: str
     kind: FaultKind
-    start: float  # [s]
+
+    def __copy__(self) -> SensorFault: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> SensorFault: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(self, entry: str, kind: FaultKind = ..., start: float = 0.0) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def start(self) -> float: ...
+    @start.setter
+    def start(self, arg0: float) -> None: ...
 
 class SensorOptions:
-    models: dict[str, SensorModel]
+    """The sensors of a simulation; hurcules.sensors.realistic() has typical ones.
+
+    Args:
+      models: dict of sensor name to SensorModel; the others are ideal.
+      range: RangeFinder.
+      faults: list of SensorFault.
+      hold_seconds: [s] that a robot which lost a joint's encoder is held before the run ends."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     range: RangeFinder
-    faults: list[SensorFault]
-    hold_seconds: float  # [s]
+
+    def __copy__(self) -> SensorOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> SensorOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
-        models: Mapping[str, SensorModel] = ...,
+        models: collections.abc.Mapping[str, SensorModel] = {},
         range: RangeFinder = ...,
-        faults: Sequence[SensorFault] = ...,
+        faults: collections.abc.Sequence[SensorFault] = [],
         hold_seconds: float = 1.0,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def faults(self) -> list[SensorFault]: ...
+    @faults.setter
+    def faults(self, arg0: collections.abc.Sequence[SensorFault]) -> None: ...
+    @property
+    def hold_seconds(self) -> float: ...
+    @hold_seconds.setter
+    def hold_seconds(self, arg0: float) -> None: ...
+    @property
+    def models(self) -> dict[str, SensorModel]: ...
+    @models.setter
+    def models(self, arg0: collections.abc.Mapping[str, SensorModel]) -> None: ...
 
 class MonitorOptions:
+    """Thresholds of the monitors' alarms; an infinite one never alarms.
+
+    Args:
+      on: whether they look at all.
+      min_distance: [m] of the robot to itself.
+      min_margin: [m] of the centre of mass to the edge of the support polygon.
+      min_pressure_margin: [m] of the centre of pressure to that edge.
+      min_tip_angle: [rad] to tip over about an edge.
+      min_energy: [J] to tip over about an edge.
+      max_temperature: [deg C] of the hottest motor.
+      max_power: [W] from the battery."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     on: bool
-    min_distance: float  # [m]
-    min_margin: float  # [m]
-    min_pressure_margin: float  # [m]
-    min_tip_angle: float  # [rad]
-    min_energy: float  # [J]
-    max_temperature: float  # [deg C]
-    max_power: float  # [W]
+
+    def __copy__(self) -> MonitorOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> MonitorOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -921,16 +2354,63 @@ class MonitorOptions:
         max_temperature: float = 120.0,
         max_power: float = 20000.0,
     ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def max_power(self) -> float: ...
+    @max_power.setter
+    def max_power(self, arg0: float) -> None: ...
+    @property
+    def max_temperature(self) -> float: ...
+    @max_temperature.setter
+    def max_temperature(self, arg0: float) -> None: ...
+    @property
+    def min_distance(self) -> float: ...
+    @min_distance.setter
+    def min_distance(self, arg0: float) -> None: ...
+    @property
+    def min_energy(self) -> float: ...
+    @min_energy.setter
+    def min_energy(self, arg0: float) -> None: ...
+    @property
+    def min_margin(self) -> float: ...
+    @min_margin.setter
+    def min_margin(self, arg0: float) -> None: ...
+    @property
+    def min_pressure_margin(self) -> float: ...
+    @min_pressure_margin.setter
+    def min_pressure_margin(self, arg0: float) -> None: ...
+    @property
+    def min_tip_angle(self) -> float: ...
+    @min_tip_angle.setter
+    def min_tip_angle(self, arg0: float) -> None: ...
+
+class BaseSource(_Enum):
+    """Where the planner's support stands."""
+
+    Held: ClassVar[BaseSource]
+    Sensed: ClassVar[BaseSource]
+    __members__: ClassVar[dict[str, BaseSource]]
 
 class SimulationOptions:
-    seed: int
-    variation: float
-    method: str
-    record: bool
-    timed: bool
+    """Options of a simulation.
+
+    Args:
+      seed: of the differences between runs.
+      variation: scale of these: casualty +-3 cm and +-0.05 rad, start posture +-2 mrad.
+      method: of the solver, one of rhqp.method_names().
+      record: keep the time series.
+      timed: keep the time of each stage of each tick.
+      base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.
+      sensors: SensorOptions; ideal by default.
+      monitors: MonitorOptions."""
+
     base: BaseSource
-    sensors: SensorOptions
+    method: str
     monitors: MonitorOptions
+    record: bool
+    sensors: SensorOptions
+    timed: bool
+
     def __init__(
         self,
         *,
@@ -943,60 +2423,300 @@ class SimulationOptions:
         sensors: SensorOptions = ...,
         monitors: MonitorOptions = ...,
     ) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: int) -> None: ...
+    @property
+    def variation(self) -> float: ...
+    @variation.setter
+    def variation(self, arg0: float) -> None: ...
 
 class Simulation:
+    """The closed loop of a mission at 1 kHz, in C++, on a model and data that Python owns.
+
+    Args:
+      model: mujoco.MjModel of the mission's scene.
+      data: mujoco.MjData of this model; the simulation resets and steps it.
+      mission: name of the mission.
+      options: SimulationOptions.
+
+    Raises:
+      Error: the model lacks something that the mission asks for."""
+
     def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        mission: str = "stretch",
-        options: SimulationOptions = ...,
+        self, model: Any, data: Any, mission: str = "stretch", options: SimulationOptions = ...
     ) -> None: ...
-    def step(self, n: int = 1, command: ArrayLike | None = None) -> int: ...  # (k,) [SI unit/s]
-    def reset(self, seed: int) -> None: ...
-    def state(self) -> _Vector: ...
-    def restore(self, state: ArrayLike) -> None: ...
-    def operator_command(self) -> _Vector: ...  # (k,) [m/s] or [rad/s]
+    def commanded_level_errors(self) -> NDArray[np.float64]:
+        """The same of the commanded motion, at the last tick."""
+
+    def events(self) -> list[tuple[float, str]]:
+        """(time [s], text) of phases, and of limits met and left."""
+
+    def figures(self) -> dict[str, Any]:
+        """The mission's own figures and the worst that the monitors saw; NaN: has not happened."""
+
+    def level_errors(self) -> NDArray[np.float64]:
+        """Norm of the errors of each level in the physics now, in the unit of its tasks."""
+
+    def limit_violation(self) -> dict[str, Any]:
+        """Worst excess over any limit: position_rad, velocity, torque in the physics, 0 for none; commanded: the same of the commanded motion."""
+
+    def log(self) -> dict[str, Any]:
+        """Every recorded channel over time: dict of name to (ticks,)."""
+
+    def monitors(self) -> dict[str, float]:
+        """What the monitors saw at the last tick: dict of name with unit to number."""
+
+    def motor_temperatures(self) -> dict[str, float]:
+        """[deg C] of the motors' windings: dict of joint to number."""
+
+    def nearest_pair(self) -> tuple[str, str] | None:
+        """(name, name) of the nearest of these at the last tick; None beyond the cutoff of 0.25 m."""
+
+    def observation(self) -> NDArray[np.float64]:
+        """What a policy sees now (m,), see observation_names."""
+
+    def operator_command(self) -> NDArray[np.float64]:
+        """What the mission's own operator commands next (k,)."""
+
+    def ray_angles(self) -> NDArray[np.float64]:
+        """(rays,) [rad] about z of the scanner's site, 0 along its x; empty without a scanner."""
+
+    def reset(self, seed: int) -> None:
+        """Back to the start of the mission, varied by this seed."""
+
+    def restore(self, state: ArrayLike) -> None:
+        """Goes on from what state() gave, bit for bit, in any simulation of the same mission and model.
+
+        The log keeps what it recorded before that time.
+
+        Raises:
+          Error: the state belongs to another model or mission."""
+
+    def self_collision_pairs(self) -> list[tuple[str, str]]:
+        """(name, name) of the contact shapes whose distance is watched."""
+
+    def sensor_entries(self) -> dict[str, tuple[str, list[str]]]:
+        """What the numbers of each sensor are: dict of name to (unit, names of its entries)."""
+
+    def sensors(self) -> dict[str, NDArray[np.float64]]:
+        """What each sensor says now: dict of name to (m,); with a scanner also range (rays,) [m]."""
+
+    def solver(self) -> dict[str, Any]:
+        """How the last solve went: status (number of rhqp.Status), factorizations, changes, optimality."""
+
+    def state(self) -> NDArray[np.float64]:
+        """All that decides how the run goes on, as one array; the log and the events are not in it."""
+
+    def step(self, n: int = 1, command: ArrayLike | None = None) -> int:
+        """Control ticks of 1 ms. Releases the interpreter lock.
+
+        Args:
+          n: how many.
+          command: (k,) [m/s] or [rad/s] in task space, held to command_scale; None is the operator.
+
+        Returns:
+          The ticks done: fewer when the mission ends.
+
+        Raises:
+          Error: a command of another size, or not finite."""
+
+    def thesis_figures(self) -> dict[str, Any]:
+        """What the thesis reports for those figures that it gives."""
+
+    def timings(self) -> dict[str, Any]:
+        """Seconds that each stage of each tick took: dict of (ticks,)."""
+
     @property
-    def dt(self) -> float: ...  # [s]
+    def channels(self) -> list[str]: ...
     @property
-    def time(self) -> float: ...  # [s]
+    def command_names(self) -> list[str]: ...
+    @property
+    def command_scale(self) -> NDArray[np.float64]:
+        """(k,) [m/s] or [rad/s]"""
+
+    @property
+    def dt(self) -> float:
+        """[s]"""
+
     @property
     def finished(self) -> bool: ...
     @property
-    def success(self) -> bool: ...
+    def held(self) -> bool:
+        """whether it stands behind its brakes for a sensor's sake"""
+
     @property
-    def reason(self) -> str: ...
+    def levels(self) -> list[str]:
+        """decreasing priority"""
+
+    @property
+    def observation_names(self) -> list[str]: ...
     @property
     def phase(self) -> str: ...
     @property
     def phases(self) -> list[str]: ...
     @property
-    def command_names(self) -> list[str]: ...
+    def reason(self) -> str:
+        """'' while running, else why it ended: 'completed', 'fell over at ...'"""
+
     @property
-    def command_scale(self) -> _Vector: ...  # (k,) [m/s] or [rad/s]
-    def observation(self) -> _Vector: ...  # (m,)
+    def success(self) -> bool: ...
     @property
-    def observation_names(self) -> list[str]: ...
+    def time(self) -> float:
+        """[s] since reset"""
+
+class PowerMeter:
+    """What the robot takes from its battery: motors, open brakes, and 300 W that are always on.
+
+    Args:
+      model: mujoco.MjModel with a robot; every actuator of a joint is a motor.
+
+    Raises:
+      Error: a model without the numbers that motors and transmissions want."""
+
+    def __init__(self, model: mujoco.MjModel) -> None: ...
+    def read(self, physics: Physics) -> None:
+        """Reads a step that was just taken.
+
+        Args:
+          physics: of the same model."""
+
     @property
-    def levels(self) -> list[str]: ...
-    def level_errors(self) -> _Vector: ...  # measured, a level
-    def commanded_level_errors(self) -> _Vector: ...
-    def solver(self) -> dict[str, float]: ...  # status, factorizations, changes, optimality
+    def mechanical(self) -> float:
+        """[W] of all motors, at joints"""
+
     @property
-    def channels(self) -> list[str]: ...
-    def log(self) -> dict[str, _Vector]: ...  # (ticks,) each
-    def timings(self) -> dict[str, _Vector]: ...  # (ticks,) each [s]
-    def figures(self) -> dict[str, float]: ...  # NaN for what has not happened
-    def thesis_figures(self) -> dict[str, float]: ...
-    def events(self) -> list[tuple[float, str]]: ...  # [s]
-    def limit_violation(self) -> dict[str, Any]: ...
-    def sensors(self) -> dict[str, _Vector]: ...  # (m,) each
-    def sensor_entries(self) -> dict[str, tuple[str, list[str]]]: ...
-    def ray_angles(self) -> _Vector: ...  # (rays,) [rad]
-    def monitors(self) -> dict[str, float]: ...
-    def motor_temperatures(self) -> dict[str, float]: ...  # [deg C]
-    def self_collision_pairs(self) -> list[tuple[str, str]]: ...
-    def nearest_pair(self) -> tuple[str, str] | None: ...
+    def motors(self) -> float:
+        """[W] electric"""
+
     @property
-    def held(self) -> bool: ...
+    def total(self) -> float:
+        """[W] with open brakes and standby"""
+
+class Battery:
+    """A voltage behind a resistance, until its energy is used up.
+
+    Args:
+      capacity: [J] that can be used.
+      voltage: [V] without load.
+      resistance: [Ohm].
+
+    Raises:
+      Error: a capacity or voltage that is not above 0, a resistance below 0."""
+
+    def __init__(
+        self, *, capacity: float = 22320000.0, voltage: float = 96.0, resistance: float = 0.05
+    ) -> None: ...
+    def draw(self, power: float, seconds: float) -> None:
+        """Gives [W] for [s]; a negative power charges it, up to full."""
+
+    @property
+    def charge(self) -> float:
+        """0 to 1"""
+
+    @property
+    def empty(self) -> bool: ...
+    @property
+    def energy(self) -> float:
+        """[J] left"""
+
+    @property
+    def lost(self) -> float:
+        """[J] in its own resistance"""
+
+def Bounds(lower: ArrayLike, upper: ArrayLike) -> Level:
+    """Simple bounds lower <= x <= upper as a level of its own, never regularised.
+
+    Args:
+      lower, upper: (n,) float64. +-inf or a magnitude >= 1e20 means no side. Held as Level holds them."""
+
+def BoundsStack(lower: ArrayLike, upper: ArrayLike) -> LevelStack:
+    """Simple bounds of many hierarchies of a batch.
+
+    Args:
+      lower, upper: (B, n) float64, or (n,) when all have the same."""
+
+def largest_stiffness(gains: ForceGains) -> float:
+    """Largest stiffness G [N/m] of an environment that the gains keep stable in steps of dt.
+
+    The reading is one step old and the robot follows exactly; a real servo asks for less: C G well
+    below its bandwidth. C G dt < 1 for FirstOrder.
+
+    Args:
+      gains: ForceGains.
+
+    Raises:
+      Error: gains that cannot be."""
+
+def method_names() -> list[str]:
+    """The names that SolverOptions(method=...) takes.
+
+    'lexicographic': the default, exact, always ends.
+    'rhqp_thesis': Algorithm 1 of the thesis, literally; can end off the optimum or at its iteration limit.
+    'hqp': the same active set with every rho = 0.
+    'dls_hqp': the same with a damped inverse and multipliers that leave out the regularisation error.
+    'cascade': one general QP a level; the same answers as 'lexicographic', slow, for comparison."""
+
+def mission_scene(mission: str) -> str:
+    """Scene file of a mission, under models/."""
+
+def missions() -> list[str]:
+    """Names of the missions."""
+
+def mode_ranges(mode: str) -> dict[str, Any]:
+    """Ranges of the coordinates in a mode of work: narrower than the hardware's.
+
+    Args:
+      mode: "rescue_ready" (the transfer bed is on) or "rescue_ready_without_bed".
+
+    Returns:
+      By coordinate: lowest and highest angle [rad].
+
+    Raises:
+      Error: an unknown mode."""
+
+def servo_table(robot: str) -> dict[str, Any]:
+    """What the servos of a robot's joints reckon with.
+
+    Args:
+      robot: "rescue" or "manipulation".
+
+    Returns:
+      By joint: the inertia that it turns [kg m^2], of a slide [kg], and its bandwidth [rad/s].
+
+    Raises:
+      Error: an unknown robot."""
+
+def solve_batch(
+    problems: collections.abc.Sequence[collections.abc.Sequence[Level]]
+    | collections.abc.Sequence[LevelStack],
+    threads: int | None = None,
+    options: SolverOptions = ...,
+) -> list[Solution]:
+    """Solves many independent hierarchies on threads, without the interpreter lock.
+
+    Args:
+      problems: sequence of sequences of Level (and Bounds), each with its own number of unknowns; or
+        one sequence of LevelStack (and BoundsStack): hierarchies of one shape, without an object each.
+      threads: how many; None: one a processor.
+      options: SolverOptions of all.
+
+    Returns:
+      list of Solution, bit for bit those of a new Solver a problem.
+
+    Raises:
+      Error: as Solver.solve, with the number of the problem."""
+
+def step(model: Any, data: Any, n: int = 1) -> None:
+    """mj_step with the traction of the tracks; plain mj_step leaves the belts without any.
+
+    MuJoCo's sensors are read in the last step alone.
+
+    Args:
+      model: mujoco.MjModel; its tracks are the tuples `track_NAME`.
+      data: mujoco.MjData of this model.
+      n: number of steps. Releases the interpreter lock.
+
+    Raises:
+      Error: tracks without the elliptic cones that they want."""

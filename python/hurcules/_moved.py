@@ -42,11 +42,12 @@ def forward(old: str, stacklevel: int) -> ModuleType:
     assert new is not None
     text = f"{old} has moved to {new}; the old name goes with the next release"
     warnings.warn(text, DeprecationWarning, stacklevel=stacklevel)
-    return import_module(new)
+    sys.modules[old] = import_module(new)  # what an import statement gets
+    return sys.modules[old]
 
 
 class _Finder(MetaPathFinder, Loader):
-    """Finds modules by their old names, behind all other finders."""
+    """Finds modules by their old names."""
 
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -54,10 +55,10 @@ class _Finder(MetaPathFinder, Loader):
         return ModuleSpec(name, self, is_package=True) if new_name(name) else None
 
     def exec_module(self, module: ModuleType) -> None:
-        # the import statement gets what stands in sys.modules afterwards
-        sys.modules[module.__name__] = forward(module.__name__, 3)
+        forward(module.__name__, 3)
 
 
 def install() -> None:
     """Makes the old names work."""
-    sys.meta_path.append(_Finder())
+    # first: a module at its new place has a folder, where others would find a second copy
+    sys.meta_path.insert(0, _Finder())

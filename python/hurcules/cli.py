@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -235,11 +234,12 @@ def doctor() -> None:
     raise typer.Exit(FAILED if any(f.status == "broken" for f in findings) else 0)
 
 
-@cache
 def _complete() -> typer.Typer:
     """The commands, with those that other packages add."""
+    known = {command.name for command in app.registered_commands}
     for name, function in plugins.commands().items():
-        app.command(name)(function)
+        if name not in known:
+            app.command(name)(function)
     return app
 
 

@@ -86,7 +86,7 @@ def run(options: RunOptions, console: Console) -> int:
             said = f"interrupted {when} {simulation.time:.3f} s; {output.told()}"
             console.print(said, style="bold", highlight=False, soft_wrap=True)
             return INTERRUPTED
-        _tell(summary, output, console)
+        _report(summary, output, console)
     return DONE if simulation.success or not simulation.finished else FAILED
 
 
@@ -201,7 +201,7 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
     return pictures
 
 
-def _tell(summary: dict[str, Any], output: Output, console: Console) -> None:
+def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
     """The end in plain figures, and where everything lies."""
     table = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
     for heading in ("", "measured", "thesis"):

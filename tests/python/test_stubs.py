@@ -1,13 +1,10 @@
-"""The types are true: _core.pyi against the compiled module, annotations against mypy, `__all__`.
+"""The types are true: _core.pyi against the compiled module, annotations, `__all__`.
 
-mypy's stubtest compares names; what it cannot see, the arguments of compiled functions, is read
-from the first line that pybind11 writes into each text and compared here, defaults included.
+The stub is generated (python/bindings/stubs.py); mypy's stubtest compares its names once more.
 """
 
 import ast
 import importlib
-import inspect
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -51,86 +48,19 @@ def test_the_stub_names_what_the_compiled_module_has(root: Path) -> None:
     assert [line for line in lines if "metaclass differs" not in line] == [], done.stderr
 
 
-def stub_functions(root: Path) -> list[tuple[str, ast.FunctionDef]]:
-    """(dotted name, definition) of each function in the stub, without properties."""
-    tree = ast.parse((root / "python/hurcules/_core.pyi").read_text(encoding="utf-8"))
-    found = [(node.name, node) for node in tree.body if isinstance(node, ast.FunctionDef)]
-    for owner in tree.body:
-        if isinstance(owner, ast.ClassDef) and not owner.name.startswith("_"):
-            found += [
-                (f"{owner.name}.{node.name}", node)
-                for node in owner.body
-                if isinstance(node, ast.FunctionDef) and not node.decorator_list
-                if node.name not in ("__lt__", "__gt__", "__len__")
-            ]
-    return found
+def test_the_stub_is_what_the_script_writes(root: Path) -> None:
+    script = root / "python" / "bindings" / "stubs.py"
+    done = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
-def stub_arguments(function: ast.FunctionDef) -> list[tuple[str, str]]:
-    """(name, default) of each argument, "" for none; "*" before those that must be named."""
-    plain, named = function.args.args, function.args.kwonlyargs
-    defaults = [None] * (len(plain) - len(function.args.defaults)) + function.args.defaults
-    found = [(a.arg, ast.unparse(d) if d else "") for a, d in zip(plain, defaults, strict=True)]
-    found += [("*", "")] if named else []
-    pairs = zip(named, function.args.kw_defaults, strict=True)
-    return found + [(a.arg, ast.unparse(d) if d else "") for a, d in pairs]
-
-
-def bound_arguments(text: str) -> list[tuple[str, str]]:
-    """The same out of "name(self: Owner, a: Type = default, ...) -> Type"."""
-    inner = text[text.index("(") + 1 : text.rindex(") -> ")]
-    parts, depth = [""], 0
-    for letter in inner:
-        depth += (letter in "([{<") - (letter in ")]}>")
-        parts += [""] if letter == "," and depth == 0 else []
-        parts[-1] += letter if letter != "," or depth else ""
-    named = [
-        re.match(r"\s*(\*|\w+)(?:: .*?)?(?: = (.*))?$", part, re.DOTALL) for part in parts if part
-    ]
-    return [(match[1], match[2] or "") for match in named if match]
-
-
-def same_default(ours: str, theirs: str) -> bool:
-    """Numbers and texts are compared as such; "..." stands for anything."""
-    if ours in ("...", "") or theirs == "":
-        return ours == theirs or (ours == "..." and theirs != "")
-    try:
-        return bool(ast.literal_eval(ours) == ast.literal_eval(theirs))
-    except (ValueError, SyntaxError):
-        return ours == theirs
-
-
-def test_the_stub_has_the_arguments_and_defaults_of_the_compiled_functions(root: Path) -> None:
-    from hurcules import _core
-
-    functions = stub_functions(root)
-    assert len(functions) > 50
-    for name, function in functions:
-        bound = _core
-        for part in name.split("."):
-            bound = getattr(bound, part)
-        theirs = bound_arguments((inspect.getdoc(bound) or "").splitlines()[0])
-        ours = stub_arguments(function)
-        assert [n for n, _ in ours] == [n for n, _ in theirs], name
-        wrong = [(a, b) for a, b in zip(ours, theirs, strict=True) if not same_default(a[1], b[1])]
-        assert wrong == [], name
-
-
-def test_the_stub_has_the_enumerators_of_the_compiled_module(root: Path) -> None:
-    from hurcules import _core
-
-    tree = ast.parse((root / "python/hurcules/_core.pyi").read_text(encoding="utf-8"))
-    stubbed = {
-        owner.name: [n.target.id for n in owner.body if isinstance(n, ast.AnnAssign)]
-        for owner in tree.body
-        if isinstance(owner, ast.ClassDef) and [ast.unparse(b) for b in owner.bases] == ["_Enum"]
-    }
-    bound = {
-        name: [*value.__members__, "__members__"]
-        for name, value in vars(_core).items()
-        if hasattr(value, "__members__")
-    }
-    assert stubbed == bound
+def test_the_stub_leaves_few_types_open(root: Path) -> None:
+    text = (root / "python/hurcules/_core.pyi").read_text(encoding="utf-8")
+    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+    assert len(functions) > 400
+    vague = [one.name for one in functions if "Any" in ast.unparse(one.args)]
+    vague = [name for name in vague if name != "__deepcopy__"]  # its memo holds anything
+    assert len(vague) < 10, vague
 
 
 def test_the_packages_are_typed(root: Path) -> None:
