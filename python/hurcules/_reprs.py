@@ -24,8 +24,8 @@ def install() -> None:
     for name, kind in vars(_core).items():
         if not isinstance(kind, type) or not (name in SHOWN or name.endswith("Options")):
             continue
-        if kind.__repr__ is object.__repr__ or "__repr__" not in vars(kind):
-            kind.__repr__ = _text  # type: ignore[method-assign, assignment]
+        if "__repr__" not in vars(kind):
+            kind.__repr__ = _text  # type: ignore[assignment]
         kind._repr_html_ = _html  # type: ignore[attr-defined]
 
 

@@ -70,7 +70,9 @@ class Recording:
 
         0 where there is only one phase.
         """
-        later = np.flatnonzero(self.log["phase"] > 0) if self.log else ()
+        if not self.log:
+            return 0.0
+        later = np.flatnonzero(self.log["phase"] > 0)
         return float(self.log["time"][later[0]]) if len(later) else 0.0
 
     @property

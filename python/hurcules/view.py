@@ -72,7 +72,7 @@ def _subject(name: str, seed: int) -> tuple[Any, Any, Callable[[int], Any]]:
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
     hold_joints(model)
-    return model, data, lambda n: n and step(model, data, n)
+    return model, data, lambda n: step(model, data, n) if n else None
 
 
 def _names() -> list[str]:
