@@ -1,35 +1,47 @@
-# make demo: build, run the main mission, show where its results lie.    make test: prove it.
+# make demo: build, run the main mission, show where its results lie.    make test: run all tests.
 # Everything lies in .venv and build; both are made on demand and can be deleted at any time.
-PYTHON ?= $(shell .ci/machine python)
+# Output of pip and the compilers: build/logs.
+ifndef PYTHON
+PYTHON := $(shell .ci/machine python)
+endif
 MISSION ?= stretch
 DEMO_ARGS ?=
 WERROR ?= OFF
 ASSERTS ?= OFF
+JOBS ?= $(shell .ci/machine jobs)
+export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
 VENV := .venv
 BIN := $(VENV)/bin
+PRODUCT := build/product
 BUILD := build/make
-SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings tests/cpp tests/fuzz benchmarks \
-  -name '*.?pp' -o -name CMakeLists.txt -o -name '*.cmake*')
+RELEASE := build/release
+STEP := .ci/step build/logs
+PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
+SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings -name '*.?pp' -o -name CMakeLists.txt -o -name '*.cmake*')
+TEST_SOURCES := $(shell find tests/cpp tests/fuzz benchmarks -name '*.?pp' -o -name CMakeLists.txt)
 
 # the names of all sources: newer than the build when one came or went
 $(shell mkdir -p build && find cpp python envs tests/cpp tests/fuzz benchmarks -type f -not -name '*.pyc' | sort > build/names.new; \
   cmp -s build/names.new build/names || mv build/names.new build/names)
+# a virtual environment whose Python is gone is made anew
+$(shell test ! -d $(VENV) || $(BIN)/python -c '' 2>/dev/null || rm -rf $(VENV))
 
-.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture setup clean
+.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture product setup wheel machine machine-test clean
 
-demo: setup
-	$(BIN)/hurcules run $(MISSION) $(DEMO_ARGS)
+# where the tests are built already, the demo uses that build
+demo: $(if $(wildcard $(BUILD)/installed-*),setup,product)
+	@$(BIN)/python -m hurcules run $(MISSION) $(DEMO_ARGS)
 
 # pytest runs the examples too
 test: ctest pytest
 
 ctest: setup
-	$(BIN)/ctest --test-dir $(BUILD) --output-on-failure --parallel $(shell nproc)
+	$(BIN)/ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
 
 # a file of tests stays in one process: its tests share what is slow to make
 pytest: setup
-	$(BIN)/python -m pytest --numprocesses $(shell nproc) --dist loadfile
+	$(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile
 
 # the C++ tests again: debug build, asserts, address and undefined-behaviour sanitizers, Eigen's allocation guard
 sanitize: setup
@@ -70,29 +82,60 @@ stubs: setup
 # docs/architecture.md out of the include and import lines
 architecture: setup
 	$(BIN)/python benchmarks/figures/architecture.py
+product: $(PRODUCT)/installed-$(WERROR)-$(ASSERTS)
 
 setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
 
-# the virtual environment, with what builds and tests
-$(VENV)/ready: pyproject.toml .ci/machine
+# looked at in every call, since machines change between two
+machine:
 	@.ci/machine check $(PYTHON)
-	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"
-	$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")' \
-	  > $(VENV)/build-requirements.txt
-	$(BIN)/python -m pip install --quiet -r $(VENV)/build-requirements.txt --group dev
+
+machine-test:
+	@.ci/machine check $(PYTHON) test
+
+# the virtual environment, with what builds and runs the product
+$(VENV)/ready: pyproject.toml .ci/requirements | machine
+	@$(STEP)/venv.log "making $(VENV) with $$($(PYTHON) -V)" $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python .ci/requirements build run report > build/requirements.txt
+	@$(STEP)/packages.log "downloading Python packages" $(PIP) install -r build/requirements.txt
+	@touch $@
+
+$(VENV)/ready-test: $(VENV)/ready
+	@$(BIN)/python .ci/requirements dev > build/requirements-test.txt
+	@$(STEP)/packages-test.log "downloading Python packages for the tests" $(PIP) install -r build/requirements-test.txt
+	@touch $@
+
+# what users get: no tests, no benchmarks, sources compiled together
+$(PRODUCT)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready build/names $(SOURCES) | machine
+	@$(STEP)/product.log "compiling Hurcules" $(PIP) install --verbose --no-build-isolation --editable '.[report]' \
+	  --config-settings build-dir=$(PRODUCT) \
+	  --config-settings cmake.define.HURCULES_WERROR=$(WERROR) \
+	  --config-settings cmake.define.HURCULES_ASSERTS=$(ASSERTS)
+	@rm -f $(PRODUCT)/installed-* $(BUILD)/installed-*
 	@touch $@
 
 # one build serves the module, the tests and the benchmarks
-$(BUILD)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready build/names $(SOURCES)
-	@echo "compiling Hurcules; from nothing this takes some minutes"
-	@$(BIN)/python -m pip install --quiet --no-build-isolation --editable . \
+$(BUILD)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready-test build/names $(SOURCES) $(TEST_SOURCES) | machine-test
+	@$(STEP)/tests.log "compiling Hurcules, its tests and benchmarks" \
+	  $(PIP) install --verbose --no-build-isolation --editable '.[report]' \
 	  --config-settings build-dir=$(BUILD) \
 	  --config-settings cmake.define.HURCULES_TESTS=ON \
 	  --config-settings cmake.define.HURCULES_BENCHMARKS=ON \
 	  --config-settings cmake.define.HURCULES_WERROR=$(WERROR) \
 	  --config-settings cmake.define.HURCULES_ASSERTS=$(ASSERTS)
+	@rm -f $(PRODUCT)/installed-* $(BUILD)/installed-*
 	@touch $@
+
+# a manylinux wheel in dist/, tried in an environment of its own without a compiler
+wheel: $(VENV)/ready | machine
+	@rm -rf build/wheel
+	@$(BIN)/python .ci/requirements release > build/requirements-release.txt
+	@$(STEP)/packages-release.log "downloading auditwheel" $(PIP) install -r build/requirements-release.txt
+	@$(STEP)/wheel.log "compiling the wheel" $(PIP) wheel --verbose --no-build-isolation --no-deps --wheel-dir build/wheel . \
+	  --config-settings build-dir=$(RELEASE)
+	@PATH="$(CURDIR)/$(BIN):$$PATH" $(STEP)/auditwheel.log "auditwheel" \
+	  $(BIN)/auditwheel repair --exclude 'libmujoco.so.*' --wheel-dir dist build/wheel/hurcules-*.whl
+	@.ci/try_wheel $(PYTHON)
 
 clean:
 	rm -rf $(VENV) build

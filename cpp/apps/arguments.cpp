@@ -73,7 +73,11 @@ Arguments parse(int count, const char* const* words) {
   }
   if (arguments.help || arguments.version) return arguments;
   if (arguments.mission.empty()) {
-    throw Error(hurcules::unknown_name("mission", "", hurcules::mission_names()));
+    std::string names;
+    for (const std::string& name : hurcules::mission_names()) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    throw Error("a mission is wanted: " + names + " (hurcules-sim --help says more)");
   }
   return arguments;
 }

@@ -15,6 +15,10 @@ endfunction()
 
 hurcules_python_package(cmeel cmeel)
 list(APPEND CMAKE_PREFIX_PATH "${cmeel}.prefix" ${HURCULES_HINTS})
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Eigen3 3.4 QUIET NO_MODULE)
+if(NOT Eigen3_FOUND)
+  message(FATAL_ERROR "Eigen 3.4 is missing. Remedy: pip install cmeel-eigen, or apt-get install libeigen3-dev, "
+    "or -DEigen3_DIR=<folder of Eigen3Config.cmake>")
+endif()
 find_package(Threads REQUIRED)
 find_package(MuJoCo ${HURCULES_MUJOCO_VERSION} EXACT REQUIRED)

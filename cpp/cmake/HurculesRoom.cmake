@@ -1,4 +1,4 @@
-# One library a room: its links are the arrows of the house, and nothing else may link.
+# One library a module: its links are its dependencies, and nothing else may link.
 
 function(hurcules_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
@@ -8,12 +8,12 @@ function(hurcules_warnings target)
 endfunction()
 
 # hurcules_precompile(TARGET HEADER ...): headers that are read once, not once a file; for the tests, whose
-# headers are large. The library does without, so that its files include what they use.
+# headers are large.
 function(hurcules_precompile target)
   target_precompile_headers(${target} PRIVATE ${HURCULES_GUARD} ${ARGN})
 endfunction()
 
-# hurcules_room(NAME [LINKS room or target ...]): every source in cpp/hurcules/NAME
+# hurcules_room(NAME [LINKS module or target ...]): every source in cpp/hurcules/NAME
 function(hurcules_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/hurcules/${name}/*.cpp")
@@ -25,4 +25,10 @@ function(hurcules_room name)
   target_compile_features(hurcules_${name} PUBLIC cxx_std_20)
   hurcules_warnings(hurcules_${name})
   target_link_libraries(hurcules_${name} PUBLIC ${ROOM_LINKS})
+  if(HURCULES_PRECOMPILE AND name STREQUAL "base")
+    target_precompile_headers(hurcules_base PRIVATE
+      <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath> <functional> <memory> <optional> <string> <vector>)
+  elseif(HURCULES_PRECOMPILE)
+    target_precompile_headers(hurcules_${name} REUSE_FROM hurcules_base)
+  endif()
 endfunction()

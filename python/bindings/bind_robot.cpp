@@ -8,6 +8,7 @@
 
 #include "annotated.hpp"
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/plausibility.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace py = pybind11;
@@ -23,6 +24,7 @@ The controller moves n coordinates. A coordinate drives one joint or several tog
 names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
 joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
 It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
+Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round.
 A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
 Args:
@@ -53,10 +55,10 @@ Raises:
 )";
 constexpr const char* kSetQpos = "Sets the whole qpos (nq,), base and loose bodies too.";
 constexpr const char* kSetConfiguration =
-    "Sets the coordinates q (n,) [rad] or [m]; all else stays as it is.";
+    "Sets the coordinates q (n,) [rad] or [m]; all else stays as it is. Warns outside the limits.";
 constexpr const char* kSetVelocity = "Sets the velocity (n,) [rad/s] or [m/s]; only drifts use it.";
 constexpr const char* kSetKeyframe =
-    "Takes the posture of a keyframe, or the model's initial one for ''.";
+    "Takes the posture of a keyframe, or the model's initial one for ''. Warns outside the limits.";
 constexpr const char* kCoordinatesOf = "Coordinates (n,) out of a whole qpos (nq,).";
 constexpr const char* kPosition = "p_WF (3,) [m]: origin of the frame in W.";
 constexpr const char* kOrientation =
@@ -102,6 +104,17 @@ auto by_name(Result (Robot::*question)(Frame) const) {
   };
 }
 
+// a UserWarning at the caller's line; "" is none
+void warn(const std::string& text) {
+  if (!text.empty() && PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0)
+    throw py::error_already_set();
+}
+
+std::unique_ptr<Robot> checked(std::unique_ptr<Robot> robot) {
+  warn(implausible_ranges(*robot));
+  return robot;
+}
+
 using Names = std::vector<std::string>;
 
 std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
@@ -110,13 +123,13 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
   const auto address = model.attr("_address").cast<std::uintptr_t>();
-  return std::make_unique<Robot>(borrow_model(reinterpret_cast<const mjModel_*>(address)),
-                                 joints.value_or(Names{}));
+  return checked(std::make_unique<Robot>(borrow_model(reinterpret_cast<const mjModel_*>(address)),
+                                         joints.value_or(Names{})));
 }
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
                                      const std::optional<Names>& joints) {
-  return std::make_unique<Robot>(load_model(model.string()), joints.value_or(Names{}));
+  return checked(std::make_unique<Robot>(load_model(model.string()), joints.value_or(Names{})));
 }
 
 void bind_coordinate(py::module_& module) {
@@ -143,10 +156,22 @@ void bind_state(py::class_<Robot>& robot) {
       .def_property_readonly("coordinate_names", &Robot::coordinate_names)
       .def("coordinate", &Robot::coordinate, py::arg("name"), "Index of a coordinate.")
       .def("set_qpos", &Robot::set_qpos, py::arg("qpos"), kSetQpos)
-      .def("set_configuration", &Robot::set_configuration, py::arg("q"), kSetConfiguration)
+      .def(
+          "set_configuration",
+          [](Robot& self, const ConstVectorRef& q) {
+            self.set_configuration(q);
+            warn(outside_limits(self));
+          },
+          py::arg("q"), kSetConfiguration)
       .def("set_velocity", &Robot::set_velocity, py::arg("velocity"), kSetVelocity)
       .def("stand_on", &Robot::stand_on, py::arg("body"), kStandOn)
-      .def("set_keyframe", &Robot::set_keyframe, py::arg("name"), kSetKeyframe)
+      .def(
+          "set_keyframe",
+          [](Robot& self, const std::string& name) {
+            self.set_keyframe(name);
+            warn(outside_limits(self));
+          },
+          py::arg("name"), kSetKeyframe)
       .def_property_readonly("configuration", &Robot::configuration, copy, "q (n,) [rad] or [m]")
       .def_property_readonly("velocity", &Robot::velocity, copy, "(n,) [rad/s] or [m/s]")
       .def_property_readonly("qpos", &Robot::qpos, copy, "(nq,)")

@@ -10,8 +10,9 @@ import hurcules
 
 ARM = """
 <mujoco>
+  <compiler angle="radian"/>  <!-- MJCF takes degrees otherwise -->
   <default>
-    <joint type="hinge" axis="0 1 0" range="-1.2 1.2"/>
+    <joint type="hinge" axis="0 1 0" range="-1.8 1.8"/>
     <geom type="capsule" size="0.03"/>
   </default>
   <worldbody>
@@ -37,7 +38,7 @@ robot.set_configuration([0.0, 0.3, 0.3])
 
 limits = hurcules.JointLimits("limits", robot)
 hand = hurcules.PositionTask("hand", robot, "hand")
-hand.set_target([0.3, 0.3, 0.6])
+hand.set_target([0.4, 0.3, 0.6])
 
 controller = hurcules.VelocityController(robot)
 controller.set_stack(hurcules.Stack([limits, hand]))

@@ -40,7 +40,8 @@ def main() -> None:
     simulation.step(second)  # every target holds
     moved = simulation.data.site("end_effector").xpos - start
 
-    print("the hand moved by", np.round(moved, 4), "m")
+    print("the hand was to move by", np.array([0.05, 0.1, 0.05]), "m")
+    print("the hand moved by      ", np.round(moved, 4), "m")
     worst = simulation.limit_violation()
     print("worst excess over a joint limit, measured:", f"{worst['position_rad']:.1e} rad")
     print("what each level falls short of:")

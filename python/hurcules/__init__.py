@@ -3,15 +3,21 @@
 import warnings
 from typing import Any
 
-from hurcules._version import __version__, require_mujoco
-from hurcules.opengl import choose_backend
+from hurcules._version import NOT_COMPILED, __version__, require_mujoco
 
-# both before anything else imports MuJoCo
-choose_backend()
+# before anything else imports MuJoCo
 require_mujoco()
+
+try:
+    import hurcules._core  # noqa: F401  tried for the error below
+except ModuleNotFoundError as error:
+    if error.name != "hurcules._core":
+        raise
+    raise ImportError(NOT_COMPILED) from None
 
 from hurcules import (  # noqa: E402
     _moved,
+    _reprs,
     cameras,
     casualties,
     driving,
@@ -91,6 +97,8 @@ from hurcules._core import (  # noqa: E402
     step,
 )
 from hurcules.simulation import Simulation, SimulationBatch  # noqa: E402
+
+_reprs.install()
 
 _moved.install()
 

@@ -3,11 +3,22 @@
 Both numbers stand in pyproject.toml alone and come here with the metadata of the wheel.
 """
 
-import importlib
 import importlib.metadata
-import os
+from pathlib import Path
 
-__version__ = importlib.metadata.version("hurcules")
+from hurcules.opengl import import_mujoco
+
+_SOURCES = Path(__file__).resolve().parents[2] / "pyproject.toml"  # in a checkout alone
+NOT_COMPILED = (
+    f"hurcules in {Path(__file__).parent} is not compiled"
+    + ("; this is the source tree" if _SOURCES.is_file() else "")
+    + "; remedy: pip install . (or make product) at its top, and no PYTHONPATH to its sources"
+)
+
+try:
+    __version__ = importlib.metadata.version("hurcules")
+except importlib.metadata.PackageNotFoundError:
+    raise ImportError(NOT_COMPILED) from None
 
 
 def wanted_mujoco() -> str:
@@ -28,17 +39,22 @@ def require_mujoco() -> None:
     """
     wanted = wanted_mujoco()
     try:
-        came = str(importlib.import_module("mujoco").__version__)
-    except ModuleNotFoundError:
+        came = str(import_mujoco().__version__)
+    except ModuleNotFoundError as error:
+        if error.name != "mujoco":
+            raise ImportError(_broken(error, wanted)) from error
         came = "none"
-    except Exception as error:  # its import opens OpenGL, which fails in many ways
-        backend = os.environ.get("MUJOCO_GL", "")
-        raise ImportError(
-            f"MuJoCo cannot be imported with MUJOCO_GL={backend} ({error}); "
-            "remedy: unset MUJOCO_GL, or set it to osmesa or disable"
-        ) from error
+    except Exception as error:  # an import fails in many ways
+        raise ImportError(_broken(error, wanted)) from error
     if came != wanted:
         raise ImportError(
             f"hurcules {__version__} needs MuJoCo {wanted}, installed is {came}; "
             f"remedy: pip install mujoco=={wanted}"
         )
+
+
+def _broken(error: Exception, wanted: str) -> str:
+    return (
+        f"MuJoCo cannot be imported ({type(error).__name__}: {error}); "
+        f"remedy: pip install --force-reinstall mujoco=={wanted}"
+    )

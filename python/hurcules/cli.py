@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 import hurcules
@@ -18,6 +19,7 @@ from hurcules.output import WriteError
 from hurcules.plugins import MethodOptions, Methods
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
+from hurcules.validation import require_known
 
 __all__ = ["main", "results_in"]
 
@@ -27,7 +29,7 @@ app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
     rich_markup_mode="markdown",
-    help="Hurcules, a 680 kg rescue robot on tracks, in MuJoCo: strict priorities at 1 kHz.",
+    help="Hurcules: a 680 kg rescue robot on tracks, simulated in MuJoCo, controlled at 1 kHz.",
 )
 
 
@@ -59,7 +61,9 @@ def _options(
     """Keeps `hurcules` a command with subcommands."""
 
 
-_TRIALS = "Test methods"  # where their options stand in the help
+_METHODS = "Test methods"  # where their options stand in the help
+_MISSION_OPTIONS = ("seconds", "method", "sensors")
+_METHOD_OPTIONS = ("robot", "repetitions", "pace", "workers")
 
 
 @app.command("run", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
@@ -68,34 +72,39 @@ def run_mission(
     mission: Annotated[
         str, typer.Argument(help="A mission or a test method of `hurcules list`.")
     ] = "stretch",
-    seed: Annotated[int, typer.Option(help="Draws what differs between runs.")] = 0,
+    seed: Annotated[int, typer.Option(help="Random numbers: what differs between runs.")] = 0,
     out: Annotated[Path | None, results_in("out/MISSION")] = None,
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this time [s].", show_default="to the end")
     ] = None,
     method: Annotated[
-        str, typer.Option(help=f"How the hierarchy is solved: {', '.join(method_names())}.")
+        str, typer.Option(help=f"Solver of the hierarchy: {', '.join(method_names())}.")
     ] = "lexicographic",
     sensors: Annotated[
-        bool, typer.Option("--sensors", help="Noise, bias, delay and steps in what is measured.")
+        bool, typer.Option("--sensors", help="Sensors with noise, bias, delay and resolution.")
     ] = False,
-    video: Annotated[bool, typer.Option("--video/--no-video", help="Film the run.")] = True,
-    robot: Annotated[str, typer.Option(help="Who is tested.", rich_help_panel=_TRIALS)] = "rescue",
+    video: Annotated[bool, typer.Option("--video/--no-video", help="Write video.mp4.")] = True,
+    robot: Annotated[
+        str, typer.Option(help="Which robot is tested.", rich_help_panel=_METHODS)
+    ] = "rescue",
     repetitions: Annotated[
-        int, typer.Option(help="At each setting.", rich_help_panel=_TRIALS)
+        int, typer.Option(help="Repetitions at each setting.", rich_help_panel=_METHODS)
     ] = 10,
     pace: Annotated[
         float | None,
-        typer.Option(help="Speed [m/s].", rich_help_panel=_TRIALS, show_default="the method's own"),
+        typer.Option(
+            help="Driving speed [m/s].", rich_help_panel=_METHODS, show_default="the method's own"
+        ),
     ] = None,
     workers: Annotated[
-        int, typer.Option(help="Processes; the result is the same.", rich_help_panel=_TRIALS)
+        int,
+        typer.Option(help="Processes; the result does not depend on it.", rich_help_panel=_METHODS),
     ] = 1,
 ) -> None:
     """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.
 
-    A test method goes to harder and harder settings until one is not passed, or takes the setting
-    that is given by its parameter's name; other parameters of the scene may follow (degrees, m).
+    A test method tries harder and harder settings until one fails. Its parameter's name selects
+    settings instead, and other parameters of its scene may follow (degrees, m).
 
     Exit status: 0 done, 1 the mission failed (`summary.json` says why), 2 wrong usage, 130 Ctrl-C.
 
@@ -109,16 +118,24 @@ def run_mission(
 
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
     """
+    if mission.startswith("-"):  # the first unknown option took the mission's place
+        raise Error(
+            f"no such option: {mission.partition('=')[0]} (a test method's come after its name)"
+        )
     folder = out or Path("out", mission)
     if methods := _methods(mission):
-        _refuse_mission_options(context)
+        _refuse(context, _MISSION_OPTIONS, f"for missions; '{mission}' is a test method")
         words = tuple(context.args)
         asked = MethodOptions(
             mission, words, robot, repetitions, seed, pace, workers, folder, video
         )
         raise typer.Exit(methods.run(asked, Console()))
+    titles = [name for methods in plugins.method_groups() for name in methods.titles()]
+    require_known("mission or test method", mission, [*hurcules.missions(), *titles])
+    _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
     if context.args:
-        raise Error(f"No such option: {context.args[0]}")
+        kind = "no such option" if context.args[0].startswith("-") else "unexpected argument"
+        raise Error(f"{kind}: {context.args[0]}")
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors)
     raise typer.Exit(run(options, Console()))
 
@@ -128,10 +145,10 @@ def _methods(name: str) -> Methods | None:
     return next((one for one in plugins.method_groups() if name in one.titles()), None)
 
 
-def _refuse_mission_options(context: typer.Context) -> None:
-    given = [name for name in ("seconds", "method", "sensors") if _was_given(context, name)]
-    if given:
-        raise Error(f"--{given[0]}: for missions; a test method ends by itself")
+def _refuse(context: typer.Context, names: Sequence[str], why: str) -> None:
+    for name in names:
+        if _was_given(context, name):
+            raise Error(f"--{name}: {why}")
 
 
 def _was_given(context: typer.Context, name: str) -> bool:
@@ -169,6 +186,31 @@ def list_all() -> None:
     Console().print(table)
 
 
+@app.command("view")
+def view_model(
+    name: Annotated[
+        str, typer.Argument(help="A mission, model or scene of `hurcules list`, or an MJCF file.")
+    ] = "stretch",
+    seed: Annotated[int, typer.Option(help="Random numbers of a mission.")] = 0,
+    seconds: Annotated[
+        float | None, typer.Option(help="Close the window after this time [s].", min=0.0)
+    ] = None,
+) -> None:
+    """Show a mission, model or scene in MuJoCo's viewer, in real time.
+
+    Exit status: 0 when the window was closed, 2 wrong usage or no display.
+
+    For example `hurcules view`, or with more words:
+
+    - `hurcules view rescue`
+
+    - `hurcules view my_robot.xml`
+    """
+    from hurcules.view import view
+
+    view(name, seed, seconds)
+
+
 @app.command()
 def doctor() -> None:
     """Say what this machine has and lacks, with the remedy.
@@ -184,7 +226,8 @@ def doctor() -> None:
     findings = examine()
     table = _plain_table()
     for finding in findings:
-        detail = finding.detail + (f"\nremedy: {finding.remedy}" if finding.remedy else "")
+        detail = escape(finding.detail)
+        detail += escape(f"\nremedy: {finding.remedy}") if finding.remedy else ""
         mark = f"[{colours[finding.status]}]{finding.status}"
         table.add_row(f"[bold]{finding.what}", mark, detail)
     console.print(table)

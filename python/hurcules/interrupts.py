@@ -1,7 +1,11 @@
-"""Ctrl-C that is noted instead of raised, so that it never cuts a file short."""
+"""Ctrl-C that is noted instead of raised, so that it never cuts a file short.
+
+It is answered at once; a second one ends the program where it is.
+"""
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 from types import FrameType
@@ -37,4 +41,7 @@ class Interrupts:
             self._before = None
 
     def _note(self, _number: int, _frame: FrameType | None) -> None:
+        if self.noted:
+            raise KeyboardInterrupt
         self.noted = True
+        os.write(2, b"\ninterrupted: saving what is done\n")  # print may be busy where this came

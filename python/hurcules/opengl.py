@@ -1,7 +1,8 @@
-"""Chooses MuJoCo's OpenGL. Imports nothing of the package: it should run before MuJoCo is imported.
+"""MuJoCo's OpenGL: imported with the first picture, not with MuJoCo, and chosen where nobody has.
 
-MuJoCo reads the environment variable MUJOCO_GL at its import and then keeps its choice; where
-somebody imported it before us, `give_mujoco` brings it up to date.
+MuJoCo reads the environment variable MUJOCO_GL at its import, loads that OpenGL, and fails where it
+is not there. `import_mujoco` imports MuJoCo without; its renderers then load OpenGL when they open.
+Where somebody imported MuJoCo before us, `give_mujoco` brings its choice up to date.
 """
 
 import ctypes
@@ -12,7 +13,7 @@ from collections.abc import MutableMapping
 from pathlib import Path
 from typing import Any
 
-__all__ = ["REMEDY", "choose_backend", "give_mujoco"]
+__all__ = ["REMEDY", "choose_backend", "give_mujoco", "import_mujoco"]
 
 REMEDY = (
     "apt-get install libosmesa6 (or libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0), "
@@ -24,6 +25,7 @@ _LIBRARIES: dict[str, list[tuple[str, ...]]] = {
     "osmesa": [("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")],
     "egl": [("libEGL.so.1", "libEGL.so"), ("libOpenGL.so.0", "libGL.so.1")],
 }
+_DISABLED = ("disable", "disabled", "off", "false", "0")
 
 
 def choose_backend(environment: MutableMapping[str, str] = os.environ) -> str:
@@ -47,16 +49,52 @@ def choose_backend(environment: MutableMapping[str, str] = os.environ) -> str:
     return environment.get("MUJOCO_GL", "")
 
 
+def import_mujoco() -> Any:
+    """Imports MuJoCo without its OpenGL, which comes with the first renderer.
+
+    Returns:
+        The module; as it is, where somebody has imported it before.
+    """
+    if sys.modules.get("mujoco") is not None:
+        return sys.modules["mujoco"]
+    chosen = os.environ.get("MUJOCO_GL")
+    os.environ["MUJOCO_GL"] = "disable"
+    try:
+        mujoco = importlib.import_module("mujoco")
+    finally:
+        if chosen is None:
+            del os.environ["MUJOCO_GL"]
+        else:
+            os.environ["MUJOCO_GL"] = chosen
+    if (chosen or "").lower() not in _DISABLED:
+        try:
+            context: Any = importlib.import_module("mujoco.rendering.classic.gl_context")
+        except ImportError:  # another MuJoCo, which is for others to complain about
+            return mujoco
+        context.GLContext = mujoco.GLContext = _first_context  # type: ignore[attr-defined]
+    return mujoco
+
+
+def _first_context(width: int, height: int) -> Any:
+    """Makes MuJoCo's OpenGL context for so many pixels, after its class has been imported."""
+    backend = choose_backend()
+    if backend not in ("", "egl", "glfw", "glx", "osmesa"):
+        raise RuntimeError(f"invalid value for environment variable MUJOCO_GL: {backend}")
+    give_mujoco(backend if backend in _LIBRARIES else "glfw")
+    context: Any = sys.modules["mujoco.rendering.classic.gl_context"]
+    return context.GLContext(width, height)
+
+
 def give_mujoco(backend: str) -> None:
     """Lets MuJoCo's renderers use this OpenGL from now on, whatever it chose at its import.
 
     Args:
-        backend: "egl" or "osmesa"; all else leaves MuJoCo's choice alone.
+        backend: "egl", "osmesa" or "glfw"; all else leaves MuJoCo's choice alone.
 
     Raises:
         Exception: of many kinds, when the OpenGL is not there.
     """
-    if backend in _LIBRARIES:
+    if backend in (*_LIBRARIES, "glfw"):
         chosen: Any = importlib.import_module("mujoco.rendering.classic.gl_context")
         chosen.GLContext = importlib.import_module(f"mujoco.{backend}").GLContext
 

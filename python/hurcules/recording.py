@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hurcules.simulation import Simulation
 from hurcules.video import Frame
 
-__all__ = ["CHANNELS", "STAGES", "Recording", "record"]
+__all__ = ["CHANNELS", "STAGES", "Recording", "Snapshot", "record"]
 
 Array = NDArray[np.float64]
 
@@ -39,6 +39,15 @@ CHANNELS = (
 STAGES = "time, sense, kinematics, hierarchy, solve, servo, physics, record"
 
 
+@dataclass(frozen=True)
+class Snapshot:
+    """The robot at an event."""
+
+    time: float  # [s]
+    text: str
+    picture: NDArray[np.uint8]  # (height, width, 3)
+
+
 @dataclass
 class Recording:
     """A run, or as much of it as was done."""
@@ -54,6 +63,17 @@ class Recording:
         """Time of each control tick, sensing to servo without physics [µs], (ticks,)."""
         stages = ("sense", "kinematics", "hierarchy", "solve", "servo")
         return np.asarray(1e6 * sum(self.timings[stage] for stage in stages))
+
+    @property
+    def origin(self) -> float:
+        """Where film and report count from [s]: the end of the first phase, in which it settles.
+
+        0 where there is only one phase.
+        """
+        if not self.log:
+            return 0.0
+        later = np.flatnonzero(self.log["phase"] > 0)
+        return float(self.log["time"][later[0]]) if len(later) else 0.0
 
     @property
     def simulated_seconds(self) -> float:

@@ -13,14 +13,13 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from hurcules import report
+from hurcules import extras
 from hurcules._core import Error
 from hurcules.figures import describe, readable
 from hurcules.interrupts import Interrupts
 from hurcules.output import Output
-from hurcules.recording import Recording, record
+from hurcules.recording import Recording, Snapshot, record
 from hurcules.rendering import RendererError
-from hurcules.report import Snapshot
 from hurcules.sensors import realistic
 from hurcules.simulation import Simulation
 from hurcules.summary import summarize
@@ -72,6 +71,10 @@ def run(options: RunOptions, console: Console) -> int:
     ticks = _ticks(options.seconds, simulation.dt)
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
+        if lost := extras.without():
+            console.print(
+                f"no film and no report: {lost}", style="yellow", highlight=False, markup=False
+            )
         recording = _simulate(simulation, ticks, console, interrupts)
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
@@ -126,10 +129,15 @@ def _save(
     console: Console,
     interrupts: Interrupts,
 ) -> None:
-    """Writes everything, what matters most first; only the film can be cut short."""
+    """Writes everything, what matters most first; only the film can be cut short.
+
+    Film and report need the extra `hurcules[report]`.
+    """
     output.write_arrays("log.npz", recording.log)
     output.write_arrays("timing.npz", recording.timings)
     output.write_json("summary.json", summary)
+    if extras.missing():
+        return
     video: Path | str = "not asked for (--no-video)"
     snapshots: list[Snapshot] = []
     if interrupts.noted:
@@ -141,7 +149,9 @@ def _save(
                 snapshots = _snapshots(painter, recording, summary)
         except RendererError as missing:
             video = str(missing)
-            console.print(f"no video: {missing}", style="yellow", highlight=False)
+            console.print(f"no video: {missing}", style="yellow", highlight=False, markup=False)
+    from hurcules import report  # with the packages of the extra hurcules[report]
+
     output.write(
         "report.html", lambda path: report.write(path, summary, recording, snapshots, video)
     )
@@ -163,6 +173,7 @@ def _film(
                 painter,
                 path,
                 recording.frames,
+                origin=recording.origin,
                 fps=FPS,
                 note=f"{SPEED}x speed",
                 progress=lambda n: bar.update(task, completed=n, note=f"{n} pictures"),

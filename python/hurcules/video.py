@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
-import imageio.v2 as imageio
-import matplotlib
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
 
+from hurcules.legend import limit_words
 from hurcules.rendering import open_renderer, overview_camera, pose
 
 __all__ = ["Frame", "Painter", "film"]
@@ -58,6 +57,9 @@ class Painter:
         self._overview = self._stack.enter_context(open_renderer(model, WIDTH, HEIGHT))
         if self._head:
             self._inset = self._stack.enter_context(open_renderer(model, INSET_WIDTH, INSET_HEIGHT))
+        import matplotlib  # both are of the extra hurcules[report]
+        from PIL import ImageFont
+
         fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
         self._text = ImageFont.truetype(str(fonts / "DejaVuSans.ttf"), 22)
         self._bold = ImageFont.truetype(str(fonts / "DejaVuSans-Bold.ttf"), 26)
@@ -80,13 +82,17 @@ class Painter:
 
     def frame(self, frame: Frame, note: str = "") -> Picture:
         """The overview with the head camera's picture and the caption, (720, 1280, 3)."""
+        from PIL import Image
+
         image = Image.fromarray(self.picture(frame.qpos))
         if self._head:
             self._paste_inset(image)
         self._write_caption(image, frame, note)
         return np.asarray(image)
 
-    def _paste_inset(self, image: Image.Image) -> None:
+    def _paste_inset(self, image: Any) -> None:
+        from PIL import Image, ImageDraw
+
         self._inset.update_scene(self._data, self._head)
         self._inset.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
         inset = Image.fromarray(self._inset.render())
@@ -96,14 +102,16 @@ class Painter:
         image.paste(inset, (left, top))
         draw.text((left + 10, top + 8), "head camera", PAPER, self._text.font_variant(size=16))
 
-    def _write_caption(self, image: Image.Image, frame: Frame, note: str) -> None:
+    def _write_caption(self, image: Any, frame: Frame, note: str) -> None:
+        from PIL import ImageDraw
+
         draw = ImageDraw.Draw(image)
         middle = STRIP // 2
         draw.rectangle((0, 0, WIDTH, STRIP), INK)  # at the top: players lay their buttons below
         draw.text((28, middle), f"{frame.time:5.1f} s", PAPER, self._bold, anchor="lm")
         draw.text((160, middle), f"{frame.phase}   {note}", SOFT, self._text, anchor="lm")
         right = WIDTH - 28.0
-        for text in reversed(frame.active):
+        for text in reversed(limit_words(frame.active)):
             width = draw.textlength(text, self._text) + 24
             draw.rounded_rectangle((right - width, middle - 18, right, middle + 18), 6, ACCENT)
             draw.text((right - width / 2, middle), text, INK, self._text, anchor="mm")
@@ -116,6 +124,7 @@ def film(
     painter: Painter,
     path: Path,
     frames: Sequence[Frame],
+    origin: float,
     fps: int,
     note: str,
     progress: Callable[[int], None],
@@ -127,6 +136,7 @@ def film(
         painter: draws the frames.
         path: the file, .mp4.
         frames: one a picture.
+        origin: [s] time that the captions call 0.
         fps: [1/s] pictures a second.
         note: stands in the caption of each frame.
         progress: called after each frame with the number drawn.
@@ -138,6 +148,8 @@ def film(
     Raises:
         OSError: the file cannot be written.
     """
+    import imageio.v2 as imageio  # of the extra hurcules[report]
+
     done = 0
     writer = imageio.get_writer(
         path,
@@ -150,7 +162,7 @@ def film(
     )
     try:
         for frame in frames:
-            writer.append_data(painter.frame(frame, note))
+            writer.append_data(painter.frame(replace(frame, time=frame.time - origin), note))
             done += 1
             progress(done)
             if stopped():

@@ -14,6 +14,7 @@ from pathlib import Path
 # package -> its folder; those of the second line are told apart by their parts
 PACKAGES = {
     "hurcules": "python/hurcules",
+    "hurcules_command": "python/hurcules_command",
     "hurcules_studies": "python/hurcules_studies",
     "hurcules_envs": "envs/hurcules_envs",
 }

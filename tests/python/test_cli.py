@@ -20,7 +20,7 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str,
     return code, said.out, said.err
 
 
-@pytest.mark.parametrize("command", ["run", "reproduce", "list", "doctor"])
+@pytest.mark.parametrize("command", ["run", "reproduce", "list", "view", "doctor"])
 def test_help_of_each_command_shows_an_example(
     capsys: pytest.CaptureFixture[str], command: str
 ) -> None:
@@ -72,7 +72,20 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["run", "nowhere"], "mission 'nowhere' does not exist; there are: stretch"),
+        (["run", "nowhere"], "mission or test method 'nowhere' does not exist; there are: stretch"),
+        (["run", "nowhere"], "e2803"),
+        (["run", "--wombat", "3"], "no such option: --wombat"),
+        (["run", "stretch", "--wombat", "3"], "no such option: --wombat"),
+        (["run", "stretch", "--robot", "nonsense"], "--robot: for test methods; 'stretch' is a"),
+        (["run", "stretch", "--pace", "-7"], "--pace: for test methods"),
+        (["run", "stretch", "--repetitions", "0"], "--repetitions: for test methods"),
+        (["run", "stretch", "--workers", "-3"], "--workers: for test methods"),
+        (["run", "e2803", "--angle", "200"], "--angle: wanted a number from"),
+        (["run", "e2803", "--angle", "200"], "degrees, got 200"),
+        (["run", "e2803", "--pace", "100"], "5.56 m/s (20 km/h) at most, got 100"),
+        (["run", "e2803", "--repetitions", "0"], "repetitions: wanted a whole number from 1 up"),
+        (["view", "nowhere"], "mission, model, scene or file 'nowhere' does not exist"),
+        (["view", "nowhere.xml"], "nowhere.xml: no such file"),
         (["run", "--method", "magic"], "magic"),
         (["run", "--seed", "-1"], "seed: wanted a whole number from 0 to 2**64 - 1, got -1"),
         (["run", "--seed", "x"], "--seed"),
@@ -111,5 +124,5 @@ def test_the_console_script_ends_with_the_code_of_main() -> None:
     script = Path(sys.executable).with_name("hurcules")
     done = subprocess.run([script, "run", "nowhere"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("hurcules: error: mission 'nowhere'")
+    assert done.stderr.startswith("hurcules: error: mission or test method 'nowhere'")
     assert "Traceback" not in done.stderr

@@ -30,8 +30,8 @@ ARROWS: dict[str, set[str]] = {
     "robot": {"base"},
     "tasks": {"robot", "base"},
     "control": {"tasks", "solver", "robot", "base"},
-    "mission": {"control", "base"},
-    "sim": {"mission", "control", "robot", "base"},
+    "sim": {"control", "robot", "base"},
+    "mission": {"sim", "control", "robot", "base"},
 }
 # where mujoco.h may be included
 PHYSICS = {"robot", "sim"}
@@ -39,21 +39,23 @@ PHYSICS = {"robot", "sim"}
 # the parts of the Python packages from the ground up: each may import what stands on lower floors
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
-        "_core", "_exec", "_moved", "_version", "decimate", "figures", "interrupts", "opengl",
-        "plugins", "running_gear",
+        "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
+        "opengl", "plugins", "running_gear",
     )},
     {"hurcules." + name for name in (
-        "casualties", "driving", "output", "postures", "rendering", "rhqp", "sensors", "validation",
+        "_reprs", "_version", "casualties", "driving", "output", "postures", "rendering", "rhqp",
+        "sensors", "validation",
     )},
     {"hurcules." + name for name in ("cameras", "mjcf", "transfer_bed", "video")},
     {"hurcules.scenes"},
     {"hurcules.models"},
     {"hurcules.doctor", "hurcules.simulation"},
     {"hurcules", "hurcules.recording"},
-    {"hurcules.report", "hurcules.summary"},
+    {"hurcules.report", "hurcules.summary", "hurcules.view"},
     {"hurcules.run"},
     {"hurcules.cli"},
-    {"hurcules_envs", "hurcules_studies"},
+    {"hurcules_command", "hurcules_envs", "hurcules_studies"},
+    {"hurcules.__main__"},
     {"hurcules_studies.field_tests"},
     {"hurcules_studies.thesis"},
 )  # fmt: skip

@@ -1,11 +1,10 @@
 #include "hurcules/solver/cascade.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "hurcules/solver/dense_decompositions.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {

@@ -1,9 +1,9 @@
 // What a cascade leaves behind: proof, violations, working set, multipliers.
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "hurcules/solver/cascade.hpp"
+#include "hurcules/solver/dense_decompositions.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {

@@ -1,9 +1,10 @@
 #include "hurcules/solver/dual_program.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
+
+#include "hurcules/solver/dense_decompositions.hpp"
 
 namespace hurcules {
 

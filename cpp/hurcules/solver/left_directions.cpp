@@ -1,11 +1,11 @@
 #include "hurcules/solver/left_directions.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hurcules/solver/chain_segments.hpp"
+#include "hurcules/solver/dense_decompositions.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {

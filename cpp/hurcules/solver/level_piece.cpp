@@ -1,9 +1,9 @@
 #include "hurcules/solver/level_piece.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "hurcules/solver/dense_decompositions.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {

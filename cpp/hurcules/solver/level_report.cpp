@@ -1,8 +1,8 @@
 #include "hurcules/solver/level_report.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
+#include "hurcules/solver/dense_decompositions.hpp"
 #include "hurcules/solver/left_directions.hpp"
 #include "hurcules/solver/level_piece.hpp"
 

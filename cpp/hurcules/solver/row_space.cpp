@@ -1,7 +1,7 @@
 #include "hurcules/solver/row_space.hpp"
 
-#include <Eigen/QR>
 
+#include "hurcules/solver/dense_decompositions.hpp"
 #include "hurcules/solver/tolerances.hpp"
 
 namespace hurcules {

@@ -3,32 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import jinja2
-import numpy as np
-from numpy.typing import NDArray
 
 from hurcules.figures import describe, readable
-from hurcules.recording import CHANNELS, STAGES, Recording
+from hurcules.legend import joint_words, level_words
+from hurcules.recording import CHANNELS, STAGES, Recording, Snapshot
 from hurcules.report import plots
 from hurcules.report.style import applied, data_address, jpeg
 
-__all__ = ["Snapshot", "write"]
+__all__ = ["write"]
 
 SNAPSHOT_WIDTH = 480  # [pixels]
-
-
-@dataclass(frozen=True)
-class Snapshot:
-    """The robot at an event."""
-
-    time: float  # [s]
-    text: str
-    picture: NDArray[np.uint8]  # (height, width, 3)
 
 
 def write(
@@ -54,15 +43,18 @@ def write(
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     template = environment.from_string(source)
     film = data_address(video.read_bytes(), "video/mp4") if isinstance(video, Path) else ""
+    origin = recording.origin
     page = template.render(
         summary=summary,
+        origin=origin,
+        names=_names(recording.log),
         cards=_cards(summary),
         rows=[row for row in _rows(summary) if row["thesis"]],
         more=[row for row in _rows(summary) if not row["thesis"]],
         video=film,
         without_video=video,
         snapshots=[
-            {"time": s.time, "text": s.text, "address": jpeg(s.picture, SNAPSHOT_WIDTH)}
+            {"time": s.time - origin, "text": s.text, "address": jpeg(s.picture, SNAPSHOT_WIDTH)}
             for s in snapshots
         ],
         plots=_plots(recording, summary),
@@ -70,6 +62,15 @@ def write(
         stages=STAGES,
     )
     path.write_text(page, encoding="utf-8")
+
+
+def _names(log: dict[str, Any]) -> list[tuple[str, str]]:
+    """The short names of the log in words: joints and coordinates, then levels."""
+    coordinates = [name.removeprefix("q/") for name in log if name.startswith("q/")]
+    levels = [name.removeprefix("error/") for name in log if name.startswith("error/")]
+    words = [(name, joint_words(name)) for name in coordinates]
+    words += [(name, level_words(name)) for name in levels]
+    return [(name, text) for name, text in words if text != name]
 
 
 def _cards(summary: dict[str, Any]) -> list[tuple[str, str]]:
@@ -101,8 +102,10 @@ def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
 def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]]:
     if len(recording.log["time"]) < 2:
         return []
-    log = recording.log | {"tick_us": recording.control_tick_us}
-    events = sorted({round(event["time_s"], 1) for event in summary["events"] if event["time_s"]})
+    origin = recording.origin
+    log = plots.shifted(recording.log | {"tick_us": recording.control_tick_us}, origin)
+    times = {round(event["time_s"] - origin, 1) for event in summary["events"] if event["time_s"]}
+    events = sorted(times)
     later = plots.settled(log)
     drawn = (
         (plots.joint_positions, log, "Joint positions", _POSITIONS),
@@ -122,22 +125,24 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
 
 
 _POSITIONS = (
-    "The coordinates that move (after Figures 4.25 and 4.26). Dashed: limits; shaded: held "
-    "by a limit; upright lines: events. The right arm is left out where it mirrors the left."
+    "The coordinates that move (after Figures 4.25 and 4.26). Dashed orange: position limits; "
+    "shaded: held by a limit; dashed upright lines: events. The right arm is left out where it "
+    "mirrors the left."
 )
 _VELOCITIES = (
-    "What the hierarchy asks of each coordinate, from the second phase on (Figure 4.26 a)."
+    "The velocity that the solver commands for each coordinate, from 0 s on (Figure 4.26 a)."
 )
 _ERRORS = (
-    "Reference minus measured position (Figure 4.26 b); it jumps where a limit is taken or left. "
+    "Reference minus measured position (Figure 4.26 b); it jumps where a limit becomes active or "
+    "is released. "
     "The thesis reports 0.4 degrees, 7 mrad, at most."
 )
 _TASKS = "The error of each level of the commanded motion, in decreasing priority."
 _LIMITS = "Which position limit holds which coordinate, and when."
 _MONITORS = (
-    "What runs beside the controller (§4.2.1): distance of the robot to itself (0.25 m stands for "
-    "more), centre of mass and centre of pressure against the edge of the support, angle and work "
-    "to tipping over, temperature of the hottest motor. Dashed: where the alarm is raised."
+    "Safety monitors beside the controller (§4.2.1): distance of the robot to itself (0.25 m "
+    "stands for more), distance of the centre of mass and of the centre of pressure from the edge "
+    "of the support, angle and work to tipping over, hottest motor winding. Dashed: alarm."
 )
-_SOLVER = "Level factorizations and working-set changes of each solve; the least is one a level."
-_TIMES = "Sensing to servo without physics, on the machine above."
+_SOLVER = "Factorizations and working-set changes of each solve; a level takes one at least."
+_TIMES = "From sensing to servo, without physics, on the machine named above."

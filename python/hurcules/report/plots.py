@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,7 +9,19 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from hurcules._core import MonitorOptions
-from hurcules.report.style import ACCENT, GREY, INK, LINES, axes, decimate, grid, mark, svg
+from hurcules.legend import joint_words, level_words
+from hurcules.report.style import (
+    ACCENT,
+    GREY,
+    INK,
+    LINES,
+    axes,
+    cells,
+    decimate,
+    mark,
+    side_by_side,
+    svg,
+)
 
 __all__ = [
     "active_limits",
@@ -32,20 +43,15 @@ MOVES = 0.02  # [rad] a coordinate that moves less is left out of the plots of j
 def joint_positions(log: Log, events: Sequence[float]) -> str:
     """Each coordinate that moves, with its limits; shaded while a limit holds it."""
     names = moving(log) or coordinates(log)[:4]
-    figure, plots = grid(math.ceil(len(names) / 4), 4, 1.9)
-    for plot, name in zip(plots, names, strict=False):
+    drawn = cells(len(names))
+    for (_, plot), name in zip(drawn, names, strict=True):
         plot.plot(*decimate(log["time"], log[f"q/{name}"]), color=INK)
         _draw_limits(plot, log, name)
         mark(plot, events)
-        plot.set_title(name)
-    for plot in plots[len(names) :]:
-        plot.set_axis_off()
-    for plot in plots[max(0, len(names) - 4) : len(names)]:
+        plot.set_title(_title(name))
         plot.set_xlabel("time [s]")
-        plot.tick_params(labelbottom=True)
-    for plot in plots[::4]:
         plot.set_ylabel("position [rad]")
-    return svg(figure)
+    return side_by_side(drawn)
 
 
 def joint_velocities(log: Log, events: Sequence[float]) -> str:
@@ -66,15 +72,15 @@ def control_errors(log: Log, events: Sequence[float]) -> str:
 def task_errors(log: Log, events: Sequence[float]) -> str:
     """The error of each level below the limits."""
     names = [name for name in _after(log, "error/") if np.any(log[f"error/{name}"])]
-    figure, plots = grid(1, max(1, len(names)), 2.0)
-    for plot, name in zip(plots, names, strict=False):
+    drawn = cells(len(names))
+    for (_, plot), name in zip(drawn, names, strict=True):
         plot.plot(*decimate(log["time"], log[f"error/{name}"]), color=INK)
         mark(plot, events)
-        plot.set_title(name)
+        plot.set_title(f"{level_words(name)} ({name})")
         plot.set_xlabel("time [s]")
+        plot.set_ylabel("error [m, rad]")
         plot.ticklabel_format(axis="y", scilimits=(-3, 3))
-    plots[0].set_ylabel("error [m, rad]")
-    return svg(figure)
+    return side_by_side(drawn)
 
 
 def active_limits(log: Log, events: Sequence[float]) -> str:
@@ -86,7 +92,7 @@ def active_limits(log: Log, events: Sequence[float]) -> str:
             spans = _spans(log["time"], log[f"active/{name}"] == side)
             plot.broken_barh(spans, (row - 0.32, 0.64), color=shade, linewidth=0)
     mark(plot, events)
-    plot.set_yticks(range(len(names)), names, color=INK)
+    plot.set_yticks(range(len(names)), [_title(name) for name in names], color=INK)
     plot.set_ylim(max(1, len(names)) - 0.4, -0.6)
     plot.set_xlim(log["time"][0], log["time"][-1])
     plot.set_xlabel("time [s]    (orange: upper limit, grey: lower limit)")
@@ -106,13 +112,14 @@ _MONITORS = (
 
 def monitors(log: Log, events: Sequence[float]) -> str:
     """What the monitors saw, with the thresholds of their alarms where these are near."""
-    figure, plots = grid(2, 3, 1.9)
+    drawn = cells(len(_MONITORS))
     defaults = MonitorOptions()
-    for plot, (name, title, threshold) in zip(plots, _MONITORS, strict=True):
+    for (_, plot), (name, title, threshold) in zip(drawn, _MONITORS, strict=True):
         values = log[f"monitor/{name}"]
         plot.plot(*decimate(log["time"], values), color=INK)
         mark(plot, events)
         plot.set_title(title)
+        plot.set_xlabel("time [s]")
         if not threshold:
             continue
         limit = getattr(defaults, threshold)
@@ -120,26 +127,25 @@ def monitors(log: Log, events: Sequence[float]) -> str:
         # zero, or the threshold where it is in sight, belongs into the picture
         if low - 3 * (high - low) - abs(limit) <= limit <= high + 3 * (high - low):
             plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
-    for plot in plots[3:]:
-        plot.set_xlabel("time [s]")
-    return svg(figure)
+    return side_by_side(drawn)
 
 
 def solver_work(log: Log, events: Sequence[float]) -> str:
     """Factorizations and working-set changes of each solve."""
-    figure, plots = grid(1, 2, 2.0)
-    for plot, name in zip(plots, ("factorizations", "changes"), strict=True):
+    drawn = cells(2, 4.0)
+    for (_, plot), name in zip(drawn, ("factorizations", "changes"), strict=True):
         plot.plot(*decimate(log["time"], log[name]), color=INK, linewidth=0.9)
         mark(plot, events)
-        plot.set_title(f"{name} a solve")
+        plot.set_title(f"{name} per solve")
         plot.set_xlabel("time [s]")
         plot.set_ylim(bottom=0)
-    return svg(figure)
+    return side_by_side(drawn)
 
 
 def tick_times(log: Log, events: Sequence[float]) -> str:
     """How long a control tick took: over time, and how often."""
-    figure, (series, histogram) = grid(1, 2, 2.0, sharex=False)
+    drawn = cells(2, 4.0)
+    (_, series), (_, histogram) = drawn
     micros = log["tick_us"]
     # beyond that lie the few ticks in which the system did something else
     most = 3.0 * float(np.percentile(micros, 99))
@@ -158,7 +164,12 @@ def tick_times(log: Log, events: Sequence[float]) -> str:
     histogram.annotate(text, (1.0, 0.5), xycoords="axes fraction", ha="right", color=INK)
     histogram.set_xlabel("control tick [µs]")
     histogram.set_ylabel("ticks")
-    return svg(figure)
+    return side_by_side(drawn)
+
+
+def shifted(log: Log, origin: float) -> Log:
+    """The log with its times counted from `origin` [s]."""
+    return log | {"time": log["time"] - origin}
 
 
 def settled(log: Log) -> Log:
@@ -189,14 +200,14 @@ def _mirrors(log: Log, name: str) -> bool:
 
 def _lines(time: Array, series: Log, events: Sequence[float], label: str) -> str:
     """Lines by name over the same time."""
-    figure, plot = axes(2.6)
+    figure, plot = axes(3.4)
     for (name, values), colour in zip(series.items(), LINES, strict=False):
         plot.plot(*decimate(time, values), color=colour, label=name)
     mark(plot, events)
     plot.set_xlabel("time [s]")
     plot.set_ylabel(label)
     if series:
-        plot.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3)
     return svg(figure)
 
 
@@ -220,6 +231,11 @@ def _spans(time: Array, active: NDArray[np.bool_]) -> list[tuple[float, float]]:
     edges = np.flatnonzero(np.diff(np.concatenate(([False], active, [False])).astype(int)))
     stops = np.append(time, time[-1])
     return [(time[a], stops[b] - time[a]) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _title(name: str) -> str:
+    words = joint_words(name)
+    return name if words == name else f"{words} ({name})"
 
 
 def _after(log: Log, prefix: str) -> list[str]:

@@ -24,17 +24,20 @@ __all__ = [
     "LINES",
     "applied",
     "axes",
+    "cells",
     "data_address",
     "decimate",
     "grid",
     "jpeg",
     "mark",
+    "side_by_side",
     "svg",
 ]
 
 Array = NDArray[np.float64]
 
-INK, GREY, FAINT, ACCENT = "#22272e", "#8b949e", "#e4e7eb", "#d9480f"
+WIDTH = 8.0  # [inches] of a picture that fills the page
+INK, GREY, FAINT, ACCENT = "#22272e", "#6b7480", "#e4e7eb", "#d9480f"
 # quiet colours for lines that share axes; the accent is kept for limits and events
 LINES = ("#22272e", "#2b6cb0", "#5a9bd4", "#2f855a", "#7fb685", "#805ad5", "#b794f4", "#8b949e")
 
@@ -68,7 +71,7 @@ def applied() -> AbstractContextManager[None]:
 
 def grid(rows: int, columns: int, height: float, sharex: bool = True) -> tuple[Figure, list[Axes]]:
     """A picture of rows x columns plots, `height` inches each row, over one time if `sharex`."""
-    figure = Figure(figsize=(10.0, height * rows), layout="constrained")
+    figure = Figure(figsize=(WIDTH, height * rows), layout="constrained")
     plots = figure.subplots(rows, columns, sharex=sharex, squeeze=False)
     return figure, list(plots.flat)
 
@@ -77,6 +80,17 @@ def axes(height: float) -> tuple[Figure, Axes]:
     """A picture of one plot, `height` inches high."""
     figure, plots = grid(1, 1, height)
     return figure, plots[0]
+
+
+def cells(count: int, width: float = 3.3, height: float = 2.1) -> list[tuple[Figure, Axes]]:
+    """Pictures of one plot each, `width` x `height` inches, for `side_by_side`."""
+    figures = [Figure(figsize=(width, height), layout="constrained") for _ in range(count)]
+    return [(figure, figure.subplots()) for figure in figures]
+
+
+def side_by_side(drawn: Iterable[tuple[Figure, Axes]]) -> str:
+    """The pictures of `cells` as HTML: as many in a row as fit."""
+    return f'<div class="cells">{"".join(svg(figure) for figure, _ in drawn)}</div>'
 
 
 def mark(plot: Axes, times: Iterable[float]) -> None:

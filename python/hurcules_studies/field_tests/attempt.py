@@ -22,7 +22,12 @@ from hurcules_studies.field_tests.methods import Method
 from hurcules_studies.field_tests.postures import Plan, Posture, PostureMover
 from hurcules_studies.field_tests.upright import Upright
 
-__all__ = ["Repetition", "Variation", "Watch", "repeat"]
+__all__ = ["Repetition", "Stopped", "Variation", "Watch", "repeat"]
+
+
+class Stopped(Exception):
+    """A repetition was ended before its end."""
+
 
 Driver = Callable[[mujoco.MjModel, mujoco.MjData, float], None]
 # called at each period with the model and its state: a film takes its pictures here
@@ -73,6 +78,7 @@ def repeat(
     driver: Driver | None = None,
     variation: Variation = USUAL,
     watch: Watch | None = None,
+    stopped: Callable[[], bool] = lambda: False,
 ) -> Repetition:
     """Makes one attempt.
 
@@ -85,6 +91,10 @@ def repeat(
         driver: writes the torques of the drives; by default a `LineDriver`.
         variation: what differs between repetitions.
         watch: is shown every state.
+        stopped: whether to end early, asked in every period.
+
+    Raises:
+        Stopped: it was ended early.
     """
     rng = np.random.default_rng(seed)
     values = chosen.values(setting)
@@ -104,7 +114,7 @@ def repeat(
     grasp = Grasp(model, data) if chosen.grasps else None
     mujoco.mj_forward(model, data)
     operator = driver or LineDriver(model, PERIOD, course.path)
-    attempt = _Attempt(model, data, course, operator, plan, mover, grasp, watch)
+    attempt = _Attempt(model, data, course, operator, plan, mover, grasp, watch, stopped)
     fault = attempt.make()
     x = float(data.qpos[0])
     return Repetition(seed, fault, float(data.time), x, attempt.metres, attempt.energy)
@@ -123,7 +133,9 @@ class _Attempt:
         mover: PostureMover,
         grasp: Grasp | None,
         watch: Watch | None,
+        stopped: Callable[[], bool],
     ) -> None:
+        self.stopped = stopped
         self.model, self.data, self.course = model, data, course
         self.driver, self.plan, self.mover, self.watch = driver, plan, mover, watch
         self.grasp = grasp
@@ -208,6 +220,8 @@ class _Attempt:
         return "slipped" if np.hypot(*(self.data.qpos[:2] - start)) > 0.1 else ""
 
     def _tick(self, speed: float) -> str:
+        if self.stopped():
+            raise Stopped
         data, start = self.data, self.data.qpos[:2].copy()
         self.driver(self.model, data, speed)
         self.mover(data, self._posture)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -12,7 +14,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from hurcules import scenes
+from hurcules import extras, scenes
 from hurcules._version import __version__
 from hurcules.interrupts import Interrupts
 from hurcules.models import names as robot_names
@@ -23,6 +25,7 @@ from hurcules.run import DONE, FAILED, FPS, INTERRUPTED, SPEED, progress_bar
 from hurcules.validation import require_known
 from hurcules.video import Frame, Painter, film
 from hurcules_studies.field_tests import METHODS, Method, Result, Variation, page, repeat, runner
+from hurcules_studies.field_tests.attempt import Stopped
 from hurcules_studies.field_tests.parse import parse, shown
 from hurcules_studies.field_tests.runner import attempt_seed
 
@@ -64,6 +67,7 @@ def run_method(options: MethodOptions, console: Console) -> int:
     """
     chosen, settings = parse(options.method, options.words)
     require_known("robot", options.robot, robot_names())
+    runner.check(chosen, options.repetitions, options.workers, options.speed)
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
         started = perf_counter()
@@ -76,8 +80,13 @@ def run_method(options: MethodOptions, console: Console) -> int:
         success = success and not (settings and result.interrupted)
         summary = summarize(result, chosen, options, success, wall)
         output.write_json("summary.json", summary)
-        picture, video = _show(options, chosen, result, output, console, interrupts)
-        output.write("report.html", lambda path: page.write(path, summary, picture, video))
+        if lost := extras.without():
+            console.print(
+                f"no film and no report: {lost}", style="yellow", highlight=False, markup=False
+            )
+        else:
+            picture, video = _show(options, chosen, result, output, console, interrupts)
+            output.write("report.html", lambda path: page.write(path, summary, picture, video))
         _report(summary, output, console)
         if interrupts.noted:
             return INTERRUPTED
@@ -163,35 +172,50 @@ def _show(
             if interrupts.noted:
                 video = "the run was interrupted"
             elif options.video:
-                frames = _frames(options, chosen, last.setting, seed)
+                frames = _frames(options, chosen, last.setting, seed, lambda: interrupts.noted)
                 video = output.write(
                     "video.mp4",
                     lambda path: _film(painter, path, frames, lambda: interrupts.noted),
                 )
     except RendererError as missing:
-        console.print(f"no pictures: {missing}", style="yellow", highlight=False)
+        console.print(f"no pictures: {missing}", style="yellow", highlight=False, markup=False)
         return None, str(missing)
     return picture, video
 
 
 def _frames(
-    options: MethodOptions, chosen: Method, setting: float | None, seed: int
+    options: MethodOptions,
+    chosen: Method,
+    setting: float | None,
+    seed: int,
+    stopped: Callable[[], bool],
 ) -> list[Frame]:
-    """The same repetition once more, as pictures."""
+    """The same repetition once more, as pictures; until it is stopped."""
     frames: list[Frame] = []
 
     def watch(_: mujoco.MjModel, qpos: NDArray[np.float64], time: float) -> None:
         if time >= len(frames) * SPEED / FPS:
             frames.append(Frame(time, qpos.copy(), f"{options.method}, seed {seed}", ()))
 
-    repeat(chosen, setting, options.robot, seed, options.speed, None, Variation(), watch)
+    how = options.robot, seed, options.speed, None, Variation(), watch, stopped
+    with suppress(Stopped):
+        repeat(chosen, setting, *how)
     return frames
 
 
 def _film(painter: Painter, path: Path, frames: list[Frame], stopped: Any) -> None:
     """Films all frames, or until it is stopped."""
     note = f"{SPEED}x speed"
-    film(painter, path, frames, fps=FPS, note=note, progress=lambda n: None, stopped=stopped)
+    film(
+        painter,
+        path,
+        frames,
+        origin=0.0,
+        fps=FPS,
+        note=note,
+        progress=lambda n: None,
+        stopped=stopped,
+    )
 
 
 def _view(chosen: Method, values: dict[str, Any]) -> mujoco.MjvCamera:

@@ -6,11 +6,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import jinja2
 import numpy as np
 from numpy.typing import NDArray
-
-from hurcules.report.style import data_address, jpeg
 
 __all__ = ["HEADINGS", "faults", "rows", "write"]
 
@@ -63,6 +60,10 @@ def write(
     Raises:
         OSError: the file cannot be written.
     """
+    import jinja2  # both are of the extra hurcules[report]
+
+    from hurcules.report.style import data_address, jpeg
+
     source = files(__package__).joinpath("page.html").read_text("utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     page = environment.from_string(source).render(

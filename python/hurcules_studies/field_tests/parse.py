@@ -91,5 +91,9 @@ def _value(chosen: Method, key: str, text: str) -> Any:
         raise Error(f"--{key}: wanted a positive number, got {text!r}")
     if isinstance(default, int):
         return int(value) if value == int(value) else value  # a fraction is for the scene to refuse
-    degrees = key in known and known[key].wanted.endswith("rad")
-    return math.radians(value) if degrees else value
+    if key not in known or known[key].unit != "rad":
+        return value
+    low, high = math.degrees(known[key].low), math.degrees(known[key].high)
+    if not low <= value <= high:
+        raise Error(f"--{key}: wanted a number from {low:.4g} to {high:.4g} degrees, got {text}")
+    return math.radians(value)

@@ -17,7 +17,14 @@ from functools import partial
 import numpy as np
 
 from hurcules._core import Error
-from hurcules_studies.field_tests.attempt import USUAL, Driver, Repetition, Variation, repeat
+from hurcules_studies.field_tests.attempt import (
+    USUAL,
+    Driver,
+    Repetition,
+    Stopped,
+    Variation,
+    repeat,
+)
 from hurcules_studies.field_tests.methods import METHODS, Method, method
 from hurcules_studies.field_tests.reliability import confidence, lower_bound
 
@@ -26,6 +33,7 @@ __all__ = ["Result", "SettingResult", "attempt_seed", "run"]
 # told of each repetition that has ended: setting, repetitions so far, failures so far
 Progress = Callable[[float | None, int, int], None]
 Job = tuple[object, ...]  # the arguments of repeat
+TOP_SPEED = 20 / 3.6  # [m/s] of the drives
 HOPELESS = 3  # failures at the start of a setting, after which it is not repeated any more
 
 
@@ -100,12 +108,7 @@ def run(
         Error: no such method or robot, or a bad number.
     """
     chosen = method(name) if isinstance(name, str) else name
-    name = next((key for key, one in METHODS.items() if one.title == chosen.title), chosen.title)
-    if repetitions < 1 or workers < 1 or not (speed is None or speed > 0.0):
-        wanted = "wanted repetitions >= 1, workers >= 1 and a speed > 0"
-        raise Error(f"{name}: {wanted}, got {repetitions}, {workers} and {speed!r}")
-    if speed is not None and chosen.parameter == "speed":
-        raise Error(f"{name}: the speed is its setting; got another one of {speed:g} m/s")
+    check(chosen, repetitions, workers, speed)
     results: list[SettingResult] = []
     seconds = 0.0
     with _pool(workers) as pool:
@@ -124,13 +127,45 @@ def run(
     largest = passed[-1].setting if passed else None
     cut = not _ended(tries, repetitions)
     return Result(
-        name, chosen.title, robot, chosen.parameter, largest, bool(passed), cut, seconds, results
+        _name(chosen),
+        chosen.title,
+        robot,
+        chosen.parameter,
+        largest,
+        bool(passed),
+        cut,
+        seconds,
+        results,
     )
+
+
+def check(chosen: Method, repetitions: int, workers: int, speed: float | None) -> None:
+    """Raises Error for a number that `run` would refuse."""
+    name = _name(chosen)
+    for what, count in (("repetitions", repetitions), ("workers", workers)):
+        if count < 1:
+            raise Error(f"{name}: {what}: wanted a whole number from 1 up, got {count}")
+    if speed is not None and not 0.0 < speed <= TOP_SPEED:
+        wanted = f"wanted a speed above 0, {TOP_SPEED:.2f} m/s (20 km/h) at most"
+        raise Error(f"{name}: pace: {wanted}, got {speed:g}")
+    if speed is not None and chosen.parameter == "speed":
+        raise Error(f"{name}: the speed is its setting; got another one of {speed:g} m/s")
+
+
+def _name(chosen: Method) -> str:
+    """The name of a method; its title for one that has none."""
+    return next((key for key, one in METHODS.items() if one.title == chosen.title), chosen.title)
 
 
 def attempt_seed(seed: int, index: int) -> int:
     """The seed of a repetition."""
     return 1000 * seed + index
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """Ends the processes in the middle of their repetitions."""
+    for process in list((getattr(pool, "_processes", None) or {}).values()):
+        process.terminate()
 
 
 @contextmanager
@@ -178,7 +213,11 @@ def _all(
         for index, job in enumerate(jobs):
             if stopped() or _hopeless(done):
                 break
-            note(index, repeat(*job))  # type: ignore[arg-type]  # a tuple of its arguments
+            try:
+                # a tuple of its arguments, then nobody who watches
+                note(index, repeat(*job, None, stopped))  # type: ignore[arg-type]
+            except Stopped:
+                break
     else:
         waiting: dict[Future[Repetition], int] = {
             pool.submit(repeat, *job): index  # type: ignore[arg-type]
@@ -190,6 +229,8 @@ def _all(
                 note(waiting.pop(future), future.result())
         for future in waiting:
             future.cancel()
+        if stopped():
+            _end(pool)
     kept = range(HOPELESS) if _hopeless(done) else sorted(done)
     return [done[index] for index in kept]
 

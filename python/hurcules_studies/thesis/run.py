@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from hurcules import extras
 from hurcules._core import Error
 from hurcules.interrupts import Interrupts
 from hurcules.output import Output, WriteError
@@ -63,8 +64,8 @@ def reproduce(
 ) -> Reproduction:
     """Measures claims of the thesis and writes report.html, claims.json and claims.md.
 
-    Workers are processes of their own: a program that calls this does so under
-    `if __name__ == "__main__":`. Ctrl-C keeps what is finished; the next call goes on from there.
+    Workers are processes of their own. Ctrl-C keeps what is finished; the next call goes on from
+    there. The page needs the extra `hurcules[report]`.
 
     Args:
         ids: ids, their beginnings, ranges; none means all 112.
@@ -80,6 +81,8 @@ def reproduce(
         Error: an id that means nothing, fewer than one worker, a folder that cannot be written.
         WriteError: a file could not be written.
     """
+    if lost := extras.without():
+        raise Error(f"the report of claims: {lost}")
     from hurcules_studies.thesis import page  # with matplotlib, which no worker needs
 
     ids = list(ids)

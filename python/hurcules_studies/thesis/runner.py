@@ -9,6 +9,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -65,7 +66,7 @@ class Runner:
             return []
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(workers, context, initializer=prepare) as pool:
-            with _single_threaded(), _ctrl_c_ignored():
+            with _single_threaded(), _ctrl_c_ignored(), _script_unseen():
                 futures = {pool.submit(work, bundle, self.folder): bundle for bundle in tasks}
             self._watch(futures, [name for bundle in tasks for name in bundle])
             if self.stopped():
@@ -122,6 +123,20 @@ def _single_threaded() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+@contextmanager
+def _script_unseen() -> Iterator[None]:
+    """Processes started here do not run the caller's script again: it needs no main guard."""
+    main = sys.modules["__main__"]
+    names = ("__file__", "__spec__")
+    before = {name: vars(main)[name] for name in names if name in vars(main)}
+    vars(main).pop("__file__", None)
+    main.__spec__ = None
+    try:
+        yield
+    finally:
+        vars(main).update(before)
 
 
 @contextmanager

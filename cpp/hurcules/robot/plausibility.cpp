@@ -1,0 +1,71 @@
+#include "hurcules/robot/plausibility.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace hurcules {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadiansAsDegrees = 2.0 * std::numbers::pi * kDegree;  // [rad]
+constexpr double kDegreesAsRadians = 4.0 * std::numbers::pi;            // [rad]
+constexpr double kTolerance = 1e-3;                                     // [rad] or [m]
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", value);
+  return text;
+}
+
+bool turns(const Robot& robot, const Coordinate& coordinate) {
+  return robot.model()->jnt_type[coordinate.joints.front().joint] == mjJNT_HINGE;
+}
+
+std::string named(const Coordinate& coordinate, const std::string& text) {
+  return "'" + coordinate.name + "' " + text;
+}
+
+std::string interval(const Coordinate& coordinate, double unit) {
+  return number(coordinate.lower / unit) + " to " + number(coordinate.upper / unit);
+}
+
+void append(std::string& list, const std::string& item) {
+  list += (list.empty() ? "" : "; ") + item;
+}
+
+}  // namespace
+
+std::string implausible_ranges(const Robot& robot) {
+  std::string narrow, wide;
+  for (const Coordinate& coordinate : robot.coordinates()) {
+    const double most = std::max(std::abs(coordinate.lower), std::abs(coordinate.upper));
+    if (!turns(robot, coordinate) || !std::isfinite(most)) continue;
+    if (most <= kRadiansAsDegrees && coordinate.lower < coordinate.upper)
+      append(narrow, named(coordinate, interval(coordinate, kDegree) + " degrees"));
+    if (most > kDegreesAsRadians) append(wide, named(coordinate, interval(coordinate, 1.0) + " rad"));
+  }
+  std::string text;
+  if (!narrow.empty())
+    append(text, "joint ranges of a few degrees, were radians meant? " + narrow +
+                     " (MJCF takes degrees unless it says <compiler angle=\"radian\"/>)");
+  if (!wide.empty()) append(text, "joint ranges of many turns, were degrees meant? " + wide);
+  return text;
+}
+
+std::string outside_limits(const Robot& robot) {
+  std::string found;
+  for (Index i = 0; i < robot.size(); ++i) {
+    const Coordinate& coordinate = robot.coordinates()[i];
+    const double q = robot.configuration()[i];
+    if (q >= coordinate.lower - kTolerance && q <= coordinate.upper + kTolerance) continue;
+    append(found, named(coordinate, "at " + number(q) + ", limits " + interval(coordinate, 1.0)));
+  }
+  if (found.empty()) return found;
+  return "the configuration lies outside the joint limits [rad or m]: " + found;
+}
+
+}  // namespace hurcules

@@ -1,0 +1,72 @@
+"""How solutions, options and diagnostics look at a prompt and in a notebook.
+
+The classes are those of the compiled module; what they show is read from their properties.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from hurcules import _core
+
+__all__ = ["install"]
+
+# beside everything that is called ...Options
+SHOWN = ("ActiveRow", "ControlSolution", "LevelNote", "LevelReport", "SensorFault", "Solution")
+MOST = 8  # values of an array that are shown
+
+
+def install() -> None:
+    """Gives the classes their `__repr__` and `_repr_html_`, where they have none of their own."""
+    for name, kind in vars(_core).items():
+        if not isinstance(kind, type) or not (name in SHOWN or name.endswith("Options")):
+            continue
+        if "__repr__" not in vars(kind):
+            kind.__repr__ = _text  # type: ignore[assignment]
+        kind._repr_html_ = _html  # type: ignore[attr-defined]
+
+
+def _values(shown: Any) -> dict[str, str]:
+    """The properties that can be said in a line, by name."""
+    found = {}
+    for name, member in vars(type(shown)).items():
+        if not name.startswith("_") and isinstance(member, property):
+            text = _line(getattr(shown, name))
+            if text:
+                found[name] = text
+    return found
+
+
+def _line(value: Any) -> str:
+    """A value in a line; "" for one that has none."""
+    if isinstance(value, bool | str | int) or value is None:
+        return repr(value)
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, np.ndarray):
+        if value.ndim == 1 and value.size <= MOST:
+            return np.array2string(value, precision=4, separator=", ", max_line_width=200)
+        return f"array of {' x '.join(map(str, value.shape))}"
+    if isinstance(value, list | tuple):
+        simple = len(value) <= MOST and all(isinstance(item, str | int | float) for item in value)
+        return repr(value) if simple else f"{len(value)} items"
+    if hasattr(value, "name") and hasattr(type(value), "__members__"):
+        return str(value.name)
+    return ""
+
+
+def _text(shown: Any) -> str:
+    inside = ", ".join(f"{name}={text}" for name, text in _values(shown).items())
+    return f"{type(shown).__name__}({inside})"
+
+
+def _html(shown: Any) -> str:
+    rows = "".join(
+        f"<tr><th style='text-align:left'>{escape(name)}</th>"
+        f"<td style='text-align:left'><code>{escape(text)}</code></td></tr>"
+        for name, text in _values(shown).items()
+    )
+    return f"<table><caption>{escape(type(shown).__name__)}</caption>{rows}</table>"

@@ -1,0 +1,67 @@
+"""The short names of joints and levels, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+__all__ = ["JOINTS", "LEVELS", "joint_words", "level_words", "limit_words"]
+
+# without L or R for the side
+JOINTS = {
+    "KN": "knee",
+    "HIP": "hip",
+    "WST": "waist",
+    "NKY": "neck yaw",
+    "NKP": "neck pitch",
+    "SP": "shoulder pitch",
+    "SR": "shoulder roll",
+    "SY": "shoulder yaw",
+    "EB": "elbow",
+    "WY": "wrist yaw",
+    "WP": "wrist pitch",
+    "WY2": "second wrist yaw",
+}
+LEVELS = {
+    "joint": "joint limits",
+    "hpos": "hand positions",
+    "hpitch": "pitch of the lower arms",
+    "pel": "pelvis, forward",
+    "gaze": "gaze direction",
+}
+_SIDES = {"L": "left", "R": "right"}
+
+
+def joint_words(name: str) -> str:
+    """A joint or coordinate in words, "left shoulder pitch" for "LSP"; other names stay."""
+    if name == "KN":
+        return "both knees"
+    if name in JOINTS:
+        return JOINTS[name]
+    if name[:1] in _SIDES and name[1:] in JOINTS:
+        return f"{_SIDES[name[0]]} {JOINTS[name[1:]]}"
+    return name
+
+
+def level_words(name: str) -> str:
+    """A level in words, "hand positions" for "hpos"; other names stay."""
+    return LEVELS.get(name, name)
+
+
+def limit_words(active: Sequence[str]) -> list[str]:
+    """Active limits in words, both sides as one.
+
+    Args:
+        active: as "LSP upper", "RSP upper", "HIP lower".
+
+    Returns:
+        "shoulder pitch upper", "hip lower".
+    """
+    words: list[str] = []
+    for text in active:
+        name, _, side = text.partition(" ")
+        twin = {"L": "R", "R": "L"}.get(name[:1], "") + name[1:]
+        if name[1:] in JOINTS and f"{twin} {side}" in active:
+            words.append(f"{JOINTS[name[1:]]} {side}")
+        else:
+            words.append(f"{joint_words(name)} {side}")
+    return list(dict.fromkeys(words))

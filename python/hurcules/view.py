@@ -1,0 +1,107 @@
+"""`hurcules view`: a mission, robot, scene or MJCF file in MuJoCo's own viewer, in real time."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mujoco
+
+from hurcules import models
+from hurcules._core import Error, missions, step
+from hurcules.driving import hold_joints
+from hurcules.simulation import Simulation
+from hurcules.validation import require_known
+
+__all__ = ["view"]
+
+FPS = 60  # pictures a second
+
+
+def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
+    """Opens the viewer and simulates until its window is closed.
+
+    Args:
+        name: one of `hurcules.missions()`, `models.names()` or `models.scenes()`, or a file of
+            MJCF, MJB or URDF. A robot of ours has its brakes on; a file moves as MuJoCo has it.
+        seed: of the mission.
+        seconds: close the window after this time [s].
+
+    Raises:
+        Error: nothing has this name, a file is no model, or there is no display.
+    """
+    model, data, advance = _subject(name, seed)
+    _require_display()
+    import mujoco.viewer
+
+    threads = set(threading.enumerate())
+    with mujoco.viewer.launch_passive(model, data, show_left_ui=False) as window:
+        started, begun = time.perf_counter(), data.time
+        while window.is_running():
+            passed = time.perf_counter() - started
+            if seconds is not None and passed >= seconds:
+                break
+            with window.lock():
+                # a machine that is too slow shows slow motion, not ever longer leaps
+                until = min(begun + passed, data.time + 2.0 / FPS)
+                advance(round((until - data.time) / model.opt.timestep))
+            window.sync()
+            time.sleep(max(0.0, 1.0 / FPS - (time.perf_counter() - started - passed)))
+    for thread in set(threading.enumerate()) - threads:
+        thread.join()  # the window still draws this model
+
+
+def _subject(name: str, seed: int) -> tuple[Any, Any, Callable[[int], Any]]:
+    """Model, state, and what takes so many steps."""
+    if name in missions():
+        simulation = Simulation(name, seed, record=False)
+        return simulation.model, simulation.data, lambda n: n and simulation.step(n)
+    path = Path(name)
+    if path.suffix in (".xml", ".mjb", ".urdf"):
+        model = _read(path)
+        data = mujoco.MjData(model)
+        return model, data, lambda n: mujoco.mj_step(model, data, n)
+    require_known("mission, model, scene or file", name, _names())
+    model = models.load(name) if name in models.names() else models.load(scene=name)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    hold_joints(model)
+    return model, data, lambda n: step(model, data, n) if n else None
+
+
+def _names() -> list[str]:
+    return [*missions(), *models.names(), *models.scenes()]
+
+
+def _read(path: Path) -> Any:
+    if not path.is_file():
+        raise Error(f"{path}: no such file")
+    try:
+        if path.suffix == ".mjb":
+            return mujoco.MjModel.from_binary_path(str(path))
+        return mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
+        raise Error(f"MuJoCo rejects {path}: {' '.join(str(error).split())}") from error
+
+
+def _require_display() -> None:
+    has_display = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if sys.platform == "linux" and not has_display:
+        raise Error(
+            "the viewer needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set; remedy: "
+            "run it at a desktop or with ssh -X; without a display, hurcules run films a mission"
+        )
+    import glfw
+
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        if glfw.init():
+            return
+    reason = str(said[-1].message) if said else "GLFW does not start"
+    raise Error(f"the viewer cannot open a window: {reason}")

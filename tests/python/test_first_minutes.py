@@ -1,0 +1,193 @@
+"""What a newcomer meets: a broken MuJoCo, Ctrl-C, a source tree, a prompt, a viewer, no extras.
+
+Strategy: processes of their own with a made-up environment. Not tested: a real desktop.
+"""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import cli, extras, legend, rhqp
+
+COMMAND = [sys.executable, "-m", "hurcules"]
+
+
+def call(*words: str, cwd: Path | None = None, **environment: str) -> tuple[int, str, str]:
+    done = subprocess.run(
+        [*COMMAND, *words],
+        env={**os.environ, **environment},
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_python_m_hurcules_is_the_command() -> None:
+    assert call("--version") == (0, f"{hurcules.__version__}\n", "")
+
+
+def test_a_wrong_opengl_ends_nothing_but_pictures(tmp_path: Path) -> None:
+    words = ("run", "stretch", "--seconds", "0.1", "--out", str(tmp_path))
+    code, out, err = call(*words, MUJOCO_GL="foo")
+    assert (code, err) == (0, "")
+    assert "no video" in out and "MUJOCO_GL" in out
+    assert (tmp_path / "report.html").is_file() and not (tmp_path / "video.mp4").exists()
+    code, out, err = call("doctor", MUJOCO_GL="foo")
+    assert "MUJOCO_GL=foo" in " ".join(out.split()) and "Traceback" not in err
+    assert code == 0  # a renderer is optional
+
+
+def script() -> str:
+    return str(Path(sys.executable).with_name("hurcules"))
+
+
+@pytest.mark.parametrize("broken", ['__version__ = "2.3.7"', "raise OSError('no libmujoco')"])
+def test_doctor_survives_a_broken_mujoco(tmp_path: Path, broken: str) -> None:
+    (tmp_path / "mujoco.py").write_text(broken + "\n")
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run([script(), "doctor"], env=environment, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    row = next(line for line in done.stdout.splitlines() if line.startswith("MuJoCo"))
+    assert "broken" in row and ("2.3.7" in row or "no libmujoco" in row)
+    assert "remedy: pip install --force-reinstall mujoco==" in done.stdout
+    done = subprocess.run([script(), "list"], env=environment, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.startswith("hurcules: error: ") and done.stderr.count("\n") == 1
+
+
+def test_the_source_tree_says_that_it_is_not_compiled(root: Path, tmp_path: Path) -> None:
+    shutil.copytree(root / "python" / "hurcules", tmp_path / "hurcules")
+    for compiled in (tmp_path / "hurcules").glob("*.so"):
+        compiled.unlink()
+    code = "import sys; sys.meta_path = [f for f in sys.meta_path if 'ditable' not in repr(f)]; "
+    done = subprocess.run(
+        [sys.executable, "-c", code + "import hurcules"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+    )
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("ImportError: hurcules in ") and "not compiled" in last
+    assert "remedy: pip install ." in last
+
+
+def interrupt(words: list[str], after: float) -> tuple[int, str, float]:
+    """Exit code, what was said, and the seconds from Ctrl-C to the end.
+
+    Ctrl-C comes `after` seconds after the console script has begun.
+    """
+    begin = f"import sys, hurcules_command; sys.argv = ['hurcules', *{words!r}]; "
+    begin += "print('ready', flush=True); sys.exit(hurcules_command.main())"
+    process = subprocess.Popen(
+        [sys.executable, "-c", begin],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+    assert process.stdout is not None and process.stdout.readline() == "ready\n"
+    time.sleep(after)
+    assert process.poll() is None, "it had ended before Ctrl-C"
+    started = time.perf_counter()
+    os.killpg(process.pid, signal.SIGINT)
+    said = process.communicate(timeout=120)[0]
+    return process.returncode, said, time.perf_counter() - started
+
+
+@pytest.mark.parametrize("after", [0.02, 0.1, 0.25])
+def test_ctrl_c_during_the_import_is_no_traceback(tmp_path: Path, after: float) -> None:
+    code, said, _ = interrupt(["run", "stretch", "--no-video", "--out", str(tmp_path)], after)
+    assert "Traceback" not in said
+    assert code == 130
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_ctrl_c_ends_a_method_at_once(tmp_path: Path, workers: str) -> None:
+    words = ["run", "e2803", "--angle", "20", "--no-video", "--workers", workers]
+    code, said, seconds = interrupt([*words, "--out", str(tmp_path)], 12.0)
+    assert code == 130, said
+    assert "interrupted" in said and "Traceback" not in said
+    assert seconds < 5.0  # a second on a quiet machine
+
+
+def test_solutions_and_options_show_what_they_hold() -> None:
+    solution = rhqp.Solver(2).solve([rhqp.Bounds(-np.ones(2), np.ones(2))])
+    assert re.match(r"Solution\(.*status=Solved", repr(solution))
+    assert "<table>" in solution._repr_html_() and "status" in solution._repr_html_()
+    assert "method='lexicographic'" in repr(rhqp.SolverOptions())
+    for shown in (
+        hurcules.SimulationOptions(),
+        hurcules.SensorOptions(),
+        hurcules.MonitorOptions(),
+        hurcules.DriveOptions(),
+        hurcules.VelocityControllerOptions(dt=0.001),
+        hurcules.AccelerationControllerOptions(dt=0.001),
+    ):
+        assert repr(shown).startswith(f"{type(shown).__name__}(")
+        assert "object at 0x" not in repr(shown) and "=" in repr(shown)
+
+
+def test_without_the_extra_a_run_says_so_and_does_the_rest(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(extras, "missing", lambda: ["jinja2", "PIL"])
+    assert cli.main(["run", "stretch", "--seconds", "0.1", "--out", str(tmp_path)]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "jinja2, pillow are not installed; remedy: pip install 'hurcules[report]'" in out
+    assert {path.name for path in tmp_path.iterdir()} == {"log.npz", "timing.npz", "summary.json"}
+
+
+def test_the_product_imports_without_the_extra() -> None:
+    blocked = "import sys; sys.modules.update(dict.fromkeys(" + repr(list(extras.EXTRA)) + ")); "
+    code = blocked + "import hurcules, hurcules.cli, hurcules_studies.field_tests.command"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_opengl_is_not_imported_before_the_first_picture() -> None:
+    code = "import hurcules, sys; assert not {'OpenGL', 'glfw'} & set(sys.modules), sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_every_joint_and_level_has_words() -> None:
+    for name in hurcules.models.names():
+        for coordinate in hurcules.Robot(hurcules.models.load(name)).coordinate_names:
+            assert legend.joint_words(coordinate) != coordinate, coordinate
+    for level in hurcules.Simulation("stretch").levels:
+        assert legend.level_words(level) != level, level
+    active = ("HIP lower", "LSP upper", "RSP upper", "LEB lower")
+    assert legend.limit_words(active) == ["hip lower", "shoulder pitch upper", "left elbow lower"]
+
+
+def test_the_viewer_without_a_display_says_what_is_missing() -> None:
+    code, _, err = call("view", DISPLAY="", WAYLAND_DISPLAY="")
+    assert code == 2
+    assert err.startswith("hurcules: error: the viewer needs a display") and err.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", ["stretch", "rescue", "stairs", "arm.xml"])
+def test_the_viewer_shows_a_mission_a_robot_a_scene_and_a_file(tmp_path: Path, name: str) -> None:
+    if not shutil.which("xvfb-run"):
+        pytest.skip("no virtual display here; remedy: apt-get install xvfb xauth")
+    ball = '<mujoco><worldbody><light pos="0 0 3"/><geom size="1"/></worldbody></mujoco>'
+    (tmp_path / "arm.xml").write_text(ball)
+    done = subprocess.run(
+        ["xvfb-run", "-a", *COMMAND, "view", name, "--seconds", "1"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
