@@ -1,0 +1,158 @@
+"""The closed loop on robots that are not Hurcules: channels, stacks, batches, what is refused.
+
+Strategy: a planar arm of text under gravity, in the physics. What the loop is made of has C++ tests
+(tests/cpp/sim/whole_body_test.cpp); here is what Python adds, and how it reads.
+"""
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+
+ARM = """<mujoco><option timestep="0.002" integrator="implicitfast"/>
+  <compiler angle="radian"/>
+  <default><joint axis="0 1 0" armature="0.05" damping="0.5" range="-2.5 2.5"/>
+    <geom type="capsule" size="0.04" fromto="0 0 0 0.4 0 0" mass="2" contype="0"/></default>
+  <worldbody><body pos="0 0 1"><joint name="j1"/><geom/>
+    <body pos="0.4 0 0"><joint name="j2"/><geom/>
+      <body pos="0.4 0 0"><joint name="j3"/><geom/><site name="tip" pos="0.4 0 0"/>
+        <body pos="0.4 0 0"><joint name="finger" type="slide" axis="1 0 0" range="0 0.05"/>
+          <geom fromto="0 0 0 0.02 0 0" size="0.01" mass="0.1"/></body>
+      </body></body></body></worldbody>
+  <actuator><motor joint="j1" forcerange="-200 200"/><motor joint="j2" forcerange="-200 200"/>
+    <motor joint="j3" forcerange="-100 100"/><motor joint="finger" forcerange="-20 20"/></actuator>
+</mujoco>"""
+PLANE = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+START = [0.3, 0.8, -0.6]
+
+Channels = Callable[[hurcules.PositionTask], dict[str, object]]
+
+
+def simulate(channels: Channels, **options: object) -> hurcules.Simulation:
+    """The arm at its start, its tip above the posture."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=PLANE)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(robot, [tip, posture], channels(tip), **options)
+    return hurcules.Simulation(model=model, controller=controller)
+
+
+def twist(tip: hurcules.PositionTask) -> dict[str, object]:
+    return {"tip": hurcules.Twist(tip, 0.5), "finger": hurcules.JointRate("finger", 0.1)}
+
+
+def at(simulation: hurcules.Simulation) -> np.ndarray:
+    return simulation.data.site("tip").xpos[[0, 2]].copy()
+
+
+def test_a_command_is_given_by_name_or_as_one_array() -> None:
+    one, other = simulate(twist), simulate(twist)
+    assert one.command_names == ["tip_0", "tip_1", "finger"]
+    assert one.command_scale.tolist() == [0.5, 0.5, 0.1]
+    assert one.step(250, {"tip": [-0.2, 0.1]}) == 250
+    other.step(250, [-0.2, 0.1, 0.0])
+    assert np.array_equal(one.state(), other.state(), equal_nan=True)
+    assert one.time == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("law", ["velocity", "acceleration"])
+def test_a_twist_leads_and_nothing_holds(law: str) -> None:
+    simulation = simulate(twist, law=law)
+    start = at(simulation)
+    simulation.step(500, {"tip": [-0.1, 0.05]})
+    simulation.step(1000)
+    assert at(simulation) - start == pytest.approx([-0.1, 0.05], abs=1e-3)
+
+
+def test_a_delta_counts_from_the_measured_value_and_zero_leaves_the_target() -> None:
+    simulation = simulate(lambda tip: {"tip": hurcules.Delta(tip, 0.2)})
+    start = at(simulation)
+    simulation.step(1000, {"tip": [-0.1, 0.05]})
+    simulation.step(500, {"tip": [0.0, 0.0]})
+    assert at(simulation) - start == pytest.approx([-0.1, 0.05], abs=1e-3)
+
+
+def test_a_target_is_set() -> None:
+    simulation = simulate(lambda tip: {"tip": hurcules.Target(tip)})
+    wanted = at(simulation) + [-0.2, -0.1]
+    simulation.step(2000, {"tip": wanted})
+    assert at(simulation) == pytest.approx(wanted, abs=1e-3)
+
+
+def test_joints_follow_a_motion_and_a_stack_takes_over() -> None:
+    simulation = simulate(twist)
+    u = np.linspace(0.002, 1.0, 500)[:, np.newaxis]
+    way, rate = START[1] + 0.2 * u**2 * (3 - 2 * u), 0.2 * 6 * u * (1 - u) / 1.0
+    assert simulation.follow(["j2"], way, rate) == 500
+    assert simulation.controller.active is None
+    simulation.controller.use("stack")
+    simulation.step(500)
+    assert simulation.controller.active == "stack"
+    assert simulation.data.qpos[1] == pytest.approx(START[1] + 0.2, abs=1e-3)
+    assert np.abs(simulation.controller.joint_error).max() < 1e-3
+
+
+def test_a_batch_has_the_bits_of_each_alone() -> None:
+    simulation = simulate(twist)
+    simulation.step(100, {"tip": [-0.1, 0.0]})
+    commands = np.linspace(-0.2, 0.2, 8).reshape(4, 2)
+    one, two = (hurcules.SimulationBatch(simulation, 4, threads=n) for n in (1, 2))
+    for batch in (one, two):
+        batch.step(200, {"tip": commands})
+    assert np.array_equal(one.state(), two.state(), equal_nan=True)
+    assert one.qpos.shape == (4, 4) and one.time.tolist() == pytest.approx([0.6] * 4)
+    simulation.step(200, {"tip": commands[2]})
+    assert np.array_equal(one.state()[2], simulation.state(), equal_nan=True)
+    states = one.state()
+    one.step(50, mask=[True, False, False, False])
+    assert one.time.tolist() == pytest.approx([0.7, 0.6, 0.6, 0.6])
+    one.restore(states)
+    assert np.array_equal(one.state(), states, equal_nan=True)
+    one.reset([0, 0, 0, 0], mask=[False, True, False, False])
+    assert one.time.tolist() == pytest.approx([0.6, 0.0, 0.6, 0.6])
+
+
+def test_models_of_a_batch_may_differ_in_their_numbers() -> None:
+    simulation = simulate(twist)
+    models = [mujoco.MjModel.from_xml_string(ARM) for _ in range(2)]
+    models[1].body_mass[:] *= 1.5
+    batch = hurcules.SimulationBatch(simulation, 2, models=models)
+    batch.step(100, {"tip": [[-0.1, 0.0]] * 2})
+    assert not np.array_equal(batch.qpos[0], batch.qpos[1])
+
+
+def test_it_says_what_it_is() -> None:
+    simulation = simulate(twist)
+    assert "limits < tip < posture; channels: tip finger" in repr(simulation)
+
+
+REFUSED: dict[str, tuple[Callable[[], object], str]] = {
+    "channel": (lambda: simulate(twist).step(1, {"hand": [0.0]}), "channel 'hand' does not exist"),
+    "size": (lambda: simulate(twist).step(1, {"tip": [0.0] * 3}), r"wanted shape \(2,\)"),
+    "nan": (lambda: simulate(twist).step(1, [np.nan, 0.0, 0.0]), "3 finite numbers"),
+    "joint": (lambda: hurcules.Robot(mujoco.MjModel.from_xml_string(ARM), joints=["j9"]), "'j9'"),
+    "stack": (lambda: simulate(twist).controller.use("walk"), "'walk' does not exist"),
+    "law": (lambda: simulate(twist, law="torque"), "'torque' does not exist"),
+    "base": (lambda: simulate(twist, base="flying"), "'flying' does not exist"),
+    "spec": (lambda: simulate(lambda tip: {"tip": tip}), "wants Twist, Delta"),
+    "coordinate": (
+        lambda: simulate(lambda tip: {"j": hurcules.JointRate("j1", 1.0)}),
+        "which the tasks move",
+    ),
+    "drive": (lambda: simulate(lambda tip: {"d": hurcules.Drive(1.0, 1.0)}), "its tracks"),
+    "both": (lambda: hurcules.Simulation(model=mujoco.MjModel.from_xml_string(ARM)), "both"),
+    "batch": (lambda: hurcules.SimulationBatch(simulate(twist), 0), "n >= 1"),
+    "period": (lambda: simulate(twist, dt=0.003), "whole number of physics steps"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_is_refused(case: str) -> None:
+    make, text = REFUSED[case]
+    with pytest.raises(hurcules.Error, match=text):
+        make()
