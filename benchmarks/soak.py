@@ -32,8 +32,7 @@ from rich.table import Table
 
 import hurcules
 from hurcules import scenes
-from hurcules.trials.attempt import hold_joints
-from hurcules.trials.drive import Chassis, drive_options
+from hurcules.driving import Chassis, drive_options, hold_joints
 
 DT = 1e-3
 HOLD = (0.1, 2.0)  # [s] of a command

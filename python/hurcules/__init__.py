@@ -1,5 +1,7 @@
 """Hierarchical optimal control of the rescue robot Hurcules, simulated in MuJoCo."""
 
+from types import ModuleType
+
 from hurcules._version import __version__, require_mujoco
 from hurcules.opengl import choose_backend
 
@@ -8,15 +10,16 @@ choose_backend()
 require_mujoco()
 
 from hurcules import (  # noqa: E402
+    _moved,
     cameras,
     casualties,
+    driving,
     models,
     postures,
     rhqp,
     scenes,
     sensors,
     transfer_bed,
-    trials,
 )
 from hurcules._core import (  # noqa: E402
     AccelerationController,
@@ -81,6 +84,17 @@ from hurcules._core import (  # noqa: E402
 )
 from hurcules.simulation import Simulation  # noqa: E402
 
+_moved.install()
+
+
+def __getattr__(name: str) -> ModuleType:
+    """A module of this package that has moved."""
+    if _moved.new_name(f"hurcules.{name}"):
+        globals()[name] = _moved.forward(f"hurcules.{name}", 3)
+        return globals()[name]
+    raise AttributeError(f"module 'hurcules' has no attribute {name!r}")
+
+
 __all__ = [
     "AccelerationController",
     "AccelerationControllerOptions",
@@ -140,6 +154,7 @@ __all__ = [
     "__version__",
     "cameras",
     "casualties",
+    "driving",
     "largest_stiffness",
     "missions",
     "mode_ranges",
@@ -151,5 +166,4 @@ __all__ = [
     "servo_table",
     "step",
     "transfer_bed",
-    "trials",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,14 +13,14 @@ from rich.console import Console
 from rich.table import Table
 
 import hurcules
+from hurcules import plugins
 from hurcules._core import Error
 from hurcules.output import WriteError
+from hurcules.plugins import MethodOptions, Methods
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
-from hurcules.run_trial import TrialOptions, run_trial
-from hurcules.trials import METHODS
 
-__all__ = ["main"]
+__all__ = ["main", "results_in"]
 
 USAGE = 2  # exit code of wrong usage
 
@@ -43,7 +44,7 @@ def _folder(text: str) -> Path:
     return Path(text)
 
 
-def _results_in(default: str) -> Any:
+def results_in(default: str) -> Any:
     """The option --out."""
     return typer.Option(
         parser=_folder, metavar="<path>", help="Folder for the results.", show_default=default
@@ -69,7 +70,7 @@ def run_mission(
         str, typer.Argument(help="A mission or a test method of `hurcules list`.")
     ] = "stretch",
     seed: Annotated[int, typer.Option(help="Draws what differs between runs.")] = 0,
-    out: Annotated[Path | None, _results_in("out/MISSION")] = None,
+    out: Annotated[Path | None, results_in("out/MISSION")] = None,
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this time [s].", show_default="to the end")
     ] = None,
@@ -86,9 +87,7 @@ def run_mission(
     ] = 10,
     pace: Annotated[
         float | None,
-        typer.Option(
-            help="Speed [m/s].", rich_help_panel=_TRIALS, show_default="the method's own"
-        ),
+        typer.Option(help="Speed [m/s].", rich_help_panel=_TRIALS, show_default="the method's own"),
     ] = None,
     workers: Annotated[
         int, typer.Option(help="Processes; the result is the same.", rich_help_panel=_TRIALS)
@@ -112,17 +111,22 @@ def run_mission(
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
     """
     folder = out or Path("out", mission)
-    if mission in METHODS:
+    if methods := _methods(mission):
         _refuse_mission_options(context)
         words = tuple(context.args)
-        trial = TrialOptions(
+        asked = MethodOptions(
             mission, words, robot, repetitions, seed, pace, workers, folder, video
         )
-        raise typer.Exit(run_trial(trial, Console()))
+        raise typer.Exit(methods.run(asked, Console()))
     if context.args:
         raise Error(f"No such option: {context.args[0]}")
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors)
     raise typer.Exit(run(options, Console()))
+
+
+def _methods(name: str) -> Methods | None:
+    """Whoever knows the test method of this name."""
+    return next((one for one in plugins.method_groups() if name in one.titles()), None)
 
 
 def _refuse_mission_options(context: typer.Context) -> None:
@@ -150,55 +154,20 @@ def list_all() -> None:
 
     For example `hurcules list`.
     """
-    import hurcules_envs
-
     rows = {
         "missions": hurcules.missions(),
-        "test methods": [f"{name} ({one.title})" for name, one in METHODS.items()],
+        **{
+            methods.kind: [f"{name} ({title})" for name, title in methods.titles().items()]
+            for methods in plugins.method_groups()
+        },
         "scenes": hurcules.models.scenes(),
         "models": hurcules.models.names(),
-        "environments": [f"hurcules_envs:{name}" for name in hurcules_envs.ENVIRONMENTS],
+        "environments": plugins.environments(),
     }
     table = _plain_table()
     for kind, names in rows.items():
         table.add_row(f"[bold]{kind}", "\n".join(names))
     Console().print(table)
-
-
-@app.command()
-def reproduce(
-    ids: Annotated[
-        list[str] | None,
-        typer.Argument(help="M05, a beginning such as M or K1, a range such as R01-R10."),
-    ] = None,
-    out: Annotated[Path | None, _results_in("out/reproduce")] = None,
-    workers: Annotated[
-        int | None, typer.Option(help="Processes.", show_default="one for each core")
-    ] = None,
-    fresh: Annotated[
-        bool, typer.Option("--fresh", help="Measure again what an earlier run finished.")
-    ] = False,
-) -> None:
-    """Measure the claims of the thesis; write `report.html`, `claims.json` and `claims.md`.
-
-    Goes on where an earlier run with the same code was stopped. Exit status: 0 each claim was
-    measured, and holds or is explained; 1 one failed, or misses its number without a known reason,
-    or was asked for by name although nothing measures it yet; 2 wrong usage; 130 Ctrl-C.
-
-    For example `hurcules reproduce`, or with more words:
-
-    - `hurcules reproduce R E M04-M10 --out /tmp/claims --workers 4`
-    """
-    from hurcules.reproduce import run as reproduction
-
-    console = Console()
-    results = reproduction.reproduce(
-        ids or (), out or reproduction.OUT, workers=workers, fresh=fresh, console=console
-    )
-    reproduction.tell(results, console)
-    if results.interrupted:
-        raise typer.Exit(INTERRUPTED)
-    raise typer.Exit(0 if results.done else FAILED)
 
 
 @app.command()
@@ -223,6 +192,14 @@ def doctor() -> None:
     raise typer.Exit(FAILED if any(f.status == "broken" for f in findings) else 0)
 
 
+@cache
+def _complete() -> typer.Typer:
+    """The commands, with those that other packages add."""
+    for name, function in plugins.commands().items():
+        app.command(name)(function)
+    return app
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command line; every failure is one line.
 
@@ -233,7 +210,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         The exit code.
     """
     try:
-        return app(arguments, standalone_mode=False) or 0
+        return _complete()(arguments, standalone_mode=False) or 0
     except typer.TyperException as error:
         return _complain(error.format_message(), USAGE)
     except WriteError as error:

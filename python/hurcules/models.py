@@ -13,7 +13,7 @@ import mujoco
 
 from hurcules import _core
 from hurcules._core import Error
-from hurcules.known import require_known
+from hurcules.validation import require_known
 
 __all__ = ["folder", "load", "names", "parse", "path", "scenes"]
 

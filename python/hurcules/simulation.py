@@ -13,7 +13,7 @@ import numpy as np
 
 from hurcules import _core, models
 from hurcules._core import Error, MonitorOptions, SensorOptions
-from hurcules.known import require_known
+from hurcules.validation import require_known
 
 __all__ = ["Simulation"]
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import pytest
 
-from hurcules.reproduce import CLAIMS, Verdict
-from hurcules.reproduce.measures import measured
-from hurcules.reproduce.worker import examine
+from hurcules_studies.thesis import CLAIMS, Verdict
+from hurcules_studies.thesis.measures import measured
+from hurcules_studies.thesis.worker import examine
 
 QUICK = [name for name in CLAIMS if name[0] in "RE"] + ["H01", "H02", "H03", "P02", "P03"]
 QUICK += ["K01", "K02", "K03", "K04", "K06", "K12", "K13", "K15", "K16"]  # on the ideal robot

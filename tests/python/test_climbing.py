@@ -2,7 +2,7 @@
 
 Strategy: tangents and angles reckoned anew, the centre of mass against the model's, the height that
 statics allow against a balance of the model; then a hurdle and a flight in the physics, and a lean
-that statics forbid. Not tested: the largest settings, which are results (docs/trials.md).
+that statics forbid. Not tested: the largest settings, which are results (docs/field_tests.md).
 """
 
 from __future__ import annotations
@@ -14,12 +14,13 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules import scenes, trials
-from hurcules.trials import climbing
-from hurcules.trials.upright import Upright
+from hurcules import scenes
+from hurcules_studies import field_tests
+from hurcules_studies.field_tests import climbing
+from hurcules_studies.field_tests.upright import Upright
 
 # nothing differs
-SAME = trials.Variation(friction=(1.0, 1.0), payload=0.0, offset=0.0, yaw=0.0)
+SAME = field_tests.Variation(friction=(1.0, 1.0), payload=0.0, offset=0.0, yaw=0.0)
 
 
 def stairs(degrees: float) -> climbing.OverStairs:
@@ -46,7 +47,7 @@ def test_on_a_flight_the_upper_legs_stay_parallel_to_it(degrees: float) -> None:
 
 
 @pytest.mark.parametrize("plan", [stairs(35), climbing.OverHurdle(scenes.scene("hurdle"))])
-def test_a_posture_changes_step_by_step_while_the_obstacle_bears(plan: trials.Plan) -> None:
+def test_a_posture_changes_step_by_step_while_the_obstacle_bears(plan: field_tests.Plan) -> None:
     begin = climbing.touch(2.0, 0.2, 0.45)
     postures = [plan(x) for x in np.arange(begin, 2.2, 0.01)]
     for name, most in (("knee", 0.03), ("hip", 0.03)):
@@ -95,13 +96,13 @@ def test_who_stands_on_raised_or_lower_legs_stands_upright() -> None:
 
 @pytest.mark.slow
 def test_it_crosses_a_hurdle_of_20_cm_turns_round_and_comes_back() -> None:
-    result = trials.run("e2802", repetitions=1, settings=(0.2,), variation=SAME)
+    result = field_tests.run("e2802", repetitions=1, settings=(0.2,), variation=SAME)
     assert result.passed and result.settings[0].metres_per_minute > 8.0
 
 
 @pytest.mark.slow
 def test_it_climbs_stairs_of_35_degrees_and_comes_down_in_reverse() -> None:
-    result = trials.run("e2804", repetitions=1, settings=(math.radians(35),), variation=SAME)
+    result = field_tests.run("e2804", repetitions=1, settings=(math.radians(35),), variation=SAME)
     assert result.passed
 
 
@@ -109,5 +110,5 @@ def test_it_climbs_stairs_of_35_degrees_and_comes_down_in_reverse() -> None:
 def test_a_lean_that_statics_forbid_tips_over(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(climbing, "lean_over", lambda height: climbing.ACROSS)
     assert climbing.highest(climbing.ACROSS) < 0.35
-    result = trials.run("e2802", repetitions=1, settings=(0.4,), variation=SAME)
+    result = field_tests.run("e2802", repetitions=1, settings=(0.4,), variation=SAME)
     assert not result.passed and result.settings[0].faults[0].fault == "tip-over"

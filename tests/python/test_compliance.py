@@ -10,8 +10,8 @@ import pytest
 
 import hurcules
 from hurcules import models
-from hurcules.reproduce.measures.elbow_spring import contact_moment, lock, touch_down
-from hurcules.reproduce.measures.rig import start
+from hurcules_studies.thesis.measures.elbow_spring import contact_moment, lock, touch_down
+from hurcules_studies.thesis.measures.rig import start
 
 
 @pytest.fixture(scope="module")

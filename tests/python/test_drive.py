@@ -16,8 +16,7 @@ import pytest
 
 import hurcules
 from hurcules import scenes
-from hurcules.trials.brakes import hold_joints
-from hurcules.trials.drive import Chassis, drive_options
+from hurcules.driving import Chassis, drive_options, hold_joints
 
 STEPS = 2  # of 1 ms in one control period
 ENDED = (hurcules.ParkingPhase.Done, hurcules.ParkingPhase.Failed)

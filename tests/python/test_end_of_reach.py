@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules.reproduce.measures.force_reach import LEASH, REST, led_on, swings, weakest
+from hurcules_studies.thesis.measures.force_reach import LEASH, REST, led_on, swings, weakest
 
 
 def test_the_law_of_the_thesis_swings():

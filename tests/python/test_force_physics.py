@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from hurcules import ForceGains
-from hurcules.reproduce.measures.force_ideal import G
-from hurcules.reproduce.measures.force_lowering import by_law, lowered, pressed, steady
-from hurcules.reproduce.measures.press_robot import PressRobot, Setting, ramped
-from hurcules.reproduce.measures.press_scene import Surface
+from hurcules_studies.thesis.measures.force_ideal import G
+from hurcules_studies.thesis.measures.force_lowering import by_law, lowered, pressed, steady
+from hurcules_studies.thesis.measures.press_robot import PressRobot, Setting, ramped
+from hurcules_studies.thesis.measures.press_scene import Surface
 
 GAINS = ForceGains(compliance=0.05)  # [m/s/N], the thesis'
 SERVO_FRICTION = 0.1  # [N] of steady error that the dry friction of the joints leaves

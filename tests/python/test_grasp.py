@@ -1,6 +1,6 @@
 """Towing of grasped sleds (E2830): the hands hold the handle, up to what their spindles bear.
 
-Strategy: short ways with masses far on both sides of what the law in trials/grasp.py allows. Not
+Strategy: short ways with masses far on both sides of what the law in field_tests/grasp.py allows. Not
 tested: the largest mass itself, which is a result.
 """
 
@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules import scenes, trials
-from hurcules.trials.brakes import hold_joints
-from hurcules.trials.grasp import LOST, Grasp
+from hurcules import scenes
+from hurcules.driving import hold_joints
+from hurcules_studies import field_tests
+from hurcules_studies.field_tests.grasp import LOST, Grasp
 
-METHOD = trials.method("e2830")
+METHOD = field_tests.method("e2830")
 SHORT = dataclasses.replace(METHOD, distance=1.0)
 
 
@@ -28,7 +29,7 @@ def test_a_light_sled_is_dragged_backward() -> None:
     def watch(model: mujoco.MjModel, qpos: np.ndarray, time: float) -> None:
         sled.append(qpos[model.joint("sled_root").qposadr[0]])
 
-    done = trials.repeat(SHORT, 75.0, "manipulation", 0, watch=watch)
+    done = field_tests.repeat(SHORT, 75.0, "manipulation", 0, watch=watch)
     assert done.fault == ""
     assert done.x == pytest.approx(-1.0, abs=0.02)
     assert sled[-1] - sled[0] == pytest.approx(-1.0, abs=0.05)  # it comes along
@@ -36,13 +37,13 @@ def test_a_light_sled_is_dragged_backward() -> None:
 
 def test_a_heavy_one_opens_the_fingers() -> None:
     # mu m g / (cos b + mu sin b) = 1.3 kN at a steady speed, two hands hold 0.8 kN
-    done = trials.repeat(SHORT, 300.0, "manipulation", 0)
+    done = field_tests.repeat(SHORT, 300.0, "manipulation", 0)
     assert done.fault == "lost grip" and done.metres < 0.5
 
 
 def test_a_robot_without_hands_is_refused() -> None:
     with pytest.raises(hurcules.Error, match="wanted the robot 'manipulation'"):
-        trials.repeat(SHORT, 75.0, "rescue", 0)
+        field_tests.repeat(SHORT, 75.0, "rescue", 0)
 
 
 def held() -> tuple[mujoco.MjModel, mujoco.MjData, Grasp]:

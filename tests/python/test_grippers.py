@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from hurcules import postures
-from hurcules.reproduce.measures import look_and_move
-from hurcules.reproduce.measures.rig import start
+from hurcules_studies.thesis.measures import look_and_move
+from hurcules_studies.thesis.measures.rig import start
 
 
 def scene(force=None):

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
-from hurcules import trials
-from hurcules.trials.lift import Lift
-from hurcules.trials.postures import Posture
-from hurcules.trials.retreat import ASIDE, BACK, PATIENCE, SIDES, SLANT, Retreat
+from hurcules_studies import field_tests
+from hurcules_studies.field_tests.lift import Lift
+from hurcules_studies.field_tests.postures import Posture
+from hurcules_studies.field_tests.retreat import ASIDE, BACK, PATIENCE, SIDES, SLANT, Retreat
 
 STRAIGHT = Posture(math.pi, 0.8)
 DT = 0.1
@@ -99,12 +99,12 @@ def test_it_backs_off_to_each_side_and_then_no_more() -> None:
 def test_an_edge_higher_than_the_wheel_is_climbed() -> None:
     # seed 2: a post of 0.2 m at the edge of the field, the wheel's radius is 0.14 m; without a lift
     # the robot stood before it until its time was up
-    done = trials.repeat(trials.method("e2828"), 0.1, "rescue", 2)
+    done = field_tests.repeat(field_tests.method("e2828"), 0.1, "rescue", 2)
     assert done.fault == ""
 
 
 def test_a_post_before_the_battery_is_passed_beside() -> None:
     # seed 8: a post of 0.12 m, 15 mm higher than the battery's lower side; whatever is lifted, the
     # battery comes to lie on it
-    done = trials.repeat(trials.method("e2828"), 0.06, "rescue", 8)
+    done = field_tests.repeat(field_tests.method("e2828"), 0.06, "rescue", 8)
     assert done.fault == ""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hurcules import models, postures
-from hurcules.reproduce.measures.rig import Load, scene, start, take
+from hurcules_studies.thesis.measures.rig import Load, scene, start, take
 
 FORWARD = {"SP": 1.57, "EB": 0.05}
 SIDEWAYS = {"SP": 0.0, "SR": 1.5, "EB": 0.05}

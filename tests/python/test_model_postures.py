@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from hurcules.reproduce.measures.rig import touching
+from hurcules_studies.thesis.measures.rig import touching
 from robot_models import (
     ARM,
     BODY,

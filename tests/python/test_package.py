@@ -92,8 +92,10 @@ def test_import_with_another_mujoco_ends_with_that_message(tmp_path: Path, pin: 
         "hurcules.doctor",
         "hurcules.scenes",
         "hurcules.casualties",
-        "hurcules.trials",
-        "hurcules.reproduce",
+        "hurcules.driving",
+        "hurcules.plugins",
+        "hurcules_studies.field_tests",
+        "hurcules_studies.thesis",
     ],
 )
 def test_all_names_exactly_what_is_there(name: str) -> None:

@@ -12,8 +12,8 @@ import pytest
 
 import hurcules
 from hurcules import models, postures
-from hurcules.reproduce.measures.rig import start
-from hurcules.reproduce.measures.rover import BELTS, Powered, Rover, flat
+from hurcules_studies.thesis.measures.rig import start
+from hurcules_studies.thesis.measures.rover import BELTS, Powered, Rover, flat
 
 
 @pytest.fixture

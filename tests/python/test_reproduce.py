@@ -23,15 +23,15 @@ from typing import Any
 import pytest
 
 import hurcules
-from hurcules.reproduce import CLAIMS, Claim, Expected, Finding, Verdict, run
-from hurcules.reproduce.claim import Note, Plot, line, most
-from hurcules.reproduce.judge import judge
-from hurcules.reproduce.measures import measured
-from hurcules.reproduce.measures.marks import FUNCTIONS
-from hurcules.reproduce.result import dump, from_finding, load, without_finding
-from hurcules.reproduce.runner import Runner, kept
-from hurcules.reproduce.select import select
-from hurcules.reproduce.worker import examine, keep
+from hurcules_studies.thesis import CLAIMS, Claim, Expected, Finding, Verdict, run
+from hurcules_studies.thesis.claim import Note, Plot, line, most
+from hurcules_studies.thesis.judge import judge
+from hurcules_studies.thesis.measures import measured
+from hurcules_studies.thesis.measures.registry import FUNCTIONS
+from hurcules_studies.thesis.result import dump, from_finding, load, without_finding
+from hurcules_studies.thesis.runner import Runner, kept
+from hurcules_studies.thesis.select import select
+from hurcules_studies.thesis.worker import examine, keep
 
 QUICK = ["R14", "R18", "R20", "R24"]
 COMMAND = [sys.executable, "-c", "import sys; from hurcules.cli import main; sys.exit(main())"]
@@ -186,7 +186,7 @@ def dying(names: Sequence[str], folder: Path) -> None:
 def test_a_process_that_dies_costs_one_claim(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("hurcules.reproduce.runner.work", dying)
+    monkeypatch.setattr("hurcules_studies.thesis.runner.work", dying)
     left: list[list[str]] = []
     Runner(tmp_path, 2, lambda: False, left.append).run([*QUICK, "H01", "H02"])
     results = {name: load(tmp_path / f"{name}.json") for name in [*QUICK, "H01", "H02"]}

@@ -16,9 +16,12 @@ def page(root: Path) -> str:
 
 
 def test_the_list_is_what_the_script_writes(root: Path, page: str) -> None:
-    program = "import make_scenes as m; print(m.MARK + '\\n' + m.gallery(), end='')"
+    program = "import scenes as m; print(m.MARK + '\\n' + m.gallery(), end='')"
     written = subprocess.run(
-        [sys.executable, "-B", "-c", program], cwd=root / "docs", capture_output=True, text=True
+        [sys.executable, "-B", "-c", program],
+        cwd=root / "benchmarks/figures",
+        capture_output=True,
+        text=True,
     )
     assert written.returncode == 0, written.stderr
     assert page.endswith(written.stdout) and len(written.stdout) > 1000

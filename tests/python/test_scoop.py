@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from hurcules import models, scenes
-from hurcules.reproduce.measures.force_casualty import HIGH, scoop
+from hurcules_studies.thesis.measures.force_casualty import HIGH, scoop
 
 TIP, BOTTOM = -0.70, -0.018  # [m] in the frame of the lower arm: edge, lower face
 PLASTIC = 0.2  # friction of UHMW polyethylene

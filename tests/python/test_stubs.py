@@ -134,10 +134,20 @@ def test_the_stub_has_the_enumerators_of_the_compiled_module(root: Path) -> None
 
 
 def test_the_packages_are_typed(root: Path) -> None:
-    for package in ("python/hurcules", "envs/hurcules_envs"):
+    for package in ("python/hurcules", "python/hurcules_studies", "envs/hurcules_envs"):
         assert (root / package / "py.typed").is_file()
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", "-p", "hurcules", "-p", "hurcules_envs"],
+        [
+            sys.executable,
+            "-m",
+            "mypy",
+            "-p",
+            "hurcules",
+            "-p",
+            "hurcules_studies",
+            "-p",
+            "hurcules_envs",
+        ],
         cwd=root,
         capture_output=True,
         text=True,

@@ -11,8 +11,8 @@ import pytest
 
 import hurcules
 from hurcules import models, transfer_bed
-from hurcules.reproduce.measures.bed import first_touch, ground_angle
-from hurcules.reproduce.measures.rig import start, touching
+from hurcules_studies.thesis.measures.bed import first_touch, ground_angle
+from hurcules_studies.thesis.measures.rig import start, touching
 
 PERSON = "objects/casualty_120kg.xml"
 

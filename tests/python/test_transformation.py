@@ -11,7 +11,14 @@ import pytest
 
 import hurcules
 from hurcules import models, postures
-from hurcules.reproduce.measures.rig import Load, acquisition, on_the_scoops, scene, start, take
+from hurcules_studies.thesis.measures.rig import (
+    Load,
+    acquisition,
+    on_the_scoops,
+    scene,
+    start,
+    take,
+)
 from robot_models import top_of
 
 ROBOTS = ("rescue", "manipulation")

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from hurcules._core import MonitorOptions
-from hurcules.report.style import ACCENT, GREY, INK, LINES, axes, grid, mark, svg, thin
+from hurcules.report.style import ACCENT, GREY, INK, LINES, axes, decimate, grid, mark, svg
 
 __all__ = [
     "active_limits",
@@ -34,7 +34,7 @@ def joint_positions(log: Log, events: Sequence[float]) -> str:
     names = moving(log) or coordinates(log)[:4]
     figure, plots = grid(math.ceil(len(names) / 4), 4, 1.9)
     for plot, name in zip(plots, names, strict=False):
-        plot.plot(*thin(log["time"], log[f"q/{name}"]), color=INK)
+        plot.plot(*decimate(log["time"], log[f"q/{name}"]), color=INK)
         _draw_limits(plot, log, name)
         mark(plot, events)
         plot.set_title(name)
@@ -68,7 +68,7 @@ def task_errors(log: Log, events: Sequence[float]) -> str:
     names = [name for name in _after(log, "error/") if np.any(log[f"error/{name}"])]
     figure, plots = grid(1, max(1, len(names)), 2.0)
     for plot, name in zip(plots, names, strict=False):
-        plot.plot(*thin(log["time"], log[f"error/{name}"]), color=INK)
+        plot.plot(*decimate(log["time"], log[f"error/{name}"]), color=INK)
         mark(plot, events)
         plot.set_title(name)
         plot.set_xlabel("time [s]")
@@ -110,7 +110,7 @@ def monitors(log: Log, events: Sequence[float]) -> str:
     defaults = MonitorOptions()
     for plot, (name, title, threshold) in zip(plots, _MONITORS, strict=True):
         values = log[f"monitor/{name}"]
-        plot.plot(*thin(log["time"], values), color=INK)
+        plot.plot(*decimate(log["time"], values), color=INK)
         mark(plot, events)
         plot.set_title(title)
         if not threshold:
@@ -129,7 +129,7 @@ def solver_work(log: Log, events: Sequence[float]) -> str:
     """Factorizations and working-set changes of each solve."""
     figure, plots = grid(1, 2, 2.0)
     for plot, name in zip(plots, ("factorizations", "changes"), strict=True):
-        plot.plot(*thin(log["time"], log[name]), color=INK, linewidth=0.9)
+        plot.plot(*decimate(log["time"], log[name]), color=INK, linewidth=0.9)
         mark(plot, events)
         plot.set_title(f"{name} a solve")
         plot.set_xlabel("time [s]")
@@ -143,7 +143,7 @@ def tick_times(log: Log, events: Sequence[float]) -> str:
     micros = log["tick_us"]
     # beyond that lie the few ticks in which the system did something else
     most = 3.0 * float(np.percentile(micros, 99))
-    series.plot(*thin(log["time"], micros), color=GREY, linewidth=0.6)
+    series.plot(*decimate(log["time"], micros), color=GREY, linewidth=0.6)
     series.set_xlabel("time [s]")
     series.set_ylabel("control tick [µs]")
     series.set_ylim(0, most)
@@ -191,7 +191,7 @@ def _lines(time: Array, series: Log, events: Sequence[float], label: str) -> str
     """Lines by name over the same time."""
     figure, plot = axes(2.6)
     for (name, values), colour in zip(series.items(), LINES, strict=False):
-        plot.plot(*thin(time, values), color=colour, label=name)
+        plot.plot(*decimate(time, values), color=colour, label=name)
     mark(plot, events)
     plot.set_xlabel("time [s]")
     plot.set_ylabel(label)
@@ -208,7 +208,9 @@ def _draw_limits(plot: Axes, log: Log, name: str) -> None:
         limit = log[f"limit_{side}/{name}"]
         near = (limit > low - room) & (limit < high + room)
         if np.any(near):
-            plot.plot(*thin(log["time"], limit), color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+            plot.plot(
+                *decimate(log["time"], limit), color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2))
+            )
     for start, length in _spans(log["time"], log[f"active/{name}"] != 0):
         plot.axvspan(start, start + length, color=ACCENT, alpha=0.12, linewidth=0)
 

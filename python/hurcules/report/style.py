@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
-from hurcules.thinning import thin
+from hurcules.decimate import decimate
 
 __all__ = [
     "ACCENT",
@@ -25,11 +25,11 @@ __all__ = [
     "applied",
     "axes",
     "data_address",
+    "decimate",
     "grid",
     "jpeg",
     "mark",
     "svg",
-    "thin",
 ]
 
 Array = NDArray[np.float64]

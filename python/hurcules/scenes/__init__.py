@@ -14,7 +14,6 @@ import numpy as np
 
 from hurcules import models
 from hurcules._core import Error
-from hurcules.known import require_known
 from hurcules.scenes.casualty import Casualty
 from hurcules.scenes.flat import Flat, Pylons
 from hurcules.scenes.gap import Gap, Trench
@@ -30,6 +29,7 @@ from hurcules.scenes.slope import Incline, Slope
 from hurcules.scenes.stairs import Stairs, Steps
 from hurcules.scenes.step_field import StepField
 from hurcules.scenes.things import Debris, Door, Ordnance, Sled, Valve
+from hurcules.validation import require_known
 
 __all__ = ["PRESETS", "Parameter", "Scene", "load", "make", "names", "parameters", "scene"]
 

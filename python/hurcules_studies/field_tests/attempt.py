@@ -1,0 +1,241 @@
+"""One repetition of a test method: there, waiting if the method wants so, and back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules import scenes
+from hurcules._core import step
+from hurcules.driving import hold_joints, yaw_of
+from hurcules_studies.field_tests.climbing import ARMS, SLOW
+from hurcules_studies.field_tests.course import Course, Leg, Straight, make_course
+from hurcules_studies.field_tests.grasp import Grasp
+from hurcules_studies.field_tests.lift import Lift
+from hurcules_studies.field_tests.line_driver import LineDriver
+from hurcules_studies.field_tests.methods import Method
+from hurcules_studies.field_tests.postures import Plan, Posture, PostureMover
+from hurcules_studies.field_tests.upright import Upright
+
+__all__ = ["Repetition", "Variation", "Watch", "repeat"]
+
+Driver = Callable[[mujoco.MjModel, mujoco.MjData, float], None]
+# called at each period with the model and its state: a film takes its pictures here
+Watch = Callable[[mujoco.MjModel, NDArray[np.float64], float], None]
+
+PERIOD = 2  # steps of 1 ms between two calls of the driver
+TIPPED = math.radians(60)
+PATIENCE = 2.5  # times the time that the way takes at the speed
+TURN_TIME = 20.0  # [s] for half a turn in place
+TURNED = 0.1  # [rad] and less is left to keeping to the line
+CLOSING = 1.0  # [s] for the fingers
+GRACE = 5.0  # [s] on top, and at most to come to a stop
+
+
+@dataclass(frozen=True)
+class Variation:
+    """What differs between repetitions; everything is drawn evenly from both sides."""
+
+    friction: tuple[float, float] = (0.8, 1.0)  # factor on the ground's own
+    payload: float = 20.0  # [kg] up to this on the trunk
+    offset: float = 0.05  # [m] of the start, left or right
+    yaw: float = 0.03  # [rad] of the start
+
+
+USUAL = Variation()
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """One attempt."""
+
+    seed: int
+    # "" for none; "tip-over", "stuck", "off the lane", "slipped", "lost grip", "simulation"
+    fault: str
+    seconds: float
+    x: float  # [m] where it ended
+    metres: float  # way of the base over ground, as far as it came
+    # [J] of mechanical work of both drives; what they brake does not come back
+    drive_energy: float
+
+
+def repeat(
+    chosen: Method,
+    setting: float | None,
+    robot: str,
+    seed: int,
+    speed: float | None = None,
+    driver: Driver | None = None,
+    variation: Variation = USUAL,
+    watch: Watch | None = None,
+) -> Repetition:
+    """Makes one attempt.
+
+    Args:
+        chosen: the method.
+        setting: of its parameter; None for terrain with one setting.
+        robot: one of `hurcules.models.names()`.
+        seed: draws friction, payload, start and terrain.
+        speed: [m/s] there, and back; by default the method's own.
+        driver: writes the torques of the drives; by default a `LineDriver`.
+        variation: what differs between repetitions.
+        watch: is shown every state.
+    """
+    rng = np.random.default_rng(seed)
+    values = chosen.values(setting)
+    scene = scenes.scene(chosen.scene, **values)
+    values["friction"] = scene.friction * rng.uniform(*variation.friction)
+    model = scenes.load(chosen.scene, robot, seed=seed, **values)
+    hold_joints(model)
+    model.body_mass[model.body("torso").id] += rng.uniform(0.0, variation.payload)
+    data = mujoco.MjData(model)
+    course = make_course(chosen, setting, scene, speed)
+    _place(model, data, rng, variation, course.legs[0].heading)
+    if chosen.climbs:
+        for joint, angle in ARMS.items():
+            data.joint(joint).qpos[0] = angle
+    plan = chosen.plan(scene)
+    mover = PostureMover(model, data, plan(0.0), PERIOD)
+    grasp = Grasp(model, data) if chosen.grasps else None
+    mujoco.mj_forward(model, data)
+    operator = driver or LineDriver(model, PERIOD, course.path)
+    attempt = _Attempt(model, data, course, operator, plan, mover, grasp, watch)
+    fault = attempt.make()
+    x = float(data.qpos[0])
+    return Repetition(seed, fault, float(data.time), x, attempt.metres, attempt.energy)
+
+
+class _Attempt:
+    """A robot under way."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        course: Course,
+        driver: Driver,
+        plan: Plan,
+        mover: PostureMover,
+        grasp: Grasp | None,
+        watch: Watch | None,
+    ) -> None:
+        self.model, self.data, self.course = model, data, course
+        self.driver, self.plan, self.mover, self.watch = driver, plan, mover, watch
+        self.grasp = grasp
+        self.metres = self.energy = 0.0
+        self._posture = plan(0.0)
+        self._upright = Upright(model)
+        self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
+
+    def make(self) -> str:
+        """Drives the whole course; returns the fault, "" for none."""
+        if self.grasp and (fault := self._take_hold(self.grasp)):
+            return fault
+        for leg in self.course.legs:
+            if fault := self._turn(leg):
+                return fault
+            self._lift = Lift()
+            limit = self.data.time + PATIENCE * leg.length / abs(leg.speed) + GRACE
+            furthest = leg.place(float(self.data.qpos[0]))
+            while not leg.done(self.data.qpos):
+                furthest = leg.further(furthest, leg.place(float(self.data.qpos[0])))
+                self._posture = self._lifted(self.plan(furthest), leg)
+                if fault := self._tick(self._speed(leg)):
+                    return fault
+                if self.data.time > limit:
+                    return "stuck"
+            if leg.hold and (fault := self._hold(leg.hold)):
+                return fault
+        return ""
+
+    def _lifted(self, posture: Posture, leg: Leg) -> Posture:
+        """The posture of an operator who gets free where he is stuck; turns the way with him."""
+        if not self.course.lifts:
+            return posture
+        x, y = leg.onward * self.data.qpos[:2]
+        ready = self.mover.pace == 1.0
+        posture = self._lift(posture, float(x), float(y), self.data.time, ready)
+        if isinstance(self.course.path, Straight):
+            # also tail first: what leads swings left when the robot turns left
+            self.course.path.heading = leg.heading + self._lift.retreat.slant
+        return posture
+
+    def _speed(self, leg: Leg) -> float:
+        """The speed wanted now [m/s], < 0 tail first."""
+        pace = self.mover.pace * min(abs(leg.speed), self._posture.speed)
+        if self._lift.retreat.backs_off:
+            pace = -min(pace, SLOW)
+        return math.copysign(1.0, leg.speed) * pace
+
+    def _take_hold(self, grasp: Grasp) -> str:
+        """Stands while the fingers close; returns the fault."""
+        until = self.data.time + CLOSING
+        while self.data.time < until:
+            if fault := self._tick(0.0):
+                return fault
+        grasp.begin(self.data)
+        return ""
+
+    def _turn(self, leg: Leg) -> str:
+        """Turns in place until the robot looks where it shall on this leg; returns the fault."""
+        path = self.course.path
+        if not isinstance(path, Straight) or path.heading == leg.heading:
+            return ""
+        path.heading = leg.heading
+        until = self.data.time + TURN_TIME
+        while abs(math.remainder(yaw_of(self.data) - leg.heading, 2 * math.pi)) > TURNED:
+            if fault := self._tick(leg.speed):
+                return fault
+            if self.data.time > until:
+                return "stuck"
+        return ""
+
+    def _hold(self, seconds: float) -> str:
+        """Stops and stands still; returns the fault, also when the robot does not stay."""
+        until = self.data.time + GRACE
+        while self.data.time < until and np.abs(self.data.qvel[:6]).max() > 0.02:
+            if fault := self._tick(0.0):
+                return fault
+        start, until = self.data.qpos[:2].copy(), self.data.time + seconds
+        while self.data.time < until:
+            if fault := self._tick(0.0):
+                return fault
+        return "slipped" if np.hypot(*(self.data.qpos[:2] - start)) > 0.1 else ""
+
+    def _tick(self, speed: float) -> str:
+        data, start = self.data, self.data.qpos[:2].copy()
+        self.driver(self.model, data, speed)
+        self.mover(data, self._posture)
+        if self.grasp:
+            self.grasp.close(data)
+        step(self.model, data, PERIOD)
+        self.metres += math.hypot(*(data.qpos[:2] - start))
+        power = data.actuator_force[self._motors] * data.actuator_velocity[self._motors]
+        self.energy += float(np.maximum(power, 0.0).sum()) * PERIOD * self.model.opt.timestep
+        if self.watch:
+            self.watch(self.model, data.qpos, data.time)
+        if any(warning.number for warning in data.warning):
+            return "simulation"
+        if self._upright.cosine(data) < math.cos(TIPPED):
+            return "tip-over"
+        if self.grasp and self.grasp.lost(data):
+            return "lost grip"
+        return "" if self.course.on_lane(data.qpos) else "off the lane"
+
+
+def _place(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    rng: np.random.Generator,
+    variation: Variation,
+    heading: float,
+) -> None:
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    data.qpos[1] = rng.uniform(-variation.offset, variation.offset)
+    yaw = heading + rng.uniform(-variation.yaw, variation.yaw)
+    data.qpos[3:7] = math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)

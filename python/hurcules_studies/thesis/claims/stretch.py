@@ -1,0 +1,86 @@
+"""S01 to S06: the stretch, closed loop in the physics.
+
+13 coordinates, rho = 0.1, joint < hpos (6) < hpitch (2) < pel (1) < gaze (2). Times count from the
+start of the stretch. The thesis prints no geometry and no speed of the operator; ours are assumed
+(models/README.md), the speed so that the hip's time fits.
+"""
+
+from hurcules_studies.thesis.claim import Claim, exactly, least, most, near
+
+__all__ = ["STRETCH"]
+
+STRETCH = (
+    Claim(
+        "S01",
+        "§4.4, Fig. 4.24",
+        "A single command forward for both lower arms; all other references stay.",
+        {
+            "commands": exactly("commands that are not zero", 2),
+            "other": most("largest other command", 0.0),
+            "way": near("way of both hands' references", 0.875, 1e-3, "m"),
+        },
+    ),
+    Claim(
+        "S02",
+        "Figs. 4.25-26",
+        "About 15 s: the hip meets its limit and stops, the knee starts, the error of the pelvis "
+        "task starts "
+        "to grow.",
+        {
+            "hip": near("hip at its limit", 15.0, 2.0, "s", thesis="15 s"),
+            "hip_speed": most("largest hip speed while held", 1e-3, "rad/s"),
+            "knee_before": most("knee speed over that 1 s later, before", 0.1),
+            "pelvis_at": most("pelvis error when the hip stops", 0.005, "m"),
+            "pelvis_later": least("pelvis error 5 s later", 0.02, "m"),
+        },
+    ),
+    Claim(
+        "S03",
+        "Figs. 4.25-26",
+        "About 25 s: the shoulder pitch meets its limit, the hip's constraint is released and "
+        "the hip moves "
+        "again.",
+        {
+            "shoulder": near("shoulder pitch at its limit", 25.0, 2.0, "s", thesis="25 s"),
+            "released": near("hip released", 25.0, 2.0, "s", thesis="25 s"),
+            "apart": most("between the two", 0.5, "s"),
+            "hip_speed": least("hip speed 1 s later", 0.01, "rad/s"),
+        },
+    ),
+    Claim(
+        "S04",
+        "§4.4",
+        "The gaze stays on the casualty throughout by tilting the neck.",
+        {
+            "gaze": most("largest gaze error, measured", 5e-3, "rad"),
+            "commanded": most("largest gaze error, commanded", 1e-3, "rad"),
+            "neck": least("neck tilt moves by", 0.05, "rad"),
+        },
+    ),
+    Claim(
+        "S05",
+        "§4.4",
+        "At the end the pelvis task has an error of 0.40 m; hand position and pitch errors are "
+        "small.",
+        {
+            "pelvis": near("pelvis error at the end", 0.40, 0.02, "m", thesis="0.40 m"),
+            "hand": most("largest hand error, commanded", 1e-3, "m"),
+            "hand_measured": most("hand error at the end, measured", 5e-3, "m"),
+            "pitch": most("largest pitch error, commanded", 1e-3, "rad"),
+            "excess": most("worst excess of the commanded motion over a limit", 0.0, "rad"),
+        },
+    ),
+    Claim(
+        "S06",
+        "Fig. 4.26 b",
+        "The joint control errors spike exactly at the switching times. By Algorithm 1 with limits "
+        "as printed; the default brakes before a limit and hardly shows it.",
+        {
+            # a spike: twice what the half second before it shows
+            "stop": least("change after the hip stops, over that before", 2.0),
+            "release": least("change after the hip is released, over that before", 2.0),
+            "shoulder": least("change after the shoulder stops, over that before", 2.0),
+            "elsewhere": most("largest change away from any switch, over that at the release", 1.0),
+        },
+    ),
+)
