@@ -1,4 +1,4 @@
-"""The arrows of the house (house-style, section 1), read from the include and import lines.
+"""The arrows of the house (cpp/NOTATION.md), read from the include and import lines.
 
 Strategy: one function per rule returns the offences it finds; the tests run it over the real files,
 and once over made-up lines to see that it can fail. Not tested: links beyond cpp/CMakeLists.txt.

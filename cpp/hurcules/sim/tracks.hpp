@@ -9,7 +9,7 @@
 //     tangential one was capped;
 //   - counts for nothing where a box, a straight run with x along the belt, is touched on its front
 //     or rear face: the cylinder there stands before it, and an edge of the ground would hook.
-// Measured against Coulomb's law to 2 % (mujoco-facts.md §4).
+// Measured against Coulomb's law to 2 % (docs/design/mujoco.md#track-measurements).
 #pragma once
 
 #include <string>

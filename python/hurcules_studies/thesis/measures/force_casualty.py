@@ -1,8 +1,7 @@
 """K20: the arms go under a person of 75 kg who lies across the way, with and without force control.
 
 In the velocity form, as the thesis' experiment (section 5.7.2), on the stiff floor. Without force
-control the operator leaves the edges of the tips 50 mm above the ground: the error of height that
-the design notes ask a test of force control for.
+control the operator leaves the edges of the tips 50 mm above the ground.
 
 A wedge that rises by a, friction m, under a part of the weight W_part pushes with
 
