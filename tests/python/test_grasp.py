@@ -1,7 +1,7 @@
 """Towing of grasped sleds (E2830): the hands hold the handle, up to what their spindles bear.
 
-Strategy: short ways with masses far on both sides of what the law in field_tests/grasp.py allows. Not
-tested: the largest mass itself, which is a result.
+Strategy: short ways with masses far on both sides of what the law in field_tests/grasp.py
+allows. Not tested: the largest mass itself, which is a result.
 """
 
 from __future__ import annotations

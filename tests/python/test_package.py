@@ -16,7 +16,7 @@ from types import ModuleType
 import pytest
 
 import hurcules
-from hurcules import _core, _exec, _version, doctor, models
+from hurcules import _core, _exec, _version, doctor, mjcf, models
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +150,7 @@ def test_broken_mjcf_gives_the_text_of_what_is_wrong(
     for kind, text in (("robots", "<mujoco><size/></mujoco>"), ("scenes", scene)):
         (tmp_path / kind).mkdir()
         (tmp_path / kind / "x.xml").write_text(text)
-    monkeypatch.setattr(models, "folder", lambda: tmp_path)
+    monkeypatch.setattr(mjcf, "folder", lambda: tmp_path)
     with pytest.raises(hurcules.Error, match=says):
         models.load("x", scene="x")
 

@@ -12,7 +12,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from hurcules import models
+from hurcules import mjcf
 from hurcules._core import Error
 from hurcules.scenes.casualty import Casualty
 from hurcules.scenes.flat import Flat, Pylons
@@ -104,7 +104,7 @@ def make(name: str, *, robot: str | None = None, seed: int = 0, **values: Any) -
     if not whole or seed < 0:
         raise Error(f"{name}: seed wants a whole number >= 0, got {seed!r}")
     if robot is not None:
-        require_known("robot", robot, models.names())
+        require_known("robot", robot, mjcf.robots())
     ground = Ground(robot, wanted.friction, seed)
     ground.spec.modelname = name if robot is None else f"{robot} in {name}"
     wanted.build(ground)

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules import models
+from hurcules import mjcf
 from hurcules.scenes.ground import Ground, turn
 from hurcules.scenes.parameters import choice, number
 from hurcules.scenes.scene import Scene
@@ -40,7 +40,7 @@ class Casualty(Scene):
 
 def _extent(mass: int, quat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
     """Lowest point of a turned person [m], and the centre of its mass in x and y."""
-    spec = mujoco.MjSpec.from_file(str(models.folder() / "objects" / f"casualty_{mass}kg.xml"))
+    spec = mujoco.MjSpec.from_file(str(mjcf.folder() / "objects" / f"casualty_{mass}kg.xml"))
     spec.body("pelvis").quat = quat
     model = spec.compile()
     data = mujoco.MjData(model)

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hurcules import models
+from hurcules import mjcf
 from hurcules.scenes.materials import add_materials
 
 __all__ = ["Ground", "turn"]
@@ -45,10 +45,10 @@ class Ground:
             friction: sliding friction of everything that is ground.
             seed: what is drawn in this scene follows from it alone.
         """
-        folder = models.folder()
+        folder = mjcf.folder()
         common = [folder / "common" / f"{name}.xml" for name in ("options", "classes")]
-        files = [models.path(robot)] if robot else common
-        self.spec = models.parse([*files, folder / "scenes" / "flat.xml"])
+        files = [mjcf.robot(robot)] if robot else common
+        self.spec = mjcf.parse([*files, folder / "scenes" / "flat.xml"])
         self.rng = np.random.default_rng(seed)
         self._robot = robot
         self._friction = friction
@@ -114,7 +114,7 @@ class Ground:
         Returns:
             The thing's MjSpec as it was before.
         """
-        child = mujoco.MjSpec.from_file(str(models.folder() / "objects" / f"{thing}.xml"))
+        child = mujoco.MjSpec.from_file(str(mjcf.folder() / "objects" / f"{thing}.xml"))
         frame = self.spec.worldbody.add_frame(pos=pos, quat=quat)
         self.spec.attach(child, prefix=prefix, frame=frame)
         return child

@@ -143,8 +143,8 @@ def fingerprint() -> str:
     sources = [
         path
         for package in (hurcules, hurcules_studies)
-        for path in Path(package.__file__).parent.rglob("*.py")
-        if not _shows(path.relative_to(Path(package.__file__).parents[1]))
+        for path in Path(str(package.__file__)).parent.rglob("*.py")
+        if not _shows(path.relative_to(Path(str(package.__file__)).parents[1]))
     ]
     for path in (Path(_core.__file__), *sorted(sources), *sorted(models.folder().rglob("*.xml"))):
         digest.update(path.name.encode())
