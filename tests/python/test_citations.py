@@ -53,9 +53,7 @@ NAMES = {file.name for file in FILES} | {file.name for file in ROOT.glob("*.md")
 
 def unresolved(text: str) -> list[str]:
     """Citations of sections that are missing, and names of pages that are."""
-    found = [
-        f"{page}#{name}" for page, name in CITATION.findall(text) if name not in ANCHORS[page]
-    ]
+    found = [f"{page}#{name}" for page, name in CITATION.findall(text) if name not in ANCHORS[page]]
     for page, number in SECTION.findall(text):
         pages = [file for file in FILES if file.name == page]
         if not any(re.match(rf"{number}\.? ", one) for file in pages for one in headings(file)):
