@@ -1,7 +1,7 @@
 """Comments cite pages that exist: sections of docs/design, and any other page by its name.
 
 Strategy: every file of the repository is searched for citations and for names of pages, which are
-looked up among the headings and the files. Negative controls: a section and a page that are missing.
+looked up among the headings and the files. Negative controls: a missing section, a missing page.
 """
 
 import re
@@ -15,7 +15,7 @@ PAGES = sorted((ROOT / "docs" / "design").glob("*.md"))
 FOLDERS = ("cpp", "python", "models", "envs", "docs", "tests", "benchmarks")
 KINDS = {".py", ".cpp", ".hpp", ".md", ".xml", ".txt", ".cmake", ".toml"}
 # docs/design/robot.md#joints, or shorter robot#joints
-CITATION = re.compile(r"\b(%s)(?:\.md)?#([a-z0-9-]+)" % "|".join(page.stem for page in PAGES))
+CITATION = re.compile(rf"\b({'|'.join(page.stem for page in PAGES)})(?:\.md)?#([a-z0-9-]+)")
 # solver.md §4, solver.md, section 4
 SECTION = re.compile(r"\b([\w-]+\.md),? (?:§|section )(\d+)")
 PAGE = re.compile(r"(?<![\w*{])[\w-]+\.md\b")
