@@ -18,7 +18,7 @@ KINDS = {".py", ".cpp", ".hpp", ".md", ".xml", ".txt", ".cmake", ".toml"}
 CITATION = re.compile(rf"\b({'|'.join(page.stem for page in PAGES)})(?:\.md)?#([a-z0-9-]+)")
 # solver.md §4, solver.md, section 4
 SECTION = re.compile(r"\b([\w-]+\.md),? (?:§|section )(\d+)")
-PAGE = re.compile(r"(?<![\w*{])[\w-]+\.md\b")
+PAGE = re.compile(r"(?<![\w*{.-])\w[\w.-]*\.md\b")
 WRITTEN = {"claims.md", "out.md"}  # by the program
 
 
