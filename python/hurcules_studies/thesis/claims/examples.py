@@ -143,7 +143,7 @@ EXAMPLES = (
                 60.0,
                 "rad/s",
                 ours=(20.0, 60.0),
-                why="of five starts; from the others HQP is faster. The peak of a speed that "
+                why="from one of five starts, from the others 62 to 365: the peak of a speed that "
                 "diverges depends on where a step of 0.1 s meets the singularity",
             ),
         },

@@ -308,7 +308,7 @@ FORCE = (
                 0.8,
                 ours=(0.5, 0.8),
                 why="the wedges pass under the round of the trunk before they push; higher they "
-                "push more, 50 mm above the ground 0.8 or more, lower less: 10 mm above it, "
+                "push more, 50 mm above the ground 0.94, lower less: 10 mm above it, "
                 "without any contact, 0.25",
             ),
             "pressing": most("tips pressing with 5 N", 0.25),

@@ -110,7 +110,15 @@ MANIPULATION = (
         "Table 4.2.)",
         {
             "first": near("cycles from", 24.0, 1.0, "s", thesis="24 s", fitted=_POSTURE),
-            "last": near("cycles until", 26.0, 1.0, "s", thesis="26 s"),
+            "last": near(
+                "cycles until",
+                26.0,
+                1.0,
+                "s",
+                thesis="26 s",
+                ours=(29.9, 30.0),
+                why="it cycles to the end of the run at 30 s, for the hand is led on",
+            ),
             "share": least("share of the next 2 s at the cap", 0.5),
             "iterations": exactly("most iterations", 12, thesis="12"),
             "stops": least(

@@ -113,7 +113,13 @@ STRETCH = (
             ),
             "rhqp_release": least("when the hip is released, RHQP", 5.0),
             "rhqp_largest": least("that over the largest elsewhere, RHQP", 1.0),
-            "rhqp_stop": least("when the hip stops, RHQP", 2.0),
+            "rhqp_stop": least(
+                "when the hip stops, RHQP",
+                2.0,
+                ours=(1.0, 2.0),
+                why="the hip is slow when it stops, its commanded speed jumps by 15 mrad/s (by "
+                "0.84 rad/s when it is released); other moments change the errors as much",
+            ),
         },
         solvers=(DEFAULT, ALGORITHM_1),
     ),

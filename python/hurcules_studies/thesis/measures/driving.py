@@ -142,6 +142,7 @@ def slope() -> Finding:
         },
         [
             Note("speed over the command, without load", bare["speed"]),
+            Note("the same along the slope, with 120 kg", full["speed"] / math.cos(SLOPE)),
             Note("largest share of a drive's torque without load", bare["torque"]),
             Note("the same with 120 kg", full["torque"]),
         ],

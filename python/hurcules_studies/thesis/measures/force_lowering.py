@@ -10,6 +10,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hurcules import ForceGains, ForceLoop
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
@@ -18,7 +19,6 @@ from hurcules_studies.thesis.measures.force_loops import DESIRED, settling
 from hurcules_studies.thesis.measures.force_second_order import second
 from hurcules_studies.thesis.measures.press_robot import Log, PressRobot, Setting, ramped
 from hurcules_studies.thesis.measures.press_scene import Surface
-from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
 
 DOWN = 0.02  # [m/s]
@@ -142,7 +142,7 @@ def rigid(compliance: float, bandwidth: float) -> Log:
     return lowered(Setting(surface, gains, RIGID, bandwidth=bandwidth, f_max=1e6), end=6.0)
 
 
-def loops(slower: float, fed_forward: bool, late: float) -> Array:
+def loops(slower: float, fed_forward: bool, late: float) -> NDArray[np.bool_]:
     """Whether each of 27000 loops of servo, mass, ground and force law has an unstable pole.
 
     The servo has a triple pole w: F / M = 3 w (v - x') + 3 w^2 e + w^3 int e, e = r - x, with v the
