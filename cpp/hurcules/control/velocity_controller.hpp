@@ -2,7 +2,7 @@
 // §4.3.1].
 //
 //   y_k = -K g_k + ds_des/dt                       [T 4.3.2]
-//   J qdot <= (s_upper - s) / T                    [T 4.3.9], horizon T as a gain
+//   J qdot <= (s_upper - s) / T                    [T 4.3.9], horizon T as a gain (solver.md §7)
 //   qdot* = lexicographic minimum of the levels    [T 4.3.3]
 //   q*(t + dt) = q*(t) + qdot* dt                  [T 4.3.7]
 //

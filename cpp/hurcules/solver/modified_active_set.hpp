@@ -5,7 +5,7 @@
 // pair of levels); add the row that is violated most; if none is, drop the row with the lowest
 // multiplier when it is negative, unless the row was ever strongly active (set S): then, or when
 // there is none, end. Three methods differ in how a level is factored and what the multipliers
-// contain: RhqpThesis, Hqp, DlsHqp. Where it goes wrong: solver.md §8.
+// contain: RhqpThesis, Hqp, DlsHqp. Where it goes wrong: solver.md §3.
 #pragma once
 
 #include <span>

@@ -3,12 +3,13 @@
 //
 // With x_k the solution after level k, v the violations of its own rows, mu >= 0 the multipliers of
 // held rows:
-//     g = rho^2 (x_k - x_{k-1}) + sum v_i a_i + sum mu_w side_w a_w
-// must vanish on the free directions (behind a hand-over, x = B t', it is rho^2 t' + B'f, f the
-// sums above, that must vanish; measured is B times it, an error of x; and of a level that gave
-// directions back only the combinations of its rows that it keeps may not move: what is proven is
-// the problem with the hand-over), rows above must not have got worse, mu >= 0, and a row with
-// mu > 0 must stand at its limit [T 3.4.100-113].
+//     g = rho^2 (x_k - x_{k-1}) + sum v_i a_i + sum mu_w side_w a_w   must vanish on the free
+//     directions
+// (behind a hand-over, x = B t', it is rho^2 t' + B'f, f the sums above, that must vanish; measured
+// is B times it, an error of x; and of a level that gave directions back only the combinations of
+// its rows that it keeps may not move: what is proven is the problem with the hand-over)
+// and rows above must not have got worse, mu >= 0, and a row with mu > 0 must stand at its limit
+// [T 3.4.100-113].
 #pragma once
 
 #include <vector>

@@ -3,7 +3,7 @@
 // [T alg. 1].
 //
 // One repair: every violated row blocks, also where (3.4.117) finds alpha >= 1 because its limit is
-// negative. What remains wrong is shown in solver.md §8: the first level can end far from its
+// negative. What remains wrong is shown in solver.md §3: the first level can end far from its
 // optimum, a regularised limit stops at sigma^2 / (sigma^2 + rho^2) of itself, and cycles happen.
 #pragma once
 

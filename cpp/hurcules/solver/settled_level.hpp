@@ -2,9 +2,8 @@
 // level as it is, without the least-distance form that loses digits there.
 //
 // In the free directions the held rows in the order
-//     1. limits that push against the level
-//     2. own equality rows and violated rows
-//     3. limits that hold only the smallest step
+//     limits that push against the level | own equality and violated rows | limits that hold only
+//     the smallest step
 // are met one after the other: the limits exactly, the own rows by least squares, the last with
 // what is left. From a feasible point the answer of the held rows is approached until a limit
 // stops it; a row that pulls is let go. Started from a set that is right, this is one

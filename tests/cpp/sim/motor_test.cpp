@@ -1,7 +1,7 @@
-// Strategy: the curve of a motor against the formulas of its header and the CVT of
-// docs/design/robot.md#drive-train; its electric power against what a hand computes; then the
-// drives of both real robots: numbers present, and the rotor's inertia, the friction and the
-// damping felt as a motor feels them.
+// Strategy: a motor's curve against the formulas of its header and docs/design/robot.md#drive-train
+// (CVT); its electric power against what a hand computes; then the drives of both real robots:
+// numbers present, and the rotor's inertia, the friction and the damping felt as a motor feels
+// them.
 #include "hurcules/sim/motor.hpp"
 
 #include <mujoco/mujoco.h>
