@@ -1,10 +1,10 @@
 // How long a control tick of the stretch takes, as ratios to things measured in the same run.
 //
 //   control tick   sense, kinematics, hierarchy, solve, servo; against its 1 ms period and against
-//   the physics solve          warm, on the hierarchies of the mission; against the bare chain of
-//   their equality rows: Householder
-//                  QR of the stacked equality rows with Q formed, the least that any orthogonal
-//                  method has to do
+//                  the physics
+//   solve          warm, on the hierarchies of the mission; against the bare chain of their
+//                  equality rows: Householder QR of the stacked equality rows with Q formed, the
+//                  least that any orthogonal method has to do
 //   closed loop    simulated time over the processor time that it took
 //
 // timing [--seconds S]   prints a table; numbers of one machine compare only within one run.

@@ -1,4 +1,4 @@
-"""Seeded random hierarchies of the kinds that break solvers (solver-algorithm.md section 7).
+"""Seeded random hierarchies of the kinds that break solvers (docs/solver-proof.md).
 
 The easier kinds are in hierarchies.py; the bulk run in C++ has the same kinds (tests/cpp/support/
 hierarchy_classes.hpp). Every class takes a generator and gives n and the levels.

@@ -1,6 +1,6 @@
-"""What the model tests share: the numbers that the design notes fix, and how models are asked.
+"""What the model tests share: the numbers that the design page fixes, and how models are asked.
 
-Sources: [F] = hurcules-facts.md sections A2 to A9, [M] = mujoco-facts.md section 4.
+Sources: docs/design/robot.md and docs/design/mujoco.md.
 """
 
 from pathlib import Path
@@ -13,7 +13,7 @@ ROBOTS = ("rescue", "manipulation")
 MODULES = sorted(MODELS.glob("modules/*.xml"))
 FRAGMENTS = [file for file in MODULES if "<mujocoinclude>" in file.read_text()]
 
-# [F A4] joint: peak torque N m, peak speed rad/s, armature kg m2, range rad
+# [robot#joints] joint: peak torque N m, peak speed rad/s, armature kg m2, range rad
 EB_RANGE = {"rescue": (0, 2.48), "manipulation": (-0.05, 2.48)}
 HIP_RANGE = {"rescue": (-2.00, 1.05), "manipulation": (-2.00, 1.40)}
 DRIVES = {
@@ -39,7 +39,7 @@ SITES = ["pelvis", "gaze", "imu"] + [
 CAMERAS = ["head_wide", "head_left", "head_right", "overview", "side"]
 TRACKS = ["L_lower", "R_lower", "L_upper", "R_upper"]
 
-# [F A9] theta, lean, a, b: angles of upper legs, trunk, upper arm, lower arm
+# [robot#postures] theta, lean, a, b: angles of upper legs, trunk, upper arm, lower arm
 STANDING = {
     ("rescue", "ready"): (np.pi / 2, 0.0, 0.35, 1.85),
     ("rescue", "acquisition"): (1.1, 1.45, -0.574, 1.0),
@@ -52,7 +52,7 @@ STRETCH = {"KN": 1.981, "HIP": 0.327, "NKP": -0.835, "SP": 1.190, "EB": 1.474}
 DRIVE = {"rescue": {"SP": 0.0, "EB": 1.6}, "manipulation": {"SP": 0.35, "EB": 1.5}}
 TRACK_RADIUS = 0.14
 
-# [F A4, A5] passive joints: stiffness N m/rad or N/m, damping, range, where it gives no force
+# [robot#passive-joints] stiffness N m/rad or N/m, damping, range, where it gives no force
 SPRINGS = {
     "rescue": {"LEBS": (500, 15, (0, 0.20), 0.08), "bed_spring": (20e3, 1.5e3, (-0.09, 0), 0.015)},
     "manipulation": {
@@ -61,7 +61,7 @@ SPRINGS = {
         "L_pad_2": (50e3, 250, (0, 0.012), 0.0),
     },
 }
-# [F A5] joint: peak force N, peak speed m/s, range m
+# [robot#transfer-bed] joint: peak force N, peak speed m/s, range m
 BED = {"bed_lift": (4000, 0.1, (0, 0.40)), "L_bed_1": (300, 0.2, (0, 0.31))}
 # moment of a level lower arm of the rescue robot about its elbow [N m]: 11.5 kg at 0.30 m
 SCOOP_WEIGHT = 11.5 * 9.81 * 0.30

@@ -10,7 +10,7 @@ import hurcules
 BRAKE = (
     [0.004, 1.0],
     [0.9999, 0.9999, 0.001, 0.5, 2.0],
-)  # hurcules-facts.md A9: friction that holds
+)  # [robot#joints] friction that holds
 
 
 @dataclass(frozen=True)

@@ -59,7 +59,7 @@ def test_the_robots_have_their_cameras(kind: str) -> None:
 
 
 def test_the_head_has_a_wide_camera_and_a_stereo_pair(robot: mujoco.MjModel) -> None:
-    # hurcules-facts A7: 90 and 60 degrees across, 0.12 m apart
+    # [robot#cameras]: 90 and 60 degrees across, 0.12 m apart
     wide, left = cameras.find(robot, "head_wide"), cameras.find(robot, "head_left")
     assert math.degrees(wide.field[0]) == pytest.approx(90, abs=0.05)
     assert math.degrees(left.field[0]) == pytest.approx(60, abs=0.05)

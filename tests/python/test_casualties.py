@@ -1,9 +1,9 @@
 """The limp persons of models/objects: weights, segments, rest on the ground, limpness, sensors.
 
 Strategy: what the table fixes is stated here again, with its source, and compared with the compiled
-model; the rest is physics on flat ground. Source of the numbers: [C] = response-robot-tests.md
-section C4 (de Leva 1996, male; lengths Drillis and Contini). Not tested: the looks, and whether a
-living person would be hurt.
+model; the rest is physics on flat ground. Source of the numbers: [C] =
+docs/design/test-methods.md#casualties (de Leva 1996, male; lengths Drillis and Contini). Not
+tested: the looks, and whether a living person would be hurt.
 """
 
 import subprocess

@@ -18,7 +18,11 @@ QUICK = [name for name in CLAIMS if name[0] in "RE"] + ["H01", "H02", "H03", "P0
 QUICK += ["K01", "K02", "K03", "K04", "K06", "K12", "K13", "K15", "K16"]  # on the ideal robot
 OTHERWISE = {
     "R13": Verdict.NOT,  # Algorithm 1 keeps rows with a negative multiplier
+    "R16": Verdict.NOT,  # Algorithm 1 alters its set on 3 of 100 identical problems
     "R17": Verdict.NOT,  # it does not forget its set S within a solve
+    "E01": Verdict.ANOTHER_NUMBER,  # later than by 3 and 5 s
+    "E04": Verdict.ANOTHER_NUMBER,  # not within 0.05 m by 3 and 4 s
+    "E05": Verdict.NOT,  # from one start HQP peaks at 23 rad/s
 }
 
 
@@ -30,7 +34,7 @@ def test_a_quick_claim_holds_or_is_explained(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["H06", "H08", "H09", "H12", "H14", "H15", "H16"])
+@pytest.mark.parametrize("name", ["H08", "H09", "H12", "H14", "H15", "H16"])
 def test_a_claim_on_the_hardware_holds_in_the_physics(name: str) -> None:
     result = examine(name)
     assert result.verdict == Verdict.HOLDS, f"{result.verdict}: {result.reason}"

@@ -1,8 +1,8 @@
 """The elbow springs of the rescue robot: what they feel, and what they spare.
 
 Strategy: the lower arms go down onto the ground in the physics, with springs and with the springs
-locked; contact forces are MuJoCo's own. [F] = hurcules-facts.md B3 (H14, H15) and A4 (2.5 N to be
-felt), the figures beside each limit were measured here.
+locked; contact forces are MuJoCo's own. 2.5 N are to be felt (docs/design/robot.md#passive-joints;
+claims H14, H15), the figures beside each limit were measured here.
 """
 
 import numpy as np
@@ -38,7 +38,7 @@ def test_the_force_from_the_deflection_is_that_of_the_contact(model):  # H15
         assert sensor.moment == pytest.approx(moment, rel=0.02)
 
 
-def test_a_free_arm_at_rest_feels_less_than_the_smallest_force(model):  # [F B7] K12: 2.5 N
+def test_a_free_arm_at_rest_feels_less_than_the_smallest_force(model):  # K12: 2.5 N
     data, player = start(model, "rescue", "acquisition")
     player.wait(3.0)
     robot = hurcules.Robot(model)

@@ -19,8 +19,9 @@ def blocks(text: str, language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
 
 
-def test_each_python_block_runs(readme: str, tmp_path: Path) -> None:
+def test_each_python_block_runs(readme: str, root: Path, tmp_path: Path) -> None:
     programs = blocks(readme, "python")
+    programs += blocks((root / "README.ko.md").read_text(encoding="utf-8"), "python")
     assert programs
     for program in programs:
         done = subprocess.run(
@@ -62,7 +63,7 @@ def test_every_link_leads_to_a_file(readme: str, root: Path) -> None:
 
 
 def test_every_link_and_command_in_a_page_leads_to_a_file(root: Path) -> None:
-    pages = sorted((root / "docs").glob("*.md"))
+    pages = [*sorted((root / "docs").rglob("*.md")), root / "README.ko.md"]
     assert pages
     makefile = (root / "Makefile").read_text(encoding="utf-8")
     lost = []

@@ -1,6 +1,6 @@
 """Test methods: their statistics are exact, their runs repeat, stop where they should, log faults.
 
-Strategy: statistics against the printed table of response-robot-tests.md section C1 [C1] and
+Strategy: statistics against the printed table of docs/design/test-methods.md#statistics [C1] and
 against draws; runs with few repetitions at settings that geometry decides. Not tested: the largest
 settings themselves, which are results.
 """

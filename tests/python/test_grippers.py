@@ -1,8 +1,8 @@
-"""The grippers close with a limited force and hold what one arm lifts: 30 kg [F A2].
+"""The grippers close with a limited force and hold what one arm lifts: 30 kg.
 
 Strategy: a flat case of 30 kg with a handle lies under the left hand of the manipulation robot; the
 fingers close on the handle by their motor, friction alone holds it. Negative control: a motor of a
-quarter of the force. [F] = hurcules-facts.md.
+quarter of the force. 30 kg: docs/design/robot.md#what-the-thesis-gives.
 """
 
 import mujoco

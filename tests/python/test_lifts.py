@@ -2,7 +2,7 @@
 
 Strategy: the loads are tied to the hands in `carry`; the arms stretch forward and sideways, and
 hold. Lifting them from the ground, and 120 kg with both arms of the rescue robot (H04, P06),
-is part of test_transformation.py. [F] = hurcules-facts.md A9, B3.
+is part of test_transformation.py. Numbers: docs/design/robot.md#postures and #worst-torques.
 """
 
 import mujoco
@@ -50,9 +50,9 @@ def test_thirty_kilograms_in_each_hand_at_carry_and_at_reach():  # H05
     for result in results:
         assert result.collisions == set() and result.margin > 0.05, result.name
         assert result.worst_torque < 1.0 and result.speed < 1.0, result.name
-    # at reach sideways the shoulder bears the moment that statics gives [F A4]: 459 N m and the
+    # [robot#worst-torques] at reach sideways the shoulder bears what statics gives: 459 N m and the
     # weight of the hand's own bush; its motor has 800
     shoulder = abs(data.actuator("LSR").force[0])
     assert shoulder == pytest.approx(459, rel=0.06)
-    # the bush of the wrist gives way by 74 N m / 1500 N m/rad at most [F A4]
+    # the bush of the wrist gives way by 74 N m / 1500 N m/rad at most [robot#worst-torques]
     assert 0.0 < abs(data.joint("LWPS").qpos[0]) < 0.05

@@ -1,6 +1,6 @@
-"""Names, drives, springs and tracks of the robots against the tables of the design notes.
+"""Names, drives, springs and tracks of the robots against the tables of the design page.
 
-Sources: [F] = hurcules-facts.md section A4, [M] = mujoco-facts.md section 4.1.
+Sources: docs/design/robot.md#joints, docs/design/mujoco.md#track-model.
 Not tested here: driving and servo control (the belts need the C++ step).
 """
 
@@ -86,7 +86,7 @@ def test_the_bed_has_a_lift_and_two_coupled_slides_a_side():
             data.joint(f"{side}_bed_{i}").qpos[0] = 0.31
     mujoco.mj_forward(model, data)
     ends = [data.geom(f"{s}_bed_2").xpos[1] + 0.23 * (1 if s == "L" else -1) for s in "LR"]
-    assert ends == pytest.approx([0.85, -0.85])  # 1.70 m long [F A5]
+    assert ends == pytest.approx([0.85, -0.85])  # 1.70 m long [robot#transfer-bed]
     assert abs(data.eq_active).all() and np.abs(data.efc_pos[:4]).max() < 1e-9
 
 
@@ -128,11 +128,13 @@ def test_a_track_is_declared_with_its_belt_and_all_its_contact_geoms(robot):
         assert geoms == [g for g in geoms_of(model, f"{t}_track") if model.geom_contype[g]]
         sizes = {g: model.geom_size[g] for g in geoms}
         boxes = [g for g in geoms if model.geom_type[g] == mujoco.mjtGeom.mjGEOM_BOX]
-        assert len(boxes) >= 2 and all(sizes[g][2] == TRACK_RADIUS for g in boxes)  # [M 4.1]
+        # [mujoco#track-model]
+        assert len(boxes) >= 2 and all(sizes[g][2] == TRACK_RADIUS for g in boxes)
         assert all(
             sizes[g][0] == pytest.approx(TRACK_RADIUS - 0.001) for g in set(geoms) - set(boxes)
         )
-    for side in "LR":  # [F A3] an axle behind the knee would be pressed into the ground
+    # [robot#kinematic-chain] an axle behind the knee would be pressed into the ground
+    for side in "LR":
         heel, knee = data.geom(f"{side}_lower_heel").xpos, data.joint(f"{side}KN").xanchor
         assert heel == pytest.approx(knee) and np.allclose(
             data.joint(f"{side}_lower_belt").xanchor, knee

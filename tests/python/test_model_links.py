@@ -1,6 +1,6 @@
-"""Masses, inertias, symmetry and heights of the robots against the tables of the design notes.
+"""Masses, inertias, symmetry and heights of the robots against the tables of the design page.
 
-Sources: [F] = hurcules-facts.md sections A2 and A4.
+Source: docs/design/robot.md#links.
 """
 
 import re
@@ -11,7 +11,7 @@ import pytest
 
 from robot_models import ROBOTS, geoms_of, on_flat_ground, place, top_of
 
-# [F A4] link: mass kg, centre of mass in the link m, inertia kg m2
+# [robot#links] link: mass kg, centre of mass in the link m, inertia kg m2
 LINKS = {
     "upper_legs": (90, (-0.27, 0, 0.03), (2.32, 5.76, 6.90)),
     "battery": (60, (0, 0, 0), (0.56, 1.31, 1.19)),
@@ -68,7 +68,7 @@ def composite(model, names):
     return mass.sum(), frame.T @ (centre - data.xpos[ids[0]]), frame.T @ inertia @ frame
 
 
-def test_the_robot_weighs_680_kg(robot):  # [F A2]
+def test_the_robot_weighs_680_kg(robot):  # [robot#what-the-thesis-gives]
     assert mujoco.mj_getTotalmass(robot[1]) == pytest.approx(680.0, abs=0.05)
 
 
@@ -109,7 +109,8 @@ def test_the_right_side_mirrors_the_left(robot):
             assert data.geom_xpos[its] == pytest.approx(mirror @ data.geom_xpos[mine], abs=near)
 
 
-@pytest.mark.parametrize("key, height", [("drive", 1.678), ("ready", 1.900)])  # [F A2]
+# [robot#what-the-thesis-gives]
+@pytest.mark.parametrize("key, height", [("drive", 1.678), ("ready", 1.900)])
 def test_the_robot_is_as_high_as_published(robot, key, height):
     _, model, data = robot
     place(model, data, key)

@@ -1,6 +1,6 @@
 """Keyframes from the angles that define them, and who touches whom, by MuJoCo's own collisions.
 
-Sources: [F] = hurcules-facts.md sections A4 and A9.
+Source: docs/design/robot.md#postures and #start-postures.
 """
 
 import mujoco
@@ -70,7 +70,7 @@ def test_only_the_right_tracks_touch_the_ground_in_a_keyframe(robot):
         assert {g for p in pairs for g in p} == runs | {"floor"}
 
 
-def test_the_scoops_start_the_stretch_where_the_notes_say():  # [F A4]
+def test_the_scoops_start_the_stretch_where_they_should():  # [robot#start-postures]
     model = load("robots/rescue.xml")
     data = mujoco.MjData(model)
     place(model, data, "stretch")
@@ -82,7 +82,7 @@ def test_the_scoops_start_the_stretch_where_the_notes_say():  # [F A4]
 
 
 @pytest.mark.parametrize("fold", [False, True], ids=["waist ahead", "waist turned"])
-def test_legs_swing_free_only_with_the_waist_turned(robot, fold):  # [F A9], negative control
+def test_legs_swing_free_only_with_the_waist_turned(robot, fold):  # [robot#postures]
     name, model, data = robot
     hit = False
     for knee in np.linspace(0, np.pi, 90):
@@ -97,7 +97,7 @@ def test_legs_swing_free_only_with_the_waist_turned(robot, fold):  # [F A9], neg
     assert hit is not fold
 
 
-def test_bed_and_battery_stop_the_trunk_behind_the_hip_range(robot):  # [F A4]
+def test_bed_and_battery_stop_the_trunk_behind_the_hip_range(robot):  # [robot#geometric-limits]
     name, model, data = robot
     place(model, data, "ready")
     trunk = {"waist", "waist_top", "torso"}

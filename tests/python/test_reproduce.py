@@ -23,8 +23,18 @@ from typing import Any
 import pytest
 
 import hurcules
-from hurcules_studies.thesis import CLAIMS, Claim, Expected, Finding, Verdict, run
-from hurcules_studies.thesis.claim import Note, Plot, line, most
+from hurcules_studies.thesis import CLAIMS, Claim, Expected, Finding, Verdict, page, run
+from hurcules_studies.thesis import table as claims_table
+from hurcules_studies.thesis.claim import (
+    ALGORITHM_1,
+    DEFAULT,
+    DLS_HQP,
+    HQP,
+    Note,
+    Plot,
+    line,
+    most,
+)
 from hurcules_studies.thesis.judge import judge
 from hurcules_studies.thesis.measures import measured
 from hurcules_studies.thesis.measures.registry import FUNCTIONS
@@ -70,6 +80,20 @@ def test_a_number_that_is_explained_says_why_and_lies_elsewhere() -> None:
         for one in claim.expected.values():
             assert (one.ours is None) == (not one.why)
             assert one.low <= one.high
+
+
+def test_solvers_are_named_where_a_hierarchy_is_solved() -> None:
+    known = {DEFAULT, ALGORITHM_1, HQP, DLS_HQP}
+    named = {name: set(claim.solvers) for name, claim in CLAIMS.items()}
+    assert all(solvers <= known for solvers in named.values())
+    # the solver, its examples, manipulation, stretch: all; hardware and servo: where one plans
+    assert [name for name in named if name[0] in "REMSK" and not named[name]] == []
+    assert {name for name in named if name[0] in "HP" and named[name]} == {"H17", "H18", "H19"}
+    # what a number's words say of a method is among the methods
+    for name, claim in CLAIMS.items():
+        for one in claim.expected.values():
+            if one.what.endswith(("RHQP", "Algorithm 1")):
+                assert ALGORITHM_1 in named[name], (name, one.what)
 
 
 # ---- which claims are meant
@@ -122,6 +146,12 @@ def test_the_verdict_follows_from_the_numbers(
     assert (found, why) == (verdict, explained)
     assert (reason == "") == (verdict == Verdict.HOLDS)
     assert ("other geometry" in reason) == (not FIGURE.met(figure))
+
+
+def test_what_a_measurement_leaves_out_is_told_and_keeps_the_claim_from_holding() -> None:
+    claim = Claim("X01", "here", "a claim", {"a": STATEMENT}, missing="the night")
+    assert judge(claim, Finding({"a": 0.5})) == (Verdict.IN_PART, "not shown: the night", True)
+    assert judge(claim, Finding({"a": 1.5}))[0] == Verdict.NOT
 
 
 def test_values_under_other_names_are_refused() -> None:
@@ -307,3 +337,33 @@ def test_from_python_without_a_console(tmp_path: Path) -> None:
     assert results.output.saved == files
     table = files[1].read_text(encoding="utf-8")
     assert "2 claims: 2 holds" in table and table.count("\n| R") == 2
+
+
+def test_fitted_numbers_methods_and_caveats_are_shown(tmp_path: Path) -> None:
+    claim = CLAIMS["K17"]
+    values = {name: 1.0 for name in claim.expected} | {"when": 21.0}
+    results = {"K17": from_finding(claim, Finding(values), 0.0)}
+    results["H01"] = from_finding(
+        CLAIMS["H01"], Finding({name: 680.0 for name in CLAIMS["H01"].expected}), 0.0
+    )
+    claims_table.write(tmp_path / "claims.md", results)
+    text = (tmp_path / "claims.md").read_text(encoding="utf-8")
+    assert "| default |" in text and "*fitted: speed down*" in text
+    assert "Claims with such numbers: K17." in text
+    assert "*Caveat: restates an input of the model.*" in text
+    page.write(tmp_path / "report.html", results)
+    report = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "fitted: speed down" in report and "solver: default" in report
+    assert "Caveat: restates an input of the model." in report
+
+
+def test_the_page_of_claims_counts_what_it_shows(root: Path) -> None:
+    text = (root / "docs" / "claims.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^\| ([A-Z]\d\d) \|(.*)\|$", text, re.MULTILINE)
+    assert [name for name, _ in shown] == list(CLAIMS)
+    verdicts = [re.split(r"(?<!\\) \| ", row)[3] for _, row in shown]
+    counts = Counter(verdicts)
+    told = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict if counts[verdict])
+    assert f"112 claims: {told}.\n" in text
+    fitted = [name for name, row in shown if "*fitted" in row]
+    assert fitted == [name for name, claim in CLAIMS.items() if claim.fitted]

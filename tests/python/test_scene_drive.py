@@ -2,7 +2,7 @@
 
 Strategy: a proportional law keeps the driven belts at a speed, the rest is physics. What is passed
 and what is not follows from geometry and friction, with room on both sides; the largest settings
-are for the test methods to find. [F] = hurcules-facts.md.
+are for the test methods to find. Numbers of the robot: docs/design/robot.md.
 """
 
 import math
@@ -70,7 +70,7 @@ def test_on_the_flat_the_robot_goes_as_far_as_its_belts():
     assert run.z == pytest.approx(RADIUS, abs=1e-3) and run.warnings == 0
 
 
-# a track of 1.13 m bridges what is well below half its length [F A4]
+# a track of 1.13 m bridges what is well below half its length [robot#static-stability]
 @pytest.mark.parametrize("kind, values", [("gap", {"width": 0.4}), ("trench", {"width": 0.4})])
 def test_a_gap_below_half_the_track_is_bridged_level(kind, values):
     run = ride(kind, 9.0, **values)
@@ -82,7 +82,7 @@ def test_a_gap_as_long_as_the_track_is_not():
     assert run.z < -0.3 or run.tilt > math.radians(20)
 
 
-def test_the_incline_of_30_degrees_is_climbed_to_its_landing():  # [F A2]
+def test_the_incline_of_30_degrees_is_climbed_to_its_landing():  # [robot#what-the-thesis-gives]
     run = ride("incline", 14.0, landing=5.0)
     assert run.z == pytest.approx(2.0 + RADIUS, abs=0.01)
     assert run.tilt == pytest.approx(math.radians(30), abs=math.radians(3))

@@ -1,7 +1,8 @@
 """Rough ground has the spectrum that was asked for; friction and rolling resistance do their work.
 
 Strategy: densities are estimated from the heights and compared with ISO 8608; grip is checked with
-the robot on the ground against Coulomb's law and Newton's. [D2] = response-robot-tests.md.
+the robot on the ground against Coulomb's law and Newton's.
+[D2] = docs/design/test-methods.md#rough-roads.
 """
 
 import math

@@ -1,8 +1,8 @@
 """Scenes have the shape that was asked for, measured by rays from above.
 
 Strategy: no number is read from the model; heights are where a vertical ray meets the ground.
-Numbers of the test methods: [C] = response-robot-tests.md section C1. Rough ground and grip stand
-in test_scene_rough.py.
+Numbers of the test methods: [C] = docs/design/test-methods.md#ground-robot-methods. Rough ground
+and grip stand in test_scene_rough.py.
 """
 
 import math

@@ -17,7 +17,7 @@ from hurcules import models, scenes
 from standing import stand
 
 DRAWN = {"step_field", "rough_road", "gravel", "sand", "debris"}  # kinds with random numbers
-# [F A4] a robot that stands up tips over backwards on 22 degrees: on slopes it drives
+# [robot#static-stability] a standing robot tips over backwards on 22 degrees: on slopes it drives
 SLOPES = {"slope", "slope30", "slope30_down", "slope30_across"}
 EVERY = [*scenes.names(), *scenes.PRESETS]
 

@@ -1,6 +1,6 @@
 """The scene of the stretch: its person, and where it lies.
 
-Source: [C] = response-robot-tests.md section C4.
+Source: [C] = docs/design/test-methods.md#casualties.
 """
 
 import mujoco

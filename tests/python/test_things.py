@@ -2,7 +2,8 @@
 
 Strategy: each promise is a small experiment with forces applied by the test; the thresholds follow
 from the numbers that the files and the parameters state. Not tested: grasping them with the robot.
-Sources: [C] = response-robot-tests.md section C.
+Sources: [C1] = docs/design/test-methods.md#ground-robot-methods, [C3] =
+docs/design/test-methods.md#darpa-challenges.
 """
 
 import math
@@ -14,7 +15,7 @@ import pytest
 from hurcules import models, scenes
 
 GRAVITY = 9.81
-# kg; [C3] wood of 2 x 4 and 4 x 4 inches; [B3 H05] 30 kg in each hand
+# kg; [C3] wood of 2 x 4 and 4 x 4 inches; claim H05: 30 kg in each hand
 MASSES = {
     "shell_30kg": 30.0, "ordnance_box_30kg": 30.0, "sled": 75.0, "concrete_block": 16.0,
     "timber_2x4": 1.39, "timber_4x4": 2.17, "door": 25.0, "valve": 2.55,
@@ -196,7 +197,7 @@ def test_a_person_begins_clear_of_the_ground_and_comes_to_rest(mass, lying):
 # ---- loads
 
 
-@pytest.mark.parametrize("mass", [20.0, 120.0])  # [F A2] 120 kg
+@pytest.mark.parametrize("mass", [20.0, 120.0])  # [robot#what-the-thesis-gives]
 def test_the_beam_lies_still_with_room_for_arms_below(mass):
     model, data = ready("lift", mass=mass, clearance=0.3)
     mujoco.mj_step(model, data, 1000)

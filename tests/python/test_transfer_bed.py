@@ -2,7 +2,7 @@
 
 Strategy: the bed is driven by the servo in the physics; a limp person of 120 kg is laid on it; the
 limits of both modes are compared with where the trunk and the ground really stop the robot.
-[F] = hurcules-facts.md A4, A5 and B3 (H16).
+Numbers: docs/design/robot.md#transfer-bed and #geometric-limits; claim H16.
 """
 
 import mujoco
@@ -26,12 +26,12 @@ def test_the_bed_expands_by_itself_and_folds_again():  # H16
     model = models.load("rescue")
     data, player = start(model, "rescue", "drive")
     low = settled(model, data)
-    assert low == pytest.approx(0.38, abs=0.002)  # [F A5]
+    assert low == pytest.approx(0.38, abs=0.002)  # [robot#transfer-bed]
     for result in player.play(transfer_bed.expand()):
         assert result.worst_torque < 1.0 and result.speed < 1.0 and not result.collisions
     ends = [data.geom(f"{s}_bed_2").xpos[1] for s in "LR"]
     assert ends == pytest.approx([0.62, -0.62], abs=0.003)  # 1.70 m from end to end
-    assert 0.70 <= settled(model, data) <= 0.78  # [F A5]
+    assert 0.70 <= settled(model, data) <= 0.78  # [robot#transfer-bed]
     for result in player.play(transfer_bed.fold()):
         assert not result.collisions
     assert settled(model, data) == pytest.approx(low, abs=0.002)
@@ -69,7 +69,8 @@ def test_a_person_of_120_kg_lies_on_the_bed_and_stays():
     pairs = [pair for pair in touching(model, data) if any("person" in name for name in pair)]
     assert not any("floor" in pair for pair in pairs)
     assert any("transfer_bed" in pair for pair in pairs)
-    # 120 kg and 23 kg on 20 kN/m, wound by 15 mm [F A5], less what hands and trunk bear
+    # [robot#passive-joints] 120 kg and 23 kg on 20 kN/m, wound by 15 mm, less what hands and trunk
+    # bear
     sag = (120 + 23) * 9.81 / 20e3 - 0.015
     assert 0.85 * sag < -data.joint("bed_spring").qpos[0] < 1.03 * sag
     # the lift bears at most the 1.4 kN and its dry friction, 120 N, of the 4 kN it has
@@ -84,13 +85,13 @@ def test_what_stops_the_trunk_changes_with_the_bed(bed, stop):  # H16
     trunk = {"waist", "waist_top", "torso"}
     angles = np.arange(0.9, 1.65, 0.01)
     met = first_touch(model, "ready", "HIP", angles, (trunk, stop))
-    # [F A4]: the bed at 1.08, the battery at 1.45 (manipulation: 1.54 measured)
+    # [robot#geometric-limits]: the bed at 1.08, the battery at 1.45 (manipulation: 1.54 measured)
     assert met is not None and abs(met - (1.09 if bed else 1.54)) < 0.03
     mode = hurcules.mode_ranges("rescue_ready" if bed else "rescue_ready_without_bed")
     assert mode["HIP"][1] < model.joint("HIP").range[1] < met
 
 
-def test_what_stops_the_knee_changes_with_the_bed():  # H16, [F A4]: bed at 2.2, battery at 2.5
+def test_what_stops_the_knee_changes_with_the_bed():  # H16
     for bed, parts, theta in ((True, ["transfer_bed"], 2.2), (False, ["battery"], 2.5)):
         met = ground_angle(models.load("rescue", bed=bed), parts)
         assert met == pytest.approx(theta, abs=0.05)

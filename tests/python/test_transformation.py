@@ -1,9 +1,9 @@
-"""The pose transformation in the physics: drive, stand up, pick up, carry, sit, drive [F A9].
+"""The pose transformation in the physics: drive, stand up, pick up, carry, sit, drive.
 
 Strategy: the scripts of hurcules.postures, played by the servo at every motor, watched for
 tip-over, self-collision, torque, speed and power; once each without turning the waist and without
 folding the arms, where legs and arms must collide (F03). Moves alone are tested without physics.
-[F] = hurcules-facts.md. 120 kg and 2 x 30 kg are tied to the arms: see lifting.py.
+Moves: docs/design/robot.md#postures. 120 kg and 2 x 30 kg are tied to the arms: see lifting.py.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ from hurcules_studies.thesis.measures.rig import (
 from robot_models import top_of
 
 ROBOTS = ("rescue", "manipulation")
-# [F A9] smallest distance of the centre of mass from the edge: 0.06 m at lift-off
+# [robot#postures] smallest distance of the centre of mass from the edge: 0.06 m at lift-off
 MARGIN = 0.05
 
 

@@ -1,7 +1,6 @@
 // The robust joint servo: a PID that is inverse-optimal in the H-infinity sense.
 //
-//   tau = (K + I / gamma^2) (de/dt + K_P e + K_I int e dt),   e = q_d - q     [T A.2.12], sign of
-//   tau = -u
+//   tau = (K + I / gamma^2) (de/dt + K_P e + K_I int e dt),   e = q_d - q     [T A.2.12], tau = -u
 //
 // It needs no model and no gravity: whatever the robot carries is a disturbance that the L2 gain
 // gamma bounds. Where a model is there, the torque that it tells (gravity alone, or the whole
@@ -30,8 +29,9 @@ struct JointPidOptions {
 
 // Gains for a joint that carries the inertia J and shall have the bandwidth omega:
 //   K + 1/gamma^2 = 3 omega J,  K_P = omega,  K_I = omega^2 / 3
-// so that a rigid joint, J d2q = tau, has the triple pole -omega: aperiodic, and K_P^2 = 3 K_I > 2
-// K_I. A load step d bends it by at most 0.27 d / (J omega^2), a load ramp by ramp / (J omega^3).
+// so that a rigid joint, J d2q = tau, has the triple pole -omega: aperiodic, and
+// K_P^2 = 3 K_I > 2 K_I. A load step d bends it by at most 0.27 d / (J omega^2), a load ramp by
+// ramp / (J omega^3).
 struct JointDrive {
   double inertia = 0.0;     // [kg m^2] felt by the joint, its rotor included
   double bandwidth = 0.0;   // [rad/s]

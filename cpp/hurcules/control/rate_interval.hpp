@@ -2,11 +2,9 @@
 // limits, now and later.
 //
 // With distance d to a limit, horizon T and acceleration a the speed towards the limit is at most
-//     d / T                           for d <= a T^2    [T 4.3.9]: the approach slows down
-//     exponentially sqrt(2 a d - a^2 T^2)           beyond: it can be braked with a before the
-//     exponential part begins
-// so a coordinate that keeps it can always brake in time, and never passes the limit (solver.md
-// §7).
+//     d / T                   for d <= a T^2 [T 4.3.9]: the approach slows down exponentially
+//     sqrt(2 a d - a^2 T^2)   beyond: it can be braked with a before the exponential part begins
+// so a coordinate that keeps it can always brake in time, and never passes the limit.
 #pragma once
 
 namespace hurcules {

@@ -10,7 +10,7 @@
 
 namespace hurcules {
 
-// Assumed: 60 kg at 130 W h/kg, of which 80 % are used [A4 of the design notes gives the mass].
+// Assumed: 60 kg at 130 W h/kg, of which 80 % are used (docs/design/robot.md#battery).
 struct BatteryOptions {
   double capacity = 6.2 * 3.6e6;  // [J] that can be used
   double voltage = 96.0;          // [V] without load

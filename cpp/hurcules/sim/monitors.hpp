@@ -29,7 +29,7 @@ struct MonitorOptions {
   SelfDistanceOptions distance;
   WindingOptions windings;
   double min_distance = 0.01;        // [m] self-collision; the acquisition posture has 0.02
-  double min_margin = 0.05;          // [m] static margin; A9 of the design notes keeps 0.06
+  double min_margin = 0.05;          // [m] static margin; 0.06 is kept in [robot#postures]
   double min_pressure_margin = 0.0;  // [m] below zero it is never: off
   double min_tip_angle = 0.05;       // [rad]
   double min_energy = 0.0;           // [J] off while it stands

@@ -3,13 +3,13 @@
 // A track is a tuple `track_NAME` (any prefix before it) of a belt hinge and then the geoms that
 // the belt runs around. Between mj_step1 and mj_step2 each contact row of such a geom
 //   - gets the belt's surface velocity as a column of its own, so that traction loads the drive
-//   with no lag;
-//   - is kept from hopping: MuJoCo's friction cone pushes a sliding contact apart by mu |tangential
-//   reference|, which is
-//     taken off the normal reference (de Saxce), after the tangential one was capped;
+//     with no lag;
+//   - is kept from hopping: MuJoCo's friction cone pushes a sliding contact apart by
+//     mu |tangential reference|, which is taken off the normal reference (de Saxce), after the
+//     tangential one was capped;
 //   - counts for nothing where a box, a straight run with x along the belt, is touched on its front
-//   or rear face: the cylinder there stands before it, and an edge of the ground would hook.
-// Measured against Coulomb's law to 2 % (mujoco-facts.md §4).
+//     or rear face: the cylinder there stands before it, and an edge of the ground would hook.
+// Measured against Coulomb's law to 2 % (docs/design/mujoco.md#track-measurements).
 #pragma once
 
 #include <string>

@@ -6,7 +6,7 @@
 // levels below work in x = x_above + B D t with
 //     D = I - sum (1 - w_i) v_i v_i'  over the level's own directions v_i,
 //     w^2 = h p^2 / ((1 - h) + h p^2),  h = (1 - (sigma_i / rho)^2)^2 below sigma_i = rho, else 0,
-// (solver-algorithm.md §8, weight E): w is 0 where sigma_i >= rho, bit for bit the strict rule, and
+// (solver.md §6): w is 0 where sigma_i >= rho, bit for bit the strict rule, and
 // goes to 1 as sigma_i goes to 0. sigma_i and rho are those of the level, in its own units. p is
 // the smallest rho / |a| of the levels below: one of them answers with w^2 / (w^2 + p^2) of its
 // residual, so by this p none takes more than about the part h.

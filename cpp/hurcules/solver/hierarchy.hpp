@@ -2,8 +2,8 @@
 //
 // Level k asks  lower <= A x <= upper  (m rows, n unknowns) and is regularised by rho (solver.md
 // §1, [T 3.3.35]):
-//     min 1/2 |violation|^2 + 1/2 rho^2 |t|^2   over the step t from the solution of the levels
-//     above.
+//     min 1/2 |violation|^2 + 1/2 rho^2 |t|^2
+// over the step t from the solution of the levels above.
 // lower == upper makes a row an equality; a side of magnitude >= kInfinity is absent.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Every threshold of the solver, in one place. Each was varied alone over orders of magnitude
-// without a wrong answer (solver-algorithm §4); all are relative to the scale that stands beside
+// without a wrong answer; all are relative to the scale that stands beside
 // them.
 #pragma once
 

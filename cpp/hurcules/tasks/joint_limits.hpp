@@ -1,7 +1,6 @@
 // The ranges of the coordinates, first of all priorities.
 //
-//   e = q [rad] or [m] (n),  J = I (n, n),  lower <= q <= upper                  [T 4.3.8], its
-//   g_joint
+//   e = q [rad] or [m] (n),  J = I (n, n),  lower <= q <= upper           [T 4.3.8]: g_joint
 // There is no target: hold and advance change nothing. A controller that sees bounds_coordinates()
 // turns the interval and max_velocity() into simple bounds of its unknowns.
 #pragma once

@@ -1,7 +1,6 @@
 // The origin of a frame at a target position: hand, pelvis, or one hand relative to the other.
 //
-//   s = A p_RF(q) [m], J = A J_RF                                        [T §4.3.2], its g_lhpos,
-//   g_pel
+//   s = A p_RF(q) [m], J = A J_RF                                        [T §4.3.2]: g_lhpos, g_pel
 // Values, axes and reference: point_task.hpp. No singularity of its own.
 #pragma once
 

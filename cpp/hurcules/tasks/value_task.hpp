@@ -1,7 +1,7 @@
 // A task whose value is a list of numbers: the common part of all but gaze, orientation and limits.
 //
-//   e = s - s_des (m), angles wrapped to [-pi, pi];  hold: s_des = s;  advance: s_des += velocity
-//   dt
+//   e = s - s_des (m), angles wrapped to [-pi, pi]
+//   hold: s_des = s;   advance: s_des += velocity dt
 #pragma once
 
 #include <limits>

@@ -7,7 +7,7 @@ import numpy as np
 
 __all__ = ["BeltBrakes", "hold_joints", "release_joint"]
 
-# friction that holds: hurcules-facts.md A9
+# friction that holds: docs/design/robot.md#joints
 BRAKE_SOLREF, BRAKE_SOLIMP = (0.004, 1.0), (0.9999, 0.9999, 0.001, 0.5, 2.0)
 BRAKE_FACTOR = 1.2  # of the peak torque
 

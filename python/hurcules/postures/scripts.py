@@ -1,7 +1,7 @@
 """The pose transformations as lists of moves, for both robots.
 
 From driving to standing, to the ground and back to driving with one leg at a time. The angles are
-those of the design notes; every script starts in the keyframe `drive`.
+those of docs/design/robot.md#postures; every script starts in the keyframe `drive`.
 """
 
 from __future__ import annotations

@@ -83,7 +83,8 @@ def _degrees(*angles: float) -> tuple[float, ...]:
     return tuple(math.radians(angle) for angle in angles)
 
 
-# numbers: response-robot-tests.md section C1; landings are as long as the whole robot needs
+# numbers: docs/design/test-methods.md#ground-robot-methods; landings are as long as the whole robot
+# needs
 METHODS: dict[str, Method] = {
     "e2801": Method("gaps", "gap", "width", _steps(0.10, 1.00, 0.10), plan=stretched, climbs=True),
     "e2802": Method(

@@ -13,6 +13,10 @@ from numpy.typing import ArrayLike
 from hurcules.decimate import decimate
 
 __all__ = [
+    "ALGORITHM_1",
+    "DEFAULT",
+    "DLS_HQP",
+    "HQP",
     "Claim",
     "Expected",
     "Finding",
@@ -29,10 +33,15 @@ __all__ = [
 ]
 
 
+# the methods of the solver by which a claim is measured
+DEFAULT, ALGORITHM_1, HQP, DLS_HQP = "default", "Algorithm 1", "HQP", "DLS-HQP"
+
+
 class Verdict(StrEnum):
     """What became of a claim."""
 
     HOLDS = "holds"
+    IN_PART = "holds in part"
     ANOTHER_NUMBER = "holds with another number"
     NOT = "does not hold"
     PENDING = "pending"
@@ -49,6 +58,8 @@ class Expected:
         high: [unit].
         unit: "s", "m", "rad", ...; "" for a plain number.
         thesis: as the thesis prints it, "" where it prints none.
+        fitted: what was chosen so that the number comes near the thesis, such as a start posture;
+            "" where nothing was. A number that was fitted is no evidence.
         figure: the claim is about more than this number: where the number is another one, the claim
             "holds with another number"; otherwise it does not hold.
         ours: where the number lies here, if that is elsewhere and the reason is known.
@@ -60,6 +71,7 @@ class Expected:
     high: float = math.inf
     unit: str = ""
     thesis: str = ""
+    fitted: str = ""
     figure: bool = False
     ours: tuple[float, float] | None = None
     why: str = ""
@@ -108,6 +120,10 @@ class Claim:
         source: section, equation or figure of the thesis.
         statement: what the thesis says, and how it is set up here.
         expected: by the name of the measured number.
+        solvers: methods of the solver that ran, none where no hierarchy is solved.
+        missing: what the statement says and the measurement leaves out; the claim then holds in
+            part at best.
+        caveat: what the numbers cannot show.
         pending: why nothing measures it yet.
     """
 
@@ -115,7 +131,15 @@ class Claim:
     source: str
     statement: str
     expected: dict[str, Expected] = field(default_factory=dict)
+    solvers: tuple[str, ...] = ()
+    missing: str = ""
+    caveat: str = ""
     pending: str = "not measured yet"
+
+    @property
+    def fitted(self) -> dict[str, str]:
+        """What was fitted, by the names of the numbers that come from it."""
+        return {name: one.fitted for name, one in self.expected.items() if one.fitted}
 
 
 @dataclass(frozen=True)

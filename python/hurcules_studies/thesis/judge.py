@@ -33,6 +33,8 @@ def judge(claim: Claim, finding: Finding) -> tuple[Verdict, str, bool]:
         for name, expected in claim.expected.items()
         if not expected.met(finding.values[name])
     ]
+    if not missed and claim.missing:
+        return Verdict.IN_PART, f"not shown: {claim.missing}", True
     if not missed:
         return Verdict.HOLDS, "", True
     verdict = Verdict.ANOTHER_NUMBER if all(e.figure for e, _ in missed) else Verdict.NOT

@@ -77,6 +77,9 @@ def row(claim: Claim, result: Result) -> dict[str, Any]:
         "id": claim.id,
         "source": claim.source,
         "statement": claim.statement,
+        "solvers": list(claim.solvers),
+        "missing": claim.missing,
+        "caveat": claim.caveat,
         "expected": {name: _expected(one) for name, one in claim.expected.items()},
         "measured": {name: _finite(value) for name, value in values.items()},
         "notes": [
@@ -98,6 +101,7 @@ def _expected(one: Expected) -> dict[str, Any]:
         "low": _finite(one.low),
         "high": _finite(one.high),
         "thesis": one.thesis,
+        "fitted": one.fitted,
     }
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hurcules._version import __version__
 from hurcules.summary import processor
-from hurcules_studies.thesis.claim import Claim, Verdict
+from hurcules_studies.thesis.claim import Claim, Expected, Verdict
 from hurcules_studies.thesis.claims import CLAIMS, LETTERS
 from hurcules_studies.thesis.judge import interval, shown
 from hurcules_studies.thesis.result import Result
@@ -19,12 +19,24 @@ __all__ = ["write"]
 HEAD = """# The claims of the thesis, measured
 
 Written by `hurcules reproduce` on {date} (hurcules {version}, {processor}).
-What each claim says, its plots and the rest of its numbers: `report.html` and `claims.json` of the
-same command.
+Plots and the rest of the numbers: `report.html` and `claims.json` of the same command.
 
 {counts}.
+
+How to read it:
+
+- **Solver**: the method that ran. `default` is the product's own; `Algorithm 1` is RHQP as the
+  thesis prints it, with the one repair of R14; HQP and DLS-HQP are the thesis' comparisons.
+- **Fitted**: the thesis prints neither start postures nor operator speeds. A number marked *fitted*
+  comes from a posture, a range or a speed that was chosen so that it comes near the thesis. It
+  shows that the event can happen then, not that it must. Claims with such numbers: {fitted}.
+- **Caveat**: what the numbers cannot show.
 """
-COLUMNS = "| claim | source | verdict | measured (wanted) |\n|---|---|---|---|\n"
+COLUMNS = (
+    "| claim | what it says | source | solver | verdict | measured (wanted) |\n"
+    + 6 * "|---"
+    + "|\n"
+)
 
 
 def write(path: Path, results: Mapping[str, Result]) -> None:
@@ -44,6 +56,7 @@ def write(path: Path, results: Mapping[str, Result]) -> None:
         version=__version__,
         processor=processor(),
         counts=f"{len(results)} claims: {counts}",
+        fitted=" ".join(name for name in results if CLAIMS[name].fitted) or "none",
     )
     for letter in dict.fromkeys(name[0] for name in results):
         mine = [name for name in results if name[0] == letter]
@@ -54,10 +67,17 @@ def write(path: Path, results: Mapping[str, Result]) -> None:
 
 def _row(claim: Claim, result: Result) -> str:
     numbers = "; ".join(
-        f"{one.what} {shown(result.finding.values[name], one.unit)} ({interval(one)})"
+        f"{one.what} {shown(result.finding.values[name], one.unit)} ({_wanted(one)})"
         for name, one in claim.expected.items()
         if name in result.finding.values
     )
-    told = numbers if result.verdict == Verdict.HOLDS else result.reason
-    cells = (claim.id, claim.source, str(result.verdict), told)
+    told = [numbers, f"**{result.reason}**" if result.reason else ""]
+    told.append(f"*Caveat: {claim.caveat}.*" if claim.caveat else "")
+    solver = ", ".join(claim.solvers) or "-"
+    text = ". ".join(one for one in told if one)
+    cells = (claim.id, claim.statement, claim.source, solver, str(result.verdict), text)
     return " | ".join(cell.replace("|", "\\|") for cell in cells)
+
+
+def _wanted(one: Expected) -> str:
+    return interval(one) + (f", *fitted: {one.fitted}*" if one.fitted else "")

@@ -200,7 +200,7 @@ class Arm {
   }
 
   // upper arm 0.4 m, 30 kg in its middle; lower arm 11.5 kg at 0.30 m; the load at 0.44 m from the
-  // elbow, as in hurcules-facts A9; rotors 2.6 and 0.9 kg m^2
+  // elbow, as in docs/design/robot.md#postures; rotors 2.6 and 0.9 kg m^2
   void move(const Vector2& torque) {
     const double l = 0.4, m = 11.5 + load_;
     const double c = (11.5 * 0.30 + load_ * 0.44) / m;

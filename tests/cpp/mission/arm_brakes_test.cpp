@@ -1,7 +1,7 @@
 // Strategy: the arms of the real rescue robot at its servo: hand-over to the brakes and back
 // without a jump, ten seconds without power, loads that come while they hold. Limits: 1e-6 rad in
-// any step of a hand-over, 5e-6 rad over a whole one, 1e-4 rad of creep in 10 s (the design notes
-// measured 2e-4 in 20 s). Negative control: a release that nobody takes over.
+// any step of a hand-over, 5e-6 rad over a whole one, 1e-4 rad of creep in 10 s (2e-4 in 20 s in
+// docs/design/robot.md#joints). Negative control: a release that nobody takes over.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>

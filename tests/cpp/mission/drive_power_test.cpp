@@ -23,7 +23,8 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 constexpr double kRadius = 0.14, kSpeed = 5.56, kAcceleration = 1.0;
-// [N m] at each driven belt: rolling resistance of 0.06 of the weight [A4], 400 N in all
+// [N m] at each driven belt: rolling resistance of 0.06 of the weight, 400 N in all
+// [robot#drive-train]
 constexpr double kRolling = 0.06 * 680.0 * 9.81 * kRadius / 2.0;
 
 ModelPtr scene(const std::string& more = "") {

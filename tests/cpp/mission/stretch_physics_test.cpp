@@ -1,5 +1,5 @@
 // Strategy: one whole stretch in the physics, looked at claim by claim in one test, for the run
-// takes seconds: S01-S06 of hurcules-facts B5 as measured, the limits, the servo. The commanded
+// takes seconds: claims S01 to S06 as measured, the limits, the servo. The commanded
 // motion alone is in mission/stretch_test.cpp. Not tested: speed, it depends on the machine.
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Strategy: the stretch of thesis §4.4 on the real robot without physics: the commanded motion
-// alone, one tick a millisecond, looked at claim by claim. Its claims are those of hurcules-facts
-// B5; the same run in the physics is in sim/stretch_physics_test.cpp.
+// alone, one tick a millisecond, looked at claim by claim. Its claims are S01 to S06 of
+// docs/claims.md; the same run in the physics is in sim/stretch_physics_test.cpp.
 #include "hurcules/mission/stretch.hpp"
 
 #include <mujoco/mujoco.h>
@@ -87,7 +87,7 @@ void both_arms_go_forward_by_the_command_alone(const Recorded& run) {
 
 void hip_meets_its_limit_and_the_pelvis_begins_to_give_way(const Recorded& run) {
   SCOPED_TRACE("hip meets its limit and the pelvis begins to give way");
-  // S02: thesis about 15 s; our geometry 14.3 (hurcules-facts A4)
+  // S02: thesis about 15 s; our geometry 14.3 (docs/design/robot.md#start-postures)
   EXPECT_NEAR(run.figure("hip_locked_s"), 14.3, 0.3);
   EXPECT_LT(run.figure("pelvis_error_at_hip_locked_m"), 2e-3);
   EXPECT_NEAR(run.highest.at("HIP"), 0.36, 1e-6);

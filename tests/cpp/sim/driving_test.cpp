@@ -1,8 +1,8 @@
 // Strategy: the rescue robot on its tracks against what theory says of 680 kg on a plane: speed,
 // traction at the limit of friction, turning in place under the loads that each contact point
-// really has, slopes, power. [F] = hurcules-facts.md, claims H06 to H09. The turning theory is
-// Coulomb's law alone: the motion at which friction dissipates least, found by descent. Not tested:
-// obstacles (test_scene_drive.py), turning above 0.5 m/s of belt speed.
+// really has, slopes, power (claims H06 to H09). The turning theory is Coulomb's law alone: the
+// motion at which friction dissipates least, found by descent. Not tested: obstacles
+// (test_scene_drive.py), turning above 0.5 m/s of belt speed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ TEST(Driving, StallsWhereTheSlopeAsksForMoreThanFrictionGives) {
   EXPECT_GT(rover.ground().slip, 1.0);
 }
 
-// [F H07] loaded with 120 kg and unloaded: tan(30 deg) = 0.577, no rolling resistance here
+// H07: loaded with 120 kg and unloaded: tan(30 deg) = 0.577, no rolling resistance here
 class Slope : public testing::TestWithParam<double> {};
 TEST_P(Slope, OfThirtyDegreesIsClimbedHeldAndDescended) {
   Rover rover({.slope = kThirty, .friction = 0.65, .payload = GetParam()});
@@ -127,7 +127,7 @@ std::vector<Point> contact_points(Rover& rover) {
   return points;
 }
 
-// [F H09] once round, and as fast as Coulomb's law says under the true loads
+// H09: once round, and as fast as Coulomb's law says under the true loads
 TEST(Driving, TurnsInPlaceAsCoulombsLawSaysAndStaysWhereItIs) {
   Rover rover;
   rover.go(-0.3, 0.3, 2.0);
@@ -185,7 +185,7 @@ TEST(Driving, PowerIsBalancedWithinFivePercent) {
   EXPECT_NEAR(rover.work - before, gained, 0.05 * gained);
 }
 
-// [F H06, H08] up to 20 km/h at 2 m/s^2
+// H06, H08: up to 20 km/h at 2 m/s^2
 TEST(Driving, ReachesTwentyKilometresAnHourThroughEveryGear) {
   Rover rover;
   double ratio = rover.physics.drive_train().ratio(rover.drive[0]), seconds = 0.0;

@@ -46,7 +46,7 @@ TEST_F(MonitorsTest, TheDrivingRobotStandsWell) {
   physics_.brakes().reset(true);
   for (int i = 0; i < 100; ++i) physics_.step();  // until the suspension bears it
   look(monitors);
-  // 0.39 m in the pose table (hurcules-facts A9) for the robot without person
+  // 0.39 m in the pose table (docs/design/robot.md#postures) for the robot without person
   EXPECT_NEAR(monitors.value(Quantity::Margin), 0.39, 0.03);
   EXPECT_GT(monitors.value(Quantity::TipAngle), 0.4);
   EXPECT_GE(monitors.support_points(), 4);

@@ -1,5 +1,5 @@
-// Strategy: the curve of a motor against the formulas of its header and the CVT of the design notes
-// (A6); its electric power against what a hand computes; then the drives of both real robots:
+// Strategy: a motor's curve against the formulas of its header and docs/design/robot.md#drive-train
+// (CVT); its electric power against what a hand computes; then the drives of both real robots:
 // numbers present, and the rotor's inertia, the friction and the damping felt as a motor feels
 // them.
 #include "hurcules/robot/motor.hpp"
@@ -43,8 +43,9 @@ TEST(Motor, NeverDrivesAboveItsPowerAndBrakesWithItsPeak) {
   }
 }
 
-TEST(Motor, OfATrackIsTheCvtOfTheDesignNotes) {
-  // A6: F_max(v) = F_1 clamp(5.56 / v, 1, 3), F_1 = 1430 N a side; peak 600 N m = 4286 N
+TEST(Motor, OfATrackIsTheCvtOfTheDesignPage) {
+  // [robot#drive-train] F_max(v) = F_1 clamp(5.56 / v, 1, 3), F_1 = 1430 N a side; peak 600 N m =
+  // 4286 N
   const ModelPtr model = robot("rescue");
   const int drive = mj_name2id(model.get(), mjOBJ_ACTUATOR, "L_drive");
   const MotorLimits limits = read_motor_limits(model.get(), drive);

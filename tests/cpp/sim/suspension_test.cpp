@@ -1,7 +1,7 @@
 // Strategy: the springs of the tracks do what they are for, against the same robot with its springs
-// locked: over boards and over a rough road at 20 km/h the trunk is shaken less [F H11]; they stand
+// locked: over boards and over a rough road at 20 km/h the trunk is shaken less (H11); they stand
 // on their stops under every working load, and yield above their preload in both positions of the
-// lower legs, as far as a hand computes. [F] = hurcules-facts.md.
+// lower legs, as far as a hand computes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

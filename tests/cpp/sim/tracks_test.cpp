@@ -1,6 +1,6 @@
-// Strategy: the tracked vehicle of mujoco-facts 4.2, 680 kg on two tracks of two boxes each,
-// against what a hand computes: statics on a slope, kinematics straight ahead, Coulomb friction
-// with equal loads in a turn, energy, the braking distance of a sliding plate; edges of a few
+// Strategy: the tracked vehicle of docs/design/mujoco.md#track-measurements, 680 kg on two tracks
+// of two boxes each, against what a hand computes: statics on a slope, kinematics straight ahead,
+// Coulomb friction with equal loads in a turn, energy, the braking distance of a sliding plate; edges of a few
 // millimetres to centimetres, on which it once stopped. Not tested: stairs.
 #include <mujoco/mujoco.h>
 

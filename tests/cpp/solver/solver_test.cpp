@@ -58,7 +58,7 @@ TEST(Solver, ReleasesALimitThatIsNotNeeded) {
 }
 
 TEST(Solver, LimitsAreExactNotOnePercentShort) {
-  // solver.md §3 item 4: a regularised limit would stop at 0.990
+  // solver.md §8: a regularised limit would stop at 0.990
   Solver solver(1);
   const Solution& solution = solver.solve(
       {make_bounds(vector({-1.0}), vector({1.0})), equal(Matrix{{1.0}}, vector({5.0}), 0.1)});

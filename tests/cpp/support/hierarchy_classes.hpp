@@ -1,4 +1,4 @@
-// Seeded hierarchies by class of difficulty (solver-algorithm.md §7).
+// Seeded hierarchies by class of difficulty (docs/solver-proof.md).
 //
 // `rho` regularises the levels of tasks; levels of limits have rho or none. Sizes are small
 // (n = 2 .. 20), so that a million problems are minutes; the class `large` goes to 60.

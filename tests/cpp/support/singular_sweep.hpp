@@ -1,6 +1,6 @@
 // Hierarchies with one row that comes to depend on others as s goes to 0: rows of its own level
 // (kinematic singularity) or of the level above (algorithmic). n = 19, levels of 3, 3, 3, 3, 3, 2,
-// 2 unit equality rows, rho 0.1, with or without a box on top: solver-algorithm.md §8.
+// 2 unit equality rows, rho 0.1, with or without a box on top: docs/solver.md §6.
 #pragma once
 
 #include <gtest/gtest.h>

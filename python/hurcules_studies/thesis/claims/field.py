@@ -31,8 +31,18 @@ FIELD = (
         "collide.",
         pending=_WAITS,
     ),
-    Claim("F04", "§4.5", "Seven missions of 400 m round trip within two hours.", pending=_WAITS),
-    Claim("F05", "§4.5", "Arms without power while driving keep their pose.", pending=_WAITS),
+    Claim(
+        "F04",
+        "§4.5",
+        "Seven missions of 400 m round trip within two hours.",
+        pending=_WAITS,
+    ),
+    Claim(
+        "F05",
+        "§4.5",
+        "Arms without power while driving keep their pose.",
+        pending=_WAITS,
+    ),
     Claim(
         "F06",
         "§4.5",

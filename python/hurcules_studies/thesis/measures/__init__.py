@@ -27,7 +27,6 @@ MODULES = (
     "look_and_move",
     "carrying",
     "stretch",
-    "stretch_printed",
     "driving",
     "bimanual",
     "tasks",

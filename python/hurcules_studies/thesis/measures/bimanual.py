@@ -143,7 +143,7 @@ def kept_after(log: Log) -> float:
 
 @measures("M15")
 def pull_then_push() -> Finding:
-    """Default and Algorithm 1; a second posture is told in the remark."""
+    """Default and Algorithm 1, in both postures."""
     logs = {name: to_body(name) for name in ("RHQP", "default")}
     on = max(logs["default"].first(name, 1) for name in ("LEB", "REB"))
     other = {name: kept_after(to_body(name, other=True)) for name in ("RHQP", "default")}
@@ -157,20 +157,15 @@ def pull_then_push() -> Finding:
             "on": on,
             "default": kept_after(logs["default"]),
             "rhqp": kept_after(logs["RHQP"]),
+            "other_default": other["default"],
+            "other_rhqp": other["RHQP"],
             "pel": float(max(log.errors[-1, 4] for log in logs.values())),
         },
-        [
-            Note("held after the reversal, second posture, default", other["default"], "s"),
-            Note("held after the reversal, second posture, RHQP", other["RHQP"], "s"),
-        ],
-        [
+        plots=[
             joints(logs["RHQP"], "RHQP", ("LEB", "REB"), (on, REVERSAL)),
             joints(logs["default"], "Default", ("LEB", "REB"), (on, REVERSAL)),
             Plot("Pelvis and body", "time [s]", "error [m, rad]", lines, marks=(on, REVERSAL)),
         ],
-        remark="In a second posture (SP 0.6 instead of 0.9) Algorithm 1 keeps the elbows until the "
-        "end and gives up the pelvis, as the thesis says of DLS-HQP: its set S holds what was ever "
-        "strongly active (R17). The default lets go in both.",
     )
 
 

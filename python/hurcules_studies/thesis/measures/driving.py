@@ -58,12 +58,11 @@ def twenty_km_per_hour() -> Finding:
     return Finding(
         {
             "speed": 3.6 * float(log["speed"][late].mean()),
-            "torque": float(log["share"][late].max()),
+            "torque": float(log["share"].max()),
             "power": float(log["power"].max()) / POWER,
         },
         [
-            Note("the same while the gears shift: what is not there is not given",
-                 float(log["share"].max())),
+            Note("the same at speed", float(log["share"][late].max())),
             Note("99 % of it after", reached, "s"),
             Note("most from the battery", float(log["battery"].max()), "W"),
             Note("from the battery at speed", float(log["battery"][late].mean()), "W"),
@@ -116,11 +115,11 @@ def climb(payload: float) -> tuple[Array, dict[str, float]]:
     rover.controller.drive(-CLIMB)
     rover.run(4.0, look)
     log = np.array(rows)
-    last, before = (log[top - end, 1] - log[top - end - 500, 1] for end in (1, 501))
+    late = log[:top][log[:top, 0] > log[top - 1, 0] - 2.0]
+    speed = float(np.polyfit(late[:, 0], late[:, 1], 1)[0]) * math.cos(SLOPE)
     return log, {
         "climbed": float(log[top - 1, 1]),
-        "steady": float(last / before),
-        "speed": float(last) * math.cos(SLOPE) / CLIMB,
+        "speed": speed / CLIMB,
         "creep": float(abs(log[free - 1, 1] - log[held, 1])) / HOLD,
         "down": float(log[free - 1, 1] - log[-1, 1]),
         "torque": float(log[:, 2].max()),
@@ -136,13 +135,14 @@ def slope() -> Finding:
     return Finding(
         {
             "climbed": min(bare["climbed"], full["climbed"]),
-            "steady": min(bare["steady"], full["steady"]),
+            "speed": min(bare["speed"], full["speed"]),
             "creep": max(bare["creep"], full["creep"]),
             "down": min(bare["down"], full["down"]),
             "torque": max(bare["torque"], full["torque"]),
         },
         [
-            Note("speed over the command, with 120 kg", full["speed"]),
+            Note("speed over the command, without load", bare["speed"]),
+            Note("the same along the slope, with 120 kg", full["speed"] / math.cos(SLOPE)),
             Note("largest share of a drive's torque without load", bare["torque"]),
             Note("the same with 120 kg", full["torque"]),
         ],

@@ -10,6 +10,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hurcules import ForceGains, ForceLoop
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
@@ -141,21 +142,40 @@ def rigid(compliance: float, bandwidth: float) -> Log:
     return lowered(Setting(surface, gains, RIGID, bandwidth=bandwidth, f_max=1e6), end=6.0)
 
 
-def unstable() -> int:
-    """Of 27000 loops of servo, mass, ground and force law: those with an unstable pole.
+def loops(slower: float, fed_forward: bool, late: float) -> NDArray[np.bool_]:
+    """Whether each of 27000 loops of servo, mass, ground and force law has an unstable pole.
 
-    The servo is a triple pole w told the speed of its reference, x = (3 w s^2 + 3 w^2 s + w^3) r /
-    (s + w)^3 - s f / (M (s + w)^3), the ground f = G x, the law r' = -C f.
+    The servo has a triple pole w: F / M = 3 w (v - x') + 3 w^2 e + w^3 int e, e = r - x, with v the
+    speed of its reference or 0; the ground is f = G x, the law r' = -C f(t - late). Times s^2, with
+    c = C G and the delay as (1 - late s / 2) / (1 + late s / 2):
+
+        s^4 + 3 w s^3 + (3 w^2 + G / M) s^2 + w^3 s + delay (3 w c s^2 + 3 w^2 c s + w^3 c) = 0
+
+    Args:
+        slower: bandwidth of the servo over w.
+        fed_forward: whether the servo is told the speed of its reference.
+        late: [s] by which the reading is late.
     """
-    found = 0
-    for w in np.geomspace(5.0, 60.0, 15):  # [rad/s]
-        for M in np.geomspace(1.0, 300.0, 15):  # [kg] felt at the tip
-            for G_M in np.array([1e3, 5e3, 2e4]) / M:
-                for c in np.geomspace(0.5, 2000.0, 40):  # [1/s] C G
-                    square = 3 * w**2 + G_M + 3 * w * c
-                    poles = np.roots([1, 3 * w, square, w**3 + 3 * w**2 * c, c * w**3])
-                    found += bool(poles.real.max() > 0.0)
-    return found
+    w, M, G_, c = (
+        values.ravel()
+        for values in np.meshgrid(
+            slower * np.geomspace(5.0, 60.0, 15),  # [rad/s]
+            np.geomspace(1.0, 300.0, 15),  # [kg] felt at the tip
+            np.array([1e3, 5e3, 2e4]),  # [N/m]
+            np.geomspace(0.5, 2000.0, 40),  # [1/s] C G
+            indexing="ij",
+        )
+    )
+    none = np.zeros_like(w)
+    plant = np.array([none, none + 1.0, 3 * w, 3 * w**2 + G_ / M, w**3, none])
+    law = np.array([none, none, none, 3 * w * c * fed_forward, 3 * w**2 * c, w**3 * c])
+    # times s is one place to the left
+    whole = plant + law + 0.5 * late * (np.roll(plant, -1, 0) - np.roll(law, -1, 0))
+    whole = whole if late else whole[1:]
+    companion = np.zeros((w.size, len(whole) - 1, len(whole) - 1))
+    companion[:, 0] = -(whole[1:] / whole[0]).T
+    companion[:, range(1, len(whole) - 1), range(len(whole) - 2)] = 1.0
+    return np.asarray(np.linalg.eigvals(companion).real.max(axis=1) > 0.0)
 
 
 def swing(log: Log) -> float:
@@ -180,6 +200,7 @@ def bandwidths() -> Finding:
         part = log.part(log.touched())
         time = log.time[part]
         arrive.append(settling(time - time[0], log.force[part, 0], DESIRED, 0.1))
+    measured = loops(1.0, False, 0.0)
     return Finding(
         {
             "slower": swings[1.0][0],
@@ -192,7 +213,15 @@ def bandwidths() -> Finding:
             for bandwidth, values in swings.items()
             for rate, value in zip(rates, values, strict=True)
         ]
-        + [Note("loops of 27000 with an unstable pole", unstable())],
+        + [
+            Note("loops of 27000 with an unstable pole", float(loops(1.0, True, 0.0).sum())),
+            Note("the same, reading 2 ms late", float(loops(1.0, True, 2e-3).sum())),
+            Note("the same, damping on the measured speed", float(measured.sum())),
+            Note(
+                "more of these at 0.4 times the bandwidth",
+                float((loops(0.4, False, 0.0) & ~measured).sum()),
+            ),
+        ],
         [
             Plot(
                 "Swing of the force, rigid elbows on 5 kN/m",

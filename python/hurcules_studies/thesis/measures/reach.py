@@ -43,7 +43,7 @@ SETTINGS = {
     "default": (Setting(), 35.0),
     "HQP": (Setting("hqp", as_printed=True, clamped=False), 25.0),
     "HQP, clamped": (Setting("hqp", as_printed=True), 25.0),
-    "DLS-HQP": (Setting("dls_hqp", as_printed=True, max_iterations=12), 27.0),
+    "DLS-HQP": (Setting("dls_hqp", as_printed=True, max_iterations=12), 30.0),
     "DLS-HQP, in time": (
         Setting("dls_hqp", as_printed=True, max_iterations=12, too_late=TOO_LATE),
         27.0,
@@ -141,11 +141,17 @@ def cycles() -> Finding:
     return Finding(
         {
             "first": first,
+            "last": float(log.time[log.capped][-1]) if log.capped.any() else float("nan"),
             "share": float(log.capped[window].mean()),
             "iterations": float(log.iterations.max()),
-            "zero": float(still[cycling].mean()),
+            "stops": stops,
         },
-        [Note("times that the speeds fall to zero", stops)],
+        [
+            Note(
+                "share of the 2 s in which all speeds are zero, in time",
+                float(still[cycling].mean()),
+            )
+        ],
         [
             Plot(
                 "Iterations (after Fig. 4.16)",

@@ -1,4 +1,4 @@
-"""S01 to S05: one run of the mission stretch, seed 0, closed loop in the physics."""
+"""S01 to S06: one run of the mission stretch, seed 0, closed loop in the physics; Algorithm 1."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from functools import cache
 import numpy as np
 
 import hurcules
-from hurcules_studies.thesis.claim import Finding, Plot, line
+from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
+from hurcules_studies.thesis.measures.stretch_printed import Run, run_printed
 
 Log = dict[str, Array]
 
 THESIS = (15.0, 25.0)  # [s]
+WINDOW = 0.2  # [s] in which a change of control errors counts as a spike
 
 
 @cache
@@ -74,6 +76,7 @@ def hip_stops() -> Finding:
     return Finding(
         {
             "hip": stop,
+            "rhqp_hip": run_printed().switches["hip stops"],
             "hip_speed": float(np.abs(log["qd_des/HIP"][held]).max()),
             "knee_before": float(knee[before].max()) / later,
             "pelvis_at": figures["pelvis_error_at_hip_locked_m"],
@@ -91,12 +94,15 @@ def hip_stops() -> Finding:
 def hip_released() -> Finding:
     """Shoulder pitch of either arm."""
     log, figures, _ = run()
-    free = figures["hip_released_s"]
+    free, printed = figures["hip_released_s"], run_printed().switches
     return Finding(
         {
             "shoulder": figures["shoulder_locked_s"],
             "released": free,
             "apart": abs(free - figures["shoulder_locked_s"]),
+            "rhqp_shoulder": printed["shoulder stops"],
+            "rhqp_released": printed["hip released"],
+            "rhqp_apart": abs(printed["hip released"] - printed["shoulder stops"]),
             "hip_speed": abs(at(log, "qd_des/HIP", free + 1.0)),
         },
         plots=[
@@ -145,4 +151,58 @@ def pelvis_gives_way() -> Finding:
             picture(log, "Hands", {"error/hpos": ""}, "error [mm]", 1e3),
             picture(log, "Lower-arm pitch", {"error/hpitch": ""}, "error [mrad]", 1e3),
         ],
+    )
+
+
+def spikes(time: Array, errors: Array, stop: float, release: float) -> dict[str, float]:
+    """Changes of any joint's error, (ticks, joints) [rad], at the switches [s] and elsewhere."""
+    width = round(WINDOW / 1e-3)
+    change = np.abs(errors[width:] - errors[:-width]).max(axis=1)
+    when = time[width:]
+    near = [(when > at - 0.05) & (when < at + WINDOW + 0.3) for at in (stop, release)]
+    # the start of the motion is a switch of its own
+    elsewhere = ~np.any(near, axis=0) & (when > 1.0)
+    sizes = [float(change[part].max()) for part in near]
+    usual = float(np.percentile(change[elsewhere], 90))
+    return {
+        "stop": sizes[0] / usual,
+        "release": sizes[1] / usual,
+        "largest": sizes[1] / float(change[elsewhere].max()),
+    }
+
+
+def printed_errors(one: Run) -> Plot:
+    """Of some joints, with the switches here and in the thesis."""
+    moving = one.time > 0.0
+    lines = [
+        line(name, one.time[moving], 1e3 * one.errors[moving, one.joints.index(name)])
+        for name in ("HIP", "LKN", "LSP")
+    ]
+    marks = tuple(one.switches.values())
+    return Plot(
+        "Control errors, Algorithm 1", "time [s]", "[mrad]", lines, marks, thesis_marks=THESIS
+    )
+
+
+@measures("S06")
+def switching() -> Finding:
+    """Of the mission, and of Algorithm 1 with limits as printed."""
+    log, figures, _ = run()
+    names = [name for name in log if name.startswith("joint_error/") and "belt" not in name]
+    errors = np.array([log[name] for name in names]).T
+    ours = spikes(log["time"], errors, figures["hip_locked_s"], figures["hip_released_s"])
+    one = run_printed()
+    at = one.switches
+    printed = spikes(one.time, one.errors, at["hip stops"], at["hip released"])
+    shown = {"joint_error/HIP": "HIP", "joint_error/LKN": "LKN", "joint_error/LSP": "LSP"}
+    return Finding(
+        ours | {f"rhqp_{name}": value for name, value in printed.items()},
+        [
+            Note("largest control error, default", figures["joint_error_max_rad"], "rad"),
+            *(
+                Note(f"jump of the commanded speeds, RHQP, {name}", jump, "rad/s")
+                for name, jump in one.jumps.items()
+            ),
+        ],
+        [picture(log, "Control errors, default", shown, "[mrad]", 1e3), printed_errors(one)],
     )

@@ -1,4 +1,4 @@
-"""S06: the stretch by Algorithm 1 with limits as printed, followed by the servo in the physics.
+"""The stretch by Algorithm 1 with limits as printed, followed by the servo in the physics.
 
 The mission's default bounds brake a joint before its limit, so that its control errors hardly show
 a switch; the thesis takes a limit within one step (4.3.9 with T = 1). Stack, start and command are
@@ -15,16 +15,12 @@ import numpy as np
 
 import hurcules
 from hurcules import Stack, StackLevel, models
-from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
-from hurcules_studies.thesis.measures.registry import measures
 from hurcules_studies.thesis.measures.standing import drives_of, led
 from hurcules_studies.thesis.measures.whole_body import DT, Setting
 
 SPEED = 0.0215  # [m/s] of both hands
 SETTLE, SECONDS = 2.0, 32.0  # [s] of rest before; of the motion, past the last switch
-WINDOW = 0.2  # [s] in which a change of control errors counts as a spike
-BEFORE, AFTER = 0.5, 0.3  # [s] what it is compared with; that it may last longer
 
 
 class Stretch:
@@ -85,105 +81,35 @@ class Run:
         time: (ticks,) [s] since the hands move.
         errors: (ticks, joints) [rad] of those that the hierarchy moves.
         joints: their names.
-        switches: [s] every change of the limits held.
-        named: [s] the three that the thesis names.
+        switches: [s] the three that the thesis names.
         jumps: [rad/s] of any joint's commanded speed at these three.
     """
 
     time: Array
     errors: Array
     joints: list[str]
-    switches: Array
-    named: dict[str, float]
+    switches: dict[str, float]
     jumps: dict[str, float]
 
 
 @cache
-def run(method: str) -> Run:
+def run_printed() -> Run:
     """Plans the motion, and follows it."""
-    stretch = Stretch(Setting(method, as_printed=method != "lexicographic"))
+    stretch = Stretch(Setting("rhqp_thesis", as_printed=True))
     names = stretch.robot.coordinate_names
     q, qd, active = stretch.motion()
     time = np.asarray(DT * np.arange(len(q)) - SETTLE, dtype=np.float64)
     hip = active[:, names.index("HIP")] != 0
     shoulder = (active[:, names.index("LSP")] != 0) | (active[:, names.index("RSP")] != 0)
-    named = {
+    switches = {
         "hip stops": float(time[np.argmax(hip)]),
         "hip released": float(time[len(hip) - np.argmax(hip[::-1])]),
         "shoulder stops": float(time[np.argmax(shoulder)]),
     }
     jump = np.abs(np.diff(qd, axis=0)).max(axis=1)
-    jumps = {name: float(jump[np.abs(time[1:] - at) < 0.01].max()) for name, at in named.items()}
-    switches = time[1:][np.any(np.diff(active, axis=0) != 0, axis=1)]
+    jumps = {name: float(jump[np.abs(time[1:] - at) < 0.01].max()) for name, at in switches.items()}
     drives = drives_of(stretch.robot, stretch.model, q)
     led_by = led(stretch.model, stretch.qpos, drives, q, qd)
     moved = [i for i, drive in enumerate(drives) if drive.coordinate >= 0]
     joints = [led_by.names[i] for i in moved]
-    return Run(time, led_by.error[:, moved], joints, switches, named, jumps)
-
-
-def spikes(one: Run) -> tuple[dict[str, float], float]:
-    """How errors change within 0.2 s.
-
-    Returns:
-        After each named switch, over the half second before it; the largest away from any switch,
-        over that after the release.
-    """
-    width = round(WINDOW / DT)
-    change = np.abs(one.errors[width:] - one.errors[:-width]).max(axis=1)
-    when = one.time[width:]
-    after = {
-        name: float(change[(when > at) & (when < at + WINDOW + AFTER)].max())
-        for name, at in one.named.items()
-    }
-    before = {
-        name: float(change[(when > at - BEFORE) & (when < at)].max())
-        for name, at in one.named.items()
-    }
-    near = np.any(np.abs(when[:, None] - one.switches - 0.5) < 0.5 + AFTER, axis=1)
-    # 1.3 s after a switch do not count, nor does the start of the motion
-    quiet = change[(when > 1.5) & ~near]
-    ratios = {name: after[name] / before[name] for name in after}
-    return ratios, float(quiet.max()) / after["hip released"]
-
-
-def picture(title: str, one: Run) -> Plot:
-    """Errors of some joints, with the switches here and in the thesis."""
-    moving = one.time > 0.0
-    lines = [
-        line(name, one.time[moving], 1e3 * one.errors[moving, one.joints.index(name)])
-        for name in ("HIP", "LKN", "LSP", "LEB")
-    ]
-    return Plot(
-        f"Control errors, {title}",
-        "time [s]",
-        "[mrad]",
-        lines,
-        marks=tuple(one.named.values()),
-        thesis_marks=(15.0, 25.0),
-    )
-
-
-@measures("S06")
-def switching() -> Finding:
-    """Of any joint, where limits switch against what is before and elsewhere."""
-    printed, ours = run("rhqp_thesis"), run("lexicographic")
-    ratios, elsewhere = spikes(printed)
-    braked, _ = spikes(ours)
-    return Finding(
-        {
-            "stop": ratios["hip stops"],
-            "release": ratios["hip released"],
-            "shoulder": ratios["shoulder stops"],
-            "elsewhere": elsewhere,
-        },
-        [
-            *(Note(name, at, "s") for name, at in printed.named.items()),
-            *(
-                Note(f"jump of the commanded speeds, {name}", jump, "rad/s")
-                for name, jump in printed.jumps.items()
-            ),
-            *(Note(f"default, {name}: after over before", r) for name, r in braked.items()),
-        ],
-        [picture("Algorithm 1, as printed", printed), picture("default", ours)],
-    )
+    return Run(time, led_by.error[:, moved], joints, switches, jumps)

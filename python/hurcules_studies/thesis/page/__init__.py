@@ -26,6 +26,7 @@ __all__ = ["write"]
 
 MARKS = {  # class of a verdict in the page
     Verdict.HOLDS: "yes",
+    Verdict.IN_PART: "other",
     Verdict.ANOTHER_NUMBER: "other",
     Verdict.NOT: "no",
     Verdict.PENDING: "open",
@@ -72,6 +73,7 @@ def _claim(claim: Claim, result: Result) -> dict[str, Any]:
             "measured": shown(finding.values[name], one.unit),
             "thesis": one.thesis,
             "wanted": interval(one),
+            "fitted": one.fitted,
             "missed": not one.met(finding.values[name]),
         }
         for name, one in claim.expected.items()
@@ -81,6 +83,8 @@ def _claim(claim: Claim, result: Result) -> dict[str, Any]:
         "id": claim.id,
         "source": claim.source,
         "statement": claim.statement,
+        "solvers": ", ".join(claim.solvers),
+        "caveat": claim.caveat,
         "verdict": str(result.verdict),
         "mark": MARKS[result.verdict],
         "explained": result.explained,
