@@ -19,8 +19,8 @@ void ActiveSet::reserve(Index unknowns, Index most_rows, Index most_own) {
   const Index dimension = padded(unknowns) + most_own;
   set_.reserve(most_rows, dimension);
   for (PaddedVector* v : {&x_, &x_free_, &target_}) v->reserve(padded(unknowns));
-  for (PaddedVector* v : {&y_, &rest_}) v->reserve(padded(dimension));
-  for (PaddedVector* v : {&r_, &change_}) v->reserve(most_rows + dimension + 4);
+  y_.reserve(padded(dimension));
+  change_.reserve(most_rows + dimension + 4);
   ignored_.reserve(most_rows);
 }
 
@@ -41,11 +41,6 @@ void ActiveSet::start(const RowTable& rows, LevelProblem& problem, Candidates& c
 void ActiveSet::clear() {
   restore_ignored();
   set_.clear();
-}
-
-double ActiveSet::worst_excess(const double* value) const {
-  return kernels::chosen->worst_excess(count_, value, candidates_->limits(*rows_), relative_,
-                                       absolute_);
 }
 
 bool ActiveSet::free_is_feasible() {
@@ -83,6 +78,62 @@ void ActiveSet::ignore(const Row& row) {
 void ActiveSet::restore_ignored() {
   for (const Ignored& i : ignored_) candidates_->set(i.candidate, i.lower, i.upper);
   ignored_.clear();
+}
+
+void ActiveSet::hold_violated() {
+  const int level = problem_->level();
+  for (int i = rows_->begin(level); i < rows_->begin(level + 1); ++i) {
+    const Row& row = (*rows_)[i];
+    if (row.equality || row.norm == 0.0) continue;
+    const double allowed = relative_ * row.norm + absolute_,
+                 value = candidates_->value[row.candidate];
+    if (value > row.upper + allowed) set_.plan(i, Side::Upper);
+    if (value < row.lower - allowed) set_.plan(i, Side::Lower);
+  }
+  set_.factor();
+}
+
+bool ActiveSet::primal(Budget& budget, int most_changes) {
+  std::copy_n(x_above_, rows_->stride(), x_.data());
+  std::copy_n(candidates_->above.data(), count_, candidates_->value.data());
+  if (problem_->has_slacks()) hold_violated();
+  double *value = candidates_->value.data(), *target = candidates_->target.data();
+  const int end = std::min(budget.most, budget.used + most_changes);
+  solve();
+  while (true) {
+    // how far it is to where the working set wants to go
+    const kernels::Blocking blocking = kernels::chosen->first_blocking(
+        count_, value, target, candidates_->limits(*rows_), relative_, absolute_);
+    if (blocking.candidate >= 0) {
+      const int row = rows_->row_of_candidate(blocking.candidate);
+      if (lost((*rows_)[row])) {
+        ignore((*rows_)[row]);
+        continue;
+      }
+      if (budget.used >= end) return false;
+      kernels::chosen->advance(rows_->stride(), blocking.way, target_.data(), x_.data());
+      kernels::chosen->advance(count_, blocking.way, target, value);
+      const bool up = target[blocking.candidate] > candidates_->upper(blocking.candidate);
+      ++budget.used;
+      if (set_.add(row, up ? Side::Upper : Side::Lower)) {
+        set_.add_newest(y_.data());
+        evaluate();
+      } else {  // a row that depends on the set cannot stop a move inside it: rounding
+        ignore((*rows_)[row]);
+      }
+      continue;
+    }
+    std::copy_n(target_.data(), rows_->stride(), x_.data());
+    std::copy_n(target, count_, value);
+    set_.find_multipliers();
+    const Index slot = set_.most_negative(tolerance::kNegative);
+    if (slot < 0) return true;
+    if (budget.used >= end) return false;
+    set_.drop(slot);
+    restore_ignored();
+    ++budget.used;
+    solve();
+  }
 }
 
 double ActiveSet::largest_miss(double* change) const {

@@ -1,5 +1,4 @@
-// Finds the working set of a level: by a primal active set from where the levels above ended, or by
-// a dual active set from any set.
+// Finds the working set of a level: a primal active set from where the levels above ended.
 #pragma once
 
 #include "hurcules/solver/budget.hpp"
@@ -18,16 +17,9 @@ class ActiveSet {
 
   // No limit is in the way of x_free: it is the answer, candidates.value its values.
   [[nodiscard]] bool free_is_feasible();
-  // Plans a row of the last solve's set for `take_planned`.
-  void plan(int row, Side side) { set_.plan(row, side); }
-  // factors the planned rows at once
-  void take_planned() { set_.factor(); }
   // Primal, from x_above, which no limit forbids: feasible all along, monotone. False when
   // `most_changes`, or the budget, are used up; x_feasible() is then the best point so far.
   bool primal(Budget& budget, int most_changes);
-  // Dual (Goldfarb-Idnani) from the present set; `raised` tells that the tolerance had to grow.
-  // False when the budget is used up.
-  bool dual(Budget& budget, bool& raised);
   // brings the held rows onto their limits where rounding left them off: x() and candidates.value
   void refine();
 
@@ -41,18 +33,12 @@ class ActiveSet {
   // the point of the working set: target x, values, multipliers
   void solve();
   void evaluate();
-  [[nodiscard]] double worst_excess(const double* value) const;
   // holds the own rows that are violated at x_above
   void hold_violated();
   // nothing here can move the row
   [[nodiscard]] bool lost(const Row& row) const;
   void ignore(const Row& row);
   void restore_ignored();
-  bool drop_negative(Budget& budget);
-  // the row most broken at the target relative to its tolerance, or -1
-  [[nodiscard]] int most_broken(double slack, Side& side) const;
-  // raises the multiplier of a broken row until it holds; rows whose multipliers vanish leave
-  bool raise(int row, Side side, Budget& budget);
   [[nodiscard]] double largest_miss(double* change) const;
 
   struct Ignored {
@@ -67,7 +53,7 @@ class ActiveSet {
   WorkingSet set_;
   Index count_ = 0;                         // of candidates that may count here
   double relative_ = 0.0, absolute_ = 0.0;  // a limit is broken beyond relative |a| + absolute
-  PaddedVector x_, x_free_, target_, y_, rest_, r_, change_;
+  PaddedVector x_, x_free_, target_, y_, change_;
   std::vector<Ignored> ignored_;
 };
 

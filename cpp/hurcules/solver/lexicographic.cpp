@@ -184,53 +184,35 @@ double Lexicographic::harm_above(int k) {
   return std::max(moved, worse);
 }
 
-bool Lexicographic::stays() const {
-  double longest = 0.0;
-  for (Index j = 0; j < rows_.stride(); ++j) {
-    longest = std::max(longest, std::abs(x_[j] - x_above_[j]));
-  }
-  return longest <= tolerance::kStays * x_scale_;
-}
-
 double Lexicographic::try_ways(double rho, int k, bool& done) {
   double residual = 0.0, harm = 0.0;
   bool proven = false;
   const auto go = [&](Way way) {
     start_way();
     done = solve(way, rho, k);
-    // a point that a quick way left unfinished needs no proof, and one is sought for long
-    if (!done && way < Way::Careful && !budget_.spent()) {
-      proven = false;
-      return;
-    }
+    proven = false;
+    // what a quick way left unfinished needs no proof, and one is sought for long
+    if (!done && (way == Way::Warm || (way == Way::Cold && !budget_.spent()))) return;
     residual = prove(way, rho, k);
     harm = believed(way) ? 0.0 : harm_above(k);
-    // in a crowded vertex the held rows may be so near to dependent that rounding on them harms
-    // others: where the level cannot move, x_above is its answer, too
-    if (done && harm > tolerance::kHarm && stays()) {
-      take(x_above_);
-      values_known_ = false;
-      residual = prove(way, rho, k);
-      harm = 0.0;
-    }
     residual = std::max(residual, harm);
     proven = done && !raised_ && residual <= tolerance::kProven;
   };
   // what is nearest to proven, and moves the rows above least: where nothing is better
   Way best = Way::Careful, last = best;
   double least = std::numeric_limits<double>::infinity();
-  for (const Way way : {Way::Warm, Way::Cold, Way::Settled, Way::Careful, Way::Onto, Way::Wide}) {
+  for (const Way way : {Way::Warm, Way::Cold, Way::Careful, Way::Onto, Way::Wide}) {
     if (way == Way::Warm && !has_kept(k)) continue;
     // its directions are known in double alone
     if (way == Way::Wide && !chain_->basis().whole()) continue;
-    // the usual way of a level with a small rho
-    if (way == Way::Settled && !regularized(rho)) continue;
     if (way == Way::Careful && proven_to_stay(rho, k, residual)) {
       done = true;
       return residual;
     }
     go(last = way);
-    if (budget_.spent() || (proven && harm <= tolerance::kHarm)) return residual;
+    if ((way > Way::Warm && budget_.spent()) || (proven && harm <= tolerance::kHarm)) {
+      return residual;
+    }
     if (way >= Way::Careful && proven) return residual;
     if (!done || !(residual < least)) continue;
     best = way;

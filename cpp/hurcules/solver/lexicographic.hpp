@@ -36,7 +36,7 @@ class Lexicographic : public Method {
 
  private:
   // Onto: as Careful, but back onto the limits. Wide: the same with twice the digits.
-  enum class Way { Warm, Cold, Settled, Careful, Onto, Wide };
+  enum class Way { Warm, Cold, Careful, Onto, Wide };
 
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
@@ -65,10 +65,6 @@ class Lexicographic : public Method {
   [[nodiscard]] bool regularized(double rho) const {
     return rho >= tolerance::kSmall * problem_.own_norm();
   }
-  // a quick way follows, sooner done than multipliers sought anew
-  [[nodiscard]] bool quick_way_follows(Way way, double rho) const {
-    return !budget_.spent() && (way == Way::Warm || (way == Way::Cold && regularized(rho)));
-  }
   bool solve(Way way, double rho, int k);
   bool solve_regularized(Way way, double rho, int k);
   // with the rows of the last solve, if they are the working set
@@ -80,10 +76,8 @@ class Lexicographic : public Method {
   bool settle_kept(double rho, int k);
   bool settle_held(double rho, double epsilon);
 
-  // to the optimal working set: from the set of the last solve, or from x_above_
-  bool find_warm(int k);
+  // to the optimal working set, from x_above_
   bool find_cold();
-  bool find_by_dual();
   // the answer of the active set, brought onto its limits
   void take_refined();
   // slots -> held rows, multipliers times scale
@@ -102,8 +96,6 @@ class Lexicographic : public Method {
   [[nodiscard]] bool believed(Way way) const;
   // by how much rows above moved or got worse, relative to |a| |x|
   double harm_above(int k);
-  // the answer is x_above_, to rounding
-  [[nodiscard]] bool stays() const;
   void lose_precision(int k);
   // no kept rows where they do not fit the present rows
   void check_kept();

@@ -45,7 +45,8 @@ double Lexicographic::prove(Way way, double rho, int k) {
   if (believed(way)) return 0.0 * x_scale_;  // NaN where x is
   const double residual =
       optimality_.residual(rows_, *chain_, candidates_, k, x_above_, x_scale_, record, held_);
-  if (residual <= tolerance::kProven || quick_way_follows(way, rho)) return residual;
+  // a cold start is sooner done than multipliers sought anew
+  if (residual <= tolerance::kProven || way == Way::Warm) return residual;
   return prove_anew(residual, k);
 }
 

@@ -22,14 +22,12 @@ bool Lexicographic::solve_kept(double rho, int k) {
 }
 
 bool Lexicographic::solve_regularized(Way way, double rho, int k) {
-  if (way == Way::Warm && solve_kept(rho, k)) return true;
+  if (way == Way::Warm) return solve_kept(rho, k);
   active_set_.start(rows_, problem_, candidates_, rho, x_above_, above_scale_);
-  const bool done = way == Way::Warm ? find_warm(k) : find_cold();
-  if (!done) {
-    take(way == Way::Warm ? x_above_ : active_set_.x_feasible());
+  if (!find_cold()) {
+    take(active_set_.x_feasible());
     return false;
   }
-  if (way == Way::Settled) return settle_held(rho, rho);
   take_refined();
   keep_held(rho * rho);
   begin_norm_ = static_cast<int>(held_.size());
@@ -91,22 +89,9 @@ bool Lexicographic::settle_held(double rho, double epsilon) {
   return settled_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
-bool Lexicographic::find_by_dual() {
-  return active_set_.dual(budget_, raised_);
-}
-
-bool Lexicographic::find_warm(int k) {
-  for (int h = kept_begin_[k]; h < kept_begin_[k + 1]; ++h) {
-    active_set_.plan(kept_[h].row, kept_[h].side);
-  }
-  active_set_.take_planned();
-  return find_by_dual();
-}
-
 bool Lexicographic::find_cold() {
-  // from x_above_, which is feasible and monotone; it hands over where zero steps might cycle
-  const int most = static_cast<int>(3 * (unknowns_ + rows_.size()));
-  return active_set_.primal(budget_, most) || (!budget_.spent() && find_by_dual());
+  // it ends where steps of length zero might repeat a set
+  return active_set_.primal(budget_, static_cast<int>(3 * (unknowns_ + rows_.size())));
 }
 
 void Lexicographic::take_refined() {

@@ -33,10 +33,6 @@ inline constexpr double kSettling = 1e-9;
 inline constexpr double kNoForce = 1e-12;
 // how far rows above may get worse before a more careful way is tried, relative to |a| max(1, |x|)
 inline constexpr double kHarm = 1e-12;
-// a step that may be rounding, and is none where it does more harm than that: of at most 1e4, the
-// condition of a working set of 100 rows, times the rounding of their values, relative to max(1,
-// |x|)
-inline constexpr double kStays = 1e-10;
 // a level is proven when its optimality residual is below this
 inline constexpr double kProven = 1e-9;
 // what a multiplier counts for in the forces that an imbalance is measured against: its rounding is

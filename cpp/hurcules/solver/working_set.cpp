@@ -153,13 +153,6 @@ void WorkingSet::correct(double* change, double* y) {
   for (Index i = 0; i < size(); ++i) g_[i] += change[i];
 }
 
-double WorkingSet::explain(int row, Side side, double* rest, double* r, double& norm2) const {
-  norm2 = fill_image(row, side, rest);
-  const double left = factor_.project(rest, r, norm2);
-  factor_.solve_transposed(r);
-  return left;
-}
-
 Index WorkingSet::most_negative(double tolerance) const {
   double largest = 0.0;
   for (const ActiveSlot& a : slots_) largest = std::max(largest, std::abs(a.multiplier));

@@ -48,15 +48,11 @@ class WorkingSet {
   void find_multipliers();
   // moves y by the least amount that changes each held row by its entry of `change` (slots)
   void correct(double* change, double* y);
-  // image of the row, signed, less its parts along V -> rest; r with M' r nearest to it; the square
-  // of what is left; `norm2` gets the square of the image
-  double explain(int row, Side side, double* rest, double* r, double& norm2) const;
   // slot of the most negative multiplier beyond `tolerance` of the largest, or -1
   [[nodiscard]] Index most_negative(double tolerance) const;
 
   [[nodiscard]] Index size() const { return static_cast<Index>(slots_.size()); }
   [[nodiscard]] const std::vector<ActiveSlot>& slots() const { return slots_; }
-  [[nodiscard]] std::vector<ActiveSlot>& slots() { return slots_; }
 
  private:
   void hold(int row, Side side);
