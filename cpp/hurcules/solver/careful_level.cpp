@@ -4,17 +4,42 @@
 #include <cmath>
 
 #include "hurcules/solver/tolerances.hpp"
+#include "hurcules/solver/triangularize.hpp"
 
 namespace hurcules {
 
 namespace {
 
+using Long = long double;
+
+// limits of rows above are moved outwards by this part of max(1, |x|), and up to twice as much
+constexpr Long kApart = 1e-14L;
+// an own row is violated beyond this part of the longest step so far: what rounds is its value, and
+// in cones of 1e-8 rad violations of 1e-19 decide where x of 1e-3 goes
+constexpr Long kViolated = 1e-17L;
 // an own row counts where it did not so far when it is violated by as many times more, so that
 // rounding does not swap
-constexpr double kEnters = 10.0;
-
-using std::abs;
-using std::isinf;
+constexpr Long kEnters = 10.0L;
+// a step that is rounding, relative to max(1, |x|)
+constexpr Long kNoStep = 1e-17L;
+// a multiplier pulls below this part of the forces, or of the step
+constexpr Long kPull = 1e-16L;
+// ... which grows so many times at most
+constexpr Index kLadder = 16;
+// a limit that pushes by more than this part of the forces stays where the violation is the
+// smallest; the others may not move against it either, but that is found out
+constexpr Long kFixed = 1e-8L;
+// an own row is met to this part of max(1, |x|)
+constexpr Long kMet = 1e-14L;
+// a row that moves by less than this part of a step does not block it
+constexpr Long kBlocking = 1e-13L;
+// a held row that has less than this outside the rows before it is held by them
+constexpr Long kImplied = 1e-12L;
+// what is left of a row that counts is rounding of its numbers: a tenth of what the quicker
+// strategies take for it (tolerance::kOwnRank), whose factors are in double, too
+constexpr Long kOwnRank = 1e-14L;
+// ... of an equality row that has a direction by the basis
+constexpr Long kPivot = 1e-17L;
 
 double sign(Side side) {
   return static_cast<double>(static_cast<int>(side));
@@ -28,22 +53,20 @@ double scattered(Index i) {
 
 }  // namespace
 
-template <class Scalar>
-void CarefulLevel<Scalar>::reserve(Index unknowns, Index rows) {
+void CarefulLevel::reserve(Index unknowns, Index rows) {
   const std::size_t n = static_cast<std::size_t>(unknowns);
   lines_.reserve(rows);
   if (coordinates_.size() < rows * n) coordinates_.resize(rows * n);
   basis_.reserve(unknowns, rows + unknowns);
   above_.reserve(unknowns, unknowns);
   directions_.resize(std::max(directions_.size(), n * n));
-  for (std::vector<Scalar>* v : {&t_, &p_, &force_, &z_}) v->resize(std::max(v->size(), n + 1));
+  for (std::vector<Long>* v : {&t_, &p_, &force_, &z_}) v->resize(std::max(v->size(), n + 1));
   if (block_.rows() < rows + unknowns || block_.cols() < unknowns + 1) {
     block_.resize(rows + unknowns, unknowns + 1);
   }
 }
 
-template <class Scalar>
-void CarefulLevel<Scalar>::start(const RowTable& rows, const Chain& chain,
+void CarefulLevel::start(const RowTable& rows, const Chain& chain,
                                  const LevelProblem& level, const double* x_above, double x_scale) {
   rows_ = &rows;
   chain_ = &chain;
@@ -61,11 +84,10 @@ void CarefulLevel<Scalar>::start(const RowTable& rows, const Chain& chain,
 
 // Those of the chain, cleaned of the rows above once more: in double they keep 1e-16 of them, which
 // of a row that stands out by 1e-9 is 1e-7. Behind a hand-over they are what that made them.
-template <class Scalar>
-void CarefulLevel<Scalar>::find_directions() {
+void CarefulLevel::find_directions() {
   const Index first = level_->first();
-  const auto read = [&](const double* v, double length, Scalar* direction) {
-    for (Index j = 0; j < unknowns_; ++j) direction[j] = Scalar(v[j]) / length;
+  const auto read = [&](const double* v, double length, Long* direction) {
+    for (Index j = 0; j < unknowns_; ++j) direction[j] = Long(v[j]) / length;
   };
   for (Index c = 0; c < free_; ++c) {
     read(chain_->direction(first + c), 1.0, &directions_[c * unknowns_]);
@@ -83,8 +105,7 @@ void CarefulLevel<Scalar>::find_directions() {
   }
 }
 
-template <class Scalar>
-bool CarefulLevel<Scalar>::gave_direction(const Row& row) const {
+bool CarefulLevel::gave_direction(const Row& row) const {
   const Index end = chain_->rank_before(level_->level() + 1);
   for (Index j = chain_->rank_before(level_->level()); j < end; ++j) {
     if (row.equality && chain_->pivot(j) == row.dense) return true;
@@ -92,41 +113,38 @@ bool CarefulLevel<Scalar>::gave_direction(const Row& row) const {
   return false;
 }
 
-template <class Scalar>
-void CarefulLevel<Scalar>::add_line(int row) {
+void CarefulLevel::add_line(int row) {
   const Row& r = (*rows_)[row];
   const bool own = r.level == level_->level();
   if (r.norm == 0.0 || (r.equality && !own)) return;
   const double* a = r.dense < 0 ? nullptr : rows_->dense_row(r.dense);
   const auto dot = [&](const auto* v) {
-    if (!a) return Scalar(v[r.row]);
-    Scalar sum = 0.0;
-    for (Index j = 0; j < unknowns_; ++j) sum += Scalar(a[j]) * v[j];
+    if (!a) return Long(v[r.row]);
+    Long sum = 0.0;
+    for (Index j = 0; j < unknowns_; ++j) sum += Long(a[j]) * v[j];
     return sum;
   };
-  Scalar* e = coordinates(static_cast<Index>(lines_.size()));
-  Scalar size2 = 0.0;
+  Long* e = coordinates(static_cast<Index>(lines_.size()));
+  Long size2 = 0.0;
   for (Index j = 0; j < free_; ++j) {
     e[j] = dot(direction(j)) / r.norm;
     size2 += e[j] * e[j];
   }
   if (!own && size2 <= tolerance::kLost * tolerance::kLost) return;
-  const Scalar before = dot(x_above_);
+  const Long before = dot(x_above_);
   Line line = {.row = row,
                .own = own,
                .gave = own && gave_direction(r),
                .norm = r.norm,
                .lower = r.lower - before,
                .upper = r.upper - before,
-               .lower_moved = 0.0,
-               .upper_moved = 0.0,
                .state = State::Inside,
                .side = Side::Upper,
                .multiplier = 0.0,
                .pull = 0.0};
   line.lower /= line.norm;
   line.upper /= line.norm;
-  const Scalar violated = Tolerances::kViolated * x_scale_;
+  const Long violated = kViolated * x_scale_;
   if (r.equality) {
     line.state = State::Equality;
   } else if (own && line.upper < -violated) {
@@ -136,53 +154,137 @@ void CarefulLevel<Scalar>::add_line(int row) {
     line.side = Side::Lower;
   } else if (!own) {
     const Index place = static_cast<Index>(lines_.size());
-    const Scalar apart = Tolerances::kApart * x_scale_;
-    line.upper_moved = apart * (1.0 + scattered(2 * place));
-    line.lower_moved = apart * (1.0 + scattered(2 * place + 1));
-    line.upper = std::max<Scalar>(line.upper, 0.0) + line.upper_moved;
-    line.lower = std::min<Scalar>(line.lower, 0.0) - line.lower_moved;
+    const Long apart = kApart * x_scale_;
+    line.upper = std::max<Long>(line.upper, 0.0) + apart * (1.0 + scattered(2 * place));
+    line.lower = std::min<Long>(line.lower, 0.0) - apart * (1.0 + scattered(2 * place + 1));
   }
   lines_.push_back(line);
 }
 
-template <class Scalar>
-Scalar CarefulLevel<Scalar>::value(Index i) const {
-  const Scalar* e = coordinates(i);
-  Scalar sum = 0.0;
+Long CarefulLevel::value(Index i) const {
+  const Long* e = coordinates(i);
+  Long sum = 0.0;
   for (Index j = 0; j < free_; ++j) sum += e[j] * t_[j];
   return sum;
 }
 
-template <class Scalar>
-Scalar CarefulLevel<Scalar>::excess(Index i) const {
+Long CarefulLevel::excess(Index i) const {
   return value(i) - (lines_[i].side == Side::Upper ? lines_[i].upper : lines_[i].lower);
 }
 
-template <class Scalar>
-bool CarefulLevel<Scalar>::blocked(State own) {
-  Scalar length = 0.0, way = 1.0, speed = 0.0;
-  for (Index j = 0; j < free_; ++j) length = std::max(length, abs(p_[j]));
-  if (length <= Tolerances::kNoStep * x_scale_) return false;
+void CarefulLevel::add_state(State state) {
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    if (lines_[i].state == state) basis_.add(coordinates(i), i, kImplied);
+  }
+}
+
+void CarefulLevel::build_basis(State first) {
+  basis_.start(free_);
+  add_state(first);
+  first_ = basis_.size();
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    if (!counts(lines_[i])) continue;
+    // a row that the levels below lose a direction to counts with all that limits leave of it
+    const Long rounding = lines_[i].gave ? kPivot : kOwnRank;
+    const Long before = basis_.weakest();
+    basis_.add(coordinates(i), i, std::min<Long>(tolerance::kRank, rounding / before));
+  }
+  if (first != State::Held) add_state(State::Held);
+}
+
+// least squares of the rows that count, in their directions
+void CarefulLevel::fill_block(Long rho) {
+  const Index columns = basis_.size() - first_;
+  Index count = 0;
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    if (!counts(lines_[i])) continue;
+    for (Index j = 0; j < columns; ++j) {
+      block_(count, j) = lines_[i].norm * basis_.dot(first_ + j, coordinates(i));
+    }
+    block_(count++, columns) = -lines_[i].norm * excess(i);
+  }
+  for (Index j = 0; rho > 0.0 && j < columns; ++j, ++count) {
+    block_.row(count).head(columns + 1).setZero();
+    block_(count, j) = rho;
+    block_(count, columns) = -rho * basis_.dot(first_ + j, t_.data());
+  }
+  for (; count < columns; ++count) block_.row(count).head(columns + 1).setZero();
+  triangularize(block_, count, columns);
+}
+
+void CarefulLevel::step_to_violation(Long rho) {
+  std::fill_n(p_.begin(), free_, 0.0);
+  // regularised, what no row holds goes back to where it came from
+  if (rho > 0.0) step_to_smallest();
+  const Index columns = basis_.size() - first_;
+  fill_block(rho);
+  for (Index j = columns - 1; j >= 0; --j) {
+    Long sum = block_(j, columns);
+    for (Index l = j + 1; l < columns; ++l) sum -= block_(j, l) * z_[l];
+    z_[j] = sum / block_(j, j);
+    const Long* b = basis_.direction(first_ + j);
+    for (Index c = 0; c < free_; ++c) p_[c] += z_[j] * b[c];
+  }
+}
+
+void CarefulLevel::step_to_smallest() {
+  basis_.remove(t_.data(), p_.data(), z_.data());
+  for (Index c = 0; c < free_; ++c) p_[c] = -p_[c];
+}
+
+Long CarefulLevel::balance_violation(Long rho) {
+  // what rounding in the violations makes
+  const Long own = level_->own_norm();
+  Long forces = tolerance::kLeastForce * own * own * x_scale_;
+  std::fill_n(force_.begin(), free_, 0.0);
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    lines_[i].multiplier = 0.0;
+    if (!counts(lines_[i])) continue;
+    const Long push = lines_[i].norm * lines_[i].norm * excess(i);
+    forces += std::abs(push);
+    for (Index c = 0; c < free_; ++c) force_[c] += push * coordinates(i)[c];
+  }
+  for (Index c = 0; c < free_; ++c) {
+    force_[c] += rho * rho * t_[c];
+    forces += rho * rho * std::abs(t_[c]);
+  }
+  for (Index j = 0; j < first_; ++j) z_[j] = -basis_.dot(j, force_.data());
+  basis_.solve_transposed(first_, z_.data());
+  for (Index j = 0; j < first_; ++j) lines_[basis_.mark(j)].multiplier = z_[j];
+  return forces;
+}
+
+void CarefulLevel::balance_step() {
+  for (Line& line : lines_) line.pull = 0.0;
+  for (Index j = 0; j < basis_.size(); ++j) z_[j] = -basis_.dot(j, t_.data());
+  basis_.solve_transposed(basis_.size(), z_.data());
+  for (Index j = 0; j < basis_.size(); ++j) lines_[basis_.mark(j)].pull = z_[j];
+}
+
+bool CarefulLevel::blocked(State own) {
+  Long length = 0.0, way = 1.0, speed = 0.0;
+  for (Index j = 0; j < free_; ++j) length = std::max(length, std::abs(p_[j]));
+  if (length <= kNoStep * x_scale_) return false;
   Index found = -1;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     const Line& line = lines_[i];
     if (line.state != State::Inside) continue;
-    const Scalar* e = coordinates(i);
-    Scalar moved = 0.0;
+    const Long* e = coordinates(i);
+    Long moved = 0.0;
     for (Index j = 0; j < free_; ++j) moved += e[j] * p_[j];
-    if (abs(moved) <= Tolerances::kBlocking * length) continue;
-    const Scalar limit = moved > 0.0 ? line.upper : line.lower;
-    if (isinf(limit)) continue;
-    const Scalar part = std::max<Scalar>(0.0, (limit - value(i)) / moved);
-    if (part > way || (part == way && abs(moved) <= speed) || part >= 1.0) continue;
+    if (std::abs(moved) <= kBlocking * length) continue;
+    const Long limit = moved > 0.0 ? line.upper : line.lower;
+    if (std::isinf(limit)) continue;
+    const Long part = std::max<Long>(0.0, (limit - value(i)) / moved);
+    if (part > way || (part == way && std::abs(moved) <= speed) || part >= 1.0) continue;
     way = part;
-    speed = abs(moved);
+    speed = std::abs(moved);
     found = i;
     lines_[i].side = moved > 0.0 ? Side::Upper : Side::Lower;
   }
   for (Index j = 0; j < free_; ++j) {
     t_[j] += way * p_[j];
-    reach_ = std::max(reach_, abs(t_[j]));
+    reach_ = std::max(reach_, std::abs(t_[j]));
   }
   x_scale_ = std::max(x_scale_, reach_);
   if (found < 0) return false;
@@ -191,14 +293,13 @@ bool CarefulLevel<Scalar>::blocked(State own) {
 }
 
 // own rows count where they are beyond a limit, on whichever side that is now
-template <class Scalar>
-bool CarefulLevel<Scalar>::revise_violated() {
+bool CarefulLevel::revise_violated() {
   bool changed = false;
-  const Scalar room = Tolerances::kViolated * reach_;
+  const Long room = kViolated * reach_;
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     Line& line = lines_[i];
     if (!line.own || (line.state != State::Violated && line.state != State::Inside)) continue;
-    const Scalar now = value(i);
+    const Long now = value(i);
     const bool counted = line.state == State::Violated;
     if (counted && sign(line.side) * excess(i) >= -room) continue;
     const bool over = now > line.upper + kEnters * room, under = now < line.lower - kEnters * room;
@@ -210,8 +311,7 @@ bool CarefulLevel<Scalar>::revise_violated() {
   return changed;
 }
 
-template <class Scalar>
-bool CarefulLevel<Scalar>::drop_worst(Scalar Line::* part, Scalar least) {
+bool CarefulLevel::drop_worst(Long Line::* part, Long least) {
   Line* found = nullptr;
   for (Line& line : lines_) {
     if (line.state != State::Held || sign(line.side) * line.*part >= least) continue;
@@ -226,33 +326,26 @@ bool CarefulLevel<Scalar>::drop_worst(Scalar Line::* part, Scalar least) {
 
 // Grows tenfold when there were more rounds than rows and directions, so that rounding in a level
 // on the edge of its digits cannot keep two rows swapping; the proof judges what comes of it.
-template <class Scalar>
-Scalar CarefulLevel<Scalar>::pull(Index round) const {
-  return Tolerances::kPull * std::pow(10.0L, static_cast<long double>(round / rounds()));
+Long CarefulLevel::pull(Index round) const {
+  return kPull * std::pow(10.0L, static_cast<long double>(round / rounds()));
 }
 
-template <class Scalar>
-bool CarefulLevel<Scalar>::find_violation(Scalar rho, bool onto, Budget& budget) {
-  for (Index round = 0; round < Tolerances::kLadder * rounds() && !budget.spent();
+bool CarefulLevel::find_violation(Long rho, Budget& budget) {
+  for (Index round = 0; round < kLadder * rounds() && !budget.spent();
        ++round, ++budget.used) {
     build_basis(State::Held);
     step_to_violation(rho);
     if (blocked(State::Violated) || revise_violated()) continue;
-    Scalar forces = balance_violation(rho);
+    const Long forces = balance_violation(rho);
     if (drop_worst(&Line::multiplier, -pull(round) * forces)) continue;
-    if (onto) {
-      move_back(rho);
-      forces = balance_violation(rho);
-    }
     if (rho == 0.0) settle(forces);
     return true;
   }
   return false;
 }
 
-template <class Scalar>
-bool CarefulLevel<Scalar>::find_smallest(Budget& budget) {
-  for (Index round = 0; round < Tolerances::kLadder * rounds() && !budget.spent();
+bool CarefulLevel::find_smallest(Budget& budget) {
+  for (Index round = 0; round < kLadder * rounds() && !budget.spent();
        ++round, ++budget.used) {
     build_basis(State::Fixed);
     step_to_smallest();
@@ -263,25 +356,59 @@ bool CarefulLevel<Scalar>::find_smallest(Budget& budget) {
   return false;
 }
 
-template <class Scalar>
-void CarefulLevel<Scalar>::settle(Scalar forces) {
+void CarefulLevel::settle(Long forces) {
   for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
     Line& line = lines_[i];
     if (line.state == State::Held &&
-        sign(line.side) * line.multiplier > Tolerances::kFixed * forces) {
+        sign(line.side) * line.multiplier > kFixed * forces) {
       line.state = State::Fixed;
     }
     // met to rounding: it may come inside, too
-    if (line.state == State::Violated && abs(excess(i)) <= Tolerances::kMet * x_scale_) {
+    if (line.state == State::Violated && std::abs(excess(i)) <= kMet * x_scale_) {
       line.state = State::Held;
     }
   }
 }
 
-template <class Scalar>
-bool CarefulLevel<Scalar>::solve(double rho, bool onto, Budget& budget, double* x,
-                                 std::vector<HeldRow>& held, int& begin_norm) {
-  bool found = find_violation(rho, onto, budget);
+void CarefulLevel::write(double* x) {
+  std::copy_n(x_above_, rows_->stride(), x);
+  for (Index j = 0; j < unknowns_; ++j) {
+    Long sum = x_above_[j];
+    for (Index c = 0; c < free_; ++c) {
+      sum += t_[c] * direction(c)[j];
+    }
+    x[j] = static_cast<double>(sum);
+  }
+}
+
+void CarefulLevel::keep(bool settled, std::vector<HeldRow>& held, int& begin_norm) const {
+  const auto push = [&](const Line& line, Long multiplier) {
+    return static_cast<double>(static_cast<int>(line.side) * multiplier / line.norm);
+  };
+  for (Index i = 0; i < static_cast<Index>(lines_.size()); ++i) {
+    const Line& line = lines_[i];
+    if (line.own && line.state == State::Violated) {
+      const double violation = static_cast<double>(std::abs(excess(i)) * line.norm);
+      held.push_back({line.row, line.side, violation, Role::Violation});
+    } else if (!line.own && holds(line) && line.multiplier != 0.0) {
+      held.push_back(
+          {line.row, line.side, std::max(0.0, push(line, line.multiplier)), Role::Violation});
+    }
+  }
+  begin_norm = static_cast<int>(held.size());
+  for (Index j = 0; j < basis_.size(); ++j) {
+    const Line& line = lines_[basis_.mark(j)];
+    if (line.state == State::Equality) continue;
+    const bool only = settled && line.state == State::Held;
+    held.push_back(
+        {line.row, line.side, push(line, line.pull), only ? Role::SmallestStep : Role::Idle});
+  }
+}
+
+
+bool CarefulLevel::solve(double rho, Budget& budget, double* x, std::vector<HeldRow>& held,
+                         int& begin_norm) {
+  bool found = find_violation(rho, budget);
   if (found && rho == 0.0) {
     found = find_smallest(budget);
   } else if (found) {
@@ -292,7 +419,5 @@ bool CarefulLevel<Scalar>::solve(double rho, bool onto, Budget& budget, double* 
   return found;
 }
 
-template class CarefulLevel<long double>;
-template class CarefulLevel<Wide>;
 
 }  // namespace hurcules

@@ -1,28 +1,24 @@
-// A level solved with care instead of haste: the last way, when a quicker one does not prove
+// A level solved with care instead of haste: the last strategy, when a quicker one does not prove
 // itself.
 //
-// In long double (19 digits on x86-64), and where that proves nothing in Wide, from where the
-// levels above ended, which every limit of theirs allows exactly: first the smallest violation,
-// then, without regularisation, the smallest step with that violation. Each is a primal active set
-// that is feasible and falls all along. The limits of rows above are moved outwards by different
-// amounts of about 1e-14 (Wide: 1e-28), so that no more of them meet in a point than there are
-// directions: then every step has a length, the objective falls with each, and no set of held
-// limits returns. In a cone of 1e-8 rad those 1e-14 are 1e-6 of x: so the answer can be brought
-// back onto the limits that hold it (`onto`).
+// In long double (19 digits on x86-64), from where the levels above ended, which every limit of
+// theirs allows exactly: first the smallest violation, then, without regularisation, the smallest
+// step with that violation. Each is a primal active set that is feasible and falls all along. The
+// limits of rows above are moved outwards by different amounts of about 1e-14, so that no more of
+// them meet in a point than there are directions: then every step has a length, the objective falls
+// with each, and no set of held limits returns.
 #pragma once
 
 #include <vector>
 
 #include "hurcules/solver/budget.hpp"
 #include "hurcules/solver/careful_basis.hpp"
-#include "hurcules/solver/careful_tolerances.hpp"
 #include "hurcules/solver/chain.hpp"
 #include "hurcules/solver/level_problem.hpp"
 #include "hurcules/solver/optimality.hpp"
 
 namespace hurcules {
 
-template <class Scalar>
 class CarefulLevel {
  public:
   void reserve(Index unknowns, Index rows);
@@ -31,14 +27,11 @@ class CarefulLevel {
              const double* x_above, double x_scale);
   // To the answer x; then `held` has its rows (those of the smallest step from begin_norm on).
   // False when it does not get there; x is the best point so far.
-  bool solve(double rho, bool onto, Budget& budget, double* x, std::vector<HeldRow>& held,
-             int& begin_norm);
-  // the directions of the answer are told from rounding well enough for a proof
-  [[nodiscard]] bool told() const { return weakest_ > Tolerances::kTold; }
+  bool solve(double rho, Budget& budget, double* x, std::vector<HeldRow>& held, int& begin_norm);
 
  private:
-  using Block = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  using Tolerances = CarefulTolerances<Scalar>;
+  using Long = long double;
+  using Block = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
   enum class State : char {
     Equality,  // own, always part of the violation
     Inside,
@@ -50,25 +43,24 @@ class CarefulLevel {
     int row;      // in the table
     bool own;     // its violation counts
     bool gave;    // an equality that gave the chain a direction
-    Scalar norm;  // |a|; coordinates and limits of rows are divided by it
-    Scalar lower, upper;
-    Scalar lower_moved, upper_moved;  // by how much they were moved outwards
+    Long norm;  // |a|; coordinates and limits of rows are divided by it
+    Long lower, upper;
     State state;
     Side side;
-    Scalar multiplier;  // against the violations
-    Scalar pull;        // against the step
+    Long multiplier;  // against the violations
+    Long pull;        // against the step
   };
 
   void find_directions();
   // a free direction, as a step of x
-  [[nodiscard]] const Scalar* direction(Index c) const { return &directions_[c * unknowns_]; }
+  [[nodiscard]] const Long* direction(Index c) const { return &directions_[c * unknowns_]; }
   // an own equality row that the levels below lose a direction to
   [[nodiscard]] bool gave_direction(const Row& row) const;
   void add_line(int row);
-  [[nodiscard]] Scalar* coordinates(Index i) { return &coordinates_[i * free_]; }
-  [[nodiscard]] const Scalar* coordinates(Index i) const { return &coordinates_[i * free_]; }
-  [[nodiscard]] Scalar value(Index i) const;   // of a line at t_
-  [[nodiscard]] Scalar excess(Index i) const;  // of a row that counts, beyond its limit, signed
+  [[nodiscard]] Long* coordinates(Index i) { return &coordinates_[i * free_]; }
+  [[nodiscard]] const Long* coordinates(Index i) const { return &coordinates_[i * free_]; }
+  [[nodiscard]] Long value(Index i) const;   // of a line at t_
+  [[nodiscard]] Long excess(Index i) const;  // of a row that counts, beyond its limit, signed
   [[nodiscard]] bool holds(const Line& line) const {
     return line.state == State::Held || line.state == State::Fixed;
   }
@@ -76,29 +68,27 @@ class CarefulLevel {
     return line.state == State::Equality || line.state == State::Violated;
   }
 
-  bool find_violation(Scalar rho, bool onto, Budget& budget);
+  bool find_violation(Long rho, Budget& budget);
   bool find_smallest(Budget& budget);
   // directions of `first` rows, of the rows that count, and of held rows unless they came first
   void build_basis(State first);
   void add_state(State state);
-  void step_to_violation(Scalar rho);
-  void fill_block(Scalar rho);
+  void step_to_violation(Long rho);
+  void fill_block(Long rho);
   void step_to_smallest();
   // moves along p_ until a row is in the way, which becomes `own` or Held then
   bool blocked(State own);
   bool revise_violated();
   // multipliers of the held rows against the violations; returns the size of the forces
-  Scalar balance_violation(Scalar rho);
+  Long balance_violation(Long rho);
   // of all rows of the basis against the step
   void balance_step();
-  [[nodiscard]] Scalar pull(Index round) const;
+  [[nodiscard]] Long pull(Index round) const;
   [[nodiscard]] Index rounds() const { return 2 * (free_ + static_cast<Index>(lines_.size()) + 1); }
   // lets the held row go that pulls most, by what `part` says
-  bool drop_worst(Scalar Line::* part, Scalar least);
-  // limits back to where they were, the point onto those that hold it
-  void move_back(Scalar rho);
+  bool drop_worst(Long Line::* part, Long least);
   // what may not change any more once the violation is the smallest
-  void settle(Scalar forces);
+  void settle(Long forces);
   void write(double* x);
   void keep(bool settled, std::vector<HeldRow>& held, int& begin_norm) const;
 
@@ -107,16 +97,15 @@ class CarefulLevel {
   const LevelProblem* level_ = nullptr;
   const double* x_above_ = nullptr;
   Index unknowns_ = 0, free_ = 0;
-  Scalar weakest_ = 1.0;  // the least that limits leave of a row with a direction by the chain
-  Scalar x_scale_ = 1.0;  // what rounding in x is relative to: the largest x so far
-  Scalar reach_ = 0.0;    // the largest |t| so far
+  Long x_scale_ = 1.0;  // what rounding in x is relative to: the largest x so far
+  Long reach_ = 0.0;    // the largest |t| so far
   std::vector<Line> lines_;
-  std::vector<Scalar> coordinates_;  // (lines, free)
-  CarefulBasis<Scalar> above_;       // of equality rows above, then of directions that are free
-  std::vector<Scalar> directions_;   // (free, unknowns)
-  CarefulBasis<Scalar> basis_;
+  std::vector<Long> coordinates_;  // (lines, free)
+  CarefulBasis above_;       // of equality rows above, then of directions that are free
+  std::vector<Long> directions_;   // (free, unknowns)
+  CarefulBasis basis_;
   Index first_ = 0;  // directions of the basis before those of rows that count
-  std::vector<Scalar> t_, p_, force_, z_;
+  std::vector<Long> t_, p_, force_, z_;
   Block block_;
 };
 

@@ -58,7 +58,7 @@ class Certificate {
   const double* x_ = nullptr;
   double x_scale_ = 1.0;
   int level_ = 0;
-  CarefulBasis<Long> basis_;  // of rows that take directions away
+  CarefulBasis basis_;  // of rows that take directions away
   NonnegativeBalance balance_;
   std::vector<Push> violation_, step_;
   std::vector<char> pushing_;  // (rows) against the violations

@@ -58,7 +58,6 @@ void Lexicographic::reserve(HierarchyView hierarchy) {
   active_set_.reserve(unknowns_, reserved_rows_, reserved_own_);
   settled_level_.reserve(unknowns_, reserved_rows_);
   careful_level_.reserve(unknowns_, reserved_rows_);
-  wide_level_.reserve(unknowns_, reserved_rows_);
   optimality_.reserve(unknowns_, reserved_rows_);
   certificate_.reserve(unknowns_, reserved_rows_);
   records_.resize(reserved_levels_);
@@ -196,15 +195,17 @@ double Lexicographic::try_ways(double rho, int k, bool& done) {
     residual = prove(way, rho, k);
     harm = believed(way) ? 0.0 : harm_above(k);
     residual = std::max(residual, harm);
-    proven = done && !raised_ && residual <= tolerance::kProven;
+    proven = done && residual <= tolerance::kProven;
   };
   // what is nearest to proven, and moves the rows above least: where nothing is better
   Way best = Way::Careful, last = best;
   double least = std::numeric_limits<double>::infinity();
-  for (const Way way : {Way::Warm, Way::Cold, Way::Careful, Way::Onto, Way::Wide}) {
+  for (const Way way : {Way::Warm, Way::Cold, Way::Careful, Way::CarefulWithoutRho}) {
     if (way == Way::Warm && !has_kept(k)) continue;
-    // its directions are known in double alone
-    if (way == Way::Wide && !chain_->basis().whole()) continue;
+    if (way == Way::CarefulWithoutRho &&
+        (rho == 0.0 || rho > 1e-8 * problem_.own_norm())) {
+      continue;
+    }
     if (way == Way::Careful && proven_to_stay(rho, k, residual)) {
       done = true;
       return residual;
@@ -235,7 +236,7 @@ void Lexicographic::start_way() {
   active_set_.clear();
   held_.resize(begin_held_);
   begin_norm_ = static_cast<int>(begin_held_);
-  values_known_ = raised_ = false;
+  values_known_ = false;
 }
 
 void Lexicographic::lose_precision(int k) {

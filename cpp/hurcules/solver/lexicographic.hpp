@@ -1,6 +1,6 @@
 // The default method: the loop over the levels, and all memory that it needs (solver.md §1).
 //
-// A level has up to six ways to its answer, from the quickest to the most careful; the first
+// A level has up to three ways to its answer, from the quickest to the most careful; the first
 // whose answer proves itself counts.
 #pragma once
 
@@ -35,8 +35,8 @@ class Lexicographic : public Method {
   void restore(StateReader& reader) override;
 
  private:
-  // Onto: as Careful, but back onto the limits. Wide: the same with twice the digits.
-  enum class Way { Warm, Cold, Careful, Onto, Wide };
+  // CarefulWithoutRho: a rho so small that its square is lost in rounding counts as 0
+  enum class Way { Warm, Cold, Careful, CarefulWithoutRho };
 
   [[nodiscard]] bool fits(HierarchyView hierarchy) const;
   // solves level k from x_above_ into x_; false when the solve has to end here
@@ -71,7 +71,7 @@ class Lexicographic : public Method {
   bool solve_kept(double rho, int k);
   // rho nothing or small: the settled level; or proximal steps and the smallest step
   bool solve_settled(Way way, double rho, int k);
-  bool solve_carefully(Way way, double rho);
+  bool solve_carefully(double rho);
   // from the rows of the last solve, or from those that the active set holds now
   bool settle_kept(double rho, int k);
   bool settle_held(double rho, double epsilon);
@@ -118,8 +118,7 @@ class Lexicographic : public Method {
   KeptLevel kept_level_;
   ActiveSet active_set_;
   SettledLevel settled_level_;
-  CarefulLevel<long double> careful_level_;
-  CarefulLevel<hurcules::Wide> wide_level_;
+  CarefulLevel careful_level_;
   Optimality optimality_;
   Certificate certificate_;
   Budget budget_;
@@ -139,7 +138,6 @@ class Lexicographic : public Method {
   std::size_t begin_held_ = 0;
   int begin_norm_ = 0;
   bool values_known_ = false;  // candidates_.value belongs to x_
-  bool raised_ = false;        // a tolerance had to grow
   Index reserved_rows_ = 0, reserved_own_ = 0;
   std::size_t reserved_levels_ = 0;
 };

@@ -9,7 +9,7 @@ namespace hurcules {
 
 bool Lexicographic::solve(Way way, double rho, int k) {
   chain_->complete(rows_);
-  if (way >= Way::Careful) return solve_carefully(way, rho);
+  if (way >= Way::Careful) return solve_carefully(way == Way::Careful ? rho : 0.0);
   return regularized(rho) ? solve_regularized(way, rho, k) : solve_settled(way, rho, k);
 }
 
@@ -47,18 +47,10 @@ bool Lexicographic::solve_settled(Way way, double rho, int k) {
   return false;
 }
 
-bool Lexicographic::solve_carefully(Way way, double rho) {
+bool Lexicographic::solve_carefully(double rho) {
   ++solution_.factorizations;
-  // so small that it would be lost in rounding
-  if (way == Way::Wide && rho <= tolerance::kTiny * problem_.own_norm()) rho = 0.0;
-  const auto go = [&](auto& level) {
-    level.start(rows_, *chain_, problem_, x_above_, above_scale_);
-    const bool done = level.solve(rho, way != Way::Careful, budget_, x_, held_, begin_norm_);
-    // with more digits it may be another answer
-    raised_ = !level.told();
-    return done;
-  };
-  return way == Way::Wide ? go(wide_level_) : go(careful_level_);
+  careful_level_.start(rows_, *chain_, problem_, x_above_, above_scale_);
+  return careful_level_.solve(rho, budget_, x_, held_, begin_norm_);
 }
 
 bool Lexicographic::settle_kept(double rho, int k) {

@@ -51,7 +51,7 @@ class NonnegativeBalance {
 
   Index columns_ = 0, size_ = 0;
   const Long* b_ = nullptr;
-  CarefulBasis<Long> basis_;  // of those that are in
+  CarefulBasis basis_;  // of those that are in
   std::vector<Long> directions_, weight_, wanted_, rest_;
   std::vector<State> state_;
   Long left_ = 0.0L;

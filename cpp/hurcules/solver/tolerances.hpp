@@ -45,9 +45,6 @@ inline constexpr double kLeastForce = 1e-3;
 inline constexpr double kProximal = 1e-4;
 // a regularisation so small, relative to max |a|, that the least-distance form loses digits
 inline constexpr double kSmall = 1e-2;
-// a regularisation that is taken for nothing where all else failed, relative to max |a|: beside the
-// square of it no more than 1e-14 of a force would be told from rounding
-inline constexpr double kTiny = 1e-12;
 // a residual that is rounding and moves nothing, relative to |a| |x| + |b|
 inline constexpr double kZeroResidual = 1e-15;
 

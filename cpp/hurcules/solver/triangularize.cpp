@@ -2,18 +2,15 @@
 
 #include <cmath>
 
-#include "hurcules/solver/wide.hpp"
-
 namespace hurcules {
 
 template <class Block>
 void triangularize(Block& block, Index rows, Index columns) {
-  using std::sqrt;
   using Scalar = typename Block::Scalar;
   for (Index j = 0; j < columns; ++j) {
     Scalar norm2 = 0.0;
     for (Index i = j; i < rows; ++i) norm2 += block(i, j) * block(i, j);
-    const Scalar alpha = block(j, j) > Scalar(0.0) ? -sqrt(norm2) : sqrt(norm2);
+    const Scalar alpha = block(j, j) > Scalar(0.0) ? -std::sqrt(norm2) : std::sqrt(norm2);
     const Scalar pivot = block(j, j) - alpha;
     if (pivot == Scalar(0.0)) continue;
     // v = (pivot, block(j+1.., j)),  H = I - v v' / (-alpha pivot)
@@ -31,6 +28,5 @@ void triangularize(Block& block, Index rows, Index columns) {
 template void triangularize(Matrix&, Index, Index);
 template void triangularize(Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>&, Index,
                             Index);
-template void triangularize(Eigen::Matrix<Wide, Eigen::Dynamic, Eigen::Dynamic>&, Index, Index);
 
 }  // namespace hurcules
