@@ -27,7 +27,8 @@ ARROWS: dict[str, set[str]] = {
 PHYSICS = {"robot", "sim"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"][^>"]+[>"])', re.MULTILINE)
-ROOM_HEADER = re.compile(r'"hurcules/(\w+)/\w+\.hpp"')
+# a room may have folders; its arrows are those of the whole room
+ROOM_HEADER = re.compile(r'"hurcules/(\w+)/(?:\w+/)*\w+\.hpp"')
 LINKS = re.compile(r"^hurcules_room\((\w+) LINKS ([^)]*)\)", re.MULTILINE)
 # [T 4.12], [T §3.2], [T alg. 2], [T A.2.9], [S 146]; not a unit such as [N m]
 TAG = re.compile(r"\[([A-Z]) (?:§|alg\. ?|[A-Z]\.)?\d[^\]]*\]")
@@ -67,19 +68,24 @@ def _names(node: ast.AST, package: str) -> bool:
 
 
 def sources(root: Path) -> list[Path]:
-    """Every C++ file of the rooms."""
-    return sorted((root / "cpp" / "hurcules").glob("*/*.[ch]pp"))
+    """Every C++ file of the rooms, those in their folders too."""
+    return sorted((root / "cpp" / "hurcules").rglob("*.[ch]pp"))
+
+
+def room_of(root: Path, file: Path) -> str:
+    """The room that a file belongs to."""
+    return file.relative_to(root / "cpp" / "hurcules").parts[0]
 
 
 def test_every_room_of_the_picture_exists_and_no_other(root: Path) -> None:
-    assert {file.parent.name for file in sources(root)} == set(ARROWS)
+    assert {room_of(root, file) for file in sources(root)} == set(ARROWS)
 
 
 @pytest.mark.parametrize("room", ARROWS)
 def test_a_room_includes_only_what_its_arrows_allow(root: Path, room: str) -> None:
     found = []
     for file in sources(root):
-        if file.parent.name == room:
+        if room_of(root, file) == room:
             headers = INCLUDE.findall(file.read_text(encoding="utf-8"))
             found += offences(room, str(file.relative_to(root)), headers)
     assert found == []
@@ -109,6 +115,8 @@ def test_the_checker_finds_what_is_forbidden() -> None:
     assert offences("solver", "a.cpp", ['"hurcules/robot/robot.hpp"'])
     assert offences("tasks", "a.cpp", ['"hurcules/solver/solver.hpp"'])
     assert offences("base", "a.hpp", ['"error.hpp"'])
+    assert offences("robot", "a.cpp", ['"hurcules/solver/problem/row_table.hpp"'])
+    assert not offences("solver", "a.cpp", ['"hurcules/solver/problem/row_table.hpp"'])
     assert offences("sim", "a.cpp", ['"python/bindings/module.hpp"'])
     assert offences("sim", "a.hpp", ["<mujoco/mujoco.h>"])
     assert offences("control", "a.cpp", ["<mujoco/mujoco.h>"])

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hurcules/control/stack_problem.hpp"
-#include "hurcules/solver/level_report.hpp"
+#include "hurcules/solver/sensitivity/level_report.hpp"
 
 namespace hurcules {
 

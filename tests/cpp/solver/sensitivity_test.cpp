@@ -2,7 +2,7 @@
 // identity <x_bar, forward(d)> = <transposed(x_bar), d> and central finite differences; the copy
 // outlives its arrays. All classes of difficulty against finite differences are in Python
 // (test_sensitivity.py).
-#include "hurcules/solver/sensitivity.hpp"
+#include "hurcules/solver/sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
