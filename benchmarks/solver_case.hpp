@@ -53,7 +53,7 @@ class SolverCase {
     figures_.floor = measure_yardstick<Floor>();
     measure_cold();
     measure_warm();
-    measure_jump();
+    if (effort_.ticks > 1) measure_jump();
     std::vector<double> ticks;
     for (std::size_t i = 0; i < 4 && effort_.ticks > 1; ++i) measure_motion(1001 + i, ticks);
     figures_.tick = quantiles(ticks);

@@ -9,6 +9,7 @@
 
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/solver/sensitivity/level_report.hpp"
+#include "hurcules/solver/solver.hpp"
 
 namespace hurcules {
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hurcules/solver/solver.hpp"
 #include "support/expect.hpp"
 #include "support/singular_sweep.hpp"
 #include "support/smooth_reference.hpp"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "hurcules/solver/solver.hpp"
 #include "support/expect.hpp"
 #include "support/random_hierarchy.hpp"
 
