@@ -63,7 +63,7 @@ SolverStatus LevelSolver::end(bool done, double residual) {
   if (!std::isfinite(residual) || !std::isfinite(x_scale_)) {
     forget();
     take(x_above_);
-    prove(Strategy::ExtendedPrecision, 0.0);
+    prove(Strategy::ExtendedPrecision, 0.0, false);
     x_scale_ = std::max(1.0, kernels::chosen->largest(rows_->stride(), x_));
     return SolverStatus::LostPrecision;
   }
@@ -72,7 +72,7 @@ SolverStatus LevelSolver::end(bool done, double residual) {
     if (harm_above() > tolerance::kBroken) {
       forget();
       take(x_above_);
-      prove(Strategy::ExtendedPrecision, rho_);
+      prove(Strategy::ExtendedPrecision, rho_, false);
     }
     return SolverStatus::IterationLimit;
   }
@@ -127,7 +127,7 @@ double LevelSolver::try_strategies(bool& done) {
         (strategy == Strategy::WarmStart || (strategy == Strategy::Cold && !budget_.spent()))) {
       return false;
     }
-    residual = prove(strategy, rho_);
+    residual = prove(strategy, rho_, done);
     harm = believed(strategy) ? 0.0 : harm_above();
     residual = std::max(residual, harm);
     return done && residual <= tolerance::kProven;
@@ -260,7 +260,7 @@ void LevelSolver::forget() {
   values_known_ = false;
 }
 
-double LevelSolver::prove(Strategy strategy, double rho) {
+double LevelSolver::prove(Strategy strategy, double rho, bool done) {
   record_->rho = rho;
   record_->own_norm = problem_.own_norm();
   list_held();
@@ -272,7 +272,7 @@ double LevelSolver::prove(Strategy strategy, double rho) {
   const double residual = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
                                                x_scale_, *record_, held_);
   // a cold start is sooner done than multipliers sought anew
-  if (residual <= tolerance::kProven || strategy == Strategy::WarmStart) return residual;
+  if (residual <= tolerance::kProven || strategy == Strategy::WarmStart || !done) return residual;
   return prove_anew(residual);
 }
 

@@ -79,8 +79,9 @@ class LevelSolver {
   // forgets what a strategy left behind
   void forget();
   void take(const double* x) { std::copy_n(x, rows_->stride(), x_); }
-  // the record of the level, and its proof: the worst residual
-  double prove(Strategy strategy, double rho);
+  // the record of the level, and its proof: the worst residual; multipliers are not sought anew for
+  // a point that was not finished
+  double prove(Strategy strategy, double rho, bool done = true);
   // multipliers sought anew, where those that the strategy found prove nothing
   double prove_anew(double residual);
   // the rows that are held -> the record
