@@ -4,8 +4,8 @@
 #include <Eigen/QR>
 #include <vector>
 
-#include "hurcules/solver/chain.hpp"
-#include "hurcules/solver/row_table.hpp"
+#include "hurcules/solver/problem/nullspace_basis.hpp"
+#include "hurcules/solver/problem/row_table.hpp"
 
 namespace hurcules_benchmark {
 
@@ -54,7 +54,7 @@ class Floor {
 
  private:
   hurcules::RowTable rows_;
-  hurcules::Chain chain_;
+  hurcules::NullspaceBasis chain_;
 };
 
 }  // namespace hurcules_benchmark

@@ -13,7 +13,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-TIMES = ("cold", "warm", "tick")
+TIMES = ("cold", "warm", "jump", "tick")
 
 
 def read(path: Path) -> dict[tuple, dict]:

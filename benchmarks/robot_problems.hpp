@@ -140,4 +140,15 @@ class Motion {
   std::vector<Row> rows_;
 };
 
+// the rows of `levels` with the targets that the motion has at time t [s]: an operator's jump
+inline Hierarchy with_targets_of(const Motion& motion, double t, Hierarchy levels) {
+  const Hierarchy later = motion.at(t);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    levels[k].lower = later[k].lower;
+    levels[k].upper = later[k].upper;
+  }
+  return levels;
+}
+inline constexpr double kJump = 0.3;  // [s]
+
 }  // namespace hurcules_benchmark

@@ -15,10 +15,13 @@ using namespace hurcules_benchmark;
 
 void print_header() {
   std::printf(
-      "%35s |      median [us]        | cold, warm, tick / chain | warm/ | p99 / median |\n", "");
-  std::printf("%4s %6s %4s %-18s | %7s %7s %7s | %7s %8s %7s | %5s | %5s %6s | %7s %7s %8s %5s\n",
-              "n", "levels", "rho", "set", "chain", "floor", "warm", "cold", "warm", "tick",
-              "floor", "warm", "tick", "changes", "changed", "unsolved", "alloc");
+      "%35s |      median [us]        | cold, warm, jump, tick / chain   | warm/ | p99 / median "
+      "|\n",
+      "");
+  std::printf(
+      "%4s %6s %4s %-18s | %7s %7s %7s | %7s %8s %7s %7s | %5s | %5s %6s | %7s %7s %8s %5s\n", "n",
+      "levels", "rho", "set", "chain", "floor", "warm", "cold", "warm", "jump", "tick", "floor",
+      "warm", "tick", "changes", "changed", "unsolved", "alloc");
 }
 
 void print_row(const Figures& f) {
@@ -26,8 +29,8 @@ void print_row(const Figures& f) {
   std::printf("%4ld %6zu %4.2g %-18s | ", static_cast<long>(f.shape.unknowns), f.shape.rows.size(),
               f.rho, f.set.c_str());
   std::printf("%7.2f %7.2f %7.2f | ", chain, f.floor.median, f.warm.median);
-  std::printf("%7.2f %8.2f %7.2f | ", f.cold.median / chain, f.warm.median / chain,
-              f.tick.median / chain);
+  std::printf("%7.2f %8.2f %7.2f %7.2f | ", f.cold.median / chain, f.warm.median / chain,
+              f.jump.median / chain, f.tick.median / chain);
   std::printf("%5.1f | %5.2f ", f.warm.median / f.floor.median, f.warm.p99 / f.warm.median);
   std::printf("%6.2f | ", f.tick.median > 0 ? f.tick.p99 / f.tick.median : 0.0);
   std::printf("%7.1f %6.0f%% %8d %5zu\n", f.changes, 100.0 * f.changed_ticks, f.unsolved,
@@ -52,6 +55,7 @@ void print_json(const Figures& f) {
   part("floor", f.floor);
   part("cold", f.cold);
   part("warm", f.warm);
+  part("jump", f.jump);
   part("tick", f.tick);
   std::printf("\"changes\": %.2f, \"changed_ticks\": %.4f, ", f.changes, f.changed_ticks);
   std::printf("\"unsolved\": %d, \"allocations\": %zu}\n", f.unsolved, f.allocations);

@@ -2,6 +2,7 @@
 //
 //   cold    working sets forgotten before each solve
 //   warm    the same problem again
+//   jump    warm, but the targets are those of 0.3 s later: the working sets no longer fit
 //   tick    the next millisecond of a motion, 4 motions; the levels and their targets move
 //
 // The time of a problem or tick is the least of several rounds; medians and p99 are over the
@@ -28,7 +29,7 @@ struct Figures {
   std::string set;
   Shape shape;
   double rho = 0.0;
-  Quantiles chain, floor, cold, warm, tick;
+  Quantiles chain, floor, cold, warm, jump, tick;
   double changes = 0.0, changed_ticks = 0.0;  // mean of a cold solve; share of ticks
   int unsolved = 0;                           // solves that ended with another status than Solved
   std::size_t allocations = 0;
@@ -52,6 +53,7 @@ class SolverCase {
     figures_.floor = measure_yardstick<Floor>();
     measure_cold();
     measure_warm();
+    if (effort_.ticks > 1) measure_jump();
     std::vector<double> ticks;
     for (std::size_t i = 0; i < 4 && effort_.ticks > 1; ++i) measure_motion(1001 + i, ticks);
     figures_.tick = quantiles(ticks);
@@ -112,6 +114,18 @@ class SolverCase {
         rounds.time(i, [&] { (void)solver_.solve(problems_[i]); });
     }
     figures_.warm = quantiles(rounds.seconds());
+  }
+
+  void measure_jump() {
+    Rounds rounds(problems_.size());
+    for (std::size_t i = 0; i < problems_.size(); ++i) {
+      const Hierarchy later = with_targets_of(motion(1 + i), kJump, problems_[i]);
+      for (int round = 0; round < effort_.rounds; ++round) {
+        (void)solve(problems_[i]);
+        rounds.time(i, [&] { (void)solver_.solve(later); });
+      }
+    }
+    figures_.jump = quantiles(rounds.seconds());
   }
 
   void measure_motion(std::uint64_t seed, std::vector<double>& seconds) {

@@ -1,7 +1,8 @@
 // Solves one set of problems under callgrind: only the solves inside measured_solve() are counted
 // (valgrind --tool=callgrind --toggle-collect=measured_solve), see count_instructions.py.
 //
-// solver_instructions UNKNOWNS SET RHO WARM PROBLEMS   UNKNOWNS 19 or 38, SET 0 to 3, WARM 0 or 1
+// solver_instructions UNKNOWNS SET RHO WARM PROBLEMS   UNKNOWNS 19 or 38, SET 0 to 3, WARM 0: cold,
+// 1: the same problem again, 2: its targets jumped
 #include <cstdlib>
 
 #include "hurcules/solver/solver.hpp"
@@ -18,13 +19,14 @@ int main(int argc, char** argv) {
   const Shape& shape = std::atoi(argv[1]) == 19 ? kRobot : kTwoRobots;
   const Conflict conflict = kConflicts[std::atoi(argv[2])];
   const double rho = std::atof(argv[3]);
-  const bool warm = std::atoi(argv[4]) != 0;
+  const int warm = std::atoi(argv[4]);
   Solver solver(shape.unknowns);
   for (int seed = 1; seed <= std::atoi(argv[5]); ++seed) {
-    const Hierarchy levels = Motion(shape, conflict, rho, static_cast<std::uint64_t>(seed)).at(0.0);
+    const Motion motion(shape, conflict, rho, static_cast<std::uint64_t>(seed));
+    const Hierarchy levels = motion.at(0.0);
     (void)solver.solve(levels);
-    if (!warm) solver.reset();
-    measured_solve(solver, levels);
+    if (warm == 0) solver.reset();
+    measured_solve(solver, warm == 2 ? with_targets_of(motion, kJump, levels) : levels);
   }
   return 0;
 }

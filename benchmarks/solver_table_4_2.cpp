@@ -13,6 +13,7 @@
 #include <map>
 
 #include "hurcules/solver/method.hpp"
+#include "hurcules/solver/solver.hpp"
 #include "measure.hpp"
 #include "robot_problems.hpp"
 

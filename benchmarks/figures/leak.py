@@ -2,7 +2,7 @@
 
 The sweeps are those of sweeps.py, rho 0.1. The leak is by how much the levels below move the
 rows of the singular level; its bound is max(sigma w) sum |residual| / (2 rho), the residuals those
-that the levels below have where each begins (cpp/hurcules/solver/chain_segments.hpp).
+that the levels below have where each begins (cpp/hurcules/solver/problem/nullspace_bases.hpp).
 
 Run:  python benchmarks/figures/leak.py [FILE]    ten seconds
 """

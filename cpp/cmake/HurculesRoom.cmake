@@ -13,10 +13,10 @@ function(hurcules_precompile target)
   target_precompile_headers(${target} PRIVATE ${HURCULES_GUARD} ${ARGN})
 endfunction()
 
-# hurcules_room(NAME [LINKS module or target ...]): every source in cpp/hurcules/NAME
+# hurcules_room(NAME [LINKS module or target ...]): every source in cpp/hurcules/NAME and its folders
 function(hurcules_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/hurcules/${name}/*.cpp")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/hurcules/${name}/*.cpp")
   add_library(hurcules_${name} STATIC ${sources})
   add_library(hurcules::${name} ALIAS hurcules_${name})
   set_target_properties(hurcules_${name} PROPERTIES EXPORT_NAME ${name})

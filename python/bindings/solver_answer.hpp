@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "hurcules/solver/level_report.hpp"
-#include "hurcules/solver/sensitivity.hpp"
+#include "hurcules/solver/sensitivity/level_report.hpp"
+#include "hurcules/solver/sensitivity/sensitivity.hpp"
 #include "hurcules/solver/solver.hpp"
 
 namespace hurcules_bindings {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "hurcules/control/stack_problem.hpp"
-#include "hurcules/solver/level_report.hpp"
+#include "hurcules/solver/sensitivity/level_report.hpp"
+#include "hurcules/solver/solver.hpp"
 
 namespace hurcules {
 

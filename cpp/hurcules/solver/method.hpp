@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "hurcules/base/state.hpp"
-#include "hurcules/solver/solver.hpp"
+#include "hurcules/solver/hierarchy.hpp"
+#include "hurcules/solver/solution.hpp"
+#include "hurcules/solver/solver_options.hpp"
 
 namespace hurcules {
 

@@ -1,11 +1,9 @@
 #include "hurcules/solver/solver.hpp"
 
-#include <cmath>
-
 #include "hurcules/base/error.hpp"
-#include "hurcules/solver/level_report.hpp"
 #include "hurcules/solver/method.hpp"
-#include "hurcules/solver/sensitivity.hpp"
+#include "hurcules/solver/sensitivity/level_report.hpp"
+#include "hurcules/solver/sensitivity/sensitivity.hpp"
 
 namespace hurcules {
 
@@ -16,54 +14,12 @@ constexpr Index kMostUnknowns = 10'000;
 
 }  // namespace
 
-std::string to_string(SolverStatus status) {
-  switch (status) {
-    case SolverStatus::Solved:
-      return "solved";
-    case SolverStatus::ReducedAccuracy:
-      return "reduced accuracy";
-    case SolverStatus::IterationLimit:
-      return "iteration limit";
-    case SolverStatus::LostPrecision:
-      return "lost precision";
-    case SolverStatus::InvalidInput:
-      return "invalid input";
-  }
-  return "unknown";
-}
-
-std::string to_string(Handover handover) {
-  return handover == Handover::Smooth ? "smooth" : "strict";
-}
-
-Handover handover_named(const std::string& name) {
-  if (name == "strict") return Handover::Strict;
-  if (name == "smooth") return Handover::Smooth;
-  throw Error(unknown_name("handover", name, {"strict", "smooth"}));
-}
-
-std::string to_string(Regularization regularization) {
-  return regularization == Regularization::Adaptive ? "adaptive" : "constant";
-}
-
-Regularization regularization_named(const std::string& name) {
-  if (name == "constant") return Regularization::Constant;
-  if (name == "adaptive") return Regularization::Adaptive;
-  throw Error(unknown_name("regularization", name, {"constant", "adaptive"}));
-}
-
 Solver::Solver(Index unknowns, SolverOptions options)
     : unknowns_(unknowns), options_(std::move(options)) {
   require(unknowns > 0, "a solver needs at least one unknown, got " + std::to_string(unknowns));
   require(unknowns <= kMostUnknowns, "a dense solver takes up to " + std::to_string(kMostUnknowns) +
                                          " unknowns, got " + std::to_string(unknowns));
-  require(options_.max_changes > 0,
-          "max_changes must be positive, got " + std::to_string(options_.max_changes));
-  require(options_.max_iterations > 0,
-          "max_iterations must be positive, got " + std::to_string(options_.max_iterations));
-  require(std::isfinite(options_.singular_threshold) && options_.singular_threshold > 0.0,
-          "singular_threshold must be finite and positive, got " +
-              std::to_string(options_.singular_threshold));
+  check(options_);
   method_ = make_method(unknowns_, options_);
 }
 Solver::~Solver() = default;

@@ -1,11 +1,11 @@
-// Claims R01, R02, R05 to R10 and R12 on the decomposition itself: identities of sections 2.2 and 3.3
-// of the thesis on seeded random rows with rank deficiency inside and between levels by construction.
-// R02 is stated for tasks of full rank, so it has its own rows. Tolerance: rounding of 9 unknowns.
-#include "hurcules/solver/decomposition.hpp"
-
+// Claims R01, R02, R05 to R10 and R12 on the decomposition itself: identities of sections 2.2
+// and 3.3 of the thesis on seeded random rows with rank deficiency inside and between levels by
+// construction. R02 is stated for tasks of full rank, so it has its own rows. Tolerance: rounding
+// of 9 unknowns.
 #include <Eigen/QR>
 #include <vector>
 
+#include "hurcules/solver/thesis/decomposition.hpp"
 #include "support/expect.hpp"
 #include "support/random_hierarchy.hpp"
 
@@ -178,10 +178,10 @@ TEST(Claims, R05RegularisationLeavesTheNullSpaceToLowerLevels) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Case c(deficient(seed));
     for (int k = 0; k < c.size(); ++k) {
-      const Matrix H =
-          c.J(k).transpose() * c.J(k) + 0.01 * c.Y[k] * c.Y[k].transpose();  // [T 3.3.17], [T 3.3.35]
-      EXPECT_LT((H * c.Z[k]).norm(), kRounding);                              // [T 3.3.92]
-      EXPECT_LT((c.y(k).transpose() * c.J(k) * c.Z[k]).norm(), kRounding);    // [T 3.3.93]
+      const Matrix H = c.J(k).transpose() * c.J(k) +
+                       0.01 * c.Y[k] * c.Y[k].transpose();  // [T 3.3.17], [T 3.3.35]
+      EXPECT_LT((H * c.Z[k]).norm(), kRounding);            // [T 3.3.92]
+      EXPECT_LT((c.y(k).transpose() * c.J(k) * c.Z[k]).norm(), kRounding);  // [T 3.3.93]
     }
   }
 }
@@ -211,8 +211,8 @@ TEST(Claims, R07ErrorSplitsIntoInfeasibleAndRegularisationPart) {
         const Vector above = k ? x[k - 1] : Vector::Zero(kUnknowns);
         const Vector before = c.J(k) * above - c.y(k), e = c.J(k) * x[k] - c.y(k);
         const Vector sigma = c.S[k].diagonal();
-        const Vector T = rho * rho / (sigma.array().square() + rho * rho);  // [T 3.3.46]
-        const Vector v = c.V[k] * (c.V[k].transpose() * before);            // [T 3.3.78]
+        const Vector T = rho * rho / (sigma.array().square() + rho * rho);           // [T 3.3.46]
+        const Vector v = c.V[k] * (c.V[k].transpose() * before);                     // [T 3.3.78]
         const Vector u = c.U[k] * (T.asDiagonal() * (c.U[k].transpose() * before));  // [T 3.3.80]
         EXPECT_TRUE(near(e, v + u, 1e-11)) << "seed " << seed << " rho " << rho;
         EXPECT_EQ(u.norm() == 0.0, rho == 0.0);

@@ -1,7 +1,7 @@
 // Strategy: the defining properties of both kinds of decomposition on random levels: ranks lost by
 // construction, more rows than directions, no rows, zero rows, mixed scales. The identities of the
 // thesis on top of it: claims_decomposition_test.
-#include "hurcules/solver/decomposition.hpp"
+#include "hurcules/solver/thesis/decomposition.hpp"
 
 #include <gtest/gtest.h>
 

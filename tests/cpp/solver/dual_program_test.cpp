@@ -1,6 +1,6 @@
 // Strategy: the optimality conditions of thousands of seeded programs, half of them with whole
 // numbers and limits through one vertex (ties, dependent rows); always feasible at the origin.
-#include "hurcules/solver/dual_program.hpp"
+#include "hurcules/solver/thesis/dual_program.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Strategy: every kernel against the plain loop that defines it, for each instruction set that the
 // machine has; then whole solves, which must agree between the sets to rounding. Not tested here:
 // speed.
-#include "hurcules/solver/kernels.hpp"
+#include "hurcules/solver/kernels/kernels.hpp"
 
 #include <gtest/gtest.h>
 

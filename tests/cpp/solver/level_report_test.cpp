@@ -1,10 +1,11 @@
 // Strategy: one regularised row and two rows that conflict, which a hand can compute; reports end
 // where the solve ended. Closed forms of the thesis on random levels, and limits that hold, are in
 // Python (test_level_report.py).
-#include "hurcules/solver/level_report.hpp"
+#include "hurcules/solver/sensitivity/level_report.hpp"
 
 #include <gtest/gtest.h>
 
+#include "hurcules/solver/solver.hpp"
 #include "support/expect.hpp"
 #include "support/random_hierarchy.hpp"
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hurcules/solver/method.hpp"
+#include "hurcules/solver/solver.hpp"
 #include "support/random_hierarchy.hpp"
 
 namespace hurcules {

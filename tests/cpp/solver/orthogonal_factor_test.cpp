@@ -1,7 +1,7 @@
 // Strategy: the defining properties  rows = L Q, Q orthonormal, L triangular  on seeded rows, built
 // at once, row by row, and after removals; rows next to the span of others by construction. Not
 // tested here: what the rows mean.
-#include "hurcules/solver/orthogonal_factor.hpp"
+#include "hurcules/solver/kernels/orthogonal_factor.hpp"
 
 #include <gtest/gtest.h>
 

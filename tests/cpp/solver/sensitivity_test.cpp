@@ -2,13 +2,14 @@
 // identity <x_bar, forward(d)> = <transposed(x_bar), d> and central finite differences; the copy
 // outlives its arrays. All classes of difficulty against finite differences are in Python
 // (test_sensitivity.py).
-#include "hurcules/solver/sensitivity.hpp"
+#include "hurcules/solver/sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
+#include "hurcules/solver/solver.hpp"
 #include "support/expect.hpp"
 #include "support/random_hierarchy.hpp"
 

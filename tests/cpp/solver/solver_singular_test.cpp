@@ -1,10 +1,10 @@
 // Strategy: a row comes to depend on others, inside its level or on the level above, with and
-// without a box, as s goes through 0 (singular_sweep.hpp). With smooth hand-over x stays bounded
-// and does not jump where the strict rule does; away from singularity every bit is the strict one;
-// the answer is that of the definition by dense algebra; what the level above loses is within its
-// bound; warm equals cold; every class of hierarchies is solved and proven. Adaptive regularisation
-// against its formula and claim R23. Not tested: levels below with rho = 0 are not continuous, and
-// say so.
+// without a box, as s goes through 0 (singular_sweep.hpp). With smooth rank transition x stays
+// bounded and does not jump where the strict rule does; away from singularity every bit is the
+// strict one; the answer is that of the definition by dense algebra; what the level above loses is
+// within its bound; warm equals cold; every class of hierarchies is solved and proven. Adaptive
+// regularisation against its formula and claim R23. Not tested: levels below with rho = 0 are not
+// continuous, and say so.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Smooth hand-over by dense algebra, from its definition alone (chain_segments.hpp): x = x_above +
-// B t', after each level B := B V diag(w) with V the right singular vectors of its equality rows.
-// Shares no factor, threshold or formula of the solver's code.
+// Smooth rank transition by dense algebra, from its definition alone (nullspace_bases.hpp): x =
+// x_above + B t', after each level B := B V diag(w) with V the right singular vectors of its
+// equality rows. Shares no factor, threshold or formula of the solver's code.
 #pragma once
 
 #include <Eigen/Cholesky>

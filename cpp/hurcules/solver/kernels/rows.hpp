@@ -1,0 +1,103 @@
+// The kernels that add rows up and take them apart; part of impl.hpp.
+#pragma once
+
+namespace hurcules::kernels {
+namespace {
+
+void axpys(const double* rows, Size count, Size stride, const double* s, double* y) {
+  Size i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const double* r = rows + i * stride;
+    const Pack s0 = spread(s[i]), s1 = spread(s[i + 1]), s2 = spread(s[i + 2]),
+               s3 = spread(s[i + 3]);
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack left = s0 * load(r + j) + s1 * load(r + stride + j);
+      const Pack right = s2 * load(r + 2 * stride + j) + s3 * load(r + 3 * stride + j);
+      store(y + j, load(y + j) + (left + right));
+    }
+  }
+  for (; i < count; ++i) axpy(stride, s[i], rows + i * stride, y);
+}
+
+double project(const double* rows, Size count, Size stride, double* v, double* part) {
+  Pack left = {};
+  for (Size i = 0; i < count; i += 4) {
+    // in place of rows behind the last, that row once more, and no part of it
+    const Size last = count - 1;
+    const auto row = [&](Size l) { return rows + (i + l < last ? i + l : last) * stride; };
+    const FourRows r = {row(0), row(1), row(2), row(3)};
+    double p[4];
+    four_dots(r, stride, v, p);
+    for (Size l = 0; l < 4; ++l) {
+      if (i + l > last) p[l] = 0.0;
+      part[i + l] += p[l];
+    }
+    const Pack p0 = spread(p[0]), p1 = spread(p[1]), p2 = spread(p[2]), p3 = spread(p[3]);
+    left = Pack{};
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack near = p0 * load(r.a + j) + p1 * load(r.b + j);
+      const Pack far = p2 * load(r.c + j) + p3 * load(r.d + j);
+      const Pack rest = load(v + j) - (near + far);
+      store(v + j, rest);
+      left += rest * rest;
+    }
+  }
+  return sum(left);
+}
+
+// with_side: side[i] -= part of row i times `value`, too
+template <bool with_side>
+inline void eliminate_rows(const double* pivot, double scale, double* rows, Size count, Size stride,
+                           double* coordinates, double* side, double value) {
+  for (Size i = 0; i < count; i += 4) {
+    double* r = rows + i * stride;
+    double part[4];
+    four_dots(r, stride, pivot, part);
+    for (int l = 0; l < 4; ++l) part[l] *= scale;
+    for (int l = 0; l < 4; ++l) coordinates[(i + l) * stride] = part[l];
+    if constexpr (with_side) {
+      for (int l = 0; l < 4; ++l) side[i + l] -= value * part[l];
+    }
+    const Pack s0 = spread(scale * part[0]), s1 = spread(scale * part[1]),
+               s2 = spread(scale * part[2]), s3 = spread(scale * part[3]);
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack v = load(pivot + j);
+      store(r + j, load(r + j) - s0 * v);
+      store(r + stride + j, load(r + stride + j) - s1 * v);
+      store(r + 2 * stride + j, load(r + 2 * stride + j) - s2 * v);
+      store(r + 3 * stride + j, load(r + 3 * stride + j) - s3 * v);
+    }
+  }
+}
+
+void eliminate(const double* pivot, double scale, double* rows, Size count, Size stride,
+               double* coordinates) {
+  eliminate_rows<false>(pivot, scale, rows, count, stride, coordinates, nullptr, 0.0);
+}
+
+Size take_directions(Directions& d, Size first, Size end, double clean) {
+  for (Size i = first; i < end; ++i) {
+    const double* v = d.rest + i * d.stride;
+    const double left = dot(d.stride, v, v);
+    if (d.rank == d.columns || !(left > clean * d.norm2[i])) return i;
+    const double length = __builtin_sqrt(left), scale = 1.0 / length;
+    double* q = d.Q + d.rank * d.stride;
+    double* l = d.L + i * d.stride + d.rank;
+    for (Size j = 0; j < d.stride; j += kWidth) store(q + j, scale * load(v + j));
+    *l = length;
+    d.pivot[d.rank++] = i;
+    double* rows = d.rest + (i + 1) * d.stride;
+    if (d.side) {
+      // the side column is met row by row, as the rows are
+      d.side[i] *= scale;
+      eliminate_rows<true>(v, scale, rows, d.rows - i - 1, d.stride, l + d.stride, d.side + i + 1,
+                           d.side[i]);
+    } else {
+      eliminate(v, scale, rows, d.rows - i - 1, d.stride, l + d.stride);
+    }
+  }
+  return end;
+}
+
+}  // namespace
+}  // namespace hurcules::kernels

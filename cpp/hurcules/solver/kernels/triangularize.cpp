@@ -1,0 +1,32 @@
+#include "hurcules/solver/kernels/triangularize.hpp"
+
+#include <cmath>
+
+namespace hurcules {
+
+template <class Block>
+void triangularize(Block& block, Index rows, Index columns) {
+  using Scalar = typename Block::Scalar;
+  for (Index j = 0; j < columns; ++j) {
+    Scalar norm2 = 0.0;
+    for (Index i = j; i < rows; ++i) norm2 += block(i, j) * block(i, j);
+    const Scalar alpha = block(j, j) > Scalar(0.0) ? -std::sqrt(norm2) : std::sqrt(norm2);
+    const Scalar pivot = block(j, j) - alpha;
+    if (pivot == Scalar(0.0)) continue;
+    // v = (pivot, block(j+1.., j)),  H = I - v v' / (-alpha pivot)
+    for (Index c = j + 1; c <= columns; ++c) {
+      Scalar sum = pivot * block(j, c);
+      for (Index i = j + 1; i < rows; ++i) sum += block(i, j) * block(i, c);
+      const Scalar scale = sum / (-alpha * pivot);
+      block(j, c) -= scale * pivot;
+      for (Index i = j + 1; i < rows; ++i) block(i, c) -= scale * block(i, j);
+    }
+    block(j, j) = alpha;
+  }
+}
+
+template void triangularize(Matrix&, Index, Index);
+template void triangularize(Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>&, Index,
+                            Index);
+
+}  // namespace hurcules

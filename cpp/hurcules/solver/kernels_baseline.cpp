@@ -1,9 +1,0 @@
-// The kernels for any processor: vectors of two doubles.
-#define HURCULES_KERNEL_WIDTH 2
-#include "hurcules/solver/kernels_impl.hpp"
-
-namespace hurcules::kernels {
-const Table* baseline() {
-  return &kTable;
-}
-}  // namespace hurcules::kernels
