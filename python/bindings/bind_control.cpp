@@ -25,8 +25,11 @@ Args:
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
   transition: [s] in which the velocity goes over to a stack that was set in motion; 0 for none.
-  solver: SolverOptions; the default is SolverOptions(handover="smooth"), so that no velocity jumps
-    where a task loses a direction.
+  law: 'arrive': errors vanish at max_speed of their tasks at most, targets that can be reached are,
+    and everything comes to rest. 'thesis': gain times error however large, constant
+    regularisation; it wants SolverOptions(handover="smooth"), so that no velocity jumps where a task
+    loses a direction.
+  solver: SolverOptions.
 )";
 constexpr const char* kController =
     R"(From a stack to velocities: first-order closed-loop inverse kinematics.
@@ -65,19 +68,25 @@ void bind_controller(py::module_& module) {
   const Options defaults;
   py::class_<Options>(module, "VelocityControllerOptions", kOptions)
       .def(py::init([](double dt, double gain, double horizon, double max_acceleration,
-                       double return_speed, double transition, const SolverOptions& solver) {
-             return Options{dt, gain, horizon, max_acceleration, return_speed, transition, solver};
+                       double return_speed, double transition, const std::string& law,
+                       const SolverOptions& solver) {
+             return Options{dt, gain, horizon, max_acceleration, return_speed, transition,
+                            law_named(law), solver};
            }),
            py::kw_only(), "dt"_a = defaults.dt, "gain"_a = defaults.gain,
            "horizon"_a = defaults.horizon, "max_acceleration"_a = defaults.max_acceleration,
            "return_speed"_a = defaults.return_speed, "transition"_a = defaults.transition,
-           "solver"_a = defaults.solver)
+           "law"_a = to_string(defaults.law), "solver"_a = defaults.solver)
       .def_readwrite("dt", &Options::dt, "[s]")
       .def_readwrite("gain", &Options::gain, "[1/s]")
       .def_readwrite("horizon", &Options::horizon, "[s]")
       .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
       .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
       .def_readwrite("transition", &Options::transition, "[s]")
+      .def_property(
+          "law", [](const Options& self) { return to_string(self.law); },
+          [](Options& self, const std::string& law) { self.law = law_named(law); },
+          "'arrive' or 'thesis'")
       .def_readwrite("solver", &Options::solver, "SolverOptions");
   const auto integrate = [](const VelocityController& self, const ConstVectorRef& q) {
     require(q.size() == self.velocity().size() && q.allFinite(),

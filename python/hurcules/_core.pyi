@@ -273,6 +273,9 @@ class Task(_Given):
     def hold(self, robot: Robot) -> None: ...
     def advance(self, velocity: ArrayLike, dt: float) -> None: ...  # (m,) unit/s, [s]
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None: ...  # (m,), (m,)
+    def set_max_speed(self, speed: float) -> None: ...  # [unit/s]
+    @property
+    def max_speed(self) -> float: ...  # [unit/s]
     def state(self) -> list[float]: ...
     def restore(self, state: Sequence[float]) -> None: ...
     @property
@@ -537,6 +540,7 @@ class VelocityControllerOptions:
     max_acceleration: float  # [rad/s^2]
     return_speed: float  # [rad/s]
     transition: float  # [s]
+    law: str  # "arrive" or "thesis"
     solver: SolverOptions
     def __init__(
         self,
@@ -547,6 +551,7 @@ class VelocityControllerOptions:
         max_acceleration: float = 20.0,
         return_speed: float = 0.2,
         transition: float = 0.2,
+        law: str = "arrive",
         solver: SolverOptions = ...,
     ) -> None: ...
 

@@ -100,7 +100,9 @@ Simulation::Simulation(ModelPtr model, const std::string& mission, SimulationOpt
 void Simulation::make_controllers() {
   VelocityControllerOptions options;
   options.dt = dt();
+  options.law = Law::Thesis;  // its missions show the thesis' figures
   options.solver.method = options_.method;
+  options.solver.handover = Handover::Smooth;
   std::vector<std::string> stacks;
   for (const Phase& phase : mission_->phases()) {
     const std::string text = phase.stack.text();

@@ -16,6 +16,8 @@ class PostureTask : public ValueTask {
   PostureTask(std::string name, const Robot& robot,
               const std::vector<std::string>& coordinates = {});
 
+  [[nodiscard]] bool rows_apart() const override { return true; }
+
  private:
   void measure(const Robot& robot) override;
 

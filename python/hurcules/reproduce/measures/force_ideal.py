@@ -82,7 +82,8 @@ def press(
     task.set_target([-above])
     controller: hurcules.VelocityController | hurcules.AccelerationController
     if gains.loop == ForceLoop.FirstOrder:
-        controller = hurcules.VelocityController(robot)
+        options = hurcules.VelocityControllerOptions(law="thesis")
+        controller = hurcules.VelocityController(robot, options)
     else:
         controller = hurcules.AccelerationController(robot)
     controller.set_stack(Stack([StackLevel("force", [task], 0.0)]))

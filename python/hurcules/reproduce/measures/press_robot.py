@@ -126,7 +126,7 @@ class PressRobot:
             options = hurcules.AccelerationControllerOptions(rest=setting.rest, solver=solver)
             self.controller = hurcules.AccelerationController(plan, options)
         else:
-            speeds = hurcules.VelocityControllerOptions(solver=solver)
+            speeds = hurcules.VelocityControllerOptions(law="thesis", solver=solver)
             self.controller = hurcules.VelocityController(plan, speeds)
         self.controller.set_stack(self.stack())
         self.servo = Servo(self.model, plan, setting.bandwidth)
