@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/solver/hierarchy.hpp"
@@ -36,19 +35,22 @@ Law law_named(const std::string& name) {
   throw Error("law wants 'arrive' or 'thesis', got '" + name + "'");
 }
 
-double wanted_rates(const Task& task, double gain, Law law, VectorRef lower, VectorRef upper) {
-  const double most = law == Law::Thesis ? std::numeric_limits<double>::infinity() : task.max_speed();
+double haste(const Task& task, double gain) {
   double together = 0.0, largest = 0.0;
   for (Index row = 0; row < task.rows(); ++row) {
     const double g = std::abs(way(task, row));
     together += g * g;
     largest = std::max(largest, g);
   }
-  const double asked = gain * (task.rows_apart() ? largest : std::sqrt(together));
+  return gain * (task.rows_apart() ? largest : std::sqrt(together)) / task.max_speed();
+}
+
+void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper) {
   for (Index row = 0; row < task.rows(); ++row) {
     const double g = way(task, row);
-    const double speed = task.rows_apart() ? gain * std::abs(g) : asked;
-    const double share = speed > most ? most / speed : 1.0;
+    const bool own = most > 1.0 && task.rows_apart();
+    const double f = own ? gain * std::abs(g) / task.max_speed() : most;
+    const double share = f > 1.0 ? 1.0 / f : 1.0;
     const auto rate = [&](double side) {
       if (std::abs(side) >= kInfinity) return side;
       return task.velocity_des()[row] + side_rate(side - task.error()[row], g, share, gain);
@@ -56,7 +58,6 @@ double wanted_rates(const Task& task, double gain, Law law, VectorRef lower, Vec
     lower[row] = rate(task.lower()[row]);
     upper[row] = rate(task.upper()[row]);
   }
-  return std::min(1.0, asked / most);
 }
 
 double regularization_at(double rho, double weight) {

@@ -1,12 +1,14 @@
-// What a task asks of its rows, no faster than its max_speed.
+// What the tasks of a level ask for, none faster than its max_speed.
 //
 //   g = side - e where that side pushes, 0 inside the interval       (m), unit
-//   y = ds_des/dt + K g min(1, v / (K |g|)),   v = max_speed         [T 4.3.2], bounded
-//   w = min(1, K |g| / v)                                            0 at the target, 1 far from it
-// A task whose rows stand apart (a posture) is bounded row by row. The regularisation of a level
-// grows with w:  rho_k^2 = rho^2 w, so that a task that can arrive does so without an error of
-// regularisation, and one that cannot is damped (compare Levenberg and Marquardt's inverse
-// kinematics). docs/control.md says why.
+//   f = K |g| / max_speed of a task;   F = the largest f of the level's tasks
+//   y = ds_des/dt + K g / max(1, F)                                  [T 4.3.2], bounded
+//   w = min(1, F)                                                    0 at the target, 1 far from it
+// One F for a level: y is the gradient of its squared error, only slower, so that a level that
+// cannot arrive ends where that is least. The rows of a task that stand apart (a posture) have an f
+// each. The regularisation of a level grows with w:  rho_k^2 = rho^2 w, so that a task that can
+// arrive does so without an error of regularisation, and one that cannot is damped (compare
+// Levenberg and Marquardt's inverse kinematics). docs/control.md says why.
 #pragma once
 
 #include <string>
@@ -24,9 +26,12 @@ enum class Law {
 // "arrive" or "thesis"; throws Error on another name
 [[nodiscard]] Law law_named(const std::string& name);
 
-// fills y of both sides, (m) [unit/s]; a side that is absent stays so. Returns w, the most of a row
-// where rows stand apart; by the thesis' law without the bound.
-double wanted_rates(const Task& task, double gain, Law law, VectorRef lower, VectorRef upper);
+// f of a task, the largest of its rows where they stand apart
+[[nodiscard]] double haste(const Task& task, double gain);
+
+// fills y of both sides, (m) [unit/s]; a side that is absent stays so. `most` is F, or anything up
+// to 1 for no bound; rows that stand apart have their own.
+void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper);
 
 // rho_k of a level that is w from its target
 [[nodiscard]] double regularization_at(double rho, double weight);

@@ -189,15 +189,17 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
 void VelocityController::fill_rows(std::size_t k) {
   const StackLevel& source = stack().levels()[k];
   Level& level = problem_.hierarchy()[k];
+  double most = 0.0;
+  for (const Task* task : source.tasks) most = std::max(most, haste(*task, options_.gain));
+  if (options_.law == Law::Thesis) most = 0.0;
+  weights_[k] = std::min(1.0, most);
   Index row = 0;
-  weights_[k] = 0.0;
   for (const Task* task : source.tasks) {
-    level.A.middleRows(row, task->rows()) = task->jacobian();
-    const double weight =
-        wanted_rates(*task, options_.gain, options_.law, level.lower.segment(row, task->rows()),
-                     level.upper.segment(row, task->rows()));
-    weights_[k] = std::max(weights_[k], weight);
-    row += task->rows();
+    const Index rows = task->rows();
+    level.A.middleRows(row, rows) = task->jacobian();
+    wanted_rates(*task, options_.gain, most, level.lower.segment(row, rows),
+                 level.upper.segment(row, rows));
+    row += rows;
   }
   if (options_.law == Law::Arrive) level.rho = regularization_at(source.rho, weights_[k]);
 }
