@@ -52,7 +52,8 @@ struct Recorded {
 
   Robot plan{load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml")};
   Stretch stretch{plan};
-  VelocityController controller{plan};
+  VelocityController controller{
+      plan, {.law = Law::Thesis, .solver = {.handover = Handover::Smooth}}};
   double time = 0.0, fastest = 0.0;
   int worst_status = 0;
   std::map<std::string, double> figures, highest;
