@@ -49,8 +49,10 @@ class Arm:
 
 def ranges(robot: hurcules.Robot) -> tuple[np.ndarray, np.ndarray]:
     """Where the postures are taken from: the limits, `FREE` about 0 where there are none."""
-    limits = [(c.lower, c.upper) if np.isfinite(c.upper - c.lower) else (-FREE, FREE)
-              for c in robot.coordinates]
+    limits = [
+        (c.lower, c.upper) if np.isfinite(c.upper - c.lower) else (-FREE, FREE)
+        for c in robot.coordinates
+    ]
     lower, upper = np.array(limits).T
     return lower, upper
 
@@ -72,8 +74,13 @@ def bare_urdf(path: Path) -> str:
     for link in root.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
             link.remove(shape)
-    compiler = {"balanceinertia": "true", "boundmass": "0.01", "boundinertia": "0.0001",
-                "fusestatic": "false", "strippath": "false"}
+    compiler = {
+        "balanceinertia": "true",
+        "boundmass": "0.01",
+        "boundinertia": "0.0001",
+        "fusestatic": "false",
+        "strippath": "false",
+    }
     ET.SubElement(ET.SubElement(root, "mujoco"), "compiler", compiler)
     return ET.tostring(root, encoding="unicode")
 
@@ -85,8 +92,13 @@ def hand_of(robot: hurcules.Robot, model: mujoco.MjModel) -> str:
         frame = model.body(body).name
         if not frame:
             continue
-        moved = int((np.abs(robot.rotation_jacobian(frame)).sum(0)
-                     + np.abs(robot.position_jacobian(frame)).sum(0) > 1e-9).sum())
+        moved = int(
+            (
+                np.abs(robot.rotation_jacobian(frame)).sum(0)
+                + np.abs(robot.position_jacobian(frame)).sum(0)
+                > 1e-9
+            ).sum()
+        )
         if moved >= best:
             best, name = moved, frame
     return name if best > 1 else ""

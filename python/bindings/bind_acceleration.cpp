@@ -21,7 +21,9 @@ Args:
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
   rest: [1/s] rate at which weak and free directions brake; 0: they keep their speed.
-  solver: SolverOptions; the default is SolverOptions(handover="smooth").
+  law: "arrive" or "thesis", see VelocityControllerOptions; the speed that an error asks for is
+    stiffness / damping times it. "thesis" wants rest=0 and SolverOptions(handover="smooth").
+  solver: SolverOptions.
 )";
 constexpr const char* kController =
     R"(From a stack to accelerations: second-order closed-loop inverse kinematics.
@@ -59,13 +61,14 @@ void bind_options(py::module_& module) {
   py::class_<Options>(module, "AccelerationControllerOptions", kOptions)
       .def(py::init([](double dt, double stiffness, double damping, double horizon,
                        double max_acceleration, double return_speed, double rest,
-                       const SolverOptions& solver) {
-             return Options{dt,           stiffness, damping, horizon, max_acceleration,
-                            return_speed, rest,      solver};
+                       const std::string& law, const SolverOptions& solver) {
+             return Options{dt,           stiffness, damping,        horizon, max_acceleration,
+                            return_speed, rest,      law_named(law), solver};
            }),
            py::kw_only(), "dt"_a = d.dt, "stiffness"_a = d.stiffness, "damping"_a = d.damping,
            "horizon"_a = d.horizon, "max_acceleration"_a = d.max_acceleration,
-           "return_speed"_a = d.return_speed, "rest"_a = d.rest, "solver"_a = d.solver)
+           "return_speed"_a = d.return_speed, "rest"_a = d.rest,
+           "law"_a = to_string(d.law), "solver"_a = d.solver)
       .def_readwrite("dt", &Options::dt, "[s]")
       .def_readwrite("stiffness", &Options::stiffness, "[1/s^2]")
       .def_readwrite("damping", &Options::damping, "[1/s]")
@@ -73,6 +76,10 @@ void bind_options(py::module_& module) {
       .def_readwrite("max_acceleration", &Options::max_acceleration, "[rad/s^2]")
       .def_readwrite("return_speed", &Options::return_speed, "[rad/s]")
       .def_readwrite("rest", &Options::rest, "[1/s]")
+      .def_property(
+          "law", [](const Options& self) { return to_string(self.law); },
+          [](Options& self, const std::string& law) { self.law = law_named(law); },
+          "'arrive' or 'thesis'")
       .def_readwrite("solver", &Options::solver, "SolverOptions");
 }
 

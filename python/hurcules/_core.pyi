@@ -587,6 +587,7 @@ class AccelerationControllerOptions:
     max_acceleration: float  # [rad/s^2]
     return_speed: float  # [rad/s]
     rest: float  # [1/s]
+    law: str  # "arrive" or "thesis"
     solver: SolverOptions
     def __init__(
         self,
@@ -597,7 +598,8 @@ class AccelerationControllerOptions:
         horizon: float = 0.05,
         max_acceleration: float = 20.0,
         return_speed: float = 0.2,
-        rest: float = 0.0,
+        rest: float = 10.0,
+        law: str = "arrive",
         solver: SolverOptions = ...,
     ) -> None: ...
 

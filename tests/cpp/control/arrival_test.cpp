@@ -5,6 +5,7 @@
 // benchmarks/arrival.py.
 #include <cmath>
 
+#include "hurcules/control/acceleration_controller.hpp"
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/control/velocity_controller.hpp"
 #include "support/expect.hpp"
@@ -35,6 +36,7 @@ constexpr const char* kPlanarArm = R"(
     </body>
   </worldbody>
 </mujoco>)";
+using Vector2 = Eigen::Vector2d;
 const Matrix kPlane = Matrix3::Identity().topRows(2);
 
 // What a motion of some seconds was, and where it ended.
@@ -45,24 +47,26 @@ struct Motion {
 
 class Arrival : public testing::TestWithParam<double> {
  protected:
-  Motion run(const Stack& stack, Law law = Law::Arrive, double seconds = 10.0) {
+  Motion run(const Stack& stack, Law law = Law::Arrive) {
     VelocityControllerOptions options{.dt = GetParam(), .law = law};
     if (law == Law::Thesis) options.solver.handover = Handover::Smooth;
     VelocityController controller(robot_, options);
-    controller.set_stack(stack);
-    Motion motion;
-    Vector last = Vector::Zero(robot_.size());
-    for (double t = 0.0; t < seconds; t += options.dt) {
+    return follow(controller, stack, [&] {
       controller.step(robot_);
-      const Vector& now = controller.velocity();
-      motion.hardest = std::max(motion.hardest, (now - last).cwiseAbs().maxCoeff() /
-                                                    (options.max_acceleration * options.dt));
-      if (t > seconds - 1.0) motion.fastest = std::max(motion.fastest, now.cwiseAbs().maxCoeff());
-      last = now;
-    }
-    for (Task* task : std::initializer_list<Task*>{&limits_, &wrist_, &tip_, &elbow_, &posture_})
-      task->update(robot_);
-    return motion;
+      return controller.velocity();
+    });
+  }
+  Motion accelerate(const Stack& stack) {
+    AccelerationController controller(robot_, {.dt = GetParam()});
+    robot_.set_velocity(Vector::Zero(robot_.size()));
+    return follow(controller, stack, [&] {
+      controller.compute(robot_);
+      Vector q = robot_.configuration(), velocity = robot_.velocity();
+      controller.integrate(q, velocity);
+      robot_.set_configuration(q);
+      robot_.set_velocity(velocity);
+      return velocity;
+    });
   }
 
   Robot robot_{load_model_text(kPlanarArm)};
@@ -71,6 +75,27 @@ class Arrival : public testing::TestWithParam<double> {
   PositionTask wrist_{"wrist", robot_, "wrist", {.axes = kPlane}};
   PositionTask tip_{"tip", robot_, "tip", {.axes = kPlane}};
   PostureTask posture_{"posture", robot_};
+
+ private:
+  // ten seconds; `tick` moves the robot by a period and says how fast it is
+  template <class Controller, class Tick>
+  Motion follow(Controller& controller, const Stack& stack, const Tick& tick) {
+    controller.set_stack(stack);
+    const double dt = controller.options().dt, most = controller.options().max_acceleration * dt;
+    const int ticks = static_cast<int>(std::lround(10.0 / dt));
+    Motion motion;
+    Vector last = Vector::Zero(robot_.size());
+    for (int i = 0; i < ticks; ++i) {
+      const Vector now = tick();
+      motion.hardest = std::max(motion.hardest, (now - last).cwiseAbs().maxCoeff() / most);
+      if (i > ticks * 9 / 10)
+        motion.fastest = std::max(motion.fastest, now.cwiseAbs().maxCoeff());
+      last = now;
+    }
+    for (Task* task : std::initializer_list<Task*>{&limits_, &elbow_, &wrist_, &tip_, &posture_})
+      task->update(robot_);
+    return motion;
+  }
 };
 
 TEST_P(Arrival, ReachesAPlaceFromTheStraightArmAndKeepsIt) {
@@ -124,6 +149,21 @@ TEST_P(Arrival, RestsAtALimitThatHoldsIt) {
   EXPECT_LE(robot_.configuration()[0], 0.3);
   EXPECT_LT(motion.fastest, 0.01);
   EXPECT_LE(motion.hardest, 1.0 + 1e-9);
+}
+
+TEST_P(Arrival, ByAccelerationsToo) {
+  wrist_.set_target(Vector2(0.7, 0.7));
+  const Motion near_by = accelerate(limits_ < wrist_ < posture_);
+  EXPECT_LT(wrist_.error().norm(), 1e-6);
+  EXPECT_LT(near_by.fastest, 0.01);
+  EXPECT_LE(near_by.hardest, 1.0 + 1e-9);
+
+  robot_.set_configuration(Vector{{0.5, 0.8, 0.9}});
+  tip_.set_target(Vector2(-0.4, 2.4));
+  const Motion beyond = accelerate(limits_ < tip_ < posture_);
+  EXPECT_LT(tip_.error().norm(), Vector2(-0.4, 2.4).norm() - 1.5 + 2e-3);
+  EXPECT_LT(beyond.fastest, 0.01);
+  EXPECT_LE(beyond.hardest, 1.0 + 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Periods, Arrival, testing::Values(1e-3, 2e-3, 5e-3));

@@ -85,7 +85,8 @@ def press(
         options = hurcules.VelocityControllerOptions(law="thesis")
         controller = hurcules.VelocityController(robot, options)
     else:
-        controller = hurcules.AccelerationController(robot)
+        second = hurcules.AccelerationControllerOptions(law="thesis", rest=0.0)
+        controller = hurcules.AccelerationController(robot, second)
     controller.set_stack(Stack([StackLevel("force", [task], 0.0)]))
     count = round(seconds / DT)
     force, speed, state = np.zeros(count), np.zeros(count), np.zeros(count)

@@ -123,7 +123,9 @@ class PressRobot:
         smooth = "smooth" if setting.method == "lexicographic" else "strict"
         solver = hurcules.rhqp.SolverOptions(method=setting.method, handover=smooth)
         if self.accelerates:
-            options = hurcules.AccelerationControllerOptions(rest=setting.rest, solver=solver)
+            options = hurcules.AccelerationControllerOptions(
+                rest=setting.rest, law="thesis", solver=solver
+            )
             self.controller = hurcules.AccelerationController(plan, options)
         else:
             speeds = hurcules.VelocityControllerOptions(law="thesis", solver=solver)
