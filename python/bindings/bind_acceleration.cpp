@@ -22,7 +22,9 @@ Args:
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
   rest: [1/s] rate at which weak and free directions brake; 0: they keep their speed.
-  solver: SolverOptions; the default is SolverOptions(handover="smooth").
+  law: "arrive" or "thesis", see VelocityControllerOptions; the speed that an error asks for is
+    stiffness / damping times it. "thesis" wants rest=0 and SolverOptions(handover="smooth").
+  solver: SolverOptions.
 )";
 constexpr const char* kController =
     R"(From a stack to accelerations: second-order closed-loop inverse kinematics.
@@ -61,8 +63,12 @@ void bind_acceleration_options(py::module_& module) {
       {field("dt", &Options::dt, "[s]"), field("stiffness", &Options::stiffness, "[1/s^2]"),
        field("damping", &Options::damping, "[1/s]"), field("horizon", &Options::horizon, "[s]"),
        field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
-       field("return_speed", &Options::return_speed, "[rad/s]"),
-       field("rest", &Options::rest, "[1/s]"), field("solver", &Options::solver, "SolverOptions")});
+       field("enforce_limits", &Options::enforce_limits, "limits before all levels"),
+        field("return_speed", &Options::return_speed, "[rad/s]"),
+       field("rest", &Options::rest, "[1/s]"), text_field<Options>("law", [](const Options& self) { return to_string(self.law); },
+                            [](Options& self, const std::string& law) { self.law = law_named(law); },
+                            "'arrive' or 'thesis'"),
+        field("solver", &Options::solver, "SolverOptions")});
 }
 
 }  // namespace

@@ -26,8 +26,11 @@ Args:
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
   transition: [s] in which the velocity goes over to a stack that was set in motion; 0 for none.
-  solver: SolverOptions; the default is SolverOptions(handover="smooth"), so that no velocity jumps
-    where a task loses a direction.
+  law: 'arrive': errors vanish at max_speed of their tasks at most, targets that can be reached are,
+    and everything comes to rest. 'thesis': gain times error however large, constant
+    regularisation; it wants SolverOptions(handover="smooth"), so that no velocity jumps where a task
+    loses a direction.
+  solver: SolverOptions.
 )";
 constexpr const char* kController =
     R"(From a stack to velocities: first-order closed-loop inverse kinematics.
@@ -68,9 +71,13 @@ void bind_controller(py::module_& module) {
                         {field("dt", &Options::dt, "[s]"), field("gain", &Options::gain, "[1/s]"),
                          field("horizon", &Options::horizon, "[s]"),
                          field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
-                         field("return_speed", &Options::return_speed, "[rad/s]"),
+                         field("enforce_limits", &Options::enforce_limits, "limits before all levels"),
+        field("return_speed", &Options::return_speed, "[rad/s]"),
                          field("transition", &Options::transition, "[s]"),
-                         field("solver", &Options::solver, "SolverOptions")});
+                         text_field<Options>("law", [](const Options& self) { return to_string(self.law); },
+                            [](Options& self, const std::string& law) { self.law = law_named(law); },
+                            "'arrive' or 'thesis'"),
+        field("solver", &Options::solver, "SolverOptions")});
   const auto integrate = [](const VelocityController& self, const ConstVectorRef& q) {
     require(q.size() == self.velocity().size() && q.allFinite(),
             "integrate wants " + std::to_string(self.velocity().size()) + " finite numbers, got " +

@@ -35,6 +35,16 @@ Args:
   velocity: (m,) unit of the task per second.
   dt: [s]. The target moves by velocity * dt; the error follows at the next update.
 )";
+constexpr const char* kSetMaxSpeed =
+    R"(No more than this is asked for to bring the error to its interval; a feed-forward comes on top.
+
+By default 0.5 m/s for points, 0.3 m/s for the centre of mass, 1.5 rad/s for turns and angles,
+1 rad/s for each coordinate of a posture. A norm; where rows stand apart (posture, balance,
+distances) each row alone.
+
+Args:
+  speed: [unit/s], positive.
+)";
 constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
 constexpr const char* kNoOrder =
@@ -120,6 +130,8 @@ void bind_task(py::module_& module) {
       .def("hold", &Task::hold, py::arg("robot"), kHold)
       .def("advance", &Task::advance, py::arg("velocity"), py::arg("dt"), kAdvance)
       .def("set_interval", &Task::set_interval, py::arg("lower"), py::arg("upper"), kSetInterval)
+      .def("set_max_speed", &Task::set_max_speed, py::arg("speed"), kSetMaxSpeed)
+      .def_property_readonly("max_speed", &Task::max_speed, "[unit/s]")
       .def("state", &state<Task>, kState)
       .def("restore", &restore<Task>, py::arg("state"), kRestore)
       .def_property_readonly("name", &Task::name)

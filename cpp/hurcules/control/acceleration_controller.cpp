@@ -53,6 +53,8 @@ void AccelerationController::set_stack(const Stack& stack) {
   Index rows = 0;
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
+  weights_.assign(stack.levels().size(), 0.0);
+  dead_zone_.reserve(acceleration_.size(), weights_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
@@ -67,13 +69,16 @@ void AccelerationController::measure(const Robot& robot) {
   braked_ = options_.rest * robot.velocity();
   Hierarchy& hierarchy = problem_.hierarchy();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
-    const StackLevel& source = stack().levels()[k];
-    for (Task* task : source.tasks) task->update(robot);
+    for (Task* task : stack().levels()[k].tasks) task->update(robot);
     if (hierarchy[k].bounds) {
-      fill_bounds(robot, *source.tasks.front(), hierarchy[k]);
+      fill_bounds(robot, *stack().levels()[k].tasks.front(), hierarchy[k]);
     } else {
-      fill_rows(robot, source, hierarchy[k]);
+      fill_rates(k);
     }
+  }
+  if (options_.law == Law::Arrive) dead_zone_.apply(weights_, limits(), hierarchy);
+  for (std::size_t k = 0; k < hierarchy.size(); ++k) {
+    if (!hierarchy[k].bounds) fill_rows(robot, stack().levels()[k], hierarchy[k]);
   }
 }
 
@@ -150,24 +155,51 @@ void AccelerationController::fill_bounds(const Robot& robot, const Task& task, L
   }
 }
 
+// the velocities that the tasks want; those with a law of their own want none here
+void AccelerationController::fill_rates(std::size_t k) {
+  const StackLevel& source = stack().levels()[k];
+  Level& level = problem_.hierarchy()[k];
+  const double gain = options_.stiffness / options_.damping;
+  double most = 0.0;
+  bool own = false;
+  for (const Task* task : source.tasks) {
+    own = own || task->commands_acceleration();
+    if (!task->commands_acceleration()) most = std::max(most, haste(*task, gain));
+  }
+  if (options_.law == Law::Thesis) most = 0.0;
+  weights_[k] = std::min(1.0, most);
+  Index row = 0;
+  for (const Task* task : source.tasks) {
+    const Index rows = task->rows();
+    level.A.middleRows(row, rows) = task->jacobian();
+    if (task->commands_acceleration()) {
+      level.lower.segment(row, rows).setZero();
+      level.upper.segment(row, rows).setZero();
+    } else {
+      wanted_rates(*task, gain, most, level.lower.segment(row, rows),
+                   level.upper.segment(row, rows));
+    }
+    row += rows;
+  }
+  if (options_.law == Law::Arrive && !own)
+    level.rho = regularization_at(source.rho, weights_[k]);
+}
+
+// from velocities to the accelerations that lead to them
 void AccelerationController::fill_rows(const Robot& robot, const StackLevel& source, Level& level) {
   Index row = 0;
   for (const Task* task : source.tasks) {
-    level.A.middleRows(row, task->rows()) = task->jacobian();
     auto rate = rate_.head(task->rows());
     rate.noalias() = task->jacobian() * robot.velocity();
     const bool own = task->commands_acceleration();
     for (Index i = 0; i < task->rows(); ++i, ++row) {
       const double held = task->acceleration_des()[i] - task->drift()[i] + options_.rest * rate[i];
-      const double slip = rate[i] - task->velocity_des()[i];  // dg/dt
-      const double damped = own ? held : held - options_.damping * slip;
-      const auto wanted = [&](double side) {
+      const auto wanted = [&](double side, double velocity) {
         if (std::abs(side) >= kInfinity) return side;
-        if (own) return damped + side;
-        return damped + options_.stiffness * (side - task->error()[i]);  // [T 5.3.17]
+        return held + (own ? side : options_.damping * (velocity - rate[i]));  // [T 5.3.17]
       };
-      level.lower[row] = wanted(task->lower()[i]);
-      level.upper[row] = wanted(task->upper()[i]);
+      level.lower[row] = wanted(task->lower()[i], level.lower[row]);
+      level.upper[row] = wanted(task->upper()[i], level.upper[row]);
     }
   }
 }

@@ -1,7 +1,8 @@
 // From a stack to coordinate accelerations: second-order closed-loop inverse kinematics, for joint
 // servos (integrated) or for drives that take torques (inverse dynamics) [T §5.3].
 //
-//   y_k = -L dg_k/dt - K g_k + d2s_des/dt2 - dJ/dt qdot             [T 5.3.17], its dot restored
+//   y_k = L (v_k - J qdot) + d2s_des/dt2 - dJ/dt qdot               [T 5.3.17], its dot restored
+//   v_k = -(K / L) g_k + ds_des/dt, bounded                         task_speed.hpp, dead_zone.hpp
 //   qddot* = lexicographic minimum of the levels                    [T 5.3.18]
 //   qdot* += qddot* dt,  q* += qdot* dt + qddot* dt^2 / 2           [T 5.6.50]
 //
@@ -16,8 +17,10 @@
 #include <vector>
 
 #include "hurcules/control/acceleration_interval.hpp"
+#include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/stack_problem.hpp"
+#include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 
@@ -33,9 +36,11 @@ struct AccelerationControllerOptions {
   // a stack names no JointLimits; false: only where it names them
   bool enforce_limits = true;
   double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
-  double rest = 0.0;               // [1/s] D above; 0 as in the thesis, sqrt(K) stops a swing
-  // smooth: the commanded acceleration does not jump where a task loses a direction
-  SolverOptions solver = {.handover = Handover::Smooth};
+  double rest = 10.0;              // [1/s] D above; sqrt(K) stops a swing, 0 as in the thesis
+  // Thesis: wants rest = 0 and solver.handover = Smooth, so that the acceleration does not jump
+  // where a task loses a direction. Arrive wants Strict.
+  Law law = Law::Arrive;
+  SolverOptions solver = {};
 };
 
 class AccelerationController {
@@ -80,6 +85,7 @@ class AccelerationController {
 
  private:
   void fill_bounds(const Robot& robot, const Task& limits, Level& level);
+  void fill_rates(std::size_t k);
   void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
 
   AccelerationControllerOptions options_;
@@ -87,6 +93,8 @@ class AccelerationController {
   JointLimits own_limits_;               // those of the robot
   StackProblem problem_;
   Solver solver_;
+  std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
+  DeadZone dead_zone_;
   Vector acceleration_;
   Vector next_;                                  // [rad/s] scratch, one dt further
   Vector braked_;                                // D qdot, of the last measure

@@ -25,12 +25,6 @@ void check(const VelocityControllerOptions& options) {
           "transition wants a time >= 0 [s]");
 }
 
-// velocity that brings the error to this side of its interval; no side stays no side
-double wanted_rate(double side, double error, double velocity_des, double gain) {
-  if (std::abs(side) >= kInfinity) return side;
-  return velocity_des + gain * (side - error);  // [T 4.3.2]
-}
-
 }  // namespace
 
 VelocityController::VelocityController(const Robot& robot, VelocityControllerOptions options)
@@ -58,6 +52,8 @@ void VelocityController::set_stack(const Stack& stack) {
   }
   problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
   begin_transition();
+  weights_.assign(stack.levels().size(), 0.0);
+  dead_zone_.reserve(velocity_.size(), weights_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
@@ -76,9 +72,10 @@ void VelocityController::measure(const Robot& robot) {
     if (hierarchy[k].bounds) {
       fill_bounds(*source.tasks.front(), hierarchy[k]);
     } else {
-      fill_rows(source, hierarchy[k]);
+      fill_rows(k);
     }
   }
+  if (options_.law == Law::Arrive) dead_zone_.apply(weights_, limits(), hierarchy);
 }
 
 const Vector& VelocityController::solve() {
@@ -192,17 +189,22 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
   }
 }
 
-void VelocityController::fill_rows(const StackLevel& source, Level& level) const {
+void VelocityController::fill_rows(std::size_t k) {
+  const StackLevel& source = stack().levels()[k];
+  Level& level = problem_.hierarchy()[k];
+  double most = 0.0;
+  for (const Task* task : source.tasks) most = std::max(most, haste(*task, options_.gain));
+  if (options_.law == Law::Thesis) most = 0.0;
+  weights_[k] = std::min(1.0, most);
   Index row = 0;
   for (const Task* task : source.tasks) {
-    level.A.middleRows(row, task->rows()) = task->jacobian();
-    for (Index i = 0; i < task->rows(); ++i, ++row) {
-      const double error = task->error()[i];
-      const double velocity_des = task->velocity_des()[i];
-      level.lower[row] = wanted_rate(task->lower()[i], error, velocity_des, options_.gain);
-      level.upper[row] = wanted_rate(task->upper()[i], error, velocity_des, options_.gain);
-    }
+    const Index rows = task->rows();
+    level.A.middleRows(row, rows) = task->jacobian();
+    wanted_rates(*task, options_.gain, most, level.lower.segment(row, rows),
+                 level.upper.segment(row, rows));
+    row += rows;
   }
+  if (options_.law == Law::Arrive) level.rho = regularization_at(source.rho, weights_[k]);
 }
 
 }  // namespace hurcules

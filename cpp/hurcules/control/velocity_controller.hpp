@@ -1,7 +1,7 @@
 // From a stack to coordinate velocities: the first-order closed-loop inverse kinematics of [T
 // §4.3.1].
 //
-//   y_k = -K g_k + ds_des/dt                       [T 4.3.2]
+//   y_k = -K g_k + ds_des/dt, bounded              [T 4.3.2], task_speed.hpp, dead_zone.hpp
 //   J qdot <= (s_upper - s) / T                    [T 4.3.9], horizon T as a gain (solver.md §7)
 //   qdot* = lexicographic minimum of the levels    [T 4.3.3]
 //   q*(t + dt) = q*(t) + qdot* dt                  [T 4.3.7]
@@ -13,9 +13,11 @@
 
 #include <vector>
 
+#include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack_problem.hpp"
+#include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 
@@ -34,8 +36,10 @@ struct VelocityControllerOptions {
   // for, fades out in this time, inside the limits; meanwhile it disturbs every task. 0: none, the
   // velocity then changes as fast as max_acceleration lets it, at once where no level has limits.
   double transition = 0.2;
-  // smooth: the commanded velocity does not jump where a task loses a direction
-  SolverOptions solver = {.handover = Handover::Smooth};
+  // Thesis: wants solver.handover = Smooth, so that the velocity does not jump where a task loses a
+  // direction. Arrive does not jump by itself, and wants Strict.
+  Law law = Law::Arrive;
+  SolverOptions solver = {};
 };
 
 class VelocityController {
@@ -77,7 +81,7 @@ class VelocityController {
 
  private:
   void fill_bounds(const Task& limits, Level& level);
-  void fill_rows(const StackLevel& source, Level& level) const;
+  void fill_rows(std::size_t k);
   void begin_transition();
   void add_transition();
 
@@ -86,6 +90,8 @@ class VelocityController {
   JointLimits own_limits_;               // those of the robot
   StackProblem problem_;
   Solver solver_;
+  std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
+  DeadZone dead_zone_;
   Vector velocity_;
   Vector next_;        // [rad], (n): q* after a step
   Vector offset_;      // [rad/s] (n) of the transition, at its start

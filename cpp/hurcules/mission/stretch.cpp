@@ -79,7 +79,9 @@ std::shared_ptr<WholeBodyController> Stretch::make_controller(const Robot& robot
                                    {"pelvis_x", kTwist, *pelvis, hand},
                                    {"gaze", kTwist, *gaze, angle, {"yaw", "pitch"}}};
   WholeBodyControllerOptions whole;
+  whole.velocity.law = Law::Thesis;  // the mission shows the thesis' figures
   whole.velocity.solver.method = options.method;
+  whole.velocity.solver.handover = Handover::Smooth;
   whole.support = setup_of().support;
   whole.base = options.base;
   whole.servo = setup_of().servo;

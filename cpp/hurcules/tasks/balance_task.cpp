@@ -48,6 +48,7 @@ BalanceTask::BalanceTask(std::string name, const Robot& robot, const BalanceTask
   require(std::isfinite(options.margin), "margin of task '" + name_ + "' wants a finite number");
   lower_.setConstant(options.margin);
   upper_.setConstant(std::numeric_limits<double>::infinity());
+  max_speed_ = 0.3;
   BalanceTask::update(robot);
 }
 

@@ -5,6 +5,7 @@ namespace hurcules {
 CenterOfMassTask::CenterOfMassTask(std::string name, const Robot& robot,
                                    CenterOfMassTaskOptions options)
     : PointTask(std::move(name), robot, std::move(options)) {
+  max_speed_ = 0.3;
   CenterOfMassTask::hold(robot);
 }
 

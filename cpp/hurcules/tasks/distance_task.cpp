@@ -15,6 +15,7 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot, const DistanceT
       "margin of task '" + name_ + "' wants to be below the largest distance that it looks for");
   lower_.setConstant(options.margin);
   upper_.setConstant(std::numeric_limits<double>::infinity());
+  max_speed_ = 0.5;
   DistanceTask::update(robot);
 }
 

@@ -29,6 +29,7 @@ class DistanceTask : public Task {
   void advance(const ConstVectorRef& velocity, double dt) override;
   void save(StateWriter& writer) const override { Task::save(writer); }
   void restore(StateReader& reader) override { Task::restore(reader); }
+  [[nodiscard]] bool rows_apart() const override { return true; }
 
  private:
   GeomDistance distances_;

@@ -15,6 +15,7 @@ PointTask::PointTask(std::string name, const Robot& robot, PointTaskOptions opti
   require(axes_.allFinite(), "axes of task '" + name_ + "' want finite values");
   require(axes_.rowwise().squaredNorm().minCoeff() > 0.0,
           "axes of task '" + name_ + "' want a direction in each row, one of length 0 came");
+  max_speed_ = 0.5;
 }
 
 void PointTask::measure(const Robot& robot) {

@@ -11,6 +11,7 @@ PostureTask::PostureTask(std::string name, const Robot& robot,
     selected_.push_back(robot.coordinate(coordinate));
   for (Index i = 0; coordinates.empty() && i < robot.size(); ++i) selected_.push_back(i);
   for (Index row = 0; row < rows(); ++row) jacobian_(row, selected_[row]) = 1;
+  max_speed_ = 1.0;
   PostureTask::hold(robot);
 }
 

@@ -19,6 +19,8 @@ class PostureTask : public ValueTask {
     return std::make_unique<PostureTask>(*this);
   }
 
+  [[nodiscard]] bool rows_apart() const override { return true; }
+
  private:
   void measure(const Robot& robot) override;
 

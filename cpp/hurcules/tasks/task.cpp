@@ -22,6 +22,12 @@ Task::Task(std::string name, Index rows, const Robot& robot)
   identity_ = robot.identity();
 }
 
+void Task::set_max_speed(double speed) {
+  require(speed > 0.0 && std::isfinite(speed),
+          "max_speed of task '" + name_ + "' wants a positive number, got " + std::to_string(speed));
+  max_speed_ = speed;
+}
+
 void Task::relax(double /*share*/) {}
 
 void Task::save(StateWriter& writer) const {

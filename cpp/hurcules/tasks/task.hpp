@@ -42,6 +42,13 @@ class Task {
   // the interval that the error shall be in; (m), task unit, -inf and inf for no side
   virtual void set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper);
 
+  // [unit/s] no more than this is asked for to bring the error to its interval (Euclidean norm, or
+  // each row where they stand apart); what is fed forward comes on top
+  [[nodiscard]] double max_speed() const { return max_speed_; }
+  void set_max_speed(double speed);  // throws Error unless positive and finite
+  // each row is a coordinate's own matter: one that cannot arrive does not slow down the others
+  [[nodiscard]] virtual bool rows_apart() const { return false; }
+
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Index rows() const { return error_.size(); }
   [[nodiscard]] const Vector& error() const { return error_; }                // (m)
@@ -71,6 +78,7 @@ class Task {
   std::string name_;
   Vector error_, drift_, velocity_des_, acceleration_des_, lower_, upper_;
   Matrix jacobian_;
+  double max_speed_ = 1.5;  // of angles [rad/s]
 
  private:
   ModelIdentity identity_;

@@ -82,9 +82,11 @@ def press(
     task.set_target([-above])
     controller: hurcules.VelocityController | hurcules.AccelerationController
     if gains.loop == ForceLoop.FirstOrder:
-        controller = hurcules.VelocityController(robot)
+        options = hurcules.VelocityControllerOptions(law="thesis")
+        controller = hurcules.VelocityController(robot, options)
     else:
-        controller = hurcules.AccelerationController(robot)
+        second = hurcules.AccelerationControllerOptions(law="thesis", rest=0.0)
+        controller = hurcules.AccelerationController(robot, second)
     controller.set_stack(Stack([StackLevel("force", [task], 0.0)]))
     count = round(seconds / DT)
     force, speed, state = np.zeros(count), np.zeros(count), np.zeros(count)

@@ -123,10 +123,12 @@ class PressRobot:
         smooth = "smooth" if setting.method == "lexicographic" else "strict"
         solver = hurcules.rhqp.SolverOptions(method=setting.method, handover=smooth)
         if self.accelerates:
-            options = hurcules.AccelerationControllerOptions(rest=setting.rest, solver=solver)
+            options = hurcules.AccelerationControllerOptions(
+                rest=setting.rest, law="thesis", solver=solver
+            )
             self.controller = hurcules.AccelerationController(plan, options)
         else:
-            speeds = hurcules.VelocityControllerOptions(solver=solver)
+            speeds = hurcules.VelocityControllerOptions(law="thesis", solver=solver)
             self.controller = hurcules.VelocityController(plan, speeds)
         self.controller.set_stack(self.stack())
         self.servo = Servo(self.model, plan, setting.bandwidth)

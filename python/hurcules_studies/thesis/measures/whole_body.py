@@ -51,7 +51,7 @@ class Setting:
         solver = rhqp.SolverOptions(
             method=self.method, max_iterations=self.max_iterations, handover=smooth
         )
-        options = hurcules.VelocityControllerOptions(dt=DT, solver=solver)
+        options = hurcules.VelocityControllerOptions(dt=DT, law="thesis", solver=solver)
         if self.as_printed:
             options.horizon = DT
             options.max_acceleration = NO_LIMIT

@@ -1,0 +1,124 @@
+"""Robots that installed packages ship, whatever of them is there, as `hurcules.Robot` with a hand.
+
+Looked for: robosuite, gymnasium, gymnasium_robotics, dm_control, metaworld, and the URDF files of
+example-robot-data. Nothing is installed or fetched; what is missing or does not load is left out.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import sys
+import warnings
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+import hurcules
+
+PACKAGES = {
+    "robosuite": "models/assets/robots/*/robot.xml",
+    "gymnasium": "envs/mujoco/assets/*.xml",
+    "gymnasium_robotics": "envs/assets/**/*.xml",
+    "dm_control": "suite/*.xml",
+    "metaworld": "assets/sawyer_xyz/sawyer_reach*.xml",
+}
+URDF = "cmeel.prefix/share/example-robot-data/robots/**/*.urdf"
+FREE = 1.5  # [rad] or [m], how far a joint without range goes to either side
+
+
+@dataclass(frozen=True)
+class Arm:
+    """A robot and the body that most of its coordinates move."""
+
+    name: str
+    model: mujoco.MjModel
+    hand: str
+
+    def robot(self) -> hurcules.Robot:
+        """A new robot at rest in its first posture, brought inside its limits."""
+        robot = hurcules.Robot(self.model)
+        lower, upper = ranges(robot)
+        robot.set_configuration(np.clip(robot.configuration, lower, upper))
+        return robot
+
+
+def ranges(robot: hurcules.Robot) -> tuple[np.ndarray, np.ndarray]:
+    """Where the postures are taken from: the limits, `FREE` about 0 where there are none."""
+    limits = [
+        (c.lower, c.upper) if np.isfinite(c.upper - c.lower) else (-FREE, FREE)
+        for c in robot.coordinates
+    ]
+    lower, upper = np.array(limits).T
+    return lower, upper
+
+
+def places() -> Iterator[tuple[str, Path]]:
+    """(package, file) of all models that are there."""
+    for package, pattern in PACKAGES.items():
+        spec = importlib.util.find_spec(package)
+        if spec and spec.submodule_search_locations:
+            for folder in spec.submodule_search_locations:
+                yield from ((package, path) for path in sorted(Path(folder).glob(pattern)))
+    for folder in map(Path, dict.fromkeys(sys.path)):
+        yield from (("example_robot_data", path) for path in sorted(folder.glob(URDF)))
+
+
+def bare_urdf(path: Path) -> str:
+    """A URDF without shapes, which MuJoCo looks for elsewhere."""
+    root = ET.parse(path).getroot()
+    for link in root.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            link.remove(shape)
+    compiler = {
+        "balanceinertia": "true",
+        "boundmass": "0.01",
+        "boundinertia": "0.0001",
+        "fusestatic": "false",
+        "strippath": "false",
+    }
+    ET.SubElement(ET.SubElement(root, "mujoco"), "compiler", compiler)
+    return ET.tostring(root, encoding="unicode")
+
+
+def hand_of(robot: hurcules.Robot, model: mujoco.MjModel) -> str:
+    """The body that most coordinates move, the last of them."""
+    best, name = 0, ""
+    for body in range(1, model.nbody):
+        frame = model.body(body).name
+        if not frame:
+            continue
+        moved = int(
+            (
+                np.abs(robot.rotation_jacobian(frame)).sum(0)
+                + np.abs(robot.position_jacobian(frame)).sum(0)
+                > 1e-9
+            ).sum()
+        )
+        if moved >= best:
+            best, name = moved, frame
+    return name if best > 1 else ""
+
+
+def arms(wanted: str = "") -> Iterator[Arm]:
+    """All that load, of which `wanted` is a part of the name."""
+    for package, path in places():
+        stem = path.parent.name if path.stem == "robot" else path.stem
+        if path.parent.name in ("hand", "fetch"):
+            stem = f"{path.parent.name}_{stem}"
+        name = f"{package}/{stem}"
+        if wanted not in name:
+            continue
+        with contextlib.suppress(Exception), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            if path.suffix == ".urdf":
+                model = mujoco.MjModel.from_xml_string(bare_urdf(path))
+            else:
+                model = mujoco.MjModel.from_xml_path(str(path))
+            robot = hurcules.Robot(model)
+            if hand := hand_of(robot, model):
+                yield Arm(name, model, hand)

@@ -1,0 +1,53 @@
+// Where a level that cannot arrive stops pulling.
+//
+// An unreachable level ends where its equality rows A lose rank on the joints that are free: the
+// strict rule hands the direction that they lose to the levels below, which turn there the faster
+// the nearer it is: no acceleration limit and no period is small enough, and the robot swings. So a
+// level stops a little before, where going on would win next to nothing:
+//
+//   p = P A'y                         P: projection on what the equality rows above leave, without
+//                                     the joints that p would press against their limits
+//   slope = |p| / (|y| S)             S: largest column of A; what a rad wins, as a share of the
+//                                     most that a joint of this level could win; 0 to about 1
+//   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)
+// The rows stay: y = 0 still keeps the levels below from driving them. A level below one that is
+// not met wants a larger zone (its own place moves with theirs): eps goes from `kZone` to `kZoneBelow`
+// with the largest w above. Both were fitted: to robots and conflicts of docs/control.md.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hurcules/solver/hierarchy.hpp"
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+class DeadZone {
+ public:
+  static constexpr double kZone = 0.02, kZoneBelow = 0.1;
+
+  // memory for n coordinates
+  void reserve(Index n, std::size_t levels);
+  // shortens what the equality rows of each level ask for (lower = upper), as rates [unit/s];
+  // weights: w a level (task_speed.hpp); limits: of the coordinates, measured, null for none
+  void apply(std::span<const double> weights, const Task* limits, Hierarchy& hierarchy);
+  // what a level was left at the last apply, 0 to 1
+  [[nodiscard]] double share(std::size_t level) const { return shares_[level]; }
+
+ private:
+  [[nodiscard]] double share_of(const Level& level, double zone, const Task* limits);
+  void find_pull(const Level& level);
+  void hold_pressed_joints(const Task& limits);
+  void add_direction();
+  void remove_known(VectorRef direction);
+
+  Matrix known_;  // (n, n): orthonormal rows, the first rank_ count
+  Index rank_ = 0;
+  Vector pull_;  // p (n)
+  Vector direction_, parts_;  // scratch (n)
+  double asked_ = 0.0, lever_ = 0.0;  // |y|, S
+  std::vector<double> shares_;
+};
+
+}  // namespace hurcules

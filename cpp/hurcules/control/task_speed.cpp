@@ -1,0 +1,67 @@
+#include "hurcules/control/task_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/solver/hierarchy.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kLeastRho = 1e-4;  // keeps the answer unique and continuous at the target
+
+// from the error to its interval, 0 inside
+double way(const Task& task, Index row) {
+  const double e = task.error()[row];
+  return std::clamp(e, task.lower()[row], task.upper()[row]) - e;
+}
+
+// K (side - e): bounded where the side pushes, as it is where it holds back
+double side_rate(double side, double pushing, double share, double gain) {
+  return gain * side * (side * pushing > 0.0 ? share : 1.0);
+}
+
+}  // namespace
+
+std::string to_string(Law law) {
+  return law == Law::Arrive ? "arrive" : "thesis";
+}
+
+Law law_named(const std::string& name) {
+  if (name == "arrive") return Law::Arrive;
+  if (name == "thesis") return Law::Thesis;
+  throw Error("law wants 'arrive' or 'thesis', got '" + name + "'");
+}
+
+double haste(const Task& task, double gain) {
+  double together = 0.0, largest = 0.0;
+  for (Index row = 0; row < task.rows(); ++row) {
+    const double g = std::abs(way(task, row));
+    together += g * g;
+    largest = std::max(largest, g);
+  }
+  return gain * (task.rows_apart() ? largest : std::sqrt(together)) / task.max_speed();
+}
+
+void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper) {
+  for (Index row = 0; row < task.rows(); ++row) {
+    const double g = way(task, row);
+    const bool own = most > 1.0 && task.rows_apart();
+    const double f = own ? gain * std::abs(g) / task.max_speed() : most;
+    const double share = f > 1.0 ? 1.0 / f : 1.0;
+    const auto rate = [&](double side) {
+      if (std::abs(side) >= kInfinity) return side;
+      return task.velocity_des()[row] + side_rate(side - task.error()[row], g, share, gain);
+    };
+    lower[row] = rate(task.lower()[row]);
+    upper[row] = rate(task.upper()[row]);
+  }
+}
+
+double regularization_at(double rho, double weight) {
+  return std::max(rho * std::sqrt(weight), std::min(rho, kLeastRho));
+}
+
+}  // namespace hurcules

@@ -1,0 +1,39 @@
+// What the tasks of a level ask for, none faster than its max_speed.
+//
+//   g = side - e where that side pushes, 0 inside the interval       (m), unit
+//   f = K |g| / max_speed of a task;   F = the largest f of the level's tasks
+//   y = ds_des/dt + K g / max(1, F)                                  [T 4.3.2], bounded
+//   w = min(1, F)                                                    0 at the target, 1 far from it
+// One F for a level: y is the gradient of its squared error, only slower, so that a level that
+// cannot arrive ends where that is least. The rows of a task that stand apart (a posture) have an f
+// each. The regularisation of a level grows with w:  rho_k^2 = rho^2 w, so that a task that can
+// arrive does so without an error of regularisation, and one that cannot is damped (compare
+// Levenberg and Marquardt's inverse kinematics). docs/control.md says why.
+#pragma once
+
+#include <string>
+
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+// How a controller brings errors to zero.
+enum class Law {
+  Arrive,  // bounded speeds, regularisation by distance, dead zones (dead_zone.hpp)
+  Thesis,  // K e, however large, and a constant regularisation [T 4.3.2]
+};
+[[nodiscard]] std::string to_string(Law law);
+// "arrive" or "thesis"; throws Error on another name
+[[nodiscard]] Law law_named(const std::string& name);
+
+// f of a task, the largest of its rows where they stand apart
+[[nodiscard]] double haste(const Task& task, double gain);
+
+// fills y of both sides, (m) [unit/s]; a side that is absent stays so. `most` is F, or anything up
+// to 1 for no bound; rows that stand apart have their own.
+void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper);
+
+// rho_k of a level that is w from its target
+[[nodiscard]] double regularization_at(double rho, double weight);
+
+}  // namespace hurcules
