@@ -82,7 +82,7 @@ Args:
   channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate.
   stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
     first one rules at the start if no `levels` are given.
-  law: "velocity" or "acceleration", of `levels`.
+  control: by what `levels` rule, "velocity" or "acceleration".
   dt: control period [s]; by default the time step of the model.
   base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
     now: targets in the world stay where they are while the robot drives).
@@ -162,10 +162,10 @@ Channel channel_of(const std::string& name, const ChannelSpec& spec) {
   return {name, spec.kind, *spec.task.cast<Task*>(), spec.scale};
 }
 
-ControlOrder law_of(const std::string& name) {
+ControlOrder control_of(const std::string& name) {
   if (name == "velocity") return ControlOrder::Velocity;
   if (name == "acceleration") return ControlOrder::Acceleration;
-  throw Error(unknown_name("law", name, {"acceleration", "velocity"}));
+  throw Error(unknown_name("control", name, {"acceleration", "velocity"}));
 }
 
 BaseSource base_of(const std::string& name) {
@@ -182,7 +182,7 @@ struct Held {
 
 std::shared_ptr<WholeBodyController> make(
     const Robot& robot, const std::optional<py::object>& levels,
-    const py::dict& channels, const py::dict& stacks, const std::string& law, std::optional<double> dt, const std::string& base,
+    const py::dict& channels, const py::dict& stacks, const std::string& control, std::optional<double> dt, const std::string& base,
     const std::string& support, const std::map<std::string, std::pair<double, double>>& servo,
     bool feed_forward, const std::optional<DriveOptions>& drive,
     const std::pair<std::string, std::string>& belts,
@@ -195,13 +195,13 @@ std::shared_ptr<WholeBodyController> make(
     all.push_back({name, stack.stack, how});
     for (py::object& object : stack.kept) held->kept.push_back(std::move(object));
   };
-  if (levels && !levels->is_none()) add("stack", *levels, law_of(law));
+  if (levels && !levels->is_none()) add("stack", *levels, control_of(control));
   for (const auto& [name, source] : stacks) {
     const auto object = py::reinterpret_borrow<py::object>(source);
     if (py::isinstance<py::tuple>(object) && py::len(object) == 2 &&
         py::isinstance<py::str>(object[py::int_(1)])) {
       add(name.cast<std::string>(), object[py::int_(0)],
-          law_of(object[py::int_(1)].cast<std::string>()));
+          control_of(object[py::int_(1)].cast<std::string>()));
     } else {
       add(name.cast<std::string>(), object, ControlOrder::Velocity);
     }
@@ -288,7 +288,7 @@ void bind_whole_body(py::module_& module) {
   controller.def(
       py::init(&make),
       "robot"_a, "levels"_a = py::none(), "channels"_a = py::dict(), py::kw_only(),
-      "stacks"_a = py::dict(), "law"_a = "velocity", "dt"_a = py::none(), "base"_a = "held",
+      "stacks"_a = py::dict(), "control"_a = "velocity", "dt"_a = py::none(), "base"_a = "held",
       "support"_a = "", "servo"_a = std::map<std::string, std::pair<double, double>>{},
       "feed_forward"_a = true, "drive"_a = py::none(),
       "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},

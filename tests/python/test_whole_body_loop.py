@@ -62,7 +62,7 @@ def test_a_command_is_given_by_name_or_as_one_array() -> None:
 
 @pytest.mark.parametrize("law", ["velocity", "acceleration"])
 def test_a_twist_leads_and_nothing_holds(law: str) -> None:
-    simulation = simulate(twist, law=law)
+    simulation = simulate(twist, control=law)
     start = at(simulation)
     simulation.step(500, {"tip": [-0.1, 0.05]})
     simulation.step(1000)
@@ -137,7 +137,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "nan": (lambda: simulate(twist).step(1, [np.nan, 0.0, 0.0]), "3 finite numbers"),
     "joint": (lambda: hurcules.Robot(mujoco.MjModel.from_xml_string(ARM), joints=["j9"]), "'j9'"),
     "stack": (lambda: simulate(twist).controller.use("walk"), "'walk' does not exist"),
-    "law": (lambda: simulate(twist, law="torque"), "'torque' does not exist"),
+    "control": (lambda: simulate(twist, control="torque"), "'torque' does not exist"),
     "base": (lambda: simulate(twist, base="flying"), "'flying' does not exist"),
     "spec": (lambda: simulate(lambda tip: {"tip": tip}), "wants Twist, Delta"),
     "coordinate": (

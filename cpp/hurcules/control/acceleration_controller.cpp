@@ -53,7 +53,7 @@ void AccelerationController::set_stack(const Stack& stack) {
   Index rows = 0;
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
-  weights_.assign(stack.levels().size(), 0.0);
+  weights_.assign(problem_.hierarchy().size(), 0.0);
   dead_zone_.reserve(acceleration_.size(), weights_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());

@@ -52,7 +52,7 @@ void VelocityController::set_stack(const Stack& stack) {
   }
   problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
   begin_transition();
-  weights_.assign(stack.levels().size(), 0.0);
+  weights_.assign(problem_.hierarchy().size(), 0.0);
   dead_zone_.reserve(velocity_.size(), weights_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
