@@ -319,17 +319,14 @@ void reset_batch(SimulationBatch& self, const std::vector<std::uint64_t>& seeds,
   });
 }
 
-void restore_batch(SimulationBatch& self, const Matrix& states,
+void restore_batch(SimulationBatch& self, const std::vector<std::vector<double>>& states,
                    const std::optional<std::vector<bool>>& mask) {
-  require(states.rows() == static_cast<Index>(self.size()) &&
-              (!mask || mask->size() == self.size()),
-          "restore wants " + std::to_string(self.size()) + " rows, " +
-              std::to_string(states.rows()) + " came");
+  require(states.size() == self.size() && (!mask || mask->size() == self.size()),
+          "restore wants " + std::to_string(self.size()) + " states, " +
+              std::to_string(states.size()) + " came");
   py::gil_scoped_release release;
   self.for_each([&](std::size_t i) {
-    if (mask && !(*mask)[i]) return;
-    const Vector row = states.row(static_cast<Index>(i)).transpose();
-    self[i].restore({row.begin(), row.end()});
+    if (!mask || (*mask)[i]) self[i].restore(states[i]);
   });
 }
 
@@ -348,9 +345,11 @@ void bind_batch(py::module_& module) {
            "Back to the start; seeds (n,), mask (n,) bool: which.")
       .def("state",
            [](const Batch& self) {
-             return rows_of(self, [](const Simulation& one) { return state(one); });
+             std::vector<Vector> all;
+             for (std::size_t i = 0; i < self.size(); ++i) all.push_back(state(self[i]));
+             return all;
            },
-           "(n, s): all that decides how each goes on, see Simulation.state.")
+           "List of n arrays: all that decides how each goes on, see Simulation.state.")
       .def("restore", &restore_batch, "states"_a, "mask"_a = py::none(), "Goes on from state().")
       .def("observation",
            [](const Batch& self) {

@@ -115,6 +115,8 @@ class Side(_Enum):
 class ActiveRow:
     """A row that holds x back."""
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __repr__(self) -> str: ...
     @property
     def held_by(self) -> int:
@@ -139,6 +141,10 @@ class ActiveRow:
 class LevelReport:
     """What a level could do, and what it cost."""
 
+    @staticmethod
+    def __repr__(shown: Any) -> str: ...
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     @property
     def handed_over(self) -> NDArray[np.float64]:
         """of each of these directions the weight with which the levels below get it: 0 where the level keeps it, 1 where it sees nothing, between them by smooth hand-over only"""
@@ -199,6 +205,10 @@ class Solution:
 
     multipliers, levels, jvp and vjp are computed when they are asked for."""
 
+    @staticmethod
+    def __repr__(shown: Any) -> str: ...
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def jvp(self, changes: collections.abc.Sequence[LevelChange | None]) -> NDArray[np.float64]:
         """How x moves with the numbers of the hierarchy: exact, with the working set held.
 
@@ -269,6 +279,8 @@ class SolverOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> SolverOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> SolverOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -421,6 +433,7 @@ class Robot:
     names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
     joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
     It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
+    Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round.
     A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
     Args:
@@ -484,10 +497,10 @@ class Robot:
         """(3, n): angular velocity of the frame in W by the coordinates."""
 
     def set_configuration(self, q: ArrayLike) -> None:
-        """Sets the coordinates q (n,) [rad] or [m]; all else stays as it is."""
+        """Sets the coordinates q (n,) [rad] or [m]; all else stays as it is. Warns outside the limits."""
 
     def set_keyframe(self, name: str) -> None:
-        """Takes the posture of a keyframe, or the model's initial one for ''."""
+        """Takes the posture of a keyframe, or the model's initial one for ''. Warns outside the limits."""
 
     def set_qpos(self, qpos: ArrayLike) -> None:
         """Sets the whole qpos (nq,), base and loose bodies too."""
@@ -600,6 +613,16 @@ class Task:
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
         """The interval that the error shall be in: (m,) each, -inf or inf for no side."""
 
+    def set_max_speed(self, speed: float) -> None:
+        """No more than this is asked for to bring the error to its interval; a feed-forward comes on top.
+
+        By default 0.5 m/s for points, 0.3 m/s for the centre of mass, 1.5 rad/s for turns and angles,
+        1 rad/s for each coordinate of a posture. A norm; where rows stand apart (posture, balance,
+        distances) each row alone.
+
+        Args:
+          speed: [unit/s], positive."""
+
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
 
@@ -623,6 +646,10 @@ class Task:
     @property
     def lower(self) -> NDArray[np.float64]:
         """(m,), of the error"""
+
+    @property
+    def max_speed(self) -> float:
+        """[unit/s]"""
 
     @property
     def name(self) -> str: ...
@@ -959,6 +986,8 @@ class ContactOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> ContactOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> ContactOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1014,6 +1043,8 @@ class StiffnessOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> StiffnessOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> StiffnessOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1175,6 +1206,10 @@ class Stack:
 class ControlSolution:
     """The solution of a controller's last solve."""
 
+    @staticmethod
+    def __repr__(shown: Any) -> str: ...
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     @property
     def changes(self) -> int:
         """working-set changes"""
@@ -1231,6 +1266,10 @@ class LevelNote:
     The smallest singular value (distance to singularity) and the product of all (manipulability) are of
     the level's equality rows on the directions that the levels above left; 1 without such rows."""
 
+    @staticmethod
+    def __repr__(shown: Any) -> str: ...
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     @property
     def level(self) -> str: ...
     @property
@@ -1253,11 +1292,16 @@ class VelocityControllerOptions:
       max_acceleration: [rad/s^2] of every coordinate, inf for none.
       return_speed: [rad/s] at which a coordinate outside its limits is driven back.
       transition: [s] in which the velocity goes over to a stack that was set in motion; 0 for none.
-      solver: SolverOptions; the default is SolverOptions(handover="smooth"), so that no velocity jumps
-        where a task loses a direction."""
+      law: 'arrive': errors vanish at max_speed of their tasks at most, targets that can be reached are,
+        and everything comes to rest. 'thesis': gain times error however large, constant
+        regularisation; it wants SolverOptions(handover="smooth"), so that no velocity jumps where a task
+        loses a direction.
+      solver: SolverOptions."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> VelocityControllerOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> VelocityControllerOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1268,8 +1312,10 @@ class VelocityControllerOptions:
         gain: float = 5.0,
         horizon: float = 0.05,
         max_acceleration: float = 20.0,
+        enforce_limits: bool = True,
         return_speed: float = 0.2,
         transition: float = 0.2,
+        law: str = "arrive",
         solver: SolverOptions = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -1279,6 +1325,12 @@ class VelocityControllerOptions:
 
     @dt.setter
     def dt(self, arg0: float) -> None: ...
+    @property
+    def enforce_limits(self) -> bool:
+        """limits before all levels"""
+
+    @enforce_limits.setter
+    def enforce_limits(self, arg0: bool) -> None: ...
     @property
     def gain(self) -> float:
         """[1/s]"""
@@ -1291,6 +1343,12 @@ class VelocityControllerOptions:
 
     @horizon.setter
     def horizon(self, arg0: float) -> None: ...
+    @property
+    def law(self) -> str:
+        """'arrive' or 'thesis'"""
+
+    @law.setter
+    def law(self, arg1: str) -> None: ...
     @property
     def max_acceleration(self) -> float:
         """[rad/s^2]"""
@@ -1405,10 +1463,14 @@ class AccelerationControllerOptions:
       max_acceleration: [rad/s^2] of every coordinate, inf for none.
       return_speed: [rad/s] at which a coordinate outside its limits is driven back.
       rest: [1/s] rate at which weak and free directions brake; 0: they keep their speed.
-      solver: SolverOptions; the default is SolverOptions(handover="smooth")."""
+      law: "arrive" or "thesis", see VelocityControllerOptions; the speed that an error asks for is
+        stiffness / damping times it. "thesis" wants rest=0 and SolverOptions(handover="smooth").
+      solver: SolverOptions."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> AccelerationControllerOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> AccelerationControllerOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1420,8 +1482,10 @@ class AccelerationControllerOptions:
         damping: float = 20.0,
         horizon: float = 0.05,
         max_acceleration: float = 20.0,
+        enforce_limits: bool = True,
         return_speed: float = 0.2,
-        rest: float = 0.0,
+        rest: float = 10.0,
+        law: str = "arrive",
         solver: SolverOptions = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -1438,11 +1502,23 @@ class AccelerationControllerOptions:
     @dt.setter
     def dt(self, arg0: float) -> None: ...
     @property
+    def enforce_limits(self) -> bool:
+        """limits before all levels"""
+
+    @enforce_limits.setter
+    def enforce_limits(self, arg0: bool) -> None: ...
+    @property
     def horizon(self) -> float:
         """[s]"""
 
     @horizon.setter
     def horizon(self, arg0: float) -> None: ...
+    @property
+    def law(self) -> str:
+        """'arrive' or 'thesis'"""
+
+    @law.setter
+    def law(self, arg1: str) -> None: ...
     @property
     def max_acceleration(self) -> float:
         """[rad/s^2]"""
@@ -1570,6 +1646,8 @@ class JointPidOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> JointPidOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> JointPidOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1706,6 +1784,8 @@ class ParkingOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> ParkingOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> ParkingOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1818,6 +1898,8 @@ class DriveOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> DriveOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> DriveOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2088,7 +2170,7 @@ class WholeBodyController:
       channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate.
       stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
         first one rules at the start if no `levels` are given.
-      law: "velocity" or "acceleration", of `levels`.
+      control: by what `levels` rule, "velocity" or "acceleration".
       dt: control period [s]; by default the time step of the model.
       base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
         now: targets in the world stay where they are while the robot drives).
@@ -2111,7 +2193,7 @@ class WholeBodyController:
         channels: dict[str, Any] = {},
         *,
         stacks: dict[str, Any] = {},
-        law: str = "velocity",
+        control: str = "velocity",
         dt: float | None = None,
         base: str = "held",
         support: str = "",
@@ -2468,6 +2550,8 @@ class SensorFault:
     entry: str
     kind: FaultKind
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> SensorFault: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> SensorFault: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2490,6 +2574,8 @@ class SensorOptions:
     __hash__: ClassVar[None]  # type: ignore[assignment]
     range: RangeFinder
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> SensorOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> SensorOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2531,6 +2617,8 @@ class MonitorOptions:
     __hash__: ClassVar[None]  # type: ignore[assignment]
     on: bool
 
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> MonitorOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> MonitorOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2603,6 +2691,10 @@ class SimulationOptions:
     sensors: SensorOptions
     timed: bool
 
+    @staticmethod
+    def __repr__(shown: Any) -> str: ...
+    @staticmethod
+    def _repr_html_(shown: Any) -> str: ...
     def __init__(
         self,
         *,
@@ -2793,8 +2885,8 @@ class Simulation:
     @property
     def observation_names(self) -> list[str]: ...
     @property
-    def phase(self) -> str | None:
-        """of the mission; None without one"""
+    def phase(self) -> str:
+        """of the mission; '' without one"""
 
     @property
     def phases(self) -> list[str]: ...
