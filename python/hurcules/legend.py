@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-__all__ = ["JOINTS", "LEVELS", "joint_words", "level_words", "limit_words"]
+__all__ = ["JOINTS", "LEVELS", "event_words", "joint_words", "level_words", "limit_words"]
 
 # without L or R for the side
 JOINTS = {
@@ -45,6 +45,12 @@ def joint_words(name: str) -> str:
 def level_words(name: str) -> str:
     """A level in words, "hand positions" for "hpos"; other names stay."""
     return LEVELS.get(name, name)
+
+
+def event_words(text: str) -> str:
+    """An event in words: "hip meets its upper limit" for "HIP meets its upper limit"."""
+    name, _, rest = text.partition(" ")
+    return f"{joint_words(name)} {rest}" if rest else text
 
 
 def limit_words(active: Sequence[str]) -> list[str]:

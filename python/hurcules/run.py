@@ -17,6 +17,7 @@ from hurcules import extras
 from hurcules._core import Error
 from hurcules.figures import describe, readable
 from hurcules.interrupts import Interrupts
+from hurcules.legend import event_words
 from hurcules.output import Output
 from hurcules.recording import Recording, Snapshot, record
 from hurcules.rendering import RendererError
@@ -187,7 +188,7 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
     """The robot at the events, those that happen together in one picture."""
     moments: list[tuple[float, str]] = []
     for event in summary["events"]:
-        time, text = event["time_s"], event["text"]
+        time, text = event["time_s"], event_words(event["text"])
         if moments and time - moments[-1][0] < 0.25:
             moments[-1] = (moments[-1][0], f"{moments[-1][1]}; {text}")
         else:

@@ -10,7 +10,7 @@ from typing import Any
 import jinja2
 
 from hurcules.figures import describe, readable
-from hurcules.legend import joint_words, level_words
+from hurcules.legend import event_words, joint_words, level_words
 from hurcules.recording import CHANNELS, STAGES, Recording, Snapshot
 from hurcules.report import plots
 from hurcules.report.style import applied, data_address, jpeg
@@ -48,6 +48,7 @@ def write(
         summary=summary,
         origin=origin,
         names=_names(recording.log),
+        events=[(e["time_s"] - origin, event_words(e["text"])) for e in summary["events"]],
         cards=_cards(summary),
         rows=[row for row in _rows(summary) if row["thesis"]],
         more=[row for row in _rows(summary) if not row["thesis"]],

@@ -202,7 +202,7 @@ def _lines(time: Array, series: Log, events: Sequence[float], label: str) -> str
     """Lines by name over the same time."""
     figure, plot = axes(3.4)
     for (name, values), colour in zip(series.items(), LINES, strict=False):
-        plot.plot(*decimate(time, values), color=colour, label=name)
+        plot.plot(*decimate(time, values), color=colour, label=_title(name))
     mark(plot, events)
     plot.set_xlabel("time [s]")
     plot.set_ylabel(label)

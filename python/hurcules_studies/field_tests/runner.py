@@ -214,8 +214,8 @@ def _all(
             if stopped() or _hopeless(done):
                 break
             try:
-                # a tuple of its arguments, then nobody who watches
-                note(index, repeat(*job, None, stopped))  # type: ignore[arg-type]
+                # a tuple of its arguments
+                note(index, repeat(*job, stopped=stopped))  # type: ignore[arg-type, misc]
             except Stopped:
                 break
     else:
