@@ -90,6 +90,40 @@ def test_the_first_hand_arrives_whatever_the_others_are_asked_for(
     assert np.linalg.norm(robot.position(subject.hands[0]) - wanted) < 1e-3
 
 
+@pytest.mark.parametrize("subject", SUBJECTS[:2], ids=lambda one: Path(one.file).stem)
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+@pytest.mark.parametrize("by", ["velocities", "accelerations"])
+def test_by_default_a_hand_arrives_and_all_comes_to_rest(
+    subject: Subject, dt: float, by: str
+) -> None:
+    robot = subject.robot()
+    limits = JointLimits("limits", robot)
+    lower, upper = np.maximum(limits.lower, -1.5), np.minimum(limits.upper, 1.5)
+    start = np.clip(robot.configuration, lower, upper)
+    way = np.random.default_rng(5).uniform(lower, upper) - start
+    robot.set_configuration(start + 0.3 * way)
+    wanted = robot.position(subject.hands[0])
+    robot.set_configuration(start)  # the pusher's arm is straight here
+    hand = PositionTask("hand", robot, subject.hands[0])
+    hand.set_target(wanted)
+    if by == "velocities":
+        controller = hurcules.VelocityController(robot, hurcules.VelocityControllerOptions(dt=dt))
+    else:
+        controller = hurcules.AccelerationController(
+            robot, hurcules.AccelerationControllerOptions(dt=dt)
+        )
+    controller.set_stack(Stack([limits, hand, PostureTask("posture", robot)]))
+    last, hardest = robot.configuration, 0.0
+    speed = np.zeros(robot.size)
+    for _ in range(round(10 / dt)):
+        q = controller.step(robot)
+        before, speed, last = speed, (q - last) / dt, q
+        hardest = max(hardest, float(np.abs(speed - before).max()))
+    assert np.linalg.norm(robot.position(subject.hands[0]) - wanted) < 1e-3
+    assert np.abs(speed).max() < 0.01
+    assert hardest <= 20.0 * dt * (1 + 1e-6)
+
+
 def test_a_frame_that_does_not_exist_is_named_with_those_that_do() -> None:
     robot = SUBJECTS[0].robot()
     with pytest.raises(hurcules.Error, match=r"'gripper' does not exist; there are: .*robot0:grip"):

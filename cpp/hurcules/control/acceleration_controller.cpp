@@ -54,7 +54,7 @@ void AccelerationController::set_stack(const Stack& stack) {
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
   weights_.assign(problem_.hierarchy().size(), 0.0);
-  dead_zone_.reserve(acceleration_.size(), weights_.size());
+  dead_zone_.set_stack(problem_.stack(), acceleration_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
@@ -90,10 +90,16 @@ const Vector& AccelerationController::solve() {
     acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
   }
   if (solver_.solution().status != SolverStatus::InvalidInput) acceleration_ -= braked_;
+  for (Index i = 0; limits() && i < acceleration_.size(); ++i) {  // what rounding left
+    const AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
+    if (solver_.solution().status != SolverStatus::InvalidInput)
+      acceleration_[i] = std::clamp(acceleration_[i], interval.lower, interval.upper);
+  }
   const auto is_limit = [this](std::size_t i, bool upper) {
     return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
   };
   find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
+  if (options_.law == Law::Arrive) dead_zone_.add_held(active_limits_);
   return acceleration_;
 }
 

@@ -77,7 +77,8 @@ class AccelerationController {
   [[nodiscard]] Task* limits() { return problem_.bounds_task(); }
   // what each level fell short of at the last compute, and why; makes its texts when asked
   [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const {
-    return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_});
+    return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_,
+                        options_.law == Law::Arrive ? &dead_zone_ : nullptr});
   }
   void reset();  // cold
   void save(StateWriter& writer) const;

@@ -8,7 +8,8 @@ namespace hurcules {
 namespace {
 
 constexpr double kOpens = 0.02, kWide = 0.1;  // w at which a zone opens, and is open
-constexpr double kAtLimit = 5e-5;             // [rad] or [m] from a limit: a joint stands at it
+constexpr double kNearLimit = 0.02;           // [rad] or [m] from a limit: a joint begins to be held
+constexpr double kFreeJoint = 1e-6;           // what the rows above leave of a joint
 constexpr double kRank = 1e-10;               // as the solver's, of rows of length 1
 
 bool is_equality(const Level& level, Index row) {
@@ -17,14 +18,21 @@ bool is_equality(const Level& level, Index row) {
 
 }  // namespace
 
-void DeadZone::reserve(Index n, std::size_t levels) {
-  shares_.assign(levels, 1.0);
+void DeadZone::set_stack(const Stack& stack, Index n) {
   known_ = Matrix::Zero(n, n);
-  pull_ = direction_ = parts_ = Vector::Zero(n);
+  pull_ = direction_ = parts_ = held_ = Vector::Zero(n);
+  shares_.assign(stack.levels().size(), 1.0);
+  pressed_ = Eigen::MatrixXi::Zero(static_cast<Index>(shares_.size()), n);
+  apart_.clear();
+  for (const StackLevel& level : stack.levels()) {
+    apart_.push_back(std::all_of(level.tasks.begin(), level.tasks.end(),
+                                 [](const Task* task) { return task->rows_apart(); }));
+  }
 }
 
 void DeadZone::apply(std::span<const double> weights, const Task* limits, Hierarchy& hierarchy) {
   rank_ = 0;
+  pressed_.setZero();
   double above = 0.0;  // the largest w of the levels above
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     Level& level = hierarchy[k];
@@ -32,7 +40,8 @@ void DeadZone::apply(std::span<const double> weights, const Task* limits, Hierar
     if (level.bounds) continue;
     const double open = std::clamp((weights[k] - kOpens) / (kWide - kOpens), 0.0, 1.0);
     const double eps = kZone + (kZoneBelow - kZone) * above;
-    if (open > 0.0) shares_[k] = share_of(level, eps * open, limits);
+    if (open > 0.0 && !(rank_ == 0 && apart_[k]))
+      shares_[k] = share_of(k, level, eps * open, limits);
     for (Index row = 0; row < level.rows(); ++row) {
       if (!is_equality(level, row)) continue;
       direction_ = level.A.row(row);
@@ -46,15 +55,19 @@ void DeadZone::apply(std::span<const double> weights, const Task* limits, Hierar
   }
 }
 
-double DeadZone::share_of(const Level& level, double zone, const Task* limits) {
+void DeadZone::add_held(Eigen::VectorXi& held) const {
+  for (Index i = 0; i < held.size(); ++i) {
+    for (std::size_t k = 0; held[i] == 0 && k < shares_.size(); ++k)
+      if (shares_[k] < 0.5) held[i] = pressed(k, i);
+  }
+}
+
+double DeadZone::share_of(std::size_t k, const Level& level, double zone, const Task* limits) {
   find_pull(level);
   const double most = asked_ * lever_;
   if (most == 0.0) return 1.0;
   remove_known(pull_);
-  const Index rank = rank_;
-  if (limits) hold_pressed_joints(*limits);
-  if (rank_ > rank) remove_known(pull_);
-  rank_ = rank;
+  if (limits) hold_pressed_joints(k, *limits);
   const double slope = pull_.norm() / most;
   return slope > zone ? 1.0 - zone / slope : 0.0;
 }
@@ -75,15 +88,26 @@ void DeadZone::find_pull(const Level& level) {
   lever_ = std::sqrt(direction_.maxCoeff());
 }
 
-void DeadZone::hold_pressed_joints(const Task& limits) {
-  for (Index i = 0; i < pull_.size(); ++i) {
+// takes from the pull what presses joints against their limits, the more the nearer they are
+void DeadZone::hold_pressed_joints(std::size_t k, const Task& limits) {
+  Index last = rank_;
+  for (Index i = 0; i < pull_.size() && last < known_.rows(); ++i) {
     const double q = limits.error()[i];
-    const bool pressed = (pull_[i] > 0.0 && limits.upper()[i] - q < kAtLimit) ||
-                         (pull_[i] < 0.0 && q - limits.lower()[i] < kAtLimit);
-    if (!pressed) continue;
+    const double distance = pull_[i] > 0.0 ? limits.upper()[i] - q : q - limits.lower()[i];
+    const double held = 1.0 - std::max(0.0, distance) / kNearLimit;
+    if (!(held > 0.0) || pull_[i] == 0.0) continue;
+    pressed_(static_cast<Index>(k), i) = held < 0.5 ? 0 : pull_[i] > 0.0 ? 1 : -1;
     direction_.setZero();
     direction_[i] = 1.0;
-    add_direction();
+    remove_known(direction_);
+    for (Index j = rank_; j < last; ++j)
+      direction_ -= held_[j] * known_.row(j).dot(direction_) * known_.row(j).transpose();
+    const double length = direction_.norm();
+    if (length < kFreeJoint) continue;
+    direction_ /= length;
+    pull_ -= held * direction_.dot(pull_) * direction_;
+    held_[last] = held;
+    known_.row(last++) = direction_;
   }
 }
 

@@ -5,21 +5,23 @@
 // the nearer it is: no acceleration limit and no period is small enough, and the robot swings. So a
 // level stops a little before, where going on would win next to nothing:
 //
-//   p = P A'y                         P: projection on what the equality rows above leave, without
-//                                     the joints that p would press against their limits
+//   p = P A'y                         P: projection on what the equality rows above leave, and
+//                                     away from joints that p would press against their limits:
+//                                     in full at a limit, not at all from 0.02 rad before it on
 //   slope = |p| / (|y| S)             S: largest column of A; what a rad wins, as a share of the
 //                                     most that a joint of this level could win; 0 to about 1
 //   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)
 // The rows stay: y = 0 still keeps the levels below from driving them. A level below one that is
 // not met wants a larger zone (its own place moves with theirs): eps goes from `kZone` to `kZoneBelow`
-// with the largest w above. Both were fitted: to robots and conflicts of docs/control.md.
+// with the largest w above. Both were fitted: to robots and conflicts of docs/control.md. A first
+// level whose rows stand apart loses no rank, and has no zone.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "hurcules/control/stack.hpp"
 #include "hurcules/solver/hierarchy.hpp"
-#include "hurcules/tasks/task.hpp"
 
 namespace hurcules {
 
@@ -27,18 +29,26 @@ class DeadZone {
  public:
   static constexpr double kZone = 0.02, kZoneBelow = 0.1;
 
-  // memory for n coordinates
-  void reserve(Index n, std::size_t levels);
+  // n coordinates; makes the memory
+  void set_stack(const Stack& stack, Index n);
   // shortens what the equality rows of each level ask for (lower = upper), as rates [unit/s];
   // weights: w a level (task_speed.hpp); limits: of the coordinates, measured, null for none
   void apply(std::span<const double> weights, const Task* limits, Hierarchy& hierarchy);
   // what a level was left at the last apply, 0 to 1
   [[nodiscard]] double share(std::size_t level) const { return shares_[level]; }
+  // -1, 0, 1: a level that was shortened stands at the lower, no, the upper limit of a coordinate
+  [[nodiscard]] int pressed(std::size_t level, Index coordinate) const {
+    return pressed_(static_cast<Index>(level), coordinate);
+  }
+
+  // adds the coordinates that levels are held at: -1, 0, 1 each (n), where there is none yet
+  void add_held(Eigen::VectorXi& held) const;
 
  private:
-  [[nodiscard]] double share_of(const Level& level, double zone, const Task* limits);
+  [[nodiscard]] double share_of(std::size_t k, const Level& level, double zone,
+                                const Task* limits);
   void find_pull(const Level& level);
-  void hold_pressed_joints(const Task& limits);
+  void hold_pressed_joints(std::size_t k, const Task& limits);
   void add_direction();
   void remove_known(VectorRef direction);
 
@@ -47,7 +57,10 @@ class DeadZone {
   Vector pull_;  // p (n)
   Vector direction_, parts_;  // scratch (n)
   double asked_ = 0.0, lever_ = 0.0;  // |y|, S
+  Vector held_;                       // (n): how much of each further row of known_ counts
   std::vector<double> shares_;
+  std::vector<bool> apart_;  // levels whose rows stand apart
+  Eigen::MatrixXi pressed_;  // (levels, n)
 };
 
 }  // namespace hurcules

@@ -57,6 +57,13 @@ std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelRe
     const std::string name = holder(solved, active);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
+  for (Index i = 0; solved.zone && i < solved.active_limits.size(); ++i) {
+    const int side = solved.zone->pressed(static_cast<std::size_t>(k), i);
+    if (side == 0) continue;
+    const Coordinate& coordinate = solved.robot.coordinates()[static_cast<std::size_t>(i)];
+    const std::string name = coordinate.name + (side > 0 ? " upper limit" : " lower limit");
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
   if (!report) return names;
   const Level& level = solved.problem.hierarchy()[static_cast<std::size_t>(k)];
   const bool weak = report->singular_values.size() > 0 &&
@@ -94,7 +101,9 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
     row += task->rows();
     if (task->bounds_coordinates() || k >= solved.solution.violations.size()) continue;
     const double short_by = outside(*task);
-    if (short_by < kSmall || !is_kept_from(solved.problem.hierarchy()[k],
+    const bool shortened = solved.zone && solved.zone->share(k) < 1.0 - kShare;
+    if (short_by < kSmall) continue;
+    if (!shortened && !is_kept_from(solved.problem.hierarchy()[k],
                                            solved.solution.violations[k], first, task->rows())) {
       continue;
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/solver/sensitivity/level_report.hpp"
 #include "hurcules/solver/solver.hpp"
@@ -38,6 +39,7 @@ struct SolvedStack {
   const Solution& solution;
   std::vector<LevelReport> reports;      // of the final levels
   const Eigen::VectorXi& active_limits;  // (n)
+  const DeadZone* zone = nullptr;        // null: no level was shortened
 };
 // none where the solver's method makes no reports
 [[nodiscard]] std::vector<LevelReport> reports_of(const Solver& solver);

@@ -18,11 +18,6 @@ double way(const Task& task, Index row) {
   return std::clamp(e, task.lower()[row], task.upper()[row]) - e;
 }
 
-// K (side - e): bounded where the side pushes, as it is where it holds back
-double side_rate(double side, double pushing, double share, double gain) {
-  return gain * side * (side * pushing > 0.0 ? share : 1.0);
-}
-
 }  // namespace
 
 std::string to_string(Law law) {
@@ -51,9 +46,11 @@ void wanted_rates(const Task& task, double gain, double most, VectorRef lower, V
     const bool own = most > 1.0 && task.rows_apart();
     const double f = own ? gain * std::abs(g) / task.max_speed() : most;
     const double share = f > 1.0 ? 1.0 / f : 1.0;
+    // the side that pushes is bounded, the other one holds back as it is
     const auto rate = [&](double side) {
       if (std::abs(side) >= kInfinity) return side;
-      return task.velocity_des()[row] + side_rate(side - task.error()[row], g, share, gain);
+      const double way = side - task.error()[row];
+      return task.velocity_des()[row] + gain * (way == g ? share * way : way);
     };
     lower[row] = rate(task.lower()[row]);
     upper[row] = rate(task.upper()[row]);

@@ -53,7 +53,7 @@ void VelocityController::set_stack(const Stack& stack) {
   problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
   begin_transition();
   weights_.assign(problem_.hierarchy().size(), 0.0);
-  dead_zone_.reserve(velocity_.size(), weights_.size());
+  dead_zone_.set_stack(problem_.stack(), velocity_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
@@ -92,6 +92,7 @@ const Vector& VelocityController::solve() {
     return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
   };
   find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
+  if (options_.law == Law::Arrive) dead_zone_.add_held(active_limits_);
   return velocity_;
 }
 
@@ -139,7 +140,8 @@ void VelocityController::add_transition() {
 }
 
 std::vector<LevelNote> VelocityController::notes(const Robot& robot) const {
-  return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_});
+  return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_,
+                      options_.law == Law::Arrive ? &dead_zone_ : nullptr});
 }
 
 void VelocityController::reset() {

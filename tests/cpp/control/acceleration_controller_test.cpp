@@ -154,7 +154,9 @@ TEST_F(Acceleration, KeepsTorquesWithinTheirLimits) {
   EXPECT_EQ(torque.upper()[0], 50.0);  // 5 N m through a gear of 10
   const Vector limit = (Vector(7) << 50, 60, 8, 15, 2, 2, 1).finished();
   torque.set_interval(-limit, limit);
-  AccelerationController dynamic(robot_);
+  // speeds without a bound ask for more
+  AccelerationController dynamic(
+      robot_, {.rest = 0.0, .law = Law::Thesis, .solver = {.handover = Handover::Smooth}});
   dynamic.set_stack(Stack({joint_, StackLevel("torque", {&torque}, 0.0), hand_, posture_}));
   RandomMotion random(11);
   Vector tau(robot_.size()), hand(3);

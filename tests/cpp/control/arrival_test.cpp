@@ -203,6 +203,12 @@ TEST_F(TaskSpeed, LeavesAnAbsentSideAndASideThatHoldsBackAsTheyAre) {
   EXPECT_NEAR(upper[1], 0.5, 1e-12);
 }
 
+class Zone : public Arrival {
+ protected:
+  Zone() { zone_.set_stack(Stack({tip_, wrist_}), 2); }
+  DeadZone zone_;
+};
+
 // levels of two coordinates that ask for y
 Hierarchy two_levels(double second_lever) {
   Hierarchy levels(2);
@@ -213,16 +219,14 @@ Hierarchy two_levels(double second_lever) {
   return levels;
 }
 
-TEST(DeadZone, LeavesAPullByWhatItCouldWin) {
-  DeadZone zone;
-  zone.reserve(2, 2);
+TEST_F(Zone, ShortensAPullByWhatItCouldWin) {
   const auto share = [&](double lever, double weight, double above) {
     Hierarchy levels = two_levels(lever);
     const std::vector<double> weights{above, weight};
-    zone.apply(weights, nullptr, levels);
-    EXPECT_DOUBLE_EQ(levels[1].lower[1], zone.share(1));
+    zone_.apply(weights, nullptr, levels);
+    EXPECT_DOUBLE_EQ(levels[1].lower[1], zone_.share(1));
     EXPECT_EQ(levels[1].lower, levels[1].upper);
-    return zone.share(1);
+    return zone_.share(1);
   };
   EXPECT_NEAR(share(0.05, 1.0, 0.0), 1.0 - DeadZone::kZone / 0.05, 1e-12);
   EXPECT_NEAR(share(0.5, 1.0, 1.0), 1.0 - DeadZone::kZoneBelow / 0.5, 1e-12);
@@ -230,26 +234,30 @@ TEST(DeadZone, LeavesAPullByWhatItCouldWin) {
   EXPECT_EQ(share(0.01, 0.0, 0.0), 1.0);  // at the target there is none
 }
 
-TEST(DeadZone, CountsNeitherWhatTheLevelsAboveHoldNorAJointAtItsLimit) {
-  DeadZone zone;
-  zone.reserve(2, 2);
+TEST_F(Zone, DoesNotCountWhatTheLevelsAboveHold) {
   Hierarchy levels = two_levels(1.0);
   levels[1].lower = levels[1].upper = Vector2(1.0, 0.0);  // along the row above
-  const std::vector<double> weights{0.0, 1.0};
-  zone.apply(weights, nullptr, levels);
-  EXPECT_EQ(zone.share(1), 0.0);
+  zone_.apply(std::vector<double>{0.0, 1.0}, nullptr, levels);
+  EXPECT_EQ(zone_.share(1), 0.0);
+}
 
+TEST_F(Zone, CountsAJointTheLessTheNearerItsLimitIs) {
   Robot robot(load_model_text(kPendulum));
   JointLimits limits("limits", robot);
-  robot.set_configuration(Vector2(2.0, 0.0));  // the slide at its upper limit
-  limits.update(robot);
-  for (const double towards : {1.0, -1.0}) {
-    Hierarchy level(1);
-    level[0].A = (Matrix(1, 2) << 1.0, 0.0).finished();
-    level[0].lower = level[0].upper = Vector::Constant(1, towards);
-    zone.apply(std::vector<double>{1.0}, &limits, level);
-    EXPECT_NEAR(zone.share(0), towards > 0.0 ? 0.0 : 1.0 - DeadZone::kZone, 1e-12);
-  }
+  const auto share = [&](double distance, double towards) {
+    robot.set_configuration(Vector2(2.0 - distance, 0.0));  // the slide ends at 2
+    limits.update(robot);
+    Hierarchy levels = two_levels(1.0);
+    levels[0].lower = levels[0].upper = Vector::Constant(1, towards);
+    zone_.apply(std::vector<double>{1.0, 0.0}, &limits, levels);
+    return zone_.share(0);
+  };
+  EXPECT_EQ(share(0.0, 1.0), 0.0);
+  EXPECT_EQ(zone_.pressed(0, 0), 1);
+  EXPECT_NEAR(share(0.01, 1.0), 1.0 - DeadZone::kZone / 0.5, 1e-9);
+  EXPECT_NEAR(share(0.5, 1.0), 1.0 - DeadZone::kZone, 1e-12);
+  EXPECT_NEAR(share(0.0, -1.0), 1.0 - DeadZone::kZone, 1e-12);  // it leads away
+  EXPECT_EQ(zone_.pressed(0, 0), 0);
 }
 
 }  // namespace

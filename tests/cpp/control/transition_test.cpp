@@ -31,7 +31,11 @@ class Transition : public testing::Test {
   }
   // largest change of speed over a second after `next` takes over from the hand in motion
   double jump_to(const Stack& next, double transition) {
-    VelocityController controller(robot_, {.max_acceleration = INFINITY, .transition = transition});
+    // a law that does not jump without an acceleration limit
+    VelocityController controller(robot_, {.max_acceleration = INFINITY,
+                                           .transition = transition,
+                                           .law = Law::Thesis,
+                                           .solver = {.handover = Handover::Smooth}});
     robot_.set_keyframe("home");
     for (Task* task : std::initializer_list<Task*>{&hand_, &gaze_, &posture_}) task->hold(robot_);
     controller.set_stack(hand_ < posture_);
