@@ -29,10 +29,11 @@ enum class Regularization {
 
 struct SolverOptions {
   std::string method = "lexicographic";  // solver.md §4
-  // evaluate Solution::optimality at every solve; without, ways that are usually right are believed
-  // and it is NaN: about a fifth of the time of an easy solve
+  // evaluate Solution::optimality at every solve; without, quick strategies are believed and it is
+  // NaN: about a fifth of the time of an easy solve
   bool proof = true;
-  int max_changes = 10000;  // working-set changes a solve, after which it ends with IterationLimit
+  // working-set changes a solve, after which it ends with IterationLimit: the budget of a tick
+  int max_changes = 10000;
   // of Algorithm 1 (rhqp_thesis, hqp, dls_hqp), which may cycle; thesis: 12 for dls_hqp
   int max_iterations = 100;
   // of "lexicographic", what it does near singularities:

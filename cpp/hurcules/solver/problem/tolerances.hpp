@@ -31,7 +31,7 @@ inline constexpr double kMiss = 2e-14;
 inline constexpr double kSettling = 1e-9;
 // ... and when it is no rounding: relative to max |a|^2 max(1, |x|) of the level
 inline constexpr double kNoForce = 1e-12;
-// how far rows above may get worse before a more careful way is tried, relative to |a| max(1, |x|)
+// how far rows above may get worse before another strategy is tried, relative to |a| max(1, |x|)
 inline constexpr double kHarm = 1e-12;
 // a level is proven when its optimality residual is below this
 inline constexpr double kProven = 1e-9;
