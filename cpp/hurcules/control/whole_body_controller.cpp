@@ -195,11 +195,12 @@ void WholeBodyController::hold_targets() {
   for (Task* const task : tasks_) task->hold(plan_);
 }
 
-// What the plan takes at q* and qdot*, with the accelerations that a law commands; a velocity that
-// is scaled down may jump, and what that would take is left to the servos.
+// What the plan takes at q* and qdot*, with the accelerations that a law or a move commands; a
+// velocity that is solved for or scaled down may jump: what that takes is left to the servos.
 void WholeBodyController::feed_forward() {
   if (!options_.feed_forward) return;
-  const bool commanded = !moves_joints_ && law().order() == ControlOrder::Acceleration && !scaled_;
+  const bool commanded =
+      moves_joints_ || (law().order() == ControlOrder::Acceleration && !scaled_);
   if (commanded) {
     qdd_ = (qd_ - last_qd_) / dt();
   } else {
