@@ -7,8 +7,8 @@ namespace hurcules::tolerance {
 
 // an equality row depends on the rows before it: what is left of it, relative to |a|
 inline constexpr double kRank = 1e-10;
-// an own row of an unregularised level depends on the limits that are held: only rounding is left of it,
-// whatever is more takes part in the least squares
+// an own row of an unregularised level depends on the limits that are held: only rounding is left
+// of it, whatever is more takes part in the least squares
 inline constexpr double kOwnRank = 1e-13;
 // an inequality row has no part in the free directions of a level, relative to |a|
 inline constexpr double kLost = 1e-10;
@@ -45,8 +45,8 @@ inline constexpr double kLeastForce = 1e-3;
 inline constexpr double kProximal = 1e-4;
 // a regularisation so small, relative to max |a|, that the least-distance form loses digits
 inline constexpr double kSmall = 1e-2;
-// a regularisation that counts as none where all else failed, relative to max |a|: its square is lost
-// in the rounding of the forces
+// a regularisation that counts as none where all else failed, relative to max |a|: its square is
+// lost in the rounding of the forces
 inline constexpr double kTiny = 1e-8;
 // a residual that is rounding and moves nothing, relative to |a| |x| + |b|
 inline constexpr double kZeroResidual = 1e-15;
