@@ -2935,12 +2935,14 @@ class SimulationBatch:
         """Back to the start; seeds (n,), mask (n,) bool: which."""
 
     def restore(
-        self, states: ArrayLike, mask: collections.abc.Sequence[bool] | None = None
+        self,
+        states: collections.abc.Sequence[collections.abc.Sequence[float]],
+        mask: collections.abc.Sequence[bool] | None = None,
     ) -> None:
         """Goes on from state()."""
 
-    def state(self) -> NDArray[np.float64]:
-        """(n, s): all that decides how each goes on, see Simulation.state."""
+    def state(self) -> list[NDArray[np.float64]]:
+        """List of n arrays: all that decides how each goes on, see Simulation.state."""
 
     def step(
         self,
