@@ -13,6 +13,10 @@ namespace hurcules {
 
 namespace {
 
+// [s] by the law that arrives a solve may ask for what so much acceleration reaches: where it had
+// the change of one period only, regularisation would damp that change and not the velocity
+constexpr double kForesight = 0.05;
+
 void check(const VelocityControllerOptions& options) {
   require(std::isfinite(options.dt) && options.dt > 0.0, "dt wants a positive time [s]");
   require(std::isfinite(options.gain) && options.gain >= 0.0, "gain wants a number >= 0 [1/s]");
@@ -23,6 +27,18 @@ void check(const VelocityControllerOptions& options) {
   require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
   require(std::isfinite(options.transition) && options.transition >= 0.0,
           "transition wants a time >= 0 [s]");
+}
+
+// from the velocity before towards what was solved for, all joints by one share, as far as the
+// limits of a period allow
+void limit_change(const Vector& before, double allowed, const std::vector<RateInterval>& intervals,
+                  VectorRef velocity) {
+  const double wanted = (velocity - before).cwiseAbs().maxCoeff();
+  if (wanted > allowed) velocity = before + allowed / wanted * (velocity - before);
+  for (Index i = 0; i < velocity.size(); ++i) {
+    const RateInterval& interval = intervals[static_cast<std::size_t>(i)];
+    velocity[i] = std::clamp(velocity[i], interval.lower, interval.upper);
+  }
 }
 
 }  // namespace
@@ -80,6 +96,7 @@ void VelocityController::measure(const Robot& robot) {
 
 const Vector& VelocityController::solve() {
   if (fading_ && age_ < 0.0) offset_ = velocity_;
+  next_ = velocity_;  // scratch until the end of the period: the velocity before
   velocity_ = solver_.solve(problem_.hierarchy()).x;  // [T 4.3.3]
   const bool solved = solver_.solution().status != SolverStatus::InvalidInput;
   if (fading_ && solved) add_transition();
@@ -87,8 +104,17 @@ const Vector& VelocityController::solve() {
   if (limits() && solved) {
     const Level& bounds = problem_.bounds();
     velocity_ = velocity_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
+    if (options_.law == Law::Arrive)
+      limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);
   }
   const auto is_limit = [this](std::size_t i, bool upper) {
+    if (options_.law == Law::Arrive) {
+      const auto row = static_cast<Index>(i);
+      const double most = rate_limits_[i].max_velocity;
+      return upper ? problem_.bounds().upper[row] == intervals_[i].most && intervals_[i].most < most
+                   : problem_.bounds().lower[row] == intervals_[i].least &&
+                         intervals_[i].least > -most;
+    }
     return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
   };
   find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
@@ -186,8 +212,14 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
       rates.max_velocity = own->max_velocity()[i];
     RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
     interval = rate_interval(state, rates);
-    level.lower[i] = interval.lower;
-    level.upper[i] = interval.upper;
+    if (options_.law == Law::Arrive) {
+      const double reach = options_.max_acceleration * std::max(kForesight, options_.dt);
+      level.lower[i] = std::clamp(velocity_[i] - reach, interval.least, interval.most);
+      level.upper[i] = std::clamp(velocity_[i] + reach, interval.least, interval.most);
+    } else {
+      level.lower[i] = interval.lower;
+      level.upper[i] = interval.upper;
+    }
   }
 }
 
