@@ -27,6 +27,9 @@ class As : public pybind11::object {
 
 using ArrayLike = As<"numpy.typing.ArrayLike">;
 using OptionalArrayLike = As<"numpy.typing.ArrayLike | None">;
+using TaskObject = As<"hurcules._core.Task">;
+using ScaleObject = As<"float | numpy.typing.ArrayLike">;
+using AnyObject = As<"object">;
 using ModelObject = As<"mujoco.MjModel">;
 using DataObject = As<"mujoco.MjData">;
 

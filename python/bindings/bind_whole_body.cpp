@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "annotated.hpp"
 #include "bind_stack.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
@@ -149,7 +150,7 @@ Vector scale_of(const py::object& scale) {
 }
 
 template <ChannelKind kind>
-ChannelSpec task_channel(const py::object& task, const py::object& scale) {
+ChannelSpec task_channel(const TaskObject& task, const ScaleObject& scale) {
   require(py::isinstance<Task>(task),
           "a channel wants a task, a " +
               std::string(py::str(py::type::of(task).attr("__name__"))) + " came");
@@ -181,7 +182,7 @@ struct Held {
 };
 
 std::shared_ptr<WholeBodyController> make(
-    const Robot& robot, const std::optional<py::object>& levels,
+    const Robot& robot, const std::optional<AnyObject>& levels,
     const py::dict& channels, const py::dict& stacks, const std::string& control, std::optional<double> dt, const std::string& base,
     const std::string& support, const std::map<std::string, std::pair<double, double>>& servo,
     bool feed_forward, const std::optional<DriveOptions>& drive,
@@ -227,7 +228,7 @@ std::shared_ptr<WholeBodyController> make(
   return {held, held->controller.get()};
 }
 
-void sense(WholeBodyController& self, ForceTask& task, const py::object& source, int row,
+void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source, int row,
            double sign) {
   if (py::isinstance<SpringForce>(source)) {
     return self.sense(task, std::make_unique<SpringForce>(source.cast<const SpringForce&>()));
@@ -255,7 +256,7 @@ void bind_channels(py::module_& module) {
   const double none = std::numeric_limits<double>::infinity();
   module.def("Twist", &task_channel<ChannelKind::Twist>, "task"_a, "scale"_a, kTwistChannel);
   module.def("Delta", &task_channel<ChannelKind::Delta>, "task"_a, "scale"_a, kDeltaChannel);
-  module.def("Target", &task_channel<ChannelKind::Target>, "task"_a, "scale"_a = py::float_(none),
+  module.def("Target", &task_channel<ChannelKind::Target>, "task"_a, "scale"_a = none,
              kTargetChannel);
   module.def("ForceReference", &task_channel<ChannelKind::Force>, "task"_a, "scale"_a,
              kForceChannel);

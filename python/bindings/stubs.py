@@ -115,7 +115,9 @@ def _target(node: ast.stmt) -> str:
 class _Types(ast.NodeTransformer):
     """Writes annotations as people do, and docstrings without indentation at their ends."""
 
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST | None:
+        if node.name in ("__repr__", "_repr_html_") and node.decorator_list:
+            return None  # put there by hurcules._reprs
         if node.returns:
             node.returns = _type(node.returns)
         for argument in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs):

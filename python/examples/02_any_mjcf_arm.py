@@ -43,8 +43,8 @@ hand.set_target([0.4, 0.3, 0.6])
 controller = hurcules.VelocityController(robot)
 controller.set_stack(hurcules.Stack([limits, hand]))
 
-for tick in range(2001):
-    if tick % 400 == 0:
+for tick in range(3001):
+    if tick % 600 == 0:
         q = robot.configuration.round(3)
         distance = np.linalg.norm(robot.position("hand") - hand.target)
         print(f"{tick / 1000:3.1f} s   q = {q}   to go {1000 * distance:6.1f} mm")

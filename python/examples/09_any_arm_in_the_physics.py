@@ -17,6 +17,7 @@ START = {"joint1": 0.0, "joint2": -0.5, "joint3": 0.0, "joint4": -2.2, "joint5":
 
 
 def main() -> None:
+    """Leads the hand for a second and says where it went."""
     package = find_spec("gymnasium_robotics")
     if package is None or package.origin is None:
         print("gymnasium_robotics is not installed: pip install gymnasium-robotics")

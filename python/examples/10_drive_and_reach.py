@@ -9,6 +9,7 @@ import hurcules
 
 
 def main() -> None:
+    """Drives back and says how far the hands moved."""
     model = hurcules.models.load(mission="stretch")
     robot = hurcules.Robot(model)
     robot.set_keyframe("stretch")

@@ -115,8 +115,6 @@ class Side(_Enum):
 class ActiveRow:
     """A row that holds x back."""
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __repr__(self) -> str: ...
     @property
     def held_by(self) -> int:
@@ -141,10 +139,6 @@ class ActiveRow:
 class LevelReport:
     """What a level could do, and what it cost."""
 
-    @staticmethod
-    def __repr__(shown: Any) -> str: ...
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     @property
     def handed_over(self) -> NDArray[np.float64]:
         """of each of these directions the weight with which the levels below get it: 0 where the level keeps it, 1 where it sees nothing, between them by smooth hand-over only"""
@@ -205,10 +199,6 @@ class Solution:
 
     multipliers, levels, jvp and vjp are computed when they are asked for."""
 
-    @staticmethod
-    def __repr__(shown: Any) -> str: ...
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def jvp(self, changes: collections.abc.Sequence[LevelChange | None]) -> NDArray[np.float64]:
         """How x moves with the numbers of the hierarchy: exact, with the working set held.
 
@@ -279,8 +269,6 @@ class SolverOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> SolverOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> SolverOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -986,8 +974,6 @@ class ContactOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> ContactOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> ContactOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1043,8 +1029,6 @@ class StiffnessOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> StiffnessOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> StiffnessOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1206,10 +1190,6 @@ class Stack:
 class ControlSolution:
     """The solution of a controller's last solve."""
 
-    @staticmethod
-    def __repr__(shown: Any) -> str: ...
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     @property
     def changes(self) -> int:
         """working-set changes"""
@@ -1266,10 +1246,6 @@ class LevelNote:
     The smallest singular value (distance to singularity) and the product of all (manipulability) are of
     the level's equality rows on the directions that the levels above left; 1 without such rows."""
 
-    @staticmethod
-    def __repr__(shown: Any) -> str: ...
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     @property
     def level(self) -> str: ...
     @property
@@ -1300,8 +1276,6 @@ class VelocityControllerOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> VelocityControllerOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> VelocityControllerOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1469,8 +1443,6 @@ class AccelerationControllerOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> AccelerationControllerOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> AccelerationControllerOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1646,8 +1618,6 @@ class JointPidOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> JointPidOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> JointPidOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1784,8 +1754,6 @@ class ParkingOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> ParkingOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> ParkingOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -1898,8 +1866,6 @@ class DriveOptions:
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> DriveOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> DriveOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2550,8 +2516,6 @@ class SensorFault:
     entry: str
     kind: FaultKind
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> SensorFault: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> SensorFault: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2574,8 +2538,6 @@ class SensorOptions:
     __hash__: ClassVar[None]  # type: ignore[assignment]
     range: RangeFinder
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> SensorOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> SensorOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2617,8 +2579,6 @@ class MonitorOptions:
     __hash__: ClassVar[None]  # type: ignore[assignment]
     on: bool
 
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __copy__(self) -> MonitorOptions: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> MonitorOptions: ...
     def __eq__(self, other: object) -> bool: ...
@@ -2691,10 +2651,6 @@ class SimulationOptions:
     sensors: SensorOptions
     timed: bool
 
-    @staticmethod
-    def __repr__(shown: Any) -> str: ...
-    @staticmethod
-    def _repr_html_(shown: Any) -> str: ...
     def __init__(
         self,
         *,
@@ -3049,7 +3005,7 @@ def BoundsStack(lower: ArrayLike, upper: ArrayLike) -> LevelStack:
     Args:
       lower, upper: (B, n) float64, or (n,) when all have the same."""
 
-def Delta(task: Any, scale: Any) -> Channel:
+def Delta(task: Task, scale: float | ArrayLike) -> Channel:
     """A channel that puts the target of a task at its measured value plus an increment.
 
     It acts once a call of `step`; zero leaves the target where it is.
@@ -3065,7 +3021,7 @@ def Drive(speed: float, yaw_rate: float) -> Channel:
       speed: full scale [m/s].
       yaw_rate: full scale [rad/s]."""
 
-def ForceReference(task: Any, scale: Any) -> Channel:
+def ForceReference(task: Task, scale: float | ArrayLike) -> Channel:
     """A channel that sets the force that a ForceTask keeps.
 
     Args:
@@ -3079,7 +3035,7 @@ def JointRate(joint: str, scale: float) -> Channel:
       joint: name of a joint with an actuator.
       scale: full scale [rad/s] or [m/s]."""
 
-def Target(task: Any, scale: Any = ...) -> Channel:
+def Target(task: Task, scale: float | ArrayLike = ...) -> Channel:
     """A channel that sets the target of a task.
 
     It acts once a call of `step`. An orientation is given as a rotation vector.
@@ -3088,7 +3044,7 @@ def Target(task: Any, scale: Any = ...) -> Channel:
       task: Task whose target is a list of numbers, or OrientationTask.
       scale: largest magnitude [m] or [rad]."""
 
-def Twist(task: Any, scale: Any) -> Channel:
+def Twist(task: Task, scale: float | ArrayLike) -> Channel:
     """A channel that leads the target of a task by a velocity; zero holds it.
 
     Args:

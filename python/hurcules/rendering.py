@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hurcules._core import Error
-from hurcules.opengl import REMEDY, give_mujoco
+from hurcules.opengl import REMEDY, choose_backend, give_mujoco
 from hurcules.running_gear import RunningGear
 
 __all__ = [
@@ -60,7 +59,7 @@ def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
     buffer = model.vis.global_
     buffer.offwidth, buffer.offheight = max(buffer.offwidth, width), max(buffer.offheight, height)
     try:
-        give_mujoco(os.environ.get("MUJOCO_GL", ""))
+        give_mujoco(choose_backend())
         return TrackRenderer(model, height, width)
     # each OpenGL fails with an exception of its own: RuntimeError, FatalError, ImportError, ...
     except Exception as error:

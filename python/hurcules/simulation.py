@@ -1,10 +1,7 @@
 """The closed loop: physics and controller, for any robot, with a mission or without one.
 
-    simulation = hurcules.Simulation(model=model, controller=controller)
-    simulation.step(1000, {"hand": [0.1, 0.0, 0.0]})
-
-    simulation = hurcules.Simulation(mission="stretch", seed=0)
-    simulation.step(1000)
+`hurcules.Simulation(model=model, controller=controller)`, then
+`simulation.step(1000, {"hand": [0.1, 0.0, 0.0]})`; or `hurcules.Simulation(mission="stretch")`.
 """
 
 from __future__ import annotations
@@ -61,7 +58,7 @@ class Simulation(_core.Simulation):
             model: of a simulation without a mission, or the path of one. It starts where the
                 controller's robot stands.
             controller: of a simulation without a mission, for this model.
-            variation: of a mission, how much differs between seeds: 1 as the mission says, 0 nothing.
+            variation: of a mission, how much differs between seeds: 1 as it says, 0 nothing.
             method: of a mission, how the hierarchy is solved, see `rhqp.SolverOptions`.
             record: keeps every signal of every tick for `log`.
             timed: keeps the time of each stage of each tick for `timings`.
@@ -71,8 +68,8 @@ class Simulation(_core.Simulation):
             max_seconds: the run ends when it takes longer [s].
 
         Raises:
-            Error: no such mission, method or sensor (the text names those that exist), a bad number,
-                or a controller that does not fit the model.
+            Error: no such mission, method or sensor (the text names those that exist), a bad
+                number, or a controller that does not fit the model.
         """
         options = _core.SimulationOptions(
             seed=_seed(seed),

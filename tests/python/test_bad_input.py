@@ -15,7 +15,7 @@ import hurcules
 from hurcules import rhqp
 
 ONE, NAN = np.ones(1), np.array([np.nan])
-ARM = """<mujoco><worldbody><body><joint name="elbow" range="-1 1"/><geom size="0.1"/>
+ARM = """<mujoco><worldbody><body><joint name="elbow" range="-60 60"/><geom size="0.1"/>
 <site name="hand"/></body></worldbody></mujoco>"""
 
 

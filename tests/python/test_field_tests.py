@@ -192,7 +192,7 @@ def test_options_of_a_method_are_read_in_degrees():
         (["e2803", "--angle"], "--angle wants a value"),
         (["e2803", "30"], "wanted --PARAMETER VALUE, got '30'"),
         (["e2803", "--angle", "steep"], "--angle: wanted a number, got 'steep'"),
-        (["e2803", "--angle", "80"], "angle wants a number from"),
+        (["e2803", "--angle", "80"], "--angle: wanted a number from 5 to 45 degrees, got 80"),
         (["e2829", "--speed", "0"], "--speed: wanted a positive number, got '0'"),
         (["e2829", "--pace", "2"], "e2829: the speed is its setting"),
     ],

@@ -79,7 +79,7 @@ def test_a_delta_counts_from_the_measured_value_and_zero_leaves_the_target() -> 
 
 def test_a_target_is_set() -> None:
     simulation = simulate(lambda tip: {"tip": hurcules.Target(tip)})
-    wanted = at(simulation) + [-0.2, -0.1]
+    wanted = at(simulation) + np.array([-0.2, -0.1])
     simulation.step(2000, {"tip": wanted})
     assert at(simulation) == pytest.approx(wanted, abs=1e-3)
 

@@ -82,10 +82,12 @@ def press(
     task.set_target([-above])
     controller: hurcules.VelocityController | hurcules.AccelerationController
     if gains.loop == ForceLoop.FirstOrder:
-        options = hurcules.VelocityControllerOptions(law="thesis")
+        options = hurcules.VelocityControllerOptions(law="thesis", enforce_limits=False)
         controller = hurcules.VelocityController(robot, options)
     else:
-        second = hurcules.AccelerationControllerOptions(law="thesis", rest=0.0)
+        second = hurcules.AccelerationControllerOptions(
+            law="thesis", rest=0.0, enforce_limits=False
+        )
         controller = hurcules.AccelerationController(robot, second)
     controller.set_stack(Stack([StackLevel("force", [task], 0.0)]))
     count = round(seconds / DT)
