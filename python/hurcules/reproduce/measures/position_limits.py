@@ -86,7 +86,7 @@ def driven_by_controller() -> tuple[Array, float, float]:
     robot = hurcules.Robot(mujoco.MjModel.from_xml_string(TWO_JOINTS))
     limits, posture = hurcules.JointLimits("limits", robot), hurcules.PostureTask("pose", robot)
     posture.set_target([5.0, -5.0])
-    options = hurcules.VelocityControllerOptions(law="thesis")  # no bound on the speed but the joints'
+    options = hurcules.VelocityControllerOptions(law="thesis")  # no bound of a task's speed
     controller = hurcules.VelocityController(robot, options)
     controller.set_stack(hurcules.Stack([limits, posture]))
     q, velocity, change, way = robot.configuration, np.zeros(2), 0.0, []
