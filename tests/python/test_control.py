@@ -72,10 +72,13 @@ def test_wrong_input_says_what_was_wanted_and_what_came(
     assert "\n" not in str(error.value)
 
 
-def test_the_law_that_arrives_is_the_default_with_strict_priorities() -> None:
+def test_the_law_is_to_arrive_unless_another_one_is_named() -> None:
     for options in (hurcules.VelocityControllerOptions, hurcules.AccelerationControllerOptions):
         assert options().law == "arrive"
         assert options().solver.handover == "strict"
+        assert options(law="thesis").law == "thesis"
+        with pytest.raises(hurcules.Error, match="law wants 'arrive' or 'thesis', got 'fast'"):
+            options(law="fast")
 
 
 def test_the_servo_refuses_nan() -> None:
