@@ -244,8 +244,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("command_scale", &command_scale, py::return_value_policy::copy,
                              "(k,) SI")
       .def_property_readonly(
-          "controller",
-          [](Simulation& self) -> WholeBodyController& { return self.controller(); },
+          "controller", [](Simulation& self) -> WholeBodyController& { return self.controller(); },
           py::return_value_policy::reference_internal, "WholeBodyController of the loop")
       .def_property_readonly(
           "brakes", [](Simulation& self) -> Brakes& { return self.plant().brakes(); },
@@ -343,43 +342,47 @@ void bind_batch(py::module_& module) {
            kBatchStep)
       .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(),
            "Back to the start; seeds (n,), mask (n,) bool: which.")
-      .def("state",
-           [](const Batch& self) {
-             std::vector<Vector> all;
-             for (std::size_t i = 0; i < self.size(); ++i) all.push_back(state(self[i]));
-             return all;
-           },
-           "List of n arrays: all that decides how each goes on, see Simulation.state.")
+      .def(
+          "state",
+          [](const Batch& self) {
+            std::vector<Vector> all;
+            for (std::size_t i = 0; i < self.size(); ++i) all.push_back(state(self[i]));
+            return all;
+          },
+          "List of n arrays: all that decides how each goes on, see Simulation.state.")
       .def("restore", &restore_batch, "states"_a, "mask"_a = py::none(), "Goes on from state().")
-      .def("observation",
-           [](const Batch& self) {
-             return rows_of(self, [](const Simulation& one) { return one.observation().snapshot(); });
-           },
-           "(n, m) what a policy sees now, see Simulation.observation_names.")
+      .def(
+          "observation",
+          [](const Batch& self) {
+            return rows_of(self,
+                           [](const Simulation& one) { return one.observation().snapshot(); });
+          },
+          "(n, m) what a policy sees now, see Simulation.observation_names.")
       .def("__getitem__", item, py::return_value_policy::reference_internal)
       .def("__len__", &Batch::size)
       .def_property_readonly("threads", &Batch::threads)
-      .def_property_readonly("qpos",
-                             [](const Batch& self) {
-                               return rows_of(self, [](const Simulation& one) -> Vector {
-                                 return one.plant().qpos();
-                               });
-                             },
-                             "(n, nq) of the physics")
-      .def_property_readonly("qvel",
-                             [](const Batch& self) {
-                               return rows_of(self, [](const Simulation& one) -> Vector {
-                                 return one.plant().qvel();
-                               });
-                             },
-                             "(n, nv) of the physics")
-      .def_property_readonly("time",
-                             [](const Batch& self) {
-                               return Vector(rows_of(self, [](const Simulation& one) {
-                                               return Vector(Vector::Constant(1, one.time()));
-                                             }).col(0));
-                             },
-                             "(n,) [s]")
+      .def_property_readonly(
+          "qpos",
+          [](const Batch& self) {
+            return rows_of(self,
+                           [](const Simulation& one) -> Vector { return one.plant().qpos(); });
+          },
+          "(n, nq) of the physics")
+      .def_property_readonly(
+          "qvel",
+          [](const Batch& self) {
+            return rows_of(self,
+                           [](const Simulation& one) -> Vector { return one.plant().qvel(); });
+          },
+          "(n, nv) of the physics")
+      .def_property_readonly(
+          "time",
+          [](const Batch& self) {
+            return Vector(rows_of(self, [](const Simulation& one) {
+                            return Vector(Vector::Constant(1, one.time()));
+                          }).col(0));
+          },
+          "(n,) [s]")
       .def_property_readonly(
           "finished",
           [](const Batch& self) {
@@ -408,8 +411,8 @@ void bind_sim(py::module_& module) {
   simulation
       .def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",
            "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
-      .def(py::init(&make_own), "model"_a, "data"_a, "controller"_a,
-           "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
+      .def(py::init(&make_own), "model"_a, "data"_a, "controller"_a, "options"_a = MissionOptions{},
+           py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
   bind_run(simulation);
   bind_results(simulation);
   bind_sensor_results(simulation);

@@ -110,7 +110,8 @@ Args:
 Raises:
   Error: an unknown name, with those that exist.
 )";
-constexpr const char* kMove = R"(Where a joint shall be in the next tick; no stack rules until `use`.
+constexpr const char* kMove =
+    R"(Where a joint shall be in the next tick; no stack rules until `use`.
 
 Args:
   joint: name of a joint with an actuator.
@@ -152,8 +153,8 @@ Vector scale_of(const py::object& scale) {
 template <ChannelKind kind>
 ChannelSpec task_channel(const TaskObject& task, const ScaleObject& scale) {
   require(py::isinstance<Task>(task),
-          "a channel wants a task, a " +
-              std::string(py::str(py::type::of(task).attr("__name__"))) + " came");
+          "a channel wants a task, a " + std::string(py::str(py::type::of(task).attr("__name__"))) +
+              " came");
   return {kind, task, scale_of(scale)};
 }
 
@@ -182,11 +183,11 @@ struct Held {
 };
 
 std::shared_ptr<WholeBodyController> make(
-    const Robot& robot, const std::optional<AnyObject>& levels,
-    const py::dict& channels, const py::dict& stacks, const std::string& control, std::optional<double> dt, const std::string& base,
-    const std::string& support, const std::map<std::string, std::pair<double, double>>& servo,
-    bool feed_forward, const std::optional<DriveOptions>& drive,
-    const std::pair<std::string, std::string>& belts,
+    const Robot& robot, const std::optional<AnyObject>& levels, const py::dict& channels,
+    const py::dict& stacks, const std::string& control, std::optional<double> dt,
+    const std::string& base, const std::string& support,
+    const std::map<std::string, std::pair<double, double>>& servo, bool feed_forward,
+    const std::optional<DriveOptions>& drive, const std::pair<std::string, std::string>& belts,
     const std::optional<VelocityControllerOptions>& velocity,
     const std::optional<AccelerationControllerOptions>& acceleration) {
   auto held = std::make_shared<Held>();
@@ -210,8 +211,9 @@ std::shared_ptr<WholeBodyController> make(
   std::vector<Channel> made;
   for (const auto& [name, spec] : channels) {  // in the order in which they were written
     const auto text = name.cast<std::string>();
-    require(py::isinstance<ChannelSpec>(spec),
-            "channel '" + text + "' wants Twist, Delta, Target, ForceReference, Drive or JointRate");
+    require(
+        py::isinstance<ChannelSpec>(spec),
+        "channel '" + text + "' wants Twist, Delta, Target, ForceReference, Drive or JointRate");
     made.push_back(channel_of(text, spec.cast<const ChannelSpec&>()));
   }
   WholeBodyControllerOptions options;
@@ -242,10 +244,9 @@ void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source, 
     names.emplace_back(one ? one : "");
   }
   if (sensor < 0) throw Error(unknown_name("sensor", name, names));
-  require(row >= 0 && row < m->sensor_dim[sensor], "sensor '" + name + "' has " +
-                                                       std::to_string(m->sensor_dim[sensor]) +
-                                                       " rows, row " + std::to_string(row) +
-                                                       " was asked for");
+  require(row >= 0 && row < m->sensor_dim[sensor],
+          "sensor '" + name + "' has " + std::to_string(m->sensor_dim[sensor]) + " rows, row " +
+              std::to_string(row) + " was asked for");
   self.sense(task, m->sensor_adr[sensor] + row, sign);
 }
 
@@ -286,14 +287,13 @@ void bind_whole_body(py::module_& module) {
   bind_channels(module);
   py::class_<WholeBodyController, std::shared_ptr<WholeBodyController>> controller(
       module, "WholeBodyController", kController);
-  controller.def(
-      py::init(&make),
-      "robot"_a, "levels"_a = py::none(), "channels"_a = py::dict(), py::kw_only(),
-      "stacks"_a = py::dict(), "control"_a = "velocity", "dt"_a = py::none(), "base"_a = "held",
-      "support"_a = "", "servo"_a = std::map<std::string, std::pair<double, double>>{},
-      "feed_forward"_a = true, "drive"_a = py::none(),
-      "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
-      "velocity"_a = py::none(), "acceleration"_a = py::none());
+  controller.def(py::init(&make), "robot"_a, "levels"_a = py::none(), "channels"_a = py::dict(),
+                 py::kw_only(), "stacks"_a = py::dict(), "control"_a = "velocity",
+                 "dt"_a = py::none(), "base"_a = "held", "support"_a = "",
+                 "servo"_a = std::map<std::string, std::pair<double, double>>{},
+                 "feed_forward"_a = true, "drive"_a = py::none(),
+                 "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
+                 "velocity"_a = py::none(), "acceleration"_a = py::none());
   const auto solution = [](const WholeBodyController& self) { return self.law().solution(); };
   const auto active = [](const WholeBodyController& self) -> std::optional<std::string> {
     if (self.moves_joints()) return std::nullopt;
@@ -326,9 +326,10 @@ void bind_whole_body(py::module_& module) {
            py::keep_alive<1, 2>(), kSense)
       .def("state", &state<WholeBodyController>, kState)
       .def("restore", &restore<WholeBodyController>, "state"_a, kRestore)
-      .def("diagnostics",
-           [](const WholeBodyController& self) { return self.law().diagnostics(self.plan()); },
-           "What each level falls short of and why: list of LevelNote, decreasing priority.")
+      .def(
+          "diagnostics",
+          [](const WholeBodyController& self) { return self.law().diagnostics(self.plan()); },
+          "What each level falls short of and why: list of LevelNote, decreasing priority.")
       .def_property_readonly("dt", &WholeBodyController::dt, "[s]")
       .def_property_readonly("plan", &WholeBodyController::plan,
                              py::return_value_policy::reference_internal,

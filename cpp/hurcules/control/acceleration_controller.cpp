@@ -107,8 +107,9 @@ bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const 
   next_ = velocity + options_.dt * acceleration_;
   if (!hurcules::scale_velocity(bounds, next_)) return false;
   for (Index i = 0; i < next_.size(); ++i) {
-    const double most = problem_.joint_limits() ? problem_.joint_limits()->max_velocity()[i]
-                                                : rate_limits_[static_cast<std::size_t>(i)].max_velocity;
+    const double most = problem_.joint_limits()
+                            ? problem_.joint_limits()->max_velocity()[i]
+                            : rate_limits_[static_cast<std::size_t>(i)].max_velocity;
     next_[i] = std::clamp(next_[i], -most, most);
   }
   acceleration_ = (next_ - velocity) / options_.dt;
@@ -187,8 +188,7 @@ void AccelerationController::fill_rates(std::size_t k) {
     }
     row += rows;
   }
-  if (options_.law == Law::Arrive && !own)
-    level.rho = regularization_at(source.rho, weights_[k]);
+  if (options_.law == Law::Arrive && !own) level.rho = regularization_at(source.rho, weights_[k]);
 }
 
 // from velocities to the accelerations that lead to them

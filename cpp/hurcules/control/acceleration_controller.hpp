@@ -35,8 +35,8 @@ struct AccelerationControllerOptions {
   // position, velocity and acceleration limits of all coordinates come before all levels, also where
   // a stack names no JointLimits; false: only where it names them
   bool enforce_limits = true;
-  double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
-  double rest = 10.0;              // [1/s] D above; sqrt(K) stops a swing, 0 as in the thesis
+  double return_speed = 0.2;  // [rad/s] of a coordinate that is driven back into its limits
+  double rest = 10.0;         // [1/s] D above; sqrt(K) stops a swing, 0 as in the thesis
   // Thesis: wants rest = 0 and solver.handover = Smooth, so that the acceleration does not jump
   // where a task loses a direction. Arrive wants Strict.
   Law law = Law::Arrive;

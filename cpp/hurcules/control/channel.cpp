@@ -67,8 +67,8 @@ Channel::Channel(std::string name, ChannelKind kind, Task& task, Vector scale,
 }
 
 Channel Channel::drive(std::string name, double speed, double yaw_rate) {
-  return {std::move(name), ChannelKind::Drive, Eigen::Vector2d(speed, yaw_rate),
-          {"speed", "yaw_rate"}};
+  return {
+      std::move(name), ChannelKind::Drive, Eigen::Vector2d(speed, yaw_rate), {"speed", "yaw_rate"}};
 }
 
 Channel Channel::joint(std::string name, std::string joint, double scale) {

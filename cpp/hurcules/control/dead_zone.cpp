@@ -8,9 +8,9 @@ namespace hurcules {
 namespace {
 
 constexpr double kOpens = 0.02, kWide = 0.1;  // w at which a zone opens, and is open
-constexpr double kNearLimit = 0.02;           // [rad] or [m] from a limit: a joint begins to be held
-constexpr double kFreeJoint = 1e-6;           // what the rows above leave of a joint
-constexpr double kRank = 1e-10;               // as the solver's, of rows of length 1
+constexpr double kNearLimit = 0.02;  // [rad] or [m] from a limit: a joint begins to be held
+constexpr double kFreeJoint = 1e-6;  // what the rows above leave of a joint
+constexpr double kRank = 1e-10;      // as the solver's, of rows of length 1
 
 bool is_equality(const Level& level, Index row) {
   return level.lower[row] == level.upper[row];

@@ -45,8 +45,7 @@ class DeadZone {
   void add_held(Eigen::VectorXi& held) const;
 
  private:
-  [[nodiscard]] double share_of(std::size_t k, const Level& level, double zone,
-                                const Task* limits);
+  [[nodiscard]] double share_of(std::size_t k, const Level& level, double zone, const Task* limits);
   void find_pull(const Level& level);
   void hold_pressed_joints(std::size_t k, const Task& limits);
   void add_direction();
@@ -54,8 +53,8 @@ class DeadZone {
 
   Matrix known_;  // (n, n): orthonormal rows, the first rank_ count
   Index rank_ = 0;
-  Vector pull_;  // p (n)
-  Vector direction_, parts_;  // scratch (n)
+  Vector pull_;                       // p (n)
+  Vector direction_, parts_;          // scratch (n)
   double asked_ = 0.0, lever_ = 0.0;  // |y|, S
   Vector held_;                       // (n): how much of each further row of known_ counts
   std::vector<double> shares_;

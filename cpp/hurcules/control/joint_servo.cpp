@@ -29,7 +29,8 @@ const ServoGains& row_of(const std::vector<ServoGains>& table, const std::string
 
 // the i-th point of an even, never repeating sequence in 0 .. 1, another one for each coordinate
 double spread(int i, Index coordinate) {
-  const double x = 0.5 + 0.6180339887498949 * (i + 1) * (1.0 + 0.37 * static_cast<double>(coordinate));
+  const double x =
+      0.5 + 0.6180339887498949 * (i + 1) * (1.0 + 0.37 * static_cast<double>(coordinate));
   return x - std::floor(x);
 }
 
@@ -62,8 +63,9 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt) {
     for (Index k = 0; k < n; ++k) {
       for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints) {
         if (joint.joint != actuator.joint_id) continue;
-        const double share = joint.factor * joint.factor *
-                             static_cast<double>(robot.coordinates()[static_cast<std::size_t>(k)].joints.size());
+        const double share =
+            joint.factor * joint.factor *
+            static_cast<double>(robot.coordinates()[static_cast<std::size_t>(k)].joints.size());
         low = least[k] / share;
         high = most[k] / share;
       }
@@ -88,7 +90,8 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
     double squares = factor * factor;
     if (coordinate >= 0) {
       squares = 0.0;
-      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(coordinate)].joints) {
+      for (const DrivenJoint& joint :
+           robot.coordinates()[static_cast<std::size_t>(coordinate)].joints) {
         if (joint.actuator >= 0) squares += joint.factor * joint.factor;
       }
     }
@@ -204,14 +207,14 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     if (left_[static_cast<std::size_t>(i)]) continue;
-    ctrl[motor.actuator] =
-        motor.control(torque[i], state.qpos[motor.qpos], state.qvel[motor.dof]);
+    ctrl[motor.actuator] = motor.control(torque[i], state.qpos[motor.qpos], state.qvel[motor.dof]);
   }
 }
 
 void JointServo::reset(const Vector& qpos) {
   pid_.reset();
-  for (Vector* vector : {&error_.position, &error_.velocity, &velocity_, &offset_, &feed_forward_}) {
+  for (Vector* vector :
+       {&error_.position, &error_.velocity, &velocity_, &offset_, &feed_forward_}) {
     vector->setZero();
   }
   for (Rest& rest : rests_) rest = {};
@@ -222,7 +225,8 @@ void JointServo::reset(const Vector& qpos) {
 
 void JointServo::save(StateWriter& writer) const {
   pid_.save(writer);
-  for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_}) writer.put(*vector);
+  for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_})
+    writer.put(*vector);
   for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
 }
 

@@ -103,8 +103,8 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
     const double short_by = outside(*task);
     const bool shortened = solved.zone && solved.zone->share(k) < 1.0 - kShare;
     if (short_by < kSmall) continue;
-    if (!shortened && !is_kept_from(solved.problem.hierarchy()[k],
-                                           solved.solution.violations[k], first, task->rows())) {
+    if (!shortened && !is_kept_from(solved.problem.hierarchy()[k], solved.solution.violations[k],
+                                    first, task->rows())) {
       continue;
     }
     made.shorts.push_back(

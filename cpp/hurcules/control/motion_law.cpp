@@ -64,12 +64,12 @@ class AccelerationLaw final : public LawOf<AccelerationController> {
     next_ = velocity + controller_.options().dt * controller_.acceleration();
     return next_;
   }
-  void integrate(Vector& q, Vector& velocity) const override {
-    controller_.integrate(q, velocity);
-  }
+  void integrate(Vector& q, Vector& velocity) const override { controller_.integrate(q, velocity); }
   // an acceleration goes on from any velocity
   void take_over(const Vector&) override { controller_.reset(); }
-  double rate() const override { return controller_.options().stiffness / controller_.options().damping; }
+  double rate() const override {
+    return controller_.options().stiffness / controller_.options().damping;
+  }
 
  private:
   Vector next_;

@@ -10,7 +10,7 @@
 namespace hurcules {
 
 struct TrackDriveOptions {
-  std::string left = "L_lower_belt";   // joints of the driven belts
+  std::string left = "L_lower_belt";  // joints of the driven belts
   std::string right = "R_lower_belt";
   DriveOptions drive = {};
 };

@@ -31,7 +31,7 @@ struct VelocityControllerOptions {
   // position, velocity and acceleration limits of all coordinates come before all levels, also where
   // a stack names no JointLimits; false: only where it names them
   bool enforce_limits = true;
-  double return_speed = 0.2;       // [rad/s] of a coordinate that is driven back into its limits
+  double return_speed = 0.2;  // [rad/s] of a coordinate that is driven back into its limits
   // [s] after set_stack or take_over in motion: what the velocity was, less what the new stack asks
   // for, fades out in this time, inside the limits; meanwhile it disturbs every task. 0: none, the
   // velocity then changes as fast as max_acceleration lets it, at once where no level has limits.

@@ -115,9 +115,9 @@ void WholeBodyController::check_channels() {
     }
     if (channel.kind() == ChannelKind::Joint) {
       const Index joint = servo_.find(channel.joint_name());
-      require(servo_.coordinate_of(joint) < 0,
-              "channel '" + channel.name() + "' moves joint '" + channel.joint_name() +
-                  "', which the tasks move: it wants a task");
+      require(servo_.coordinate_of(joint) < 0, "channel '" + channel.name() + "' moves joint '" +
+                                                   channel.joint_name() +
+                                                   "', which the tasks move: it wants a task");
     }
     if (!channel.task()) continue;
     const auto found = std::find(tasks_.begin(), tasks_.end(), channel.task());
@@ -199,8 +199,7 @@ void WholeBodyController::hold_targets() {
 // velocity that is solved for or scaled down may jump: what that takes is left to the servos.
 void WholeBodyController::feed_forward() {
   if (!options_.feed_forward) return;
-  const bool commanded =
-      moves_joints_ || (law().order() == ControlOrder::Acceleration && !scaled_);
+  const bool commanded = moves_joints_ || (law().order() == ControlOrder::Acceleration && !scaled_);
   if (commanded) {
     qdd_ = (qd_ - last_qd_) / dt();
   } else {
@@ -244,7 +243,8 @@ void WholeBodyController::move(const Vector& position, const Vector& velocity) {
   require(position.size() == servo_.size() && velocity.size() == servo_.size() &&
               position.allFinite() && velocity.allFinite(),
           "move wants " + std::to_string(servo_.size()) + " finite positions and velocities, " +
-              std::to_string(position.size()) + " and " + std::to_string(velocity.size()) + " came");
+              std::to_string(position.size()) + " and " + std::to_string(velocity.size()) +
+              " came");
   for (Index i = 0; i < servo_.size(); ++i) servo_.move(i, position[i], velocity[i]);
   moves_joints_ = true;
 }

@@ -46,12 +46,12 @@ struct NamedStack {
 };
 
 struct WholeBodyControllerOptions {
-  double dt = 1e-3;                            // [s] control period; also of all others
-  VelocityControllerOptions velocity = {};     // of stacks by velocities; their dt is not read
+  double dt = 1e-3;                         // [s] control period; also of all others
+  VelocityControllerOptions velocity = {};  // of stacks by velocities; their dt is not read
   AccelerationControllerOptions acceleration = {};
-  std::string support = "";                    // body that stands, "" for the root
+  std::string support = "";  // body that stands, "" for the root
   BaseSource base = BaseSource::Held;
-  std::vector<ServoGains> servo = {};          // none: default_servo_gains
+  std::vector<ServoGains> servo = {};  // none: default_servo_gains
   // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
   // whatever the robot carries is a disturbance to them.
   bool feed_forward = true;
@@ -102,15 +102,17 @@ class WholeBodyController {
   [[nodiscard]] double dt() const { return options_.dt; }
   [[nodiscard]] const WholeBodyControllerOptions& options() const { return options_; }
   [[nodiscard]] const Robot& plan() const { return plan_; }
-  [[nodiscard]] const Vector& q_des() const { return q_; }             // [rad] (n)
-  [[nodiscard]] const Vector& qd_des() const { return qd_; }           // [rad/s] (n)
-  [[nodiscard]] const Vector& command() const { return command_; }     // (k) the last, as held to scale
-  [[nodiscard]] const Vector& scale() const { return scale_; }         // (k)
+  [[nodiscard]] const Vector& q_des() const { return q_; }    // [rad] (n)
+  [[nodiscard]] const Vector& qd_des() const { return qd_; }  // [rad/s] (n)
+  [[nodiscard]] const Vector& command() const {
+    return command_;
+  }                                                             // (k) the last, as held to scale
+  [[nodiscard]] const Vector& scale() const { return scale_; }  // (k)
   [[nodiscard]] const std::vector<std::string>& command_names() const { return command_names_; }
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
   [[nodiscard]] const std::vector<NamedStack>& stacks() const { return stacks_; }
-  [[nodiscard]] std::size_t active() const { return active_; }         // of the stacks
-  [[nodiscard]] bool moves_joints() const { return moves_joints_; }    // no stack rules
+  [[nodiscard]] std::size_t active() const { return active_; }       // of the stacks
+  [[nodiscard]] bool moves_joints() const { return moves_joints_; }  // no stack rules
   [[nodiscard]] const MotionLaw& law() const { return *laws_[active_]; }
   [[nodiscard]] const MotionLaw& law(std::size_t stack) const { return *laws_[stack]; }
   // all tasks of all stacks but the limits, each once
@@ -147,7 +149,7 @@ class WholeBodyController {
   std::vector<std::unique_ptr<Task>> kept_;
   std::vector<NamedStack> stacks_;
   std::vector<std::unique_ptr<MotionLaw>> laws_;
-  std::vector<Task*> tasks_, limits_;  // of all stacks
+  std::vector<Task*> tasks_, limits_;         // of all stacks
   std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
   std::vector<Channel> channels_;
   std::vector<std::string> command_names_;
@@ -158,10 +160,10 @@ class WholeBodyController {
   bool moves_joints_ = false, scaled_ = false;
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
-  Vector start_;         // (nq) where the plan stands
-  Vector ahead_;         // (nq) scratch
-  Vector wished_;        // (n) scratch
-  Vector delta_;         // scratch
+  Vector start_;                    // (nq) where the plan stands
+  Vector ahead_;                    // (nq) scratch
+  Vector wished_;                   // (n) scratch
+  Vector delta_;                    // scratch
   Vector last_qd_, qdd_, efforts_;  // (n) for the feed-forward
   Frame support_;
   std::vector<double> scratch_;

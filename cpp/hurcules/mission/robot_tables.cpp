@@ -92,12 +92,12 @@ const std::vector<ServoGains>& rescue_servo() {
 const std::vector<ServoGains>& manipulation_servo() {
   static const std::vector<ServoGains> rows = [] {
     std::vector<ServoGains> all = with_body(both_arms({{"SP", 11.0, 30.0},
-                                                     {"SR", 11.0, 30.0},
-                                                     {"SY", 2.5, 40.0},
-                                                     {"EB", 3.0, 50.0},
-                                                     {"WY", 0.18, 60.0},
-                                                     {"WP", 0.30, 60.0},
-                                                     {"WY2", 0.11, 60.0}}));
+                                                       {"SR", 11.0, 30.0},
+                                                       {"SY", 2.5, 40.0},
+                                                       {"EB", 3.0, 50.0},
+                                                       {"WY", 0.18, 60.0},
+                                                       {"WP", 0.30, 60.0},
+                                                       {"WY2", 0.11, 60.0}}));
     // fingers [kg]: two of them and the spindle
     all.push_back({"L_grip_1", 4.6, 30.0});
     all.push_back({"R_grip_1", 4.6, 30.0});

@@ -72,12 +72,10 @@ std::shared_ptr<WholeBodyController> Stretch::make_controller(const Robot& robot
   const Vector hand = Vector::Constant(1, 2.0 * kStretchSpeed);  // the operator's is half of it
   const Vector angle = Vector::Constant(1, 0.1);                 // [rad/s]
   constexpr auto kTwist = ChannelKind::Twist;
-  std::vector<Channel> channels = {{"left_hand", kTwist, *left_hand, hand},
-                                   {"right_hand", kTwist, *right_hand, hand},
-                                   {"left_pitch", kTwist, *left_pitch, angle},
-                                   {"right_pitch", kTwist, *right_pitch, angle},
-                                   {"pelvis_x", kTwist, *pelvis, hand},
-                                   {"gaze", kTwist, *gaze, angle, {"yaw", "pitch"}}};
+  std::vector<Channel> channels = {
+      {"left_hand", kTwist, *left_hand, hand},    {"right_hand", kTwist, *right_hand, hand},
+      {"left_pitch", kTwist, *left_pitch, angle}, {"right_pitch", kTwist, *right_pitch, angle},
+      {"pelvis_x", kTwist, *pelvis, hand},        {"gaze", kTwist, *gaze, angle, {"yaw", "pitch"}}};
   WholeBodyControllerOptions whole;
   whole.velocity.law = Law::Thesis;  // the mission shows the thesis' figures
   whole.velocity.solver.method = options.method;

@@ -16,14 +16,15 @@ std::string name_of(const mjModel* m, int type, int id) {
 }
 
 void require_affine(const mjModel* m, int actuator, const std::string& joint) {
-  const bool affine =
-      m->actuator_gaintype[actuator] == mjGAIN_FIXED && m->actuator_dyntype[actuator] == mjDYN_NONE &&
-      (m->actuator_biastype[actuator] == mjBIAS_NONE ||
-       m->actuator_biastype[actuator] == mjBIAS_AFFINE) &&
-      m->actuator_gainprm[mjNGAIN * actuator] != 0.0;
-  require(affine, "the actuator '" + name_of(m, mjOBJ_ACTUATOR, actuator) + "' of joint '" + joint +
-                      "' wants to be a motor, or a position or velocity servo without a state of its "
-                      "own: the joint servo commands effort");
+  const bool affine = m->actuator_gaintype[actuator] == mjGAIN_FIXED &&
+                      m->actuator_dyntype[actuator] == mjDYN_NONE &&
+                      (m->actuator_biastype[actuator] == mjBIAS_NONE ||
+                       m->actuator_biastype[actuator] == mjBIAS_AFFINE) &&
+                      m->actuator_gainprm[mjNGAIN * actuator] != 0.0;
+  require(affine,
+          "the actuator '" + name_of(m, mjOBJ_ACTUATOR, actuator) + "' of joint '" + joint +
+              "' wants to be a motor, or a position or velocity servo without a state of its "
+              "own: the joint servo commands effort");
 }
 
 JointActuator read(const mjModel* m, int a) {
@@ -37,7 +38,8 @@ JointActuator read(const mjModel* m, int a) {
   found.gear = m->actuator_gear[6 * a];
   found.gain = m->actuator_gainprm[mjNGAIN * a];
   if (m->actuator_biastype[a] == mjBIAS_AFFINE) {
-    for (int i = 0; i < 3; ++i) found.bias[static_cast<std::size_t>(i)] = m->actuator_biasprm[mjNBIAS * a + i];
+    for (int i = 0; i < 3; ++i)
+      found.bias[static_cast<std::size_t>(i)] = m->actuator_biasprm[mjNBIAS * a + i];
   }
   found.is_motor = found.gain == 1.0 && found.bias == std::array<double, 3>{};
   constexpr double kNone = std::numeric_limits<double>::infinity();

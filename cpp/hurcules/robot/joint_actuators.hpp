@@ -17,13 +17,13 @@ namespace hurcules {
 
 struct JointActuator {
   int actuator = 0;
-  std::string joint;       // its name
+  std::string joint;  // its name
   int joint_id = 0;
-  int qpos = 0, dof = 0;   // addresses
+  int qpos = 0, dof = 0;  // addresses
   double gear = 1.0;
   double gain = 1.0;
   std::array<double, 3> bias = {};
-  bool is_motor = true;    // gain 1, no bias
+  bool is_motor = true;             // gain 1, no bias
   double lower = 0.0, upper = 0.0;  // [rad] or [m] range of the joint, -inf and inf without
   MotorLimits limits = {};
 

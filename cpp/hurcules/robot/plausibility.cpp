@@ -46,7 +46,8 @@ std::string implausible_ranges(const Robot& robot) {
     if (!turns(robot, coordinate) || !std::isfinite(most)) continue;
     if (most <= kRadiansAsDegrees && coordinate.lower < coordinate.upper)
       append(narrow, named(coordinate, interval(coordinate, kDegree) + " degrees"));
-    if (most > kDegreesAsRadians) append(wide, named(coordinate, interval(coordinate, 1.0) + " rad"));
+    if (most > kDegreesAsRadians)
+      append(wide, named(coordinate, interval(coordinate, 1.0) + " rad"));
   }
   std::string text;
   if (!narrow.empty())

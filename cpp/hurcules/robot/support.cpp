@@ -18,9 +18,8 @@ void Robot::stand_on(const std::string& body) {
   const int root = m.body_rootid[frame.id];
   require(size() > 0 && root == tree_,
           "'" + body + "' belongs to another tree than the coordinates");
-  require(root_qpos_ >= 0,
-          "a robot stands on a body of a tree with a free joint; '" + body +
-              "' is bolted to the world");
+  require(root_qpos_ >= 0, "a robot stands on a body of a tree with a free joint; '" + body +
+                               "' is bolted to the world");
   support_ = frame.id;
   find_screws();
   read_qpos();

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "hurcules/robot/motor.hpp"
 #include "hurcules/sim/brakes.hpp"
 #include "hurcules/sim/drive_train.hpp"
-#include "hurcules/robot/motor.hpp"
 
 struct mjModel_;
 struct mjData_;

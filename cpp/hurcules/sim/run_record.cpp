@@ -222,8 +222,8 @@ void RunRecord::truncate(double time) {
 }
 
 void RunRecord::save(StateWriter& writer) const {
-  for (const Vector* vector : {&telemetry.active, &telemetry.level_active, &previous_active_,
-                               &previous_alarm_}) {
+  for (const Vector* vector :
+       {&telemetry.active, &telemetry.level_active, &previous_active_, &previous_alarm_}) {
     writer.put(*vector);
   }
 }

@@ -22,7 +22,7 @@ class RunRecord {
     Eigen::Map<const Vector> qvel;  // (nv) true
     const Vector& seen_qvel;        // (nv)
   };
-  // what a policy sees beside the telemetry: a site of the world, -1 for none
+  // of a controller, whose stacks, joints and commands name the channels
   RunRecord(const WholeBodyController& controller, std::vector<std::string> phases, bool timed);
   RunRecord(const RunRecord&) = delete;
   RunRecord& operator=(const RunRecord&) = delete;
@@ -54,15 +54,16 @@ class RunRecord {
   // where the telemetry keeps the levels of a stack, and the first of their task rows
   struct StackPlaces {
     std::vector<Index> level, first_row;
-    std::vector<std::vector<std::size_t>> tasks;  // of each level, numbers of the controller's tasks
+    std::vector<std::vector<std::size_t>>
+        tasks;  // of each level, numbers of the controller's tasks
   };
   void copy_errors(const StackPlaces& places, const std::vector<const Task*>& tasks, Vector& levels,
                    Vector& rows) const;
 
   TelemetryNames names_;
   std::vector<std::string> phases_;
-  std::vector<StackPlaces> places_;        // one for each stack
-  std::vector<const Task*> planned_;       // the controller's tasks
+  std::vector<StackPlaces> places_;          // one for each stack
+  std::vector<const Task*> planned_;         // the controller's tasks
   Vector previous_active_, previous_alarm_;  // (n), (Monitors::kQuantities)
 };
 

@@ -185,7 +185,8 @@ void Simulation::check_sensors() {
 void Simulation::actuate() {
   Eigen::Map<Vector> ctrl(plant_.data()->ctrl, plant_.model()->nu);
   controller_->actuate(sensed(), ctrl);
-  if (const std::optional<TrackDrive>& drive = controller_->drive(); drive && !held() && !battery_.empty()) {
+  if (const std::optional<TrackDrive>& drive = controller_->drive();
+      drive && !held() && !battery_.empty()) {
     for (const JointActuator* belt : {&drive->left(), &drive->right()}) {
       plant_.brakes().set_closed(belt->actuator, drive->braked());
     }

@@ -28,9 +28,9 @@ namespace hurcules {
 
 // A run ends where this frame is too low above the controller's support, or the support tilts.
 struct FallOptions {
-  std::string frame = "";    // "": nothing is watched
-  double min_height = 0.0;   // [m] of the frame above the support
-  double max_tilt = 0.0;     // [rad] of the support against its start
+  std::string frame = "";   // "": nothing is watched
+  double min_height = 0.0;  // [m] of the frame above the support
+  double max_tilt = 0.0;    // [rad] of the support against its start
 };
 
 struct SimulationOptions {
@@ -69,7 +69,7 @@ class Simulation {
   // know, so that its coordinate is to be held too. An empty battery closes all.
   void set_brake(const std::string& joint, bool closed);
 
-  [[nodiscard]] double dt() const { return controller_->dt(); }        // [s]
+  [[nodiscard]] double dt() const { return controller_->dt(); }         // [s]
   [[nodiscard]] double time() const { return record_.telemetry.time; }  // [s] since reset
   [[nodiscard]] Ending ending() const { return ending_; }
   [[nodiscard]] bool finished() const { return ending_ != Ending::Running; }
@@ -91,7 +91,9 @@ class Simulation {
   [[nodiscard]] const Recorder& observation() const { return record_.observation; }
   [[nodiscard]] const LimitWatch& limits() const { return limit_watch_; }
   [[nodiscard]] const EventList& events() const { return record_.events; }
-  [[nodiscard]] std::string text(const Event& event) const { return record_.text(event, monitors_); }
+  [[nodiscard]] std::string text(const Event& event) const {
+    return record_.text(event, monitors_);
+  }
   [[nodiscard]] Plant& plant() { return plant_; }
   [[nodiscard]] const Plant& plant() const { return plant_; }
   [[nodiscard]] const Robot& world() const { return world_; }  // the robot as it is

@@ -10,11 +10,11 @@ namespace hurcules {
 SimulationBatch::SimulationBatch(const Simulation& original, std::size_t n, int threads,
                                  const std::vector<ModelPtr>& models) {
   require(n >= 1, "a batch wants at least one simulation");
-  require(threads >= 0, "threads must be positive, or 0 for one a processor, got " +
-                            std::to_string(threads));
-  require(models.empty() || models.size() == n,
-          "a batch wants one model for each of its " + std::to_string(n) + " simulations, " +
-              std::to_string(models.size()) + " came");
+  require(threads >= 0,
+          "threads must be positive, or 0 for one a processor, got " + std::to_string(threads));
+  require(models.empty() || models.size() == n, "a batch wants one model for each of its " +
+                                                    std::to_string(n) + " simulations, " +
+                                                    std::to_string(models.size()) + " came");
   for (std::size_t i = 0; i < n; ++i) {
     simulations_.push_back(original.clone(models.empty() ? nullptr : models[i]));
     commands_.push_back(Vector::Zero(original.controller().scale().size()));

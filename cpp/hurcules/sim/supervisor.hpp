@@ -54,7 +54,8 @@ class Supervisor {
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
   // the same for a controller that was cloned from this one's
-  [[nodiscard]] virtual std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Supervisor> clone(
+      WholeBodyController& controller) const = 0;
 };
 
 }  // namespace hurcules

@@ -166,7 +166,8 @@ TEST_F(JointServoTest, RefusesJointsWithoutARowAndMuscles) {
   const std::string text = error_text([&] { JointServo(robot_, few, 1e-3); });
   EXPECT_TRUE(contains(text, "'winch' does not exist; there are: left, right, boom")) << text;
   const Robot other(load_model_text(cart(R"(<muscle joint="winch" lengthrange="0 1"/>)")));
-  EXPECT_TRUE(contains(error_text([&] { JointServo(other, kTable, 1e-3); }), "wants to be a motor"));
+  EXPECT_TRUE(
+      contains(error_text([&] { JointServo(other, kTable, 1e-3); }), "wants to be a motor"));
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "hurcules/sim/plant.hpp"
 #include "hurcules/control/joint_servo.hpp"
 #include "hurcules/mission/robot_tables.hpp"
+#include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 #include "support/held_posture.hpp"
 

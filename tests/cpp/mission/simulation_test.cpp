@@ -1,7 +1,5 @@
 // Strategy: the real scene, a few seconds of it: sameness (seed, pieces, snapshots), what ends a
 // run, commands, servo and timings. What the mission is about is in stretch_physics_test.cpp.
-#include "hurcules/mission/mission.hpp"
-
 #include <mujoco/mujoco.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "hurcules/mission/mission.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -82,7 +81,8 @@ TEST(Simulation, RecordingAndTimingChangeNothing) {
 }
 
 TEST(Simulation, ResetIsANewBeginning) {
-  MissionSimulation a(stretch_scene(), "stretch", quiet(9)), b(stretch_scene(), "stretch", quiet(1));
+  MissionSimulation a(stretch_scene(), "stretch", quiet(9)),
+      b(stretch_scene(), "stretch", quiet(1));
   b.step(2300);
   b.reset(9);
   EXPECT_EQ(b.time(), 0.0);
@@ -246,7 +246,8 @@ TEST(Simulation, TimesEachStageOnlyWithAClock) {
     static double now = 0.0;
     return now += 1e-6;  // every look takes a microsecond
   };
-  MissionSimulation timed(stretch_scene(), "stretch", options), plain(stretch_scene(), "stretch", quiet());
+  MissionSimulation timed(stretch_scene(), "stretch", options),
+      plain(stretch_scene(), "stretch", quiet());
   timed.step(10);
   plain.step(10);
   EXPECT_EQ(plain.timings().rows(), 0U);

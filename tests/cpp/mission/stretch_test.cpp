@@ -42,8 +42,7 @@ struct Recorded {
     controller->apply(&stretch.command(1e-3), true, state);
     controller->measure();
     controller->solve(state);
-    stretch.note_commanded(*controller,
-                           {time, controller->law().active_limits(), 0.0, 0.0, tasks});
+    stretch.note_commanded(*controller, {time, controller->law().active_limits(), 0.0, 0.0, tasks});
     const Vector q = controller->q_des();
     plan.set_configuration(q);
     for (Index i = 0; i < q.size(); ++i) {

@@ -29,7 +29,8 @@ std::string arm(const std::string& actuators) {
         <body pos="0.4 0 0"><joint name="finger" type="slide" axis="1 0 0" range="0 0.05"/>
           <geom fromto="0 0 0 0.02 0 0" size="0.01" mass="0.1"/></body>
       </body></body></body></worldbody>
-  <actuator>)" + actuators +
+  <actuator>)" +
+         actuators +
          R"(</actuator><keyframe><key name="bent" qpos="0.3 0.8 -0.6 0"/></keyframe></mujoco>)";
 }
 
@@ -137,7 +138,8 @@ HandOver watch(Simulation& simulation, int ticks, const Vector* command) {
   return worst;
 }
 
-constexpr double kMostChange = 20.0 * 0.002 * (1.0 + 1e-9);  // [rad/s] the acceleration limit, a tick
+constexpr double kMostChange =
+    20.0 * 0.002 * (1.0 + 1e-9);  // [rad/s] the acceleration limit, a tick
 const char* const kStacks[] = {"rest", "accelerate", "reach", "accelerate", "rest", "reach"};
 
 TEST(WholeBody, GoesFromStackToStackAndLawToLawInMotionWithoutAJump) {
@@ -252,15 +254,18 @@ TEST(WholeBody, RefusesWhatCannotBe) {
   const auto controller = make(model);
   EXPECT_TRUE(contains(error_text([&] { controller->use("walk"); }), "there are: reach, rest"));
   EXPECT_TRUE(contains(error_text([&] { controller->move("j9", 0.0, 0.0); }), "j9"));
-  EXPECT_TRUE(contains(error_text([&] { (void)Robot(model, {"j1", "jx"}); }), "'jx' does not exist"));
+  EXPECT_TRUE(contains(error_text([&] {
+                         (void)Robot(model, {"j1", "jx"});
+                       }),
+                       "'jx' does not exist"));
   const ModelPtr other = load_model_text("<mujoco/>");
   EXPECT_TRUE(contains(error_text([&] { Simulation(other, controller); }), "another model"));
   Robot robot(model, {"j1", "j2", "j3"});
   PostureTask posture("posture", robot), stranger("stranger", robot);
   EXPECT_TRUE(contains(error_text([&] {
-                         WholeBodyController(robot, {{"a", Stack({posture})}},
-                                             {{"s", ChannelKind::Twist, stranger,
-                                               Vector::Constant(1, 1.0)}});
+                         WholeBodyController(
+                             robot, {{"a", Stack({posture})}},
+                             {{"s", ChannelKind::Twist, stranger, Vector::Constant(1, 1.0)}});
                        }),
                        "which is in no stack"));
 }
