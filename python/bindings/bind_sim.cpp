@@ -247,6 +247,9 @@ void bind_run(py::class_<Simulation>& simulation) {
           "controller", [](Simulation& self) -> WholeBodyController& { return self.controller(); },
           py::return_value_policy::reference_internal, "WholeBodyController of the loop")
       .def_property_readonly(
+          "plant", [](Simulation& self) -> Plant& { return self.plant(); },
+          py::return_value_policy::reference_internal, "Plant that it steps")
+      .def_property_readonly(
           "brakes", [](Simulation& self) -> Brakes& { return self.plant().brakes(); },
           py::return_value_policy::reference_internal, "Brakes of the joints' drives")
       .def("follow", &follow, "joints"_a, "positions"_a, "velocities"_a, kFollow);

@@ -2847,6 +2847,10 @@ class Simulation:
     @property
     def phases(self) -> list[str]: ...
     @property
+    def plant(self) -> Plant:
+        """Plant that it steps"""
+
+    @property
     def reason(self) -> str:
         """'' while running, else why it ended: 'completed', 'fell over at ...'"""
 

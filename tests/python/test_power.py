@@ -17,20 +17,21 @@ from hurcules_studies.thesis.measures.rover import BELTS, Powered, Rover, flat
 
 
 @pytest.fixture
-def world() -> tuple[mujoco.MjData, hurcules.Physics, Powered]:
+def world() -> tuple[mujoco.MjData, hurcules.Plant, Powered]:
     model = models.load("rescue")
     data = mujoco.MjData(model)
-    powered = Powered(model, data)
-    powered.physics.reset("drive")
-    powered.physics.brakes.reset(True)
-    return data, powered.physics, powered
+    physics = hurcules.Plant(model, data)
+    physics.reset("drive")
+    physics.brakes.reset(True)
+    return data, physics, Powered(model, physics)
 
 
 def test_shut_brakes_take_only_standby(world) -> None:
-    data, _, powered = world
+    data, physics, powered = world
     before = data.qpos.copy()
     for _ in range(500):
-        powered.step()
+        physics.step()
+        powered.read()
     assert np.abs(data.qpos - before)[7:].max() < 2e-3
     assert powered.meter.total == pytest.approx(300.0)  # computers and sensors
     assert powered.energy == pytest.approx(150.0)
@@ -42,7 +43,8 @@ def test_an_open_brake_takes_the_power_of_its_coil(world) -> None:
     physics.brakes.set_closed("LSP", False)
     before = float(data.joint("LSP").qpos[0])
     for _ in range(300):
-        powered.step()
+        physics.step()
+        powered.read()
     assert powered.meter.total == pytest.approx(312.0)  # a coil of 12 W
     assert abs(float(data.joint("LSP").qpos[0]) - before) > 0.01
 

@@ -1,10 +1,9 @@
-"""Plays moves in the physics: a servo at every motor, and a watch over what it takes."""
+"""Plays moves in the closed loop, with a watch over what they take."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 
 import mujoco
 import numpy as np
@@ -15,7 +14,7 @@ from hurcules._core import Error
 from hurcules.postures.balance import static_margin
 from hurcules.postures.moves import Move
 
-__all__ = ["Player", "Result"]
+__all__ = ["Player", "Result", "joint_loop"]
 
 _LOOK = 50  # steps between two looks
 
@@ -44,21 +43,27 @@ class Result:
 
 
 class Player:
-    """Holds a robot at its joint angles and moves it.
+    """Holds a robot at its joint angles and moves it: a client of the closed loop.
 
     Args:
         model: a scene with the robot; its actuators are motors at joints.
-        data: of this model, in the posture to begin with; the player steps it.
+        data: of this model, in the posture to begin with; the player steps it. It begins at rest,
+            at time 0, no brake shut.
         robot: "rescue" or "manipulation": whose servo table is taken.
         carried: bodies that count to the robot's centre of mass when they are above the ground.
-        step: one step of the physics; by default `hurcules.step`, without brakes and gears.
+        simulation: of this model and data that goes on instead of one of the player's own; its
+            controller's stacks may rule between two moves.
 
     Attributes:
+        simulation, controller: the loop.
+        joints: (motors,) names, as `controller.joints`.
+        peak: (motors,) [N m] or [N] their largest torques.
         reference: (motors,) [rad] or [m], where the motors are held.
         watch: called after every step.
 
     Raises:
-        Error: an unknown robot, or a motor that the table does not know.
+        Error: an unknown robot, or a motor that the table does not know. Every move raises it, too,
+            when the run is over: the physics diverged, say.
     """
 
     def __init__(
@@ -67,34 +72,22 @@ class Player:
         data: mujoco.MjData,
         robot: str,
         carried: Sequence[str] = (),
-        step: Callable[[], None] | None = None,
+        simulation: _core.Simulation | None = None,
     ) -> None:
-        table = _core.servo_table(robot)
         self.model, self.data, self.carried = model, data, list(carried)
-        self._step = step or partial(_core.step, model, data)
         self.watch: Callable[[], None] | None = None
-        self.joints = [model.joint(int(j)).name for j in model.actuator_trnid[: model.nu, 0]]
-        missing = [joint for joint in self.joints if joint not in table]
-        if missing:
-            raise Error(f"the servo table of '{robot}' lacks the joints {', '.join(missing)}")
+        self.simulation = simulation or _loop_of(model, data, robot)
+        self.controller = self.simulation.controller
+        self.joints = self.controller.joints
         ids = [model.joint(joint).id for joint in self.joints]
         self._qpos, self._dof = model.jnt_qposadr[ids], model.jnt_dofadr[ids]
-        self._peak = model.actuator_forcerange[:, 1].copy()
-        inertia, bandwidth = np.array([table[joint] for joint in self.joints]).T
-        self._pid = _core.JointPid(
-            _core.JointPidOptions(
-                K=3 * bandwidth * inertia - 1.0,  # K + 1 / gamma^2 = 3 omega J, as triple_pole
-                K_P=bandwidth,
-                K_I=bandwidth**2 / 3,
-                max_torque=self._peak,
-                dt=model.opt.timestep,
-            )
-        )
+        motors = [model.actuator_trnid[: model.nu, 0].tolist().index(joint) for joint in ids]
+        self.peak = model.actuator_forcerange[motors, 1].copy()
         self._speed = np.array([self._number("velocity_limit", joint) for joint in self.joints])
         self._power = np.array([self._number("power_limit", joint) for joint in self.joints])
         self._root = int(model.body("upper_legs").id)
         self._mine = model.body_rootid[model.geom_bodyid] == self._root
-        self.reference = data.qpos[self._qpos].copy()
+        self.reference = self.controller.joint_places
 
     def _number(self, kind: str, joint: str) -> float:
         return float(self.model.numeric(f"{kind}_{joint}").data[0])
@@ -132,7 +125,23 @@ class Player:
         before = self.reference
         self.reference = np.asarray(qpos, dtype=np.float64)[self._qpos]
         speed = (self.reference - before) / self.model.opt.timestep
-        self._tick(speed, np.zeros((2, len(self.joints))), Result("track"))
+        self.controller.move_all(self.reference, speed)
+        self._checked(self.simulation.step(1))
+
+    def rule(self, name: str, ticks: int, command: Callable[[int], ArrayLike]) -> Result:
+        """Lets the first stack of the loop's controller rule, then holds where it has led.
+
+        Args:
+            name: what happens.
+            ticks: how many.
+            command: of a tick, counted from 0, as `Simulation.step` takes it.
+        """
+        self.controller.use(self.controller.stacks[0])
+        result = self._run(
+            name, ticks, lambda i: self.simulation.step(1, np.asarray(command(i), np.float64))
+        )
+        self.reference = self.controller.joint_places
+        return result
 
     def _play(self, each: Move) -> Result:
         moving = self._motors(each.name, each.joints())
@@ -180,28 +189,37 @@ class Player:
         self, name: str, ticks: int, lead: Callable[[int], None], speed: NDArray[np.float64]
     ) -> Result:
         """Ticks, each after `lead` has set the reference and the speed of it."""
-        result = Result(name)
-        worst = np.zeros((2, len(self.joints)))  # torque share, error
-        for i in range(ticks):
+
+        def step(i: int) -> int:
             lead(i)
-            self._tick(speed, worst, result)
+            self.controller.move_all(self.reference, speed)
+            return self.simulation.step(1)
+
+        return self._run(name, ticks, step)
+
+    def _run(self, name: str, ticks: int, step: Callable[[int], int]) -> Result:
+        """Ticks, watched."""
+        result = Result(name)
+        share, error = np.zeros((2, len(self.joints)))
+        for i in range(ticks):
+            velocity = self.data.qvel[self._dof]
+            self._checked(step(i))
+            torque = self.controller.torque
+            np.maximum(share, np.abs(torque) / self.peak, out=share)
+            np.maximum(error, np.abs(self.controller.joint_error), out=error)
+            result.speed = max(result.speed, float((np.abs(velocity) / self._speed).max()))
+            result.power = max(result.power, float((torque * velocity / self._power).max()))
             if i % _LOOK == 0:
                 self._look(result)
-        result.torque = dict(zip(self.joints, worst[0].tolist(), strict=True))
-        result.error = dict(zip(self.joints, worst[1].tolist(), strict=True))
+        result.torque = dict(zip(self.joints, share.tolist(), strict=True))
+        result.error = dict(zip(self.joints, error.tolist(), strict=True))
         return result
 
-    def _tick(self, speed: NDArray[np.float64], worst: NDArray[np.float64], result: Result) -> None:
-        velocity = self.data.qvel[self._dof]
-        error = self.reference - self.data.qpos[self._qpos]
-        self.data.ctrl[:] = torque = self._pid.compute(error, speed - velocity)
-        self._step()
+    def _checked(self, ticks: int) -> None:
+        if not ticks:
+            raise Error(f"the run is over: {self.simulation.reason}")
         if self.watch is not None:
             self.watch()
-        np.maximum(worst[0], np.abs(torque) / self._peak, out=worst[0])
-        np.maximum(worst[1], np.abs(error), out=worst[1])
-        result.speed = max(result.speed, float((np.abs(velocity) / self._speed).max()))
-        result.power = max(result.power, float((torque * velocity / self._power).max()))
 
     def _look(self, result: Result) -> None:
         geoms = self.data.contact.geom
@@ -210,3 +228,46 @@ class Player:
             result.collisions.add((first, second))
         margin = static_margin(self.model, self.data, "upper_legs", self.carried)
         result.margin = min(result.margin, margin)
+
+
+def joint_loop(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    servo: Mapping[str, tuple[float, float]],
+    dt: float | None = None,
+    drive: _core.DriveOptions | None = None,
+) -> _core.Simulation:
+    """A closed loop that moves joints one by one, from where the data stand, at rest.
+
+    Args:
+        model: of a robot whose actuators are motors at joints.
+        data: of this model; the loop steps it.
+        servo: by joint with a motor the inertia that it turns [kg m^2] and its bandwidth [rad/s].
+        dt: control period [s]; by default the time step of the model.
+        drive: of a robot on tracks, whose belts drive then.
+
+    Raises:
+        Error: a motor without a row in `servo`.
+    """
+    plan = _core.Robot(model)
+    plan.set_qpos(data.qpos)
+    # no feed-forward: whatever the robot carries is a disturbance that the gains are made for
+    controller = _core.WholeBodyController(
+        plan,
+        [_core.PostureTask("posture", plan)],
+        dt=dt,
+        servo=dict(servo),
+        feed_forward=False,
+        drive=drive,
+    )
+    options = _core.SimulationOptions(record=False, monitors=_core.MonitorOptions(on=False))
+    return _core.Simulation(model, data, controller, options)
+
+
+def _loop_of(model: mujoco.MjModel, data: mujoco.MjData, robot: str) -> _core.Simulation:
+    table = _core.servo_table(robot)
+    joints = [model.joint(int(j)).name for j in model.actuator_trnid[: model.nu, 0]]
+    missing = [joint for joint in joints if joint not in table]
+    if missing:
+        raise Error(f"the servo table of '{robot}' lacks the joints {', '.join(missing)}")
+    return joint_loop(model, data, table)

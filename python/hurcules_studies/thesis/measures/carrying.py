@@ -40,13 +40,12 @@ def run() -> tuple[list[Result], Array, Array, Array, list[str]]:
     player.play([postures.move("settle", 1.0, EB=0.225)])
     for name, load in ground.items():
         take(model, data, "manipulation", name, load.hands)
-    peak = model.actuator_forcerange[:, 1].copy()
     rows: list[Array] = []
     heights: list[float] = []
 
     def watch() -> None:
         if round(data.time / model.opt.timestep) % SAMPLE == 0:
-            rows.append(np.concatenate([[data.time], data.ctrl / peak]))
+            rows.append(np.concatenate([[data.time], player.controller.torque / player.peak]))
             heights.append(float(data.body("load_L").xpos[2]) - ground["load_L"].position[2])
 
     player.watch = watch

@@ -56,24 +56,21 @@ class Trip:
 
 
 class Powered:
-    """The physics with brakes and drive trains, and the energy that was taken from the battery.
+    """The energy that is taken from the battery.
 
     Attributes:
-        physics: that is stepped.
         meter: of the last step.
         work, energy: [J] of the motors at their joints; from the battery.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        self.physics = hurcules.Plant(model, data)
+    def __init__(self, model: mujoco.MjModel, plant: hurcules.Plant) -> None:
         self.meter = hurcules.PowerMeter(model)
         self.work = self.energy = 0.0
-        self._dt = float(model.opt.timestep)
+        self._plant, self._dt = plant, float(model.opt.timestep)
 
-    def step(self) -> None:
-        """One step."""
-        self.physics.step()
-        self.meter.read(self.physics)
+    def read(self) -> None:
+        """Reads a step that was just taken."""
+        self.meter.read(self._plant)
         self.work += self._dt * self.meter.mechanical
         self.energy += self._dt * self.meter.total
 
@@ -94,8 +91,8 @@ class Rover:
             raised: the transfer bed is up, as a casualty lies on it.
         """
         self.model, self.data = model, mujoco.MjData(model)
-        self.powered = Powered(model, self.data)
-        self.physics = self.powered.physics
+        self.physics = hurcules.Plant(model, self.data)
+        self.powered = Powered(model, self.physics)
         self.physics.reset("drive")
         if raised:
             self.data.joint("bed_lift").qpos[0] = transfer_bed.LIFT
@@ -120,7 +117,8 @@ class Rover:
         for belt in BELTS:
             self.physics.brakes.set_closed(belt, self.controller.braked)
         for _ in range(STEPS):
-            self.powered.step()
+            self.physics.step()
+            self.powered.read()
         return motion
 
     def run(self, seconds: float, look: Callable[[Motion], object] | None = None) -> None:

@@ -70,20 +70,20 @@ def run() -> Run:
     """The whole transformation with the load."""
     load = Load(MASS, "LR", on_the_scoops())
     model = scene("rescue", {"load": load})
-    data, _ = start(model, "rescue", "drive")
-    powered = Powered(model, data)
-    player = postures.Player(model, data, "rescue", ["load"], powered.step)
+    data, player = start(model, "rescue", "drive", ["load"])
+    powered = Powered(model, player.simulation.plant)
     kept = [i for i, joint in enumerate(player.joints) if joint.lstrip("LR").startswith(LIFTING)]
-    peak = model.actuator_forcerange[kept, 1]
+    peak = player.peak[kept]
     places = [int(model.joint(player.joints[i]).qposadr[0]) for i in kept]
     foot = load.position[2]
     rows: list[tuple[float, Array, Array]] = []
     height: list[float] = []
 
     def watch() -> None:
+        powered.read()
         if round(data.time / model.opt.timestep) % SAMPLE == 0:
             error = player.reference[kept] - data.qpos[places]
-            rows.append((data.time, data.ctrl[kept] / peak, error))
+            rows.append((data.time, player.controller.torque[kept] / peak, error))
             height.append(float(data.body("load").xpos[2]) - foot)
 
     player.watch = watch
