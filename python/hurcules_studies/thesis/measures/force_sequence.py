@@ -19,7 +19,6 @@ from hurcules_studies.thesis.measures.force_ideal import G
 from hurcules_studies.thesis.measures.force_loops import DESIRED
 from hurcules_studies.thesis.measures.force_second_order import second
 from hurcules_studies.thesis.measures.press_robot import Log, PressRobot, Setting, ramped
-from hurcules_studies.thesis.measures.press_scene import Surface, model_of
 from hurcules_studies.thesis.measures.registry import measures
 
 WAY = 1.0  # [m] that it drives
@@ -67,11 +66,9 @@ def to_lowering() -> postures.Move:
 def run() -> Sequence:
     """All twelve."""
     done = Sequence()
-    model = model_of(Surface())
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
-    mujoco.mj_forward(model, data)
-    player = postures.Player(model, data, "rescue")
+    robot = PressRobot(Setting(gains=second(ForceLoop.Velocity), environment=G), {}, "drive")
+    model, data = robot.model, robot.data
+    player = postures.Player(model, data, "rescue", simulation=robot.simulation)
     turn = WAY / TRACK_RADIUS
     drive = postures.move("drive", 5.0, L_lower_belt=turn, R_lower_belt=turn)
     begin = float(data.qpos[0])
@@ -88,8 +85,8 @@ def run() -> Sequence:
         done.played(name, player.play(moves), data.time)
         if name == "drive":
             done.drove = float(data.qpos[0]) - begin
-    press(model, data, done)
-    player = postures.Player(model, data, "rescue")
+    press(robot, done)
+    player = postures.Player(model, data, "rescue", simulation=robot.simulation)
     embrace = postures.standing("embrace", 5, (1.0, 1.147, 1.418, -0.3, 1.62))
     lift = [
         postures.standing("lift", 8, (1.0, 1.3, 0.8, -0.3, 1.65)),
@@ -101,10 +98,9 @@ def run() -> Sequence:
     return done
 
 
-def press(model: mujoco.MjModel, data: mujoco.MjData, done: Sequence) -> None:
-    """Lowering, acquisition, confirmation."""
-    setting = Setting(gains=second(ForceLoop.Velocity), environment=G)
-    robot = PressRobot(setting, scene=(model, data))
+def press(robot: PressRobot, done: Sequence) -> None:
+    """Lowering, acquisition, confirmation: the stack takes over from the moves."""
+    robot.begin()
     robot.settle()
     still, down = ramped(0.0, 0.0, 1.0), ramped(-0.02, robot.time, 1e3)
     for name, x, z, seconds in (
@@ -116,7 +112,7 @@ def press(model: mujoco.MjModel, data: mujoco.MjData, done: Sequence) -> None:
             robot.enable(False)
             z = ramped(OUT, robot.time, robot.time + UP)
         done.logs[name] = robot.follow(x, z, robot.time + seconds)
-        done.played(name, [_look(model, data, name)], data.time)
+        done.played(name, [_look(robot.model, robot.data, name)], robot.data.time)
 
 
 def _look(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> postures.Result:

@@ -2,8 +2,8 @@
 
   joint < {hpos, force} < hpitch < pel < gaze, rho = 0.1                          section 5.6.1
 
-Velocities (section 5.7) or accelerations (section 5.6), as the law of the force asks for; the
-references go to the servos of the missions. The contact force is read from the deflection of the
+Velocities (section 5.7) or accelerations (section 5.6), as the law of the force asks for, in the
+closed loop with the servos of the missions. The contact force is read from the deflection of the
 elbow springs, from the contact itself where the elbows are rigid; f < 0 presses down.
 """
 
@@ -17,10 +17,9 @@ import mujoco
 import numpy as np
 
 import hurcules
-from hurcules import Stack, StackLevel
+from hurcules import Stack, StackLevel, _core
 from hurcules_studies.thesis.measures.press_log import DT, Log, empty_log
 from hurcules_studies.thesis.measures.press_scene import Surface, model_of
-from hurcules_studies.thesis.measures.press_servo import Servo
 from hurcules_studies.thesis.measures.problems import Array
 
 __all__ = ["DT", "GAZE", "SETTLED", "START", "Log", "PressRobot", "Setting", "Speed", "ramped"]
@@ -83,57 +82,71 @@ def ramped(speed: float, start: float, end: float, ramp: float = 0.3) -> Speed:
 
 
 class PressRobot:
-    """Robot, tasks, controller, servo and physics.
+    """The robot with its tasks in the closed loop.
 
     Attributes:
-        model, data: the physics.
-        plan: the robot at its reference.
-        hands: tasks of the tips by name: lx, ly, lz, ...: l and r; lz and rz are the forces.
+        model, data, simulation: the physics and its loop.
+        controller: of the loop; its stack rules after the start.
+        plan: the robot at its reference, as of the last tick of a log.
     """
 
     def __init__(
         self,
         setting: Setting,
         posture: Mapping[str, float] = START,
-        scene: tuple[mujoco.MjModel, mujoco.MjData] | None = None,
+        keyframe: str = "stretch",
     ) -> None:
-        """Stands in a posture at the origin, or as it stands in a scene already.
+        """Stands at the origin.
 
         Args:
             setting: what is pressed on, and how.
-            posture: coordinates [rad]; the others as in the keyframe of the stretch.
-            scene: of `model_of`, where the robot goes on.
+            posture: coordinates [rad]; the others as in the keyframe.
+            keyframe: of the model.
         """
         self.setting = setting
-        self.model = scene[0] if scene else model_of(setting.surface)
-        self.data = scene[1] if scene else mujoco.MjData(self.model)
+        self.model = model_of(setting.surface)
+        self.data = mujoco.MjData(self.model)
         self.plan = plan = hurcules.Robot(self.model)
-        if scene:
-            plan.set_qpos(self.data.qpos)
-            plan.stand_on(SUPPORT)
-        else:
-            plan.set_keyframe("stretch")
-            plan.stand_on(SUPPORT)
-            plan.set_configuration(_configured(plan, posture))
-            self.data.qpos[:] = plan.qpos
-            mujoco.mj_forward(self.model, self.data)
+        plan.set_keyframe(keyframe)
+        plan.stand_on(SUPPORT)
+        plan.set_configuration(_configured(plan, posture))
         self._make_tasks()
-        self.accelerates = setting.gains.loop != hurcules.ForceLoop.FirstOrder
-        self.controller: hurcules.VelocityController | hurcules.AccelerationController
+        table = hurcules.servo_table("rescue")
         smooth = "smooth" if setting.method == "lexicographic" else "strict"
         solver = hurcules.rhqp.SolverOptions(method=setting.method, handover=smooth)
-        if self.accelerates:
-            options = hurcules.AccelerationControllerOptions(
+        self.accelerates = setting.gains.loop != hurcules.ForceLoop.FirstOrder
+        led = [*self.across, *self.forces]
+        self.controller = hurcules.WholeBodyController(
+            plan,
+            self.stack(),
+            {task.name: hurcules.Twist(task, math.inf) for task in led},
+            control="acceleration" if self.accelerates else "velocity",
+            servo={name: (J, setting.bandwidth * omega) for name, (J, omega) in table.items()},
+            feed_forward=False,  # as the claims' servos: without a model
+            velocity=hurcules.VelocityControllerOptions(law="thesis", solver=solver),
+            acceleration=hurcules.AccelerationControllerOptions(
                 rest=setting.rest, law="thesis", solver=solver
-            )
-            self.controller = hurcules.AccelerationController(plan, options)
-        else:
-            speeds = hurcules.VelocityControllerOptions(law="thesis", solver=solver)
-            self.controller = hurcules.VelocityController(plan, speeds)
-        self.controller.set_stack(self.stack())
-        self.servo = Servo(self.model, plan, setting.bandwidth)
-        self.springs = [hurcules.SpringForce(plan, f"{s}EBS", f"{s}_tcp") for s in "LR"]
+            ),
+        )
+        options = hurcules.SimulationOptions(
+            record=False, monitors=hurcules.MonitorOptions(on=False)
+        )
+        self.simulation = _core.Simulation(self.model, self.data, self.controller, options)
+        for side, task in zip("LR", self.forces, strict=True):
+            if setting.surface.springs:
+                spring = hurcules.SpringForce(plan, f"{side}EBS", f"{side}_tcp")
+                self.controller.sense(task, spring)
+            else:  # the sensor's rows: how many contacts, then their force
+                self.controller.sense(task, f"{side}_press", row=3)
         self._press = [self.model.sensor(f"{s}_press").adr[0] + 1 for s in "LR"]
+        self._servoed = sum(len(coordinate.joints) for coordinate in plan.coordinates)
+        self.begin()
+
+    def begin(self) -> None:
+        """The stack rules from here: where the robot stands now all targets hold but the gaze."""
+        self.controller.use("stack")
+        self.gaze.set_target(GAZE)
+        self.enable(self.setting.force)
         self.ticks = 0
 
     def _make_tasks(self) -> None:
@@ -160,11 +173,9 @@ class PressRobot:
             )
             for s in "lr"
         ]
-        self.enable(setting.force)
         self.pitch = [hurcules.AngleTask(f"{s}hpitch", plan, f"{s.upper()}_tcp") for s in "lr"]
         self.pelvis = hurcules.PositionTask("pel", plan, "pelvis", axes=[[1.0, 0.0, 0.0]])
         self.gaze = hurcules.GazeTask("gaze", plan, "gaze")
-        self.gaze.set_target(GAZE)
         # what the eleven rows leave free keeps its speed where accelerations are asked for
         self.rest = hurcules.PostureTask("rest", plan)
 
@@ -195,34 +206,10 @@ class PressRobot:
             self.tick(0.0, 0.0)
         self.enable(self.setting.force)
 
-    def read(self) -> list[float]:
-        """Forces of both hands [N] as the robot knows them."""
-        if not self.setting.surface.springs:
-            return [float(self.data.sensordata[at + 2]) for at in self._press]
-        readings = []
-        for spring in self.springs:
-            spring.update(self.data.qpos, self.data.qvel)
-            # the vertical force that would bend the spring so
-            readings.append(-spring.force / float(spring.direction[2]))
-        return readings
-
     def tick(self, x: float, z: float) -> None:
         """One step: both hands are led by speeds [m/s] ahead and up."""
-        for task, force in zip(self.forces, self.read(), strict=True):
-            task.sense(self.plan, force)
-            task.advance([z], DT)
-        for across in self.across:
-            across.advance([x, 0.0], DT)
-        self.controller.step(self.plan)
-        self.servo.act(self.plan, self.speed(), self.data)
-        hurcules.step(self.model, self.data)
+        self.simulation.step(1, [x, 0.0, x, 0.0, z, z])
         self.ticks += 1
-
-    def speed(self) -> Array:
-        """Commanded speed of the coordinates, (n,) [rad/s]."""
-        if isinstance(self.controller, hurcules.VelocityController):
-            return self.controller.velocity
-        return self.plan.velocity
 
     def press(self, side: int) -> Array:
         """What an arm presses on things with, (3,) [N], world axes."""
@@ -232,20 +219,22 @@ class PressRobot:
     def follow(self, x: Speed, z: Speed, end: float) -> Log:
         """Moves both hands by speeds over time until `end` [s], and keeps every tick."""
         count = round(end / DT) - self.ticks
-        log = empty_log(self.plan.coordinate_names, count)
+        controller, plan = self.controller, self.plan
+        log = empty_log(plan.coordinate_names, count)
         tip = self.data.site("L_tcp")
         for i in range(count):
             time = self.time
             self.tick(x(time), z(time))
-            log.time[i], log.q[i], log.qd[i] = time, self.plan.configuration, self.speed()
+            plan.set_configuration(controller.q_des)
+            log.time[i], log.q[i], log.qd[i] = time, controller.q_des, controller.qd_des
             log.force[i] = [task.force for task in self.forces]
             log.contact[i] = [self.press(side) for side in (0, 1)]
-            log.hand[i], log.planned[i] = tip.xpos, self.plan.position("L_tcp")
+            log.hand[i], log.planned[i] = tip.xpos, plan.position("L_tcp")
             log.state[i] = [int(task.contact) for task in self.forces]
-            log.active[i] = self.controller.active_limits
-            log.changes[i] = self.controller.solution.changes
+            log.active[i] = controller.active_limits
+            log.changes[i] = controller.solution.changes
             log.errors[i] = self.errors()
-            log.servo[i] = self.servo.largest
+            log.servo[i] = np.abs(controller.joint_error[: self._servoed]).max()
             log.base[i] = self.data.qpos[:3]
         return log
 
