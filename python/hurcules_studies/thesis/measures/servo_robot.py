@@ -12,7 +12,7 @@ from hurcules import models
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
-from hurcules_studies.thesis.measures.standing import DT, Followed, drives_of, led
+from hurcules_studies.thesis.measures.standing import DT, Followed, gains_of, led
 
 SUPPORT = "lower_leg_L"
 REST = 1.5  # [s] before and after each posture
@@ -79,7 +79,7 @@ def tuning_postures() -> Finding:
     robot = ready(model)
     qpos = robot.qpos
     q, qd = way(robot, TUNING, 3.0, REST)
-    run = led(model, qpos, drives_of(robot, model, q), q, qd)
+    run = led(model, qpos, gains_of(robot, model, q), q, qd)
     arm = np.abs(run.of("LS", "LE", "LW"))
     others = np.abs(run.of("LKN", "RKN", "HIP", "WST"))[STAND:]
     return Finding(
@@ -112,8 +112,8 @@ def any_load() -> Finding:
     robot = ready(middle)
     qpos = robot.qpos
     q, qd = way(robot, LIFTING, 3.0, REST)
-    drives = drives_of(robot, middle, q)
-    runs = {f"{load:g} kg": led(loaded(load), qpos, drives, q, qd) for load in (0.0, 60.0, 120.0)}
+    gains = gains_of(robot, middle, q)
+    runs = {f"{load:g} kg": led(loaded(load), qpos, gains, q, qd) for load in (0.0, 60.0, 120.0)}
     largest = {
         label: float(np.abs(run.of("LS", "LE", "RS", "RE"))[STAND:].max())
         for label, run in runs.items()
