@@ -2,8 +2,8 @@
 
 A case of 30 kg with a handle lies near the left hand of the manipulation robot, which stands in its
 acquisition posture. The pose that the robot is told has the error of a stereo estimate. From it
-alone RHQP plans the joints' way above the handle and down to it; the physics follows by the servo,
-the fingers close, RHQP plans the way up. Friction alone holds the handle.
+alone RHQP leads the hand above the handle and down to it, in the closed loop; the fingers close,
+RHQP leads it up. Friction alone holds the handle.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from hurcules import models, postures
+import hurcules
+from hurcules import _core, models, postures
 from hurcules_studies.thesis.claim import Finding, Line, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
-from hurcules_studies.thesis.measures.rig import start
 from hurcules_studies.thesis.measures.whole_body import DT, Body
 
 TRIES = 6
@@ -49,45 +49,47 @@ def scene() -> mujoco.MjModel:
     return spec.compile()
 
 
-class Planner:
-    """RHQP on the reference alone: moves of the left hand in straight lines.
+class Hand:
+    """RHQP in the loop: moves the left hand in straight lines, between moves of joints.
 
     Attributes:
-        names: joints of the planned motion.
+        player: of the moves.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        self._body = Body({}, model=model)
-        self._robot = self._body.robot
-        self._robot.set_qpos(data.qpos)
-        self._robot.stand_on("lower_leg_L")
-        for task in self._body.tasks.values():
-            task.hold(self._robot)
-        self._body.controller.reset()
-        coordinates = self._robot.coordinates
-        pairs = [(i, joint) for i, one in enumerate(coordinates) for joint in one.joints]
-        self._of = [i for i, _ in pairs]
-        self._factor = np.array([joint.factor for _, joint in pairs])
-        self.names = [model.joint(joint.joint).name for _, joint in pairs]
-        start = self._robot.configuration
-        places = [joint.qpos for _, joint in pairs]
-        self._offset = data.qpos[places] - self._factor * start[self._of]
+    def __init__(self, model: mujoco.MjModel) -> None:
+        body = Body({}, model=model)
+        body.robot.set_keyframe("acquisition")
+        body.robot.stand_on("lower_leg_L")
+        self._hand = body.tasks["lhpos"]
+        self._body = body  # its tasks are the controller's
+        channels = {name: hurcules.Twist(body.tasks[name], math.inf) for name in ("lhpos", "lhor")}
+        controller = hurcules.WholeBodyController(
+            body.robot,
+            body.stack(),
+            channels,
+            servo=hurcules.servo_table("manipulation"),
+            feed_forward=False,
+            velocity=body.setting.options,
+        )
+        options = hurcules.SimulationOptions(
+            record=False, monitors=hurcules.MonitorOptions(on=False)
+        )
+        self.data = mujoco.MjData(model)
+        simulation = _core.Simulation(model, self.data, controller, options)
+        mujoco.mj_forward(model, self.data)
+        self.player = postures.Player(model, self.data, "manipulation", ["case"], simulation)
 
-    def straight(self, goal: Array, yaw: float, seconds: float) -> tuple[Array, Array]:
-        """The left hand to a point [m], turned by an angle about the vertical: q and qd."""
-        robot, controller = self._robot, self._body.controller
-        way = goal - self._body.tasks["lhpos"].target
+    def straight(self, goal: Array, yaw: float, seconds: float) -> postures.Result:
+        """The left hand to a point [m], turned by an angle about the vertical."""
         ticks = round(seconds / DT)
-        q, qd = np.zeros((ticks, len(self._of))), np.zeros((ticks, len(self._of)))
-        for i in range(ticks):
+        self.player.controller.use("stack")  # its targets are where the joints were led
+        way = np.concatenate([goal - self._hand.target, [0.0, 0.0, yaw]])
+
+        def command(i: int) -> Array:
             rate = (1.0 - math.cos(2.0 * math.pi * (i + 0.5) / ticks)) / seconds
-            self._body.tasks["lhpos"].advance(rate * way, DT)
-            self._body.tasks["lhor"].advance(np.array([0.0, 0.0, rate * yaw]), DT)
-            velocity = controller.compute(robot)
-            robot.set_configuration(controller.integrate(robot.configuration))
-            q[i] = self._offset + self._factor * robot.configuration[self._of]
-            qd[i] = self._factor * velocity[self._of]
-        return q, qd
+            return np.asarray(rate * way)
+
+        return self.player.rule("hand", ticks, command)
 
 
 @dataclass(frozen=True)
@@ -116,19 +118,17 @@ def attempt(seed: int) -> Try:
     """Grasps and lifts the case."""
     rng = np.random.default_rng(seed)
     model = scene()
-    data, player = start(model, "manipulation", "acquisition", ["case"])
+    robot = Hand(model)
+    data, player = robot.data, robot.player
     tcp = data.site("L_tcp").xpos.copy()
     collisions = 0
 
     def move(goal: Array, yaw: float, seconds: float) -> None:
         nonlocal collisions
-        q, qd = planner.straight(goal, yaw, seconds)
-        result = player.follow("hand", planner.names, q, qd)
-        collisions += len(result.collisions)
+        collisions += len(robot.straight(goal, yaw, seconds).collisions)
 
     # the hand is raised before anything lies below it
     player.wait(0.5)
-    planner = Planner(model, data)
     move(tcp + ABOVE * UP, 0.0, 3.0)
     place = np.array([tcp[0], tcp[1], 0.0]) + PLACES * rng.uniform(-1.0, 1.0, 3)
     put(model, data, place)
