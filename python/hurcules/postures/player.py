@@ -231,11 +231,7 @@ class Player:
 
 
 def joint_loop(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    servo: Mapping[str, tuple[float, float]],
-    dt: float | None = None,
-    drive: _core.DriveOptions | None = None,
+    model: mujoco.MjModel, data: mujoco.MjData, servo: Mapping[str, tuple[float, float]]
 ) -> _core.Simulation:
     """A closed loop that moves joints one by one, from where the data stand, at rest.
 
@@ -243,8 +239,6 @@ def joint_loop(
         model: of a robot whose actuators are motors at joints.
         data: of this model; the loop steps it.
         servo: by joint with a motor the inertia that it turns [kg m^2] and its bandwidth [rad/s].
-        dt: control period [s]; by default the time step of the model.
-        drive: of a robot on tracks, whose belts drive then.
 
     Raises:
         Error: a motor without a row in `servo`.
@@ -252,14 +246,8 @@ def joint_loop(
     plan = _core.Robot(model)
     plan.set_qpos(data.qpos)
     # no feed-forward: whatever the robot carries is a disturbance that the gains are made for
-    controller = _core.WholeBodyController(
-        plan,
-        [_core.PostureTask("posture", plan)],
-        dt=dt,
-        servo=dict(servo),
-        feed_forward=False,
-        drive=drive,
-    )
+    posture = _core.PostureTask("posture", plan)
+    controller = _core.WholeBodyController(plan, [posture], servo=dict(servo), feed_forward=False)
     options = _core.SimulationOptions(record=False, monitors=_core.MonitorOptions(on=False))
     return _core.Simulation(model, data, controller, options)
 
