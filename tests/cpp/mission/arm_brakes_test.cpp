@@ -24,7 +24,7 @@ using namespace hurcules_test;
 class Arms {
  public:
   explicit Arms(const std::string& keyframe = "ready")
-      : physics(load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml")),
+      : physics(load_model(HURCULES_MODELS "/scenes/stretch.xml")),
         robot(physics.model_ptr()),
         servo(robot, rescue_servo(), physics.dt()) {
     physics.reset(physics.find_keyframe(keyframe));

@@ -32,7 +32,7 @@ ModelPtr scene(const std::string& more = "") {
       R"(<mujoco><include file="../robots/rescue.xml"/>
       <include file="flat.xml"/><worldbody>)" +
           more + "</worldbody></mujoco>",
-      std::string(HURCULES_MODELS) + "/scenes");
+      HURCULES_MODELS "/scenes");
   for (const char* belt : {"L_lower_belt", "R_lower_belt"}) {
     const int joint = mj_name2id(model.get(), mjOBJ_JOINT, belt);
     model->dof_frictionloss[model->jnt_dofadr[joint]] = kRolling;

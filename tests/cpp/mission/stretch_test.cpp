@@ -54,7 +54,7 @@ struct Recorded {
     time = std::round(1e3 * time + 1.0) * 1e-3;
   }
 
-  Robot plan{load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml")};
+  Robot plan{load_model(HURCULES_MODELS "/scenes/stretch.xml")};
   std::shared_ptr<WholeBodyController> controller =
       make_mission_controller("stretch", plan.model());
   Stretch stretch{*controller, 0.0};

@@ -124,14 +124,14 @@ TEST(Coordinates, CoupledRangesThatDoNotMeetAreAnError) {
 }
 
 TEST(Coordinates, HurculesForRescueHasThirteen) {
-  const std::string path = std::string(HURCULES_MODELS) + "/robots/rescue.xml";
+  const std::string path = HURCULES_MODELS "/robots/rescue.xml";
   const Robot robot(load_model(path));
   EXPECT_EQ(robot.size(), 13);
   EXPECT_EQ(robot.coordinates()[robot.coordinate("KN")].joints.size(), 2U);
 }
 
 TEST(Coordinates, HurculesForManipulationHasNineteen) {
-  const std::string path = std::string(HURCULES_MODELS) + "/robots/manipulation.xml";
+  const std::string path = HURCULES_MODELS "/robots/manipulation.xml";
   EXPECT_EQ(Robot(load_model(path)).size(), 19);
 }
 

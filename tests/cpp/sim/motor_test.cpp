@@ -22,7 +22,7 @@ using namespace hurcules_test;
 const MotorLimits kElbow = {600.0, 1.8, 540.0};
 
 ModelPtr robot(const std::string& name) {
-  return load_model(std::string(HURCULES_MODELS) + "/robots/" + name + ".xml");
+  return load_model(std::string(HURCULES_MODELS "/robots/") + name + ".xml");
 }
 
 TEST(Motor, GivesPeakTorqueThenPeakPowerThenNothing) {

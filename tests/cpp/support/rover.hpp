@@ -32,7 +32,7 @@ inline hurcules::ModelPtr rover_scene(const Ground& ground) {
       R"(<mujoco><include file="../robots/rescue.xml"/><include file="flat.xml"/>
          <option gravity=")" +
           gravity + R"("/><worldbody>)" + ground.more + "</worldbody></mujoco>",
-      std::string(HURCULES_MODELS) + "/scenes");
+      HURCULES_MODELS "/scenes");
   for (int i = 0; i < model->ngeom; ++i) {
     if (model->geom_contype[i] == 2) model->geom_friction[3 * i] = ground.friction;
   }

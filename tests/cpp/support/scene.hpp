@@ -9,7 +9,7 @@ namespace hurcules_test {
 
 inline const hurcules::ModelPtr& stretch_scene() {
   static const hurcules::ModelPtr model =
-      hurcules::load_model(std::string(HURCULES_MODELS) + "/scenes/stretch.xml");
+      hurcules::load_model(HURCULES_MODELS "/scenes/stretch.xml");
   return model;
 }
 
