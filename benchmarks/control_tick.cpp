@@ -27,9 +27,9 @@
 #include <vector>
 
 #include "hurcules/control/acceleration_controller.hpp"
+#include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/velocity_controller.hpp"
 #include "hurcules/mission/robot_tables.hpp"
-#include "hurcules/control/joint_servo.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -112,11 +112,13 @@ class Tick {
 Run by_velocity(double radius, int ticks) {
   Body body(radius);
   const ModelPtr model = body.robot.model();
-  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
+  const Vector qpos = Vector::Zero(model->nq), qvel = Vector::Zero(model->nv);
+  const std::vector<ActuatorStatus> drives(static_cast<std::size_t>(model->nu));
+  Vector ctrl = Vector::Zero(model->nu);
   VelocityController controller(body.robot, {.dt = kDt});
   controller.set_stack(body.stack());
-  Servo servo(body.robot, manipulation_servo(), kDt);
-  servo.reset(data.get());
+  JointServo servo(body.robot, manipulation_servo(), kDt);
+  servo.reset(qpos);
   Vector q = body.robot.configuration();
   Run run;
   run.ticks.reserve(static_cast<std::size_t>(ticks));
@@ -128,7 +130,8 @@ Run by_velocity(double radius, int ticks) {
     tick.time(2, [&] { controller.solve(); });
     tick.time(3, [&] {
       controller.integrate(q);
-      servo.act({q, controller.velocity()}, data.get());
+      servo.follow(q, controller.velocity());
+      servo.compute({qpos, qvel, drives}, ctrl);
     });
     run.changes += controller.solution().changes;
   }
