@@ -196,7 +196,7 @@ void bind_options(py::module_& module) {
   py::class_<Options>(module, "SimulationOptions", kOptions)
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
                        bool timed, BaseSource base, SensorOptions sensors,
-                       const MonitorOptions& monitors, double max_seconds) {
+                       const MonitorOptions& monitors, double max_seconds, bool physics) {
              Options options;
              options.seed = seed;
              options.variation = variation;
@@ -207,13 +207,14 @@ void bind_options(py::module_& module) {
              options.sensors = std::move(sensors);
              options.monitors = monitors;
              options.max_seconds = max_seconds;
+             options.physics = physics;
              return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
            "method"_a = defaults.method, "record"_a = defaults.record,
            "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
            "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors,
-           "max_seconds"_a = defaults.max_seconds)
+           "max_seconds"_a = defaults.max_seconds, "physics"_a = defaults.physics)
       .def_readwrite("seed", &Options::seed)
       .def_readwrite("variation", &Options::variation)
       .def_readwrite("method", &Options::method)
@@ -224,12 +225,26 @@ void bind_options(py::module_& module) {
       .def_readwrite("base", &Options::base)
       .def_readwrite("sensors", &Options::sensors)
       .def_readwrite("monitors", &Options::monitors)
-      .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer");
+      .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer")
+      .def_readwrite("physics", &Options::physics, "false: the robot is where it is commanded to be");
 }
 
 void bind_run(py::class_<Simulation>& simulation) {
   simulation.def("step", &step_simulation, "n"_a = 1, "command"_a = py::none(), kStep)
-      .def("reset", &Simulation::reset, "seed"_a, kReset)
+      .def(
+          "reset",
+          [](Simulation& self, std::uint64_t seed, const std::optional<Vector>& start) {
+            self.reset(seed, start ? &*start : nullptr);
+          },
+          "seed"_a, "start"_a = py::none(), kReset)
+      .def(
+          "read",
+          [](const Simulation& self, const Quantities& quantities) {
+            Vector values(quantities.size());
+            quantities.read(self, values);
+            return values;
+          },
+          "quantities"_a, "(m,) their present values.")
       .def("state", &state, kState)
       .def("restore", &restore, "state"_a, kRestore)
       .def("operator_command", &Simulation::operator_command, kOperatorCommand)
@@ -312,23 +327,31 @@ Matrix rows_of(const SimulationBatch& self, const Row& row) {
 }
 
 void reset_batch(SimulationBatch& self, const std::vector<std::uint64_t>& seeds,
-                 const std::optional<std::vector<bool>>& mask) {
+                 const std::optional<std::vector<bool>>& mask,
+                 const std::optional<Matrix>& starts) {
   require(seeds.size() == self.size() && (!mask || mask->size() == self.size()),
           "reset wants " + std::to_string(self.size()) + " seeds, and as many entries of a mask");
+  require(!starts || starts->rows() == static_cast<Index>(self.size()),
+          "reset wants one start for each of its " + std::to_string(self.size()) + " simulations");
   py::gil_scoped_release release;
   self.for_each([&](std::size_t i) {
-    if (!mask || (*mask)[i]) self[i].reset(seeds[i]);
+    if (mask && !(*mask)[i]) return;
+    if (!starts) return self[i].reset(seeds[i]);
+    const Vector start = starts->row(static_cast<Index>(i)).transpose();
+    self[i].reset(seeds[i], &start);
   });
 }
 
-void restore_batch(SimulationBatch& self, const std::vector<std::vector<double>>& states,
+void restore_batch(SimulationBatch& self, const Matrix& states,
                    const std::optional<std::vector<bool>>& mask) {
-  require(states.size() == self.size() && (!mask || mask->size() == self.size()),
+  require(states.rows() == static_cast<Index>(self.size()) && (!mask || mask->size() == self.size()),
           "restore wants " + std::to_string(self.size()) + " states, " +
-              std::to_string(states.size()) + " came");
+              std::to_string(states.rows()) + " came");
   py::gil_scoped_release release;
   self.for_each([&](std::size_t i) {
-    if (!mask || (*mask)[i]) self[i].restore(states[i]);
+    if (mask && !(*mask)[i]) return;
+    const auto row = states.row(static_cast<Index>(i));
+    self[i].restore(std::vector<double>(row.begin(), row.end()));
   });
 }
 
@@ -343,16 +366,25 @@ void bind_batch(py::module_& module) {
            "models"_a = std::vector<ModelObject>{}, py::keep_alive<1, 2>(), py::keep_alive<1, 5>())
       .def("step", &step_batch, "ticks"_a, "commands"_a = py::none(), "mask"_a = py::none(),
            kBatchStep)
-      .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(),
-           "Back to the start; seeds (n,), mask (n,) bool: which.")
+      .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(), "starts"_a = py::none(),
+           "Back to the start; seeds (n,), mask (n,) bool: which, starts (n, nq): where that is.")
+      .def(
+          "read",
+          [](Batch& self, const Quantities& quantities) {
+            Matrix values(static_cast<Index>(self.size()), quantities.size());
+            {
+              py::gil_scoped_release release;
+              self.read(quantities, values);
+            }
+            return values;
+          },
+          "quantities"_a, "(n, m) their present values.")
       .def(
           "state",
           [](const Batch& self) {
-            std::vector<Vector> all;
-            for (std::size_t i = 0; i < self.size(); ++i) all.push_back(state(self[i]));
-            return all;
+            return rows_of(self, [](const Simulation& one) { return state(one); });
           },
-          "List of n arrays: all that decides how each goes on, see Simulation.state.")
+          "(n, s) all that decides how each goes on, see Simulation.state.")
       .def("restore", &restore_batch, "states"_a, "mask"_a = py::none(), "Goes on from state().")
       .def(
           "observation",
@@ -416,6 +448,11 @@ void bind_sim(py::module_& module) {
            "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
       .def(py::init(&make_own), "model"_a, "data"_a, "controller"_a, "options"_a = MissionOptions{},
            py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
+  py::class_<Quantities>(module, "Quantities", kQuantities)
+      .def(py::init<const Simulation&, const std::vector<std::string>&>(), "simulation"_a, "names"_a)
+      .def_property_readonly("names", &Quantities::names)
+      .def_property_readonly("sizes", &Quantities::sizes, "of each name")
+      .def("__len__", &Quantities::size);
   bind_run(simulation);
   bind_results(simulation);
   bind_sensor_results(simulation);

@@ -149,6 +149,21 @@ inline constexpr const char* kFigures =
 inline constexpr const char* kThesisFigures =
     "What the thesis reports for those figures that it gives.";
 inline constexpr const char* kEvents = "(time [s], text) of phases, and of limits met and left.";
+inline constexpr const char* kQuantities = R"(Named numbers of a simulation, found once and read together.
+
+Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FRAME (3 each, in the
+world), matrix/FRAME (9); value/TASK, target/TASK; joint/JOINT, joint_velocity/JOINT; sensor/SENSOR;
+monitor/NAME; excess/KIND, commanded_excess/KIND (position, velocity, torque: the worst so far);
+contact_force/BODY; self_contacts; scaled; and each channel of the observation and the log, alone
+("q/KN") or as a group ("q").
+
+Args:
+  simulation: Simulation that they are of; they can be read from any copy of it.
+  names: list of names.
+
+Raises:
+  Error: a name that does not exist, with those that do.
+)";
 inline constexpr const char* kViolation =
     "Worst excess over any limit: position_rad, velocity, torque in the physics, 0 for none; "
     "commanded: the same of the commanded motion.";

@@ -91,6 +91,7 @@ Args:
   servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
     default reckoned from the model.
   feed_forward: servos are told the torques that the model says.
+  torque_scaling: the motion slows down where a motor would be asked for more than its peak.
   drive: DriveOptions of a robot on tracks; needed for a Drive channel.
   belts: names of the left and right joint of the driven belts.
   velocity: VelocityControllerOptions; its dt is not read.
@@ -187,6 +188,7 @@ std::shared_ptr<WholeBodyController> make(
     const py::dict& stacks, const std::string& control, std::optional<double> dt,
     const std::string& base, const std::string& support,
     const std::map<std::string, std::pair<double, double>>& servo, bool feed_forward,
+    bool torque_scaling,
     const std::optional<DriveOptions>& drive, const std::pair<std::string, std::string>& belts,
     const std::optional<VelocityControllerOptions>& velocity,
     const std::optional<AccelerationControllerOptions>& acceleration) {
@@ -223,6 +225,7 @@ std::shared_ptr<WholeBodyController> make(
   options.base = base_of(base);
   options.support = support;
   options.feed_forward = feed_forward;
+  options.torque_scaling = torque_scaling;
   for (const auto& [joint, row] : servo) options.servo.push_back({joint, row.first, row.second});
   if (drive) options.drive = TrackDriveOptions{belts.first, belts.second, *drive};
   held->controller = std::make_unique<WholeBodyController>(robot, std::move(all), std::move(made),
@@ -291,7 +294,7 @@ void bind_whole_body(py::module_& module) {
                  py::kw_only(), "stacks"_a = py::dict(), "control"_a = "velocity",
                  "dt"_a = py::none(), "base"_a = "held", "support"_a = "",
                  "servo"_a = std::map<std::string, std::pair<double, double>>{},
-                 "feed_forward"_a = true, "drive"_a = py::none(),
+                 "feed_forward"_a = true, "torque_scaling"_a = true, "drive"_a = py::none(),
                  "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
                  "velocity"_a = py::none(), "acceleration"_a = py::none());
   const auto solution = [](const WholeBodyController& self) { return self.law().solution(); };

@@ -11,7 +11,7 @@ from hurcules import _core
 from hurcules._core import Error
 from hurcules.validation import require_known
 
-__all__ = ["compile", "existing", "folder", "parse", "robot", "robots", "stems"]
+__all__ = ["compile", "existing", "folder", "parse", "robot", "robots", "stems", "without_visuals"]
 
 
 def folder() -> Path:
@@ -80,6 +80,18 @@ def compile(source: Path | mujoco.MjSpec) -> mujoco.MjModel:
         return source.compile()
     except ValueError as error:
         raise _rejected(error) from error
+
+
+def without_visuals(spec: mujoco.MjSpec) -> mujoco.MjSpec:
+    """Takes away the shapes without mass that nothing can touch, and the meshes of these alone."""
+    for geom in list(spec.geoms):
+        if geom.contype == 0 and geom.conaffinity == 0 and geom.mass == 0.0:
+            spec.delete(geom)
+    used = {geom.meshname for geom in spec.geoms}
+    for mesh in list(spec.meshes):
+        if mesh.name not in used:
+            spec.delete(mesh)
+    return spec
 
 
 def _rejected(error: ValueError) -> Error:

@@ -5,6 +5,7 @@ A robot (models/robots/NAME.xml) stands in a scene: a file (models/scenes/NAME.x
 scene of a mission names the robot that it is made for.
 """
 
+import copy
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from hurcules import scenes as made
 from hurcules._core import Error
 from hurcules.mjcf import folder, parse
 
-__all__ = ["folder", "load", "names", "parse", "path", "scenes"]
+__all__ = ["folder", "load", "names", "parse", "path", "scenes", "with_timestep"]
 
 
 def names() -> list[str]:
@@ -46,6 +47,7 @@ def load(
     mission: str | None = None,
     *,
     bed: bool = True,
+    visuals: bool = True,
 ) -> mujoco.MjModel:
     """Compiles a robot in its surroundings.
 
@@ -55,34 +57,43 @@ def load(
             that is made has its default parameters and seed 0 here; see `hurcules.scenes.load`.
         mission: one of `hurcules.missions()`.
         bed: False takes the transfer bed off the rescue robot.
+        visuals: False leaves out what is only seen; the physics is the same to the bit, the model
+            a fraction of the size.
 
     Raises:
         Error: an unknown name, no bed to take off, a scene made for another robot, or MuJoCo's text
             about broken MJCF.
     """
+    if scene in _made() and scene not in mjcf.stems("scenes") and bed and visuals:
+        return made.load(scene, name or "rescue")
+    spec = _spec(name, scene, mission)
+    if not bed:
+        transfer_bed.detach(spec)
+    return mjcf.compile(spec if visuals else mjcf.without_visuals(spec))
+
+
+def with_timestep(model: mujoco.MjModel, timestep: float) -> mujoco.MjModel:
+    """A copy of a model with another step of the physics [s]."""
+    changed = copy.copy(model)
+    changed.opt.timestep = timestep
+    return changed
+
+
+def _spec(name: str | None, scene: str | None, mission: str | None) -> mujoco.MjSpec:
+    """Robot and surroundings, not compiled yet."""
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
     if scene in _made() and scene not in mjcf.stems("scenes"):
-        if bed:
-            return made.load(scene, name or "rescue")
-        return mjcf.compile(_without_bed(made.make(scene, robot=name or "rescue")))
+        return made.make(scene, robot=name or "rescue")
     surroundings = mjcf.existing("scenes", scene, "scene", scenes())
     inhabitant = _robot_in(surroundings)
     name = name or inhabitant or "rescue"
     robot = mjcf.existing("robots", name, "robot", names())
     if inhabitant is None:
-        spec = parse([robot, surroundings], f"{name} in {scene}")
-        return mjcf.compile(spec if bed else _without_bed(spec))
+        return mjcf.parse([robot, surroundings], f"{name} in {scene}")
     if inhabitant != name:
         raise Error(f"scene '{scene}' is made for robot '{inhabitant}', not '{name}'")
-    if bed:
-        return mjcf.compile(surroundings)
-    return mjcf.compile(_without_bed(mujoco.MjSpec.from_file(str(surroundings))))
-
-
-def _without_bed(spec: mujoco.MjSpec) -> mujoco.MjSpec:
-    transfer_bed.detach(spec)
-    return spec
+    return mujoco.MjSpec.from_file(str(surroundings))
 
 
 def _made() -> list[str]:

@@ -49,6 +49,7 @@ class Simulation(_core.Simulation):
         sensors: SensorOptions | None = None,
         monitors: MonitorOptions | None = None,
         max_seconds: float = math.inf,
+        physics: bool = True,
     ) -> None:
         """A mission in its scene, or a controller of your own in any model.
 
@@ -66,6 +67,8 @@ class Simulation(_core.Simulation):
                 `hurcules.sensors.realistic`.
             monitors: thresholds of the alarms; None: those of `MonitorOptions`.
             max_seconds: the run ends when it takes longer [s].
+            physics: False: the robot is where it is commanded to be, at once and whatever it
+                touches; nothing else moves and no force acts.
 
         Raises:
             Error: no such mission, method or sensor (the text names those that exist), a bad
@@ -80,6 +83,7 @@ class Simulation(_core.Simulation):
             sensors=sensors or SensorOptions(),
             monitors=monitors or MonitorOptions(),
             max_seconds=max_seconds,
+            physics=physics,
         )
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")
@@ -97,16 +101,17 @@ class Simulation(_core.Simulation):
         self.data = mujoco.MjData(self.model)
         super().__init__(self.model, self.data, self.mission, options)
 
-    def reset(self, seed: int = 0) -> None:
+    def reset(self, seed: int = 0, start: ArrayLike | None = None) -> None:
         """Back to the start.
 
         Args:
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
+            start: (nq,) where that is this time; without a mission.
 
         Raises:
-            Error: another seed.
+            Error: another seed, or a start of another shape or not finite.
         """
-        super().reset(_seed(seed))
+        super().reset(_seed(seed), start)
 
     def step(self, n: int = 1, command: Command | None = None) -> int:
         """Takes control ticks. Releases the interpreter lock.

@@ -1,11 +1,23 @@
 #include "hurcules/base/state.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
+
+namespace {
+
+// stands for NaN, so that snapshots can be compared, stored and sent as plain numbers
+constexpr double kNotANumber = std::numeric_limits<double>::lowest();
+
+}  // namespace
+
+void StateWriter::put(double value) {
+  out_.push_back(std::isnan(value) ? kNotANumber : value);
+}
 
 void StateWriter::put(const ConstVectorRef& values) {
   for (Index i = 0; i < values.size(); ++i) put(values[i]);
@@ -18,7 +30,8 @@ void StateWriter::put_bits(unsigned long long word) {
 
 double StateReader::get_any() {
   require(next_ < in_.size(), "the snapshot ends early: it belongs to another model or mission");
-  return in_[next_++];
+  const double value = in_[next_++];
+  return value == kNotANumber ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
 double StateReader::get() {

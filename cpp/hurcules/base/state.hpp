@@ -12,7 +12,7 @@ namespace hurcules {
 class StateWriter {
  public:
   explicit StateWriter(std::vector<double>& out) : out_(out) {}
-  void put(double value) { out_.push_back(value); }
+  void put(double value);  // NaN too: it is kept as a number that nobody uses
   void put(const ConstVectorRef& values);
   // the bits of a 64-bit word (a random generator), in two exact halves
   void put_bits(unsigned long long word);

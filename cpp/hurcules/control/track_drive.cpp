@@ -18,6 +18,11 @@ JointActuator find(const std::vector<JointActuator>& all, const std::string& joi
   throw Error(unknown_name("belt with a drive", joint, names));
 }
 
+// the track axle, y, is level however the legs are folded: forward is at right angles to it
+Eigen::Vector2d forward_of(const Matrix3& R) {
+  return Eigen::Vector2d(R(1, 1), -R(0, 1)).normalized();
+}
+
 }  // namespace
 
 TrackDrive::TrackDrive(const Robot& robot, const TrackDriveOptions& options)
@@ -32,8 +37,7 @@ DriveState TrackDrive::measure(const RobotState& state) const {
   const double* const q = state.qpos.data() + root_qpos_;
   const double* const v = state.qvel.data() + root_dof_;
   const Matrix3 R = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).toRotationMatrix();
-  // the track axle, y, is level however the legs are folded: forward is at right angles to it
-  const Eigen::Vector2d forward = Eigen::Vector2d(R(1, 1), -R(0, 1)).normalized();
+  const Eigen::Vector2d forward = forward_of(R);
   DriveState measured;
   measured.left = state.qvel[left_.dof];
   measured.right = state.qvel[right_.dof];
@@ -44,11 +48,30 @@ DriveState TrackDrive::measure(const RobotState& state) const {
   return measured;
 }
 
+void TrackDrive::follow(const RobotState& state) {
+  controller_.compute(measure(state));
+  braked_ = controller_.braked();
+}
+
 void TrackDrive::compute(const RobotState& state, VectorRef ctrl) {
   const DriveTorques torques = controller_.compute(measure(state));
   ctrl[left_.actuator] = left_.control(torques.left, 0.0, 0.0);
   ctrl[right_.actuator] = right_.control(torques.right, 0.0, 0.0);
   braked_ = controller_.braked();
+}
+
+void TrackDrive::roll(VectorRef qpos, double dt) const {
+  const DriveCommand now = controller_.reference();
+  auto root = qpos.segment<7>(root_qpos_);
+  const Eigen::Quaterniond attitude(root[3], root[4], root[5], root[6]);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(now.yaw_rate * dt, Vector3::UnitZ()));
+  root.head<2>() += dt * now.speed * forward_of((turn * attitude).toRotationMatrix());
+  const Eigen::Quaterniond turned = (turn * attitude).normalized();
+  root.tail<4>() << turned.w(), turned.vec();
+  const DriveOptions& options = controller_.options();
+  const double half = 0.5 * now.yaw_rate * options.gauge;
+  qpos[left_.qpos] += dt * (now.speed - half) / options.radius;
+  qpos[right_.qpos] += dt * (now.speed + half) / options.radius;
 }
 
 void TrackDrive::reset() {

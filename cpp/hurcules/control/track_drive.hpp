@@ -25,6 +25,12 @@ class TrackDrive {
   [[nodiscard]] DriveState measure(const RobotState& state) const;
   // one period of the controller; writes two entries of ctrl (nu)
   void compute(const RobotState& state, VectorRef ctrl);
+  // the same without controls: the profiles go on
+  void follow(const RobotState& state);
+
+  // what an ideal robot does with the last command: its root moves over level ground and its belts
+  // turn as the profiles ask for; qpos (nq), dt [s]
+  void roll(VectorRef qpos, double dt) const;
 
   [[nodiscard]] DriveController& controller() { return controller_; }
   [[nodiscard]] const DriveController& controller() const { return controller_; }

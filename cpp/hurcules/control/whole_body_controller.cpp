@@ -371,7 +371,7 @@ void WholeBodyController::solve(const RobotState& state) {
   MotionLaw& law = *laws_[active_];
   law.solve();
   wished_ = law.next_velocity(qd_);
-  scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
+  if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
   if (scaled_) {
     // every target follows the robot as fast as the law would have led the robot to it
     for (Task* const task : tasks_) task->relax(law.rate() * dt());
@@ -386,17 +386,27 @@ void WholeBodyController::hold() {
   scaled_ = false;
 }
 
-// torques  [T A.2.12]
-void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
+// the references of the servos
+void WholeBodyController::refer() {
   if (moves_joints_) {
     servo_.release(q_, qd_);
     plan_.set_configuration(q_);
   } else {
     servo_.follow(q_, qd_);
   }
+}
+
+// torques  [T A.2.12]
+void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
+  refer();
   feed_forward();
   servo_.compute(state, ctrl);
   if (drive_) drive_->compute(state, ctrl);
+}
+
+void WholeBodyController::lead(const RobotState& state) {
+  refer();
+  if (drive_) drive_->follow(state);
 }
 
 void WholeBodyController::compute(const RobotState& state, const Vector* command, bool first,

@@ -55,6 +55,8 @@ struct WholeBodyControllerOptions {
   // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
   // whatever the robot carries is a disturbance to them.
   bool feed_forward = true;
+  // the motion slows down where a motor would be asked for more than its peak
+  bool torque_scaling = true;
   std::optional<TrackDriveOptions> drive = {};  // tracks, where a Drive channel is to move them
 };
 
@@ -94,6 +96,9 @@ class WholeBodyController {
   void measure();
   void solve(const RobotState& state);
   void actuate(const RobotState& state, VectorRef ctrl);
+  // in place of actuate, where there is no plant: the references of the servos follow, and the
+  // profiles of the tracks go on
+  void lead(const RobotState& state);
   // the reference stays where it is, the servos hold it
   void hold();
   // all of them
@@ -141,6 +146,7 @@ class WholeBodyController {
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
   void read_forces(const RobotState& state);
   void take_over();
+  void refer();
   void feed_forward();
 
   WholeBodyControllerOptions options_;

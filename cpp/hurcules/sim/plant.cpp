@@ -54,6 +54,12 @@ void Plant::place(const Vector& configuration) {
   mj_kinematics(model_.get(), data_.get());
 }
 
+void Plant::move(const Vector& configuration, double dt) {
+  mj_differentiatePos(model_.get(), data_->qvel, dt, data_->qpos, configuration.data());
+  qpos() = configuration;
+  data_->time += dt;
+}
+
 const std::vector<ActuatorStatus>& Plant::actuators() {
   for (const Motor& motor : motors_) {
     actuators_[static_cast<std::size_t>(motor.actuator)] = {

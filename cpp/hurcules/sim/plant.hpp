@@ -28,6 +28,9 @@ class Plant {
   void reset(int keyframe);
   // everything at this configuration (nq); poses of bodies and sites follow
   void place(const Vector& qpos);
+  // everything moves to this configuration (nq) within dt [s], whatever the physics would say; poses
+  // follow, contacts and forces do not
+  void move(const Vector& qpos, double dt);
   // what the drives can do at the present speeds; valid until the next call, (nu)
   const std::vector<ActuatorStatus>& actuators();
   // n steps, fewer when it ceases to be sound; MuJoCo's sensors are read in the last alone. Returns

@@ -31,6 +31,8 @@ class Recorder {
   // one channel over time, (rows)
   [[nodiscard]] Vector series(std::size_t channel) const;
   [[nodiscard]] double at(std::size_t row, std::size_t channel) const;
+  // what a source holds now
+  [[nodiscard]] double now(std::size_t channel) const { return *sources_[channel]; }
   // what the sources hold now, (columns)
   [[nodiscard]] Vector snapshot() const;
 

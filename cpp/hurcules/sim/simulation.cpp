@@ -15,6 +15,40 @@ namespace {
 
 constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 
+// A snapshot begins with its version, its length, what it is of, and the number of values in use;
+// what is left of its room is zero.
+constexpr double kStateVersion = 1.0;
+constexpr std::size_t kStateHeader = 4;
+
+// of all names along the vectors of a controller's simulation (FNV-1a), 32 bits
+double hash_of(const TelemetryNames& names) {
+  std::uint32_t hash = 2166136261U;
+  for (const auto* list : {&names.coordinates, &names.joints, &names.levels, &names.task_rows,
+                           &names.commands}) {
+    for (const std::string& name : *list) {
+      for (const char letter : name + ";") {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
+      }
+    }
+  }
+  return static_cast<double>(hash);
+}
+
+// numbers at most that the working sets of all solvers take in a snapshot
+std::size_t room_of_working_sets(const WholeBodyController& controller) {
+  constexpr std::size_t kPerRow = 6, kPerSolver = 3;
+  std::size_t room = 0;
+  for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
+    room += kPerSolver;
+    for (const StackLevel& level : controller.law(i).stack().levels()) {
+      for (const Task* task : level.tasks) {
+        room += kPerRow * static_cast<std::size_t>(task->rows());
+      }
+    }
+  }
+  return room;
+}
+
 std::string seconds(double time) {
   std::string text(32, '\0');
   text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.3f s", time)));
@@ -83,7 +117,16 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   }
   monitors_.add_log_channels(record_.log);
   sensors_.add_log_channels(record_.log);
+  if (!options_.physics) {
+    placed_ = std::make_unique<Robot>(plant_.model_ptr(), world_.coordinate_names());
+    if (const std::string& support = controller_->options().support; !support.empty()) {
+      placed_->stand_on(support);
+    }
+  }
   reset(options_.seed);
+  std::vector<double> values;
+  write(values);
+  state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
 }
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
@@ -124,9 +167,15 @@ void Simulation::tick(const Vector* command, bool first) {
   check_sensors();
   timer.done(Stage::Sense);
   think(command, first, timer);
-  actuate();
-  timer.done(Stage::Servo);
-  advance_plant();
+  if (options_.physics) {
+    actuate();
+    timer.done(Stage::Servo);
+    advance_plant();
+  } else {
+    controller_->lead(sensed());
+    timer.done(Stage::Servo);
+    advance_plan();
+  }
   timer.done(Stage::Physics);
   record();
   timer.done(Stage::Record);
@@ -206,6 +255,22 @@ void Simulation::advance_plant() {
   monitors_.look(plant_.model(), plant_.data(), record_.telemetry.power);
 }
 
+// without physics: coordinates, joints that were moved one by one, and the tracks, as commanded
+void Simulation::advance_plan() {
+  placed_->set_qpos(std::as_const(plant_).qpos());
+  placed_->set_configuration(controller_->q_des());
+  seen_qpos_ = placed_->qpos();
+  const JointServo& servo = controller_->servo();
+  const std::optional<TrackDrive>& drive = controller_->drive();
+  for (Index i = 0; i < servo.size(); ++i) {
+    const bool belt = drive && (servo.actuator(i).actuator == drive->left().actuator ||
+                                servo.actuator(i).actuator == drive->right().actuator);
+    if (!belt) seen_qpos_[servo.actuator(i).qpos] = servo.position()[i];
+  }
+  if (drive) drive->roll(seen_qpos_, dt());
+  plant_.move(seen_qpos_, dt());
+}
+
 // figures, limits and the row of the log
 void Simulation::record() {
   Telemetry& telemetry = record_.telemetry;
@@ -258,6 +323,7 @@ void Simulation::judge() {
 // what somebody outside sees between two calls: the state as it is now
 void Simulation::observe() {
   if (!plant_.is_sound()) return;
+  if (!options_.physics) mj_kinematics(plant_.model(), plant_.data());
   sense();
   measure_world();
 }
@@ -323,14 +389,17 @@ void Simulation::set_brake(const std::string& joint, bool closed) {
   plant_.brakes().set_closed(plant_.brakes().find(joint), closed);
 }
 
-void Simulation::reset(std::uint64_t seed) {
+void Simulation::reset(std::uint64_t seed, const Vector* start) {
+  require(!start || !supervisor_, "a mission says itself where it starts");
+  require(!start || (start->size() == plant_.model()->nq && start->allFinite()),
+          "a start wants qpos of " + std::to_string(plant_.model()->nq) + " finite numbers");
   options_.seed = seed;
   ticks_ = 0;
   ending_ = Ending::Running;
   record_.reset();
   battery_.reset();
   record_.telemetry.charge = battery_.charge();
-  place(seed);
+  place(seed, start);
   limit_watch_.reset();
   monitors_.reset();
   sensors_.reset(plant_.data(), seed);
@@ -344,8 +413,8 @@ void Simulation::reset(std::uint64_t seed) {
   observe();
 }
 
-void Simulation::place(std::uint64_t seed) {
-  Vector start = initial_qpos_;
+void Simulation::place(std::uint64_t seed, const Vector* where) {
+  Vector start = where ? *where : initial_qpos_;
   if (supervisor_) {
     Robot robot(plant_.model_ptr(), world_.coordinate_names());
     if (const std::string& support = controller_->options().support; !support.empty()) {
@@ -360,7 +429,17 @@ void Simulation::place(std::uint64_t seed) {
 }
 
 std::vector<double> Simulation::state() const {
-  std::vector<double> values;
+  std::vector<double> values = {kStateVersion, static_cast<double>(state_size_),
+                                hash_of(record_.names()), 0.0};
+  values.reserve(state_size_);
+  write(values);
+  values[3] = static_cast<double>(values.size());
+  require(values.size() <= state_size_, "a snapshot is longer than its room");
+  values.resize(state_size_, 0.0);
+  return values;
+}
+
+void Simulation::write(std::vector<double>& values) const {
   StateWriter writer(values);
   writer.put(static_cast<double>(ticks_));
   writer.put(static_cast<double>(static_cast<int>(ending_)));
@@ -378,10 +457,17 @@ std::vector<double> Simulation::state() const {
   writer.put(finding_.speed ? 1.0 : 0.0);
   writer.put(static_cast<double>(held_ticks_));
   record_.save(writer);
-  return values;
 }
 
 void Simulation::restore(const std::vector<double>& values) {
+  require(values.size() >= kStateHeader && values[0] == kStateVersion,
+          "a snapshot of another version: wanted " + std::to_string(kStateVersion) + ", got " +
+              (values.empty() ? "nothing" : std::to_string(values[0])));
+  require(values.size() == state_size_ && values[1] == static_cast<double>(state_size_) &&
+              values[2] == hash_of(record_.names()),
+          "a snapshot of another model, controller or mission: it has " +
+              std::to_string(values.size()) + " numbers, wanted are " +
+              std::to_string(state_size_) + " of these coordinates, tasks and channels");
   const std::vector<double> before = state();
   try {
     read(values);
@@ -392,7 +478,11 @@ void Simulation::restore(const std::vector<double>& values) {
 }
 
 void Simulation::read(const std::vector<double>& values) {
-  StateReader reader(values);
+  const std::size_t used = static_cast<std::size_t>(values[3]);
+  require(values[3] >= kStateHeader && used <= values.size(), "a snapshot is damaged");
+  const std::vector<double> payload(values.begin() + kStateHeader,
+                                    values.begin() + static_cast<std::ptrdiff_t>(used));
+  StateReader reader(payload);
   ticks_ = reader.get_count(kMostTicks);
   ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::Held)));
   ending_time_ = reader.get();

@@ -36,6 +36,9 @@ struct FallOptions {
 struct SimulationOptions {
   std::uint64_t seed = 0;
   bool record = true;     // keep the time series
+  // false: the robot is where its references are, at once and whatever it touches; nothing else
+  // moves, no force acts, no monitor looks. For learning at a fraction of the time.
+  bool physics = true;
   Clock clock = nullptr;  // [s] for timings; null: none are taken
   double max_seconds = std::numeric_limits<double>::infinity();
   FallOptions fall;
@@ -64,7 +67,8 @@ class Simulation {
   // up to n ticks of the controller; fewer when the run ends. command (k) in SI, held to its scale;
   // null: the supervisor's own operator, and without one all targets hold
   int step(int n = 1, const Vector* command = nullptr);
-  void reset(std::uint64_t seed);
+  // back to the start; `start` (nq), without a supervisor: where that is this time
+  void reset(std::uint64_t seed, const Vector* start = nullptr);
   // The brake of a joint, open after reset. A joint rests behind its shut brake: the plan does not
   // know, so that its coordinate is to be held too. An empty battery closes all.
   void set_brake(const std::string& joint, bool closed);
@@ -79,7 +83,8 @@ class Simulation {
   [[nodiscard]] bool held() const { return finding_.trouble != SensorWatch::Trouble::None; }
   [[nodiscard]] Vector operator_command();  // of the next tick, (k)
 
-  // all that decides how the run goes on; any simulation of this model and controller can restore it
+  // All that decides how the run goes on; any simulation of this model and controller can restore it.
+  // Its length is always the same, and no number in it is NaN.
   [[nodiscard]] std::vector<double> state() const;
   void restore(const std::vector<double>& values);
 
@@ -97,6 +102,8 @@ class Simulation {
   [[nodiscard]] Plant& plant() { return plant_; }
   [[nodiscard]] const Plant& plant() const { return plant_; }
   [[nodiscard]] const Robot& world() const { return world_; }  // the robot as it is
+  // a task of the controller, by its number, measured at the robot as it is
+  [[nodiscard]] const Task& measured_task(std::size_t number) const { return *measured_[number]; }
   [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] WholeBodyController& controller() { return *controller_; }
   [[nodiscard]] const WholeBodyController& controller() const { return *controller_; }
@@ -114,10 +121,12 @@ class Simulation {
   void check_sensors();
   void actuate();
   void advance_plant();
+  void advance_plan();
   void record();
   void judge();
 
-  void place(std::uint64_t seed);
+  void place(std::uint64_t seed, const Vector* start);
+  void write(std::vector<double>& values) const;
   void read(const std::vector<double>& values);
   [[nodiscard]] RobotState sensed();
   [[nodiscard]] const Robot& seen() const { return seen_ ? *seen_ : world_; }
@@ -149,6 +158,8 @@ class Simulation {
   std::int64_t held_ticks_ = 0;
   Frame support_;
   std::optional<Frame> fall_frame_, target_;
+  std::unique_ptr<Robot> placed_;  // without physics: where it moves to
+  std::size_t state_size_ = 0;
   std::int64_t ticks_ = 0;
   Ending ending_ = Ending::Running;
   double ending_time_ = 0.0;  // [s]

@@ -56,6 +56,16 @@ void SimulationBatch::step(int ticks, const Matrix* commands, const std::vector<
   });
 }
 
+void SimulationBatch::read(const Quantities& quantities, MatrixRef out) {
+  require(out.rows() == static_cast<Index>(size()) && out.cols() == quantities.size(),
+          "quantities want room for (" + std::to_string(size()) + ", " +
+              std::to_string(quantities.size()) + ") numbers");
+  for_each([&](std::size_t i) {
+    const auto row = static_cast<Index>(i);
+    quantities.read(*simulations_[i], Eigen::Map<Vector>(&out(row, 0), out.cols()));
+  });
+}
+
 void SimulationBatch::for_each(const std::function<void(std::size_t)>& work) {
   {
     const std::lock_guard lock(mutex_);

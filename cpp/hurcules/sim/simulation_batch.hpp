@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "hurcules/sim/quantities.hpp"
 #include "hurcules/sim/simulation.hpp"
 
 namespace hurcules {
@@ -36,6 +37,8 @@ class SimulationBatch {
   // each up to this many ticks with its row of commands (n, k), null for none; those that are
   // finished stand still. mask (n): which are stepped, null for all
   void step(int ticks, const Matrix* commands = nullptr, const std::vector<bool>* mask = nullptr);
+  // (n, m) the quantities of each now
+  void read(const Quantities& quantities, MatrixRef out);
   // runs work(i) for each i on the pool; throws what the first failing one threw
   void for_each(const std::function<void(std::size_t)>& work);
 

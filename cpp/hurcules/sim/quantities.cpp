@@ -1,0 +1,244 @@
+#include "hurcules/sim/quantities.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+#include "hurcules/tasks/value_task.hpp"
+
+namespace hurcules {
+
+namespace {
+
+enum Source { kPositions, kVelocities, kSensors };
+
+int find_object(const mjModel* m, int type, mjtSize count, const char* kind, const std::string& name) {
+  const int found = mj_name2id(m, type, name.c_str());
+  if (found >= 0) return found;
+  std::vector<std::string> names;
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    if (const char* const one = mj_id2name(m, type, i)) names.emplace_back(one);
+  }
+  throw Error(unknown_name(kind, name, names));
+}
+
+// channels of this name, or all with this part before the "/"
+std::vector<Index> channels_of(const Recorder& recorder, const std::string& name) {
+  std::vector<Index> found;
+  const std::vector<std::string>& channels = recorder.channels();
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const std::string& channel = channels[i];
+    const bool within = channel.size() > name.size() && channel[name.size()] == '/' &&
+                        channel.compare(0, name.size(), name) == 0;
+    if (channel == name || within) found.push_back(static_cast<Index>(i));
+  }
+  return found;
+}
+
+double part_of(const Excess& excess, Index part) {
+  return part == 0 ? excess.position : part == 1 ? excess.velocity : excess.torque;
+}
+
+bool is_below(const mjModel* m, int body, int above) {
+  while (body > above) body = m->body_parentid[body];
+  return body == above;
+}
+
+double contact_force(const mjModel* m, const mjData* d, int body) {
+  double sum = 0.0;
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0 || contact.geom[0] < 0 || contact.geom[1] < 0) continue;
+    const bool first = is_below(m, m->geom_bodyid[contact.geom[0]], body);
+    const bool second = is_below(m, m->geom_bodyid[contact.geom[1]], body);
+    if (first == second) continue;
+    mjtNum force[6];
+    mj_contactForce(m, d, i, force);
+    sum += force[0];
+  }
+  return sum;
+}
+
+int self_contacts(const mjModel* m, const mjData* d, int root) {
+  int count = 0;
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.geom[0] < 0 || contact.geom[1] < 0 || contact.dist > 0.0) continue;
+    const bool own = m->body_rootid[m->geom_bodyid[contact.geom[0]]] == root &&
+                     m->body_rootid[m->geom_bodyid[contact.geom[1]]] == root;
+    count += own ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+Quantities::Quantities(const Simulation& simulation, const std::vector<std::string>& names)
+    : names_(names) {
+  for (const std::string& name : names) {
+    quantities_.push_back(find(simulation, name));
+    sizes_.push_back(quantities_.back().size);
+    size_ += sizes_.back();
+  }
+}
+
+Quantities::Quantity Quantities::find(const Simulation& simulation, const std::string& name) {
+  const mjModel* const m = simulation.plant().model();
+  const std::size_t slash = name.find('/');
+  const std::string group = name.substr(0, slash);
+  const std::string rest = slash == std::string::npos ? "" : name.substr(slash + 1);
+  Quantity found;
+  const std::vector<std::pair<std::string, std::pair<Kind, Index>>> frames = {
+      {"position", {Kind::Position, 3}}, {"rotation", {Kind::Rotation, 3}},
+      {"matrix", {Kind::RotationMatrix, 9}}, {"velocity", {Kind::Velocity, 3}},
+      {"spin", {Kind::Spin, 3}}};
+  for (const auto& [word, what] : frames) {
+    if (group != word) continue;
+    found.kind = what.first;
+    found.size = what.second;
+    found.frame = simulation.world().frame(rest);
+    return found;
+  }
+  if (group == "value" || group == "target") {
+    const std::vector<Task*>& tasks = simulation.controller().tasks();
+    const Task* const task = &simulation.controller().task(rest);
+    require(dynamic_cast<const ValueTask*>(task) != nullptr,
+            "quantity '" + name + "': the value of this task is no list of numbers");
+    found.kind = group == "value" ? Kind::Value : Kind::Target;
+    found.size = task->rows();
+    found.places = {std::find(tasks.begin(), tasks.end(), task) - tasks.begin()};
+    return found;
+  }
+  if (group == "joint" || group == "joint_velocity") {
+    const int joint = find_object(m, mjOBJ_JOINT, m->njnt, "joint", rest);
+    require(m->jnt_type[joint] == mjJNT_HINGE || m->jnt_type[joint] == mjJNT_SLIDE,
+            "quantity '" + name + "' wants a hinge or a slide");
+    found.kind = Kind::Data;
+    found.source = group == "joint" ? kPositions : kVelocities;
+    found.places = {group == "joint" ? m->jnt_qposadr[joint] : m->jnt_dofadr[joint]};
+    return found;
+  }
+  if (group == "sensor" && mj_name2id(m, mjOBJ_SENSOR, rest.c_str()) >= 0) {
+    const int sensor = mj_name2id(m, mjOBJ_SENSOR, rest.c_str());
+    found.kind = Kind::Data;
+    found.source = kSensors;
+    found.size = m->sensor_dim[sensor];
+    found.places = {m->sensor_adr[sensor]};
+    return found;
+  }
+  if (group == "excess" || group == "commanded_excess") {
+    const std::vector<std::string> kinds = {"position", "velocity", "torque"};
+    const auto kind = std::find(kinds.begin(), kinds.end(), rest) - kinds.begin();
+    if (kind == 3) throw Error(unknown_name("excess", rest, kinds));
+    found.kind = group == "excess" ? Kind::Excess : Kind::CommandedExcess;
+    found.places = {kind};
+    return found;
+  }
+  if (group == "contact_force") {
+    found.kind = Kind::ContactForce;
+    found.places = {find_object(m, mjOBJ_BODY, m->nbody, "body", rest)};
+    return found;
+  }
+  if (name == "self_contacts" || name == "scaled") {
+    found.kind = name == "scaled" ? Kind::Scaled : Kind::SelfContacts;
+    return found;
+  }
+  for (const Kind kind : {Kind::Observation, Kind::Log}) {
+    const Recorder& recorder =
+        kind == Kind::Observation ? simulation.observation() : simulation.log();
+    found.kind = kind;
+    found.places = channels_of(recorder, name);
+    found.size = static_cast<Index>(found.places.size());
+    if (found.size > 0) return found;
+  }
+  std::vector<std::string> known = {"position/FRAME", "rotation/FRAME", "matrix/FRAME",
+                                    "velocity/FRAME", "spin/FRAME",     "value/TASK",
+                                    "target/TASK",    "joint/JOINT",    "joint_velocity/JOINT",
+                                    "sensor/SENSOR",  "excess/KIND",    "commanded_excess/KIND",
+                                    "self_contacts",  "scaled",         "contact_force/BODY"};
+  for (const Recorder* recorder : {&simulation.observation(), &simulation.log()}) {
+    for (const std::string& channel : recorder->channels()) {
+      const std::string word = channel.substr(0, channel.find('/'));
+      if (std::find(known.begin(), known.end(), word) == known.end()) known.push_back(word);
+    }
+  }
+  throw Error(unknown_name("quantity", name, known));
+}
+
+void Quantities::read(const Simulation& simulation, VectorRef out) const {
+  require(out.size() == size_, "quantities want room for " + std::to_string(size_) +
+                                   " numbers, got " + std::to_string(out.size()));
+  Index place = 0;
+  for (const Quantity& quantity : quantities_) {
+    read(quantity, simulation, out.segment(place, quantity.size));
+    place += quantity.size;
+  }
+}
+
+void Quantities::read(const Quantity& quantity, const Simulation& simulation, VectorRef out) {
+  const Robot& world = simulation.world();
+  const mjModel* const m = simulation.plant().model();
+  const mjData* const d = simulation.plant().data();
+  switch (quantity.kind) {
+    case Kind::Position:
+      out = world.position(quantity.frame);
+      return;
+    case Kind::Rotation:
+      out = rotation_log(world.orientation(quantity.frame));
+      return;
+    case Kind::RotationMatrix: {
+      const Matrix3 R = world.orientation(quantity.frame).transpose();  // column by column
+      out = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(R.data());
+      return;
+    }
+    case Kind::Velocity:
+      out = world.twist(quantity.frame, simulation.plant().qvel()).linear;
+      return;
+    case Kind::Spin:
+      out = world.twist(quantity.frame, simulation.plant().qvel()).angular;
+      return;
+    case Kind::Value:
+    case Kind::Target: {
+      const auto number = static_cast<std::size_t>(quantity.places.front());
+      const auto& task = static_cast<const ValueTask&>(simulation.measured_task(number));
+      out = quantity.kind == Kind::Value ? task.value() : task.target();
+      return;
+    }
+    case Kind::Data: {
+      const double* const all = quantity.source == kPositions    ? d->qpos
+                                : quantity.source == kVelocities ? d->qvel
+                                                                : d->sensordata;
+      out = Eigen::Map<const Vector>(all + quantity.places.front(), quantity.size);
+      return;
+    }
+    case Kind::Observation:
+    case Kind::Log: {
+      const Recorder& recorder =
+          quantity.kind == Kind::Observation ? simulation.observation() : simulation.log();
+      for (Index i = 0; i < quantity.size; ++i) {
+        out[i] = recorder.now(static_cast<std::size_t>(quantity.places[static_cast<std::size_t>(i)]));
+      }
+      return;
+    }
+    case Kind::Excess:
+      out[0] = part_of(simulation.limits().measured(), quantity.places.front());
+      return;
+    case Kind::CommandedExcess:
+      out[0] = part_of(simulation.limits().commanded(), quantity.places.front());
+      return;
+    case Kind::ContactForce:
+      out[0] = contact_force(m, d, static_cast<int>(quantity.places.front()));
+      return;
+    case Kind::SelfContacts:
+      out[0] = self_contacts(m, d, world.root_body());
+      return;
+    case Kind::Scaled:
+      out[0] = simulation.controller().scaled() ? 1.0 : 0.0;
+      return;
+  }
+}
+
+}  // namespace hurcules

@@ -1,0 +1,172 @@
+"""What an author writes: one environment, for any number of episodes side by side.
+
+A subclass of `Environment` builds a simulation, names the numbers that it reads from it after each
+step, and turns them into observation, reward and success with functions over arrays (n, ...).
+`SingleEnv` and `VectorEnv` make Gymnasium's interfaces of it.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules.rendering import overview_camera, pose
+from hurcules.validation import require_known
+
+__all__ = ["Array", "Environment", "Group", "Numbers", "Start", "tick_of"]
+
+Array = NDArray[np.float64]
+
+FIDELITIES = {"exact": 1e-3, "fast": 4e-3, "kinematic": 25e-3}  # [s] longest control tick
+
+
+@dataclass(frozen=True)
+class Group:
+    """A part of the observation.
+
+    Attributes:
+        name: of the part.
+        size: how many numbers.
+        unit: their unit.
+        bound: largest magnitude; what is beyond is cut off.
+        text: what it is, for the page of the environment.
+    """
+
+    name: str
+    size: int
+    unit: str
+    bound: float
+    text: str = ""
+
+
+@dataclass
+class Start:
+    """How one episode starts.
+
+    Attributes:
+        qpos: (nq,) of the model; None: where the simulation was built.
+        memory: by name what the episode remembers, see `Environment.memory`.
+        info: by name a number for `info`, the same names in each episode.
+    """
+
+    qpos: Array | None = None
+    memory: Mapping[str, Any] = field(default_factory=dict)
+    info: Mapping[str, float] = field(default_factory=dict)
+
+
+class Numbers:
+    """What is known after a step, by name, one row an episode.
+
+    `numbers["value/left"]` is (n, 3): a quantity of `Environment.quantities`, or an entry of the
+    memory. `numbers.action` is (n, k) in [-1, 1].
+    """
+
+    def __init__(
+        self, values: Mapping[str, Array], memory: dict[str, Array], action: Array, dt: float
+    ) -> None:
+        self._values = values
+        self.memory = memory
+        self.action = action
+        self.dt = dt
+
+    def __getitem__(self, name: str) -> Array:
+        """The quantity or entry of the memory of this name."""
+        return self._values[name] if name in self._values else self.memory[name]
+
+
+class Environment(ABC):
+    """One environment.
+
+    Attributes:
+        simulation: the loop, at its start; episodes run on copies of it.
+        actions: by channel what 1 in the action means [SI]; the channels of the controller that a
+            policy commands, in this order.
+    """
+
+    observation: ClassVar[tuple[Group, ...]]
+    quantities: ClassVar[tuple[str, ...]] = ()  # names for hurcules.Quantities
+    memory: ClassVar[Mapping[str, int]] = {}  # by name how many numbers an episode remembers
+    terms: ClassVar[tuple[str, ...]]  # of the reward, in the order in which they are added
+    goal: ClassVar[int] = 0  # numbers of the goal; 0: no goal environment
+    rate: ClassVar[float] = 20.0  # [Hz] steps a second by default
+    fidelities: ClassVar[tuple[str, ...]] = tuple(FIDELITIES)
+    task_description: ClassVar[str]
+
+    simulation: hurcules.Simulation
+    actions: Mapping[str, float]
+    _drawn: tuple[mujoco.MjModel, mujoco.MjData] | None = None
+
+    @abstractmethod
+    def start(self, generator: np.random.Generator) -> Start:
+        """Draws how an episode starts."""
+
+    @abstractmethod
+    def observe(self, numbers: Numbers) -> Mapping[str, Array]:
+        """Observation by the name of its group, (n, size) each."""
+
+    @abstractmethod
+    def reward(self, numbers: Numbers) -> Mapping[str, Array]:
+        """The terms of the reward, (n,) each; their sum is the reward."""
+
+    @abstractmethod
+    def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Which episodes have what was wanted, (n,)."""
+
+    def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Which episodes are over without success, (n,); a robot that falls always is."""
+        return np.zeros(len(numbers.action), dtype=bool)
+
+    def remember(self, numbers: Numbers) -> None:
+        """Updates `numbers.memory` in place after a step, before all else is asked."""
+
+    def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
+        """Of a goal environment: the reward of other goals, any leading axes."""
+        raise hurcules.Error("compute_reward: this is no goal environment")
+
+    def goals(self, numbers: Numbers) -> tuple[Array, Array]:
+        """Of a goal environment: what is achieved and what is desired, (n, goal) each."""
+        raise hurcules.Error("goals: this is no goal environment")
+
+    def camera(self) -> mujoco.MjvCamera:
+        """From where pictures are taken."""
+        return overview_camera()
+
+    def pictured(self, episodes: Any, i: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """The model that is drawn, and data that stands as episode i does."""
+        if self._drawn is None:
+            model = self.visual_model()
+            self._drawn = model, mujoco.MjData(model)
+        model, data = self._drawn
+        pose(model, data, episodes.batch.qpos[i])
+        return model, data
+
+    def visual_model(self) -> mujoco.MjModel:
+        """The simulation's model with all that is only seen."""
+        return self.simulation.model
+
+    def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:
+        """Adds marks (goals, say) to the picture of episode i."""
+
+
+def tick_of(fidelity: str, rate: float, known: tuple[str, ...] = tuple(FIDELITIES)) -> float:
+    """Control tick [s]: the longest of this fidelity that divides the period of the policy.
+
+    Args:
+        fidelity: "exact" (1 ms), "fast" (about 4 ms) or "kinematic" (no physics, about 25 ms).
+        rate: steps of the policy a second [Hz], 10 to 100.
+        known: fidelities that the environment has.
+
+    Raises:
+        hurcules.Error: an unknown fidelity, or a rate out of range.
+    """
+    require_known("fidelity", fidelity, list(known))
+    if not 10.0 <= rate <= 100.0:
+        raise hurcules.Error(f"rate: wanted 10 to 100 Hz, got {rate!r}")
+    return 1.0 / rate / np.ceil(1.0 / rate / FIDELITIES[fidelity] - 1e-9)

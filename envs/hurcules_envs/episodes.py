@@ -1,0 +1,311 @@
+"""Episodes of one environment, side by side on a batch of simulations."""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules_envs.environment import Array, Environment, Numbers, Start
+
+__all__ = ["Episodes", "Step", "numbers_of"]
+
+# read after each step beside what the environment wants
+_WATCHED = (
+    "excess/position",
+    "excess/velocity",
+    "excess/torque",
+    "commanded_excess/position",
+    "monitor/self_collision_distance_m",
+    "monitor/static_margin_m",
+    "self_contacts",
+    "scaled",
+    "status",
+    "changes",
+)
+
+
+class Step(dict[str, NDArray[Any]]):
+    """What a step gave, arrays over the episodes: observation, reward, terminated and info."""
+
+    observation: dict[str, NDArray[np.float32]]
+    reward: Array
+    terminated: NDArray[np.bool_]
+    info: dict[str, NDArray[Any]]
+
+
+class Episodes:
+    """N episodes of one environment.
+
+    Attributes:
+        batch: their simulations.
+        generators: one each, for what differs between episodes.
+        action_names: what each number of the action commands.
+        action_scale: (k,) what 1 means [SI].
+        single_action_space: Box(-1, 1, (k,), float32).
+        single_observation_space: a Box, or a Dict of a goal environment.
+    """
+
+    def __init__(self, environment: Environment, n: int, threads: int) -> None:
+        """Copies the environment's simulation n times.
+
+        Args:
+            environment: what runs.
+            n: how many episodes.
+            threads: 0 for one a processor.
+        """
+        self.environment = environment
+        self.n = n
+        simulation = environment.simulation
+        self.batch = hurcules.SimulationBatch(simulation, n, threads)
+        self.generators = [np.random.default_rng() for _ in range(n)]
+        names = [*environment.quantities, *_WATCHED]
+        self._quantities = hurcules.Quantities(simulation, names)
+        stops = np.cumsum(self._quantities.sizes)
+        self._slices = {
+            name: slice(int(stop) - size, int(stop))
+            for name, size, stop in zip(names, self._quantities.sizes, stops, strict=True)
+        }
+        self._commands = _Commands(simulation, environment.actions)
+        self.action_names, self.action_scale = self._commands.names, self._commands.scale
+        self._memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
+        self._info: dict[str, Array] = {}
+        self._action = np.zeros((n, len(self.action_scale)))
+        self._worst = np.zeros(n)
+        self._ticks = round(1.0 / environment.rate / simulation.dt)
+        self._make_spaces()
+
+    @property
+    def period(self) -> float:
+        """Of a step [s]."""
+        return self._ticks * self.environment.simulation.dt
+
+    def reset(self, mask: NDArray[np.bool_] | None = None) -> None:
+        """New episodes, drawn by their generators.
+
+        Args:
+            mask: (n,) which; None: all.
+        """
+        chosen = np.ones(self.n, dtype=bool) if mask is None else mask
+        starts = np.tile(self._initial, (self.n, 1))
+        seeds = [0] * self.n
+        for i in np.flatnonzero(chosen):
+            generator = self.generators[i]
+            seeds[i] = int(generator.integers(2**31))
+            start = self.environment.start(generator)
+            if start.qpos is not None:
+                starts[i] = start.qpos
+            self._begin(i, start)
+        self.batch.reset(seeds, chosen.tolist(), starts)
+        self._action[chosen] = 0.0
+        self._worst[chosen] = 0.0
+
+    def step(self, action: Array, mask: NDArray[np.bool_] | None = None) -> None:
+        """Holds the commands for one period.
+
+        Args:
+            action: (n, k) checked, in [-1, 1].
+            mask: (n,) which episodes go on; None: all.
+        """
+        self._action = action if mask is None else np.where(mask[:, None], action, 0.0)
+        self.batch.step(self._ticks, self._commands.of(self._action), mask)
+
+    def look(self, *, remember: NDArray[np.bool_] | None) -> Step:
+        """Reads the simulations and judges.
+
+        Args:
+            remember: (n,) whose memory goes on; None: nobody's (after a reset).
+        """
+        values = self.batch.read(self._quantities)
+        views = {name: values[:, part] for name, part in self._slices.items()}
+        numbers = Numbers(views, self._memory, self._action, self.period)
+        environment = self.environment
+        if remember is not None:
+            before = {name: entry.copy() for name, entry in self._memory.items()}
+            environment.remember(numbers)
+            for name, entry in self._memory.items():
+                entry[~remember] = before[name][~remember]
+        terms = environment.reward(numbers)
+        success = environment.succeeded(numbers)
+        over = self.batch.finished
+        failure = environment.failed(numbers) | over
+        step = Step()
+        step.observation = self._observe(numbers)
+        step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
+        step.terminated = failure & ~success | over
+        step.info = self._describe(terms, success, failure, views)
+        return step
+
+    def state(self) -> Array:
+        """(n, s) everything that decides how the episodes go on, generators excepted."""
+        parts = [self.batch.state(), self._action, self._worst[:, None]]
+        parts += [self._memory[name] for name in self._memory]
+        parts += [entry[:, None] for entry in self._info.values()]
+        return np.concatenate(parts, axis=1)
+
+    def restore(self, state: object, mask: NDArray[np.bool_] | None = None) -> None:
+        """Goes back to a state from `state`: the same actions then give the same bits.
+
+        Raises:
+            hurcules.Error: it is no state, or belongs to another environment or version.
+        """
+        values = numbers_of("state", state)
+        rest = self._action.shape[1] + 1 + len(self._info)
+        rest += sum(entry.shape[1] for entry in self._memory.values())
+        own = self.batch.state().shape[1]
+        if values.shape != (self.n, own + rest):
+            raise hurcules.Error(
+                f"state: wanted shape {(self.n, own + rest)}, got {values.shape}: it belongs to "
+                "another environment, or to other options of this one"
+            )
+        chosen = np.ones(self.n, dtype=bool) if mask is None else mask
+        self.batch.restore(values[:, :own], chosen.tolist())
+        place = own
+        for entry in (self._action, self._worst[:, None], *self._memory.values()):
+            entry[chosen] = values[chosen, place : place + entry.shape[1]]
+            place += entry.shape[1]
+        for entry in self._info.values():
+            entry[chosen] = values[chosen, place]
+            place += 1
+
+    def checked(self, action: object, shape: tuple[int, ...]) -> Array:
+        """The action as float64.
+
+        Raises:
+            hurcules.Error: no array of numbers, another shape, NaN or infinity.
+        """
+        values = numbers_of("action", action)
+        if values.shape != shape:
+            raise hurcules.Error(f"action: wanted shape {shape}, got {values.shape}")
+        if not np.isfinite(values).all():
+            bad = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
+            raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
+        return np.clip(values, -1.0, 1.0)
+
+    def _begin(self, i: int, start: Start) -> None:
+        for name, entry in self._memory.items():
+            entry[i] = start.memory.get(name, 0.0)
+        for name, value in start.info.items():
+            self._info.setdefault(name, np.zeros(self.n))[i] = value
+
+    def _make_spaces(self) -> None:
+        environment = self.environment
+        self._initial = np.array(environment.simulation.data.qpos)
+        high = np.concatenate([np.full(g.size, g.bound) for g in environment.observation])
+        self._high = high.astype(np.float32)
+        box = spaces.Box(-self._high, self._high, dtype=np.float32)
+        self.single_action_space = spaces.Box(-1.0, 1.0, self.action_scale.shape, np.float32)
+        self.single_observation_space: spaces.Space[Any] = box
+        if environment.goal:
+            goal = spaces.Box(-100.0, 100.0, (environment.goal,), np.float32)
+            self.single_observation_space = spaces.Dict(
+                {"observation": box, "achieved_goal": goal, "desired_goal": goal}
+            )
+
+    def _observe(self, numbers: Numbers) -> dict[str, NDArray[np.float32]]:
+        groups = self.environment.observe(numbers)
+        parts = [groups[group.name] for group in self.environment.observation]
+        values = np.concatenate(parts, axis=1, dtype=np.float32)
+        result = {"observation": np.clip(values, -self._high, self._high)}
+        if self.environment.goal:
+            achieved, desired = self.environment.goals(numbers)
+            result["achieved_goal"] = achieved.astype(np.float32)
+            result["desired_goal"] = desired.astype(np.float32)
+        return result
+
+    def _describe(
+        self,
+        terms: Mapping[str, Array],
+        success: NDArray[np.bool_],
+        failure: NDArray[np.bool_],
+        views: Mapping[str, Array],
+    ) -> dict[str, NDArray[Any]]:
+        excess = views["excess/position"][:, 0]
+        touching = views["self_contacts"][:, 0]
+        cost = (excess > self._worst + 1e-12) | (touching > 0)
+        self._worst = excess.copy()
+        info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
+        info |= {
+            "is_success": success,
+            "failed": failure,
+            "cost": cost.astype(np.float64),
+            "limit_excess": excess.copy(),
+            "limit_excess_velocity": views["excess/velocity"][:, 0].copy(),
+            "limit_excess_torque": views["excess/torque"][:, 0].copy(),
+            "commanded_excess": views["commanded_excess/position"][:, 0].copy(),
+            "self_distance": views["monitor/self_collision_distance_m"][:, 0].copy(),
+            "self_contacts": touching.copy(),
+            "support_margin": views["monitor/static_margin_m"][:, 0].copy(),
+            "scaled": views["scaled"][:, 0].copy(),
+            "solver_status": views["status"][:, 0].copy(),
+            "solver_changes": views["changes"][:, 0].copy(),
+            "time": np.asarray(self.batch.time),
+        }
+        info |= {name: entry.copy() for name, entry in self._info.items()}
+        return info
+
+
+class _Commands:
+    """From actions in [-1, 1] to commands of the controller."""
+
+    def __init__(self, simulation: hurcules.Simulation, actions: Mapping[str, float]) -> None:
+        names = simulation.command_names
+        scale = np.array(simulation.command_scale)
+        sizes = dict(simulation.controller.channels)
+        first, place = {}, 0
+        for name, size in simulation.controller.channels:
+            first[name] = place
+            place += size
+        columns: list[int] = []
+        for channel in actions:
+            hurcules.validation.require_known("channel", channel, list(sizes))
+            columns += range(first[channel], first[channel] + sizes[channel])
+        self._columns = np.array(columns)
+        self._size = len(names)
+        self.names = [names[i] for i in columns]
+        self.scale = np.concatenate(
+            [np.broadcast_to(value, sizes[channel]) for channel, value in actions.items()]
+        ).astype(np.float64)
+        if (self.scale > scale[self._columns] + 1e-12).any():
+            raise hurcules.Error("an action's scale is larger than that of its channel")
+
+    def of(self, action: Array) -> Array:
+        commands = np.zeros((len(action), self._size))
+        commands[:, self._columns] = action * self.scale
+        return commands
+
+
+def numbers_of(what: str, values: object) -> Array:
+    """Any array of numbers as float64.
+
+    Raises:
+        hurcules.Error: it is none; the text says what came.
+    """
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "fiub":
+            return array.astype(np.float64)
+    except (TypeError, ValueError):  # ragged lists and the like
+        pass
+    came = " ".join(reprlib.repr(values).split())
+    raise hurcules.Error(f"{what}: wanted an array of numbers, got {came}")
+
+
+def seeds_of(seed: int | Sequence[int | None] | None, n: int) -> list[int | None]:
+    """One seed an episode: seed + i, a list as it is, or None each.
+
+    Raises:
+        hurcules.Error: a list of another length.
+    """
+    if seed is None:
+        return [None] * n
+    if isinstance(seed, int | np.integer):
+        return [int(seed) + i for i in range(n)]
+    if len(seed) != n:
+        raise hurcules.Error(f"seed: wanted {n} numbers, got {len(seed)}")
+    return list(seed)

@@ -1,0 +1,53 @@
+"""Environments by name."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any
+
+import gymnasium
+
+import hurcules
+from hurcules_envs.environment import Environment
+
+__all__ = ["make_environment", "register"]
+
+
+def register(name: str, environment: str, max_episode_steps: int, **options: Any) -> None:
+    """Makes an environment known to `gymnasium.make` and `gymnasium.make_vec`.
+
+    Args:
+        name: id, "Namespace/Name-v0".
+        environment: "module:Class" of an `Environment`.
+        max_episode_steps: time limit [steps].
+        options: of the environment, by keyword; who makes it may give others.
+    """
+    gymnasium.register(
+        id=name,
+        entry_point="hurcules_envs.single:SingleEnv",
+        vector_entry_point="hurcules_envs.vector:NativeVectorEnv",
+        max_episode_steps=max_episode_steps,
+        kwargs={"environment": environment, **options},
+    )
+
+
+def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
+    """Builds an environment.
+
+    Args:
+        path: "module:Class".
+        options: of the class, by keyword.
+
+    Raises:
+        hurcules.Error: no such class, or no such option; the text lists those that exist.
+    """
+    module, _, name = path.partition(":")
+    kind = getattr(import_module(module), name, None)
+    if not (inspect.isclass(kind) and issubclass(kind, Environment)):
+        raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
+    known = [word for word in inspect.signature(kind).parameters]
+    for option in options:
+        hurcules.validation.require_known("option", option, known)
+    return kind(**options)

@@ -1,0 +1,241 @@
+"""Robots that reach: a model, its hands, and postures in which it touches nothing and stands.
+
+Hurcules in both forms, or any MJCF robot with one or two frames named. Observations and actions of
+the environments that take `robot=` are in task space only, so that they are the same for all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+
+__all__ = ["Postures", "RobotSetup", "load_robot", "sample_postures"]
+
+Array = NDArray[np.float64]
+
+POOL = 256  # postures that starts and goals are drawn from
+POOL_SEED = 20261123
+
+
+@dataclass(frozen=True)
+class RobotSetup:
+    """A robot as it is simulated.
+
+    Attributes:
+        name: "rescue", "manipulation" or a path.
+        model: robot and ground.
+        hands: names of the frames that reach.
+        joints: names of the coordinates.
+        keyframe: where it stands at first, "" for the model's initial posture.
+        support: body that it stands on, "" for a fixed base.
+        servo: see hurcules.servo_table; {}: reckoned from the model.
+        ranges: by coordinate, narrower than the model's.
+        drives: its tracks drive it.
+    """
+
+    name: str
+    model: mujoco.MjModel
+    hands: tuple[str, ...]
+    joints: tuple[str, ...]
+    keyframe: str
+    support: str = ""
+    servo: dict[str, tuple[float, float]] = field(default_factory=dict)
+    ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
+    drives: bool = False
+
+    def robot(self) -> hurcules.Robot:
+        """A Robot at its keyframe, standing on its support."""
+        robot = hurcules.Robot(self.model, list(self.joints))
+        robot.set_keyframe(self.keyframe)
+        if self.support:
+            robot.stand_on(self.support)
+        return robot
+
+    def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
+        """The first level: the limits of the coordinates, within `ranges`."""
+        limits = hurcules.JointLimits("limits", robot)
+        for name, (lower, upper) in self.ranges.items():
+            limits.set_range(name, lower, upper)
+        return limits
+
+
+@dataclass(frozen=True)
+class Postures:
+    """Postures without contact, standing safely.
+
+    Attributes:
+        qpos: (p, nq).
+        hands: (p, h, 3) [m] where the hands are, in the world.
+        turns: (p, h, 3) their rotation vectors.
+    """
+
+    qpos: Array
+    hands: Array
+    turns: Array
+
+
+def load_robot(
+    robot: str, frames: Sequence[str] | None = None, joints: Sequence[str] | None = None
+) -> RobotSetup:
+    """Loads a robot by name or path.
+
+    Args:
+        robot: "rescue", "manipulation", or the path of an MJCF file.
+        frames: of a path: the frames of its hands, one or two.
+        joints: of a path: its coordinates; None: see hurcules.Robot.
+
+    Raises:
+        hurcules.Error: an unknown name, no frames, or a frame that does not exist.
+    """
+    return _load(robot, None if frames is None else tuple(frames), joints and tuple(joints))
+
+
+@lru_cache(maxsize=8)
+def _load(
+    robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | None
+) -> RobotSetup:
+    if robot in hurcules.models.names():
+        if frames or joints:
+            raise hurcules.Error(f"robot '{robot}' has hands and joints of its own")
+        return _hurcules(robot)
+    if not Path(robot).is_file():
+        known = ", ".join(hurcules.models.names())
+        raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
+    if not frames or not 1 <= len(frames) <= 2:
+        raise hurcules.Error(
+            f"robot: {robot} wants frames=(...), the names of its one or two hands, got {frames!r}"
+        )
+    try:
+        model = mujoco.MjModel.from_xml_path(robot)
+    except ValueError as error:
+        raise hurcules.Error(f"{robot}: {error}") from error
+    own = hurcules.Robot(model, list(joints or []))
+    for frame in frames:
+        own.position(frame)
+    return RobotSetup(robot, model, frames, tuple(own.coordinate_names), "")
+
+
+def _hurcules(name: str) -> RobotSetup:
+    model = hurcules.models.load(name, "flat", bed=False, visuals=False)
+    robot = hurcules.Robot(model)
+    ranges = hurcules.mode_ranges("rescue_ready_without_bed")
+    return RobotSetup(
+        name,
+        model,
+        ("L_tcp", "R_tcp"),
+        tuple(robot.coordinate_names),
+        "ready",
+        support="lower_leg_L",
+        servo=hurcules.servo_table(name),
+        ranges=ranges if name == "rescue" else {},
+        drives=True,
+    )
+
+
+@lru_cache(maxsize=8)
+def _pool(
+    robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | None, least: float
+) -> Postures:
+    return _sample(load_robot(robot, frames, joints), least)
+
+
+def sample_postures(
+    robot: str,
+    frames: Sequence[str] | None = None,
+    joints: Sequence[str] | None = None,
+    least_height: float = 0.25,
+) -> Postures:
+    """Postures to start from and to reach, always the same for one robot.
+
+    Args:
+        robot: as for `load_robot`.
+        frames: the same.
+        joints: the same.
+        least_height: [m] of a hand over the ground.
+
+    Raises:
+        hurcules.Error: not enough of them are found.
+    """
+    own = None if frames is None else tuple(frames)
+    return _pool(robot, own, joints and tuple(joints), least_height)
+
+
+def _sample(setup: RobotSetup, least: float) -> Postures:
+    generator = np.random.default_rng(POOL_SEED)
+    robot, data = setup.robot(), mujoco.MjData(setup.model)
+    first = robot.configuration.copy()
+    lower, upper = _ranges(setup, robot, first)
+    qpos, hands, turns = [], [], []
+    for _ in range(200 * POOL):
+        robot.set_configuration(generator.uniform(lower, upper))
+        places = [robot.position(frame) for frame in setup.hands]
+        if min(place[2] for place in places) < least:
+            continue
+        data.qpos[:] = robot.qpos
+        if not _stands_free(setup.model, data, robot):
+            continue
+        qpos.append(robot.qpos.copy())
+        hands.append(places)
+        turns.append([_rotation_vector(robot.orientation(frame)) for frame in setup.hands])
+        if len(qpos) == POOL:
+            return Postures(np.array(qpos), np.array(hands), np.array(turns))
+    raise hurcules.Error(
+        f"robot {setup.name}: only {len(qpos)} of {POOL} postures without contact were found in "
+        f"{200 * POOL} trials"
+    )
+
+
+def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Array, Array]:
+    """Between which angles a posture is drawn; legs and trunk stay near their keyframe."""
+    lower, upper = [], []
+    for coordinate, value in zip(robot.coordinates, first, strict=True):
+        low, high = setup.ranges.get(coordinate.name, (coordinate.lower, coordinate.upper))
+        low, high = max(low, -np.pi, coordinate.lower), min(high, np.pi, coordinate.upper)
+        margin = 0.05 * (high - low)
+        low, high = low + margin, high - margin
+        near = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
+        if setup.drives and coordinate.name in near:
+            reach = near[coordinate.name]
+            low, high = max(low, value - reach), min(high, value + reach)
+        lower.append(low)
+        upper.append(max(low, high))
+    return np.array(lower), np.array(upper)
+
+
+def _stands_free(model: mujoco.MjModel, data: mujoco.MjData, robot: hurcules.Robot) -> bool:
+    """Nothing of the robot touches but its tracks, and it stands within them."""
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_collision(model, data)
+    feet: list[Any] = []
+    for contact in data.contact:
+        one, other = model.geom_bodyid[contact.geom1], model.geom_bodyid[contact.geom2]
+        if model.geom_contype[contact.geom1] == 1 or model.geom_contype[contact.geom2] == 1:
+            feet.append(contact.pos[:2].copy())
+            continue
+        if contact.dist < 0.0 and model.body_weldid[one] != model.body_weldid[other]:
+            return False
+    if not feet:
+        return True
+    low, high = np.min(feet, axis=0) + STANDS, np.max(feet, axis=0) - STANDS
+    com = robot.com[:2]
+    return bool((com > low).all() and (com < high).all())
+
+
+STANDS = 0.10  # [m] of the centre of mass within the contacts
+
+
+def _rotation_vector(R: Array) -> Array:
+    quaternion, vector = np.zeros(4), np.zeros(3)
+    mujoco.mju_mat2Quat(quaternion, R.reshape(9))
+    mujoco.mju_quat2Vel(vector, quaternion, 1.0)
+    return vector

@@ -1,0 +1,181 @@
+"""One episode at a time: Gymnasium's Env on a batch of one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium
+import mujoco
+import numpy as np
+from gymnasium.utils import EzPickle
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules.rendering import make_renderer, pose
+from hurcules_envs.episodes import Episodes, Step
+from hurcules_envs.registry import make_environment
+
+__all__ = ["SingleEnv"]
+
+WIDTH, HEIGHT = 640, 368  # [pixels], multiples of 16 as encoders want them
+
+Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
+
+
+class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
+    """An environment with Gymnasium's interface.
+
+    Attributes:
+        environment: what it is an episode of.
+        action_names: what each number of the action commands.
+        action_scale: (k,) what 1 in the action means [SI].
+        task_description: one sentence.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 20}  # noqa: RUF012
+
+    def __init__(self, environment: str, render_mode: str | None = None, **options: Any) -> None:
+        """Builds the environment.
+
+        Args:
+            environment: "module:Class" of an `Environment`.
+            render_mode: None, "rgb_array", or "human" (a window).
+            options: of the environment, by keyword.
+
+        Raises:
+            hurcules.Error: an unknown render mode or option, or a bad value.
+        """
+        EzPickle.__init__(self, environment, render_mode, **options)
+        hurcules.validation.require_known(
+            "render mode", render_mode or "rgb_array", self.metadata["render_modes"]
+        )
+        self.render_mode = render_mode
+        self.environment = make_environment(environment, options)
+        self._episodes = Episodes(self.environment, 1, threads=1)
+        self.metadata = self.metadata | {"render_fps": round(1.0 / self._episodes.period)}
+        self.action_names = self._episodes.action_names
+        self.action_scale = self._episodes.action_scale
+        self.action_space = self._episodes.single_action_space
+        self.observation_space = self._episodes.single_observation_space
+        self.task_description = self.environment.task_description
+        self._viewer: Any = None
+        self._renderer: mujoco.Renderer | None = None
+
+    @property
+    def simulation(self) -> hurcules.Simulation:
+        """The loop underneath."""
+        return self._episodes.batch[0]
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Starts an episode.
+
+        Args:
+            seed: of the generator that draws it; None: it goes on.
+            options: none are known.
+
+        Raises:
+            hurcules.Error: an option that does not exist.
+        """
+        super().reset(seed=seed)
+        if options:
+            raise hurcules.Error(f"reset: no options exist, got {', '.join(map(str, options))}")
+        self._episodes.generators[0] = self.np_random
+        self._episodes.reset()
+        step = self._episodes.look(remember=None)
+        return _first(step), _info(step)
+
+    def step(
+        self, action: NDArray[np.float32]
+    ) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Holds the commands for one period.
+
+        Args:
+            action: (k,) in [-1, 1], see `action_names`; zero holds.
+
+        Returns:
+            Observation, reward, terminated, truncated (never; the time limit is Gymnasium's), info.
+
+        Raises:
+            hurcules.Error: the action is no array of numbers, has another shape or holds NaN or
+                infinity.
+        """
+        values = self._episodes.checked(action, self.action_space.shape or ())
+        self._episodes.step(values[None])
+        step = self._episodes.look(remember=np.ones(1, dtype=bool))
+        if self.render_mode == "human":
+            self.render()
+        return _first(step), float(step.reward[0]), bool(step.terminated[0]), False, _info(step)
+
+    def compute_reward(
+        self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: Any
+    ) -> NDArray[np.float64] | float:
+        """The reward of a goal environment for other goals; any leading axes.
+
+        Raises:
+            hurcules.Error: it is no goal environment.
+        """
+        return self.environment.compute_reward(achieved_goal, desired_goal, info)
+
+    def get_state(self) -> NDArray[np.float64]:
+        """(s,) everything that decides how the episode goes on, generator excepted."""
+        return self._episodes.state()[0]
+
+    def set_state(self, state: NDArray[np.float64]) -> None:
+        """Goes back to a state from `get_state`: the same actions then give the same bits.
+
+        Raises:
+            hurcules.Error: it is no state, or belongs to another environment or version.
+        """
+        self._episodes.restore(np.asarray(state)[None])
+
+    def observe(self) -> Observation:
+        """The observation now, after `set_state` say."""
+        return _first(self._episodes.look(remember=None))
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """A picture (368, 640, 3) in render mode "rgb_array"; None in "human", which has a window.
+
+        Raises:
+            hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
+        """
+        if self.render_mode is None:
+            gymnasium.logger.warn("render() without a render mode: pass render_mode='rgb_array'")
+            return None
+        model, data = self.environment.pictured(self._episodes, 0)
+        if self.render_mode == "human":
+            self._show(model, data)
+            return None
+        if self._renderer is None:
+            self._renderer = make_renderer(model, WIDTH, HEIGHT)
+        self._renderer.update_scene(data, self.environment.camera())
+        self.environment.draw(self._episodes, 0, self._renderer.scene)
+        return self._renderer.render()
+
+    def close(self) -> None:
+        """Gives the renderer and the window back."""
+        if self._renderer is not None:
+            self._renderer.close()
+        if self._viewer is not None:
+            self._viewer.close()
+        self._renderer = self._viewer = None
+
+    def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        import mujoco.viewer
+
+        if self._viewer is None:
+            self._shown = mujoco.MjData(model)
+            self._viewer = mujoco.viewer.launch_passive(model, self._shown)
+        pose(model, self._shown, data.qpos)
+        self._viewer.sync()
+
+
+def _first(step: Step) -> Observation:
+    if len(step.observation) == 1:
+        return step.observation["observation"][0].copy()
+    return {name: values[0].copy() for name, values in step.observation.items()}
+
+
+def _info(step: Step) -> dict[str, Any]:
+    return {name: values[0].item() for name, values in step.info.items()}

@@ -1,0 +1,217 @@
+"""Many episodes at once: Gymnasium's VectorEnv on one batch of simulations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules_envs.episodes import Episodes, Step, seeds_of
+from hurcules_envs.registry import make_environment
+
+__all__ = ["NativeVectorEnv"]
+
+
+class NativeVectorEnv(VectorEnv[Any, Any, Any]):
+    """Episodes side by side, stepped in one call on a pool of threads.
+
+    The bits of each episode are those that it has alone.
+    """
+
+    def __init__(
+        self,
+        environment: str,
+        num_envs: int = 1,
+        max_episode_steps: int | None = None,
+        threads: int = 0,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        render_mode: str | None = None,
+        **options: Any,
+    ) -> None:
+        """Builds the environment once, and its episodes.
+
+        Args:
+            environment: "module:Class" of an `Environment`.
+            num_envs: how many episodes.
+            max_episode_steps: after so many an episode is truncated; None: never.
+            threads: of the pool; 0 for one a processor.
+            autoreset_mode: NextStep (default), SameStep or Disabled, see Gymnasium.
+            render_mode: None; pictures are drawn by the single environment.
+            options: of the environment, by keyword.
+
+        Raises:
+            hurcules.Error: an unknown option, or a bad value.
+        """
+        if not isinstance(num_envs, int) or num_envs < 1:
+            raise hurcules.Error(f"num_envs: wanted a whole number >= 1, got {num_envs!r}")
+        if render_mode is not None:
+            raise hurcules.Error("render_mode: a vector of environments draws no pictures")
+        self.num_envs = num_envs
+        self.environment = make_environment(environment, options)
+        self._episodes = Episodes(self.environment, num_envs, threads)
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {
+            "autoreset_mode": self.autoreset_mode,
+            "render_modes": [],
+            "render_fps": round(1.0 / self._episodes.period),
+        }
+        self.render_mode = None
+        self.action_names = self._episodes.action_names
+        self.action_scale = self._episodes.action_scale
+        self.single_action_space = self._episodes.single_action_space
+        self.single_observation_space = self._episodes.single_observation_space
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.task_description = self.environment.task_description
+        self._limit = np.inf if max_episode_steps is None else max_episode_steps
+        self._steps = np.zeros(num_envs, dtype=np.int64)
+        self._over = np.zeros(num_envs, dtype=bool)
+
+    @property
+    def batch(self) -> hurcules.SimulationBatch:
+        """The loops underneath."""
+        return self._episodes.batch
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Starts all episodes, or those of a mask.
+
+        Args:
+            seed: a number (episode i gets seed + i), one each, or None: their generators go on.
+            options: "reset_mask": (num_envs,) bool, which.
+
+        Raises:
+            hurcules.Error: an unknown option, or a mask of another shape.
+        """
+        options = dict(options or {})
+        mask = options.pop("reset_mask", None)
+        if options:
+            raise hurcules.Error(
+                f"reset: the only option is reset_mask, got {', '.join(map(str, options))}"
+            )
+        chosen = np.ones(self.num_envs, dtype=bool) if mask is None else np.asarray(mask)
+        if chosen.shape != (self.num_envs,) or chosen.dtype != bool or not chosen.any():
+            raise hurcules.Error(
+                f"reset_mask: wanted ({self.num_envs},) bool, at least one true, got {mask!r}"
+            )
+        for i, one in enumerate(seeds_of(seed, self.num_envs)):
+            if one is not None and chosen[i]:
+                self._episodes.generators[i] = np.random.default_rng(one)
+        self._begin(chosen)
+        step = self._episodes.look(remember=None)
+        return _observation(step), _info(step)
+
+    def step(self, actions: NDArray[Any]) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
+        """Holds the commands of all episodes for one period.
+
+        Args:
+            actions: (num_envs, k) in [-1, 1], see `action_names`; zero holds.
+
+        Raises:
+            hurcules.Error: no array of numbers, another shape, NaN or infinity.
+        """
+        episodes = self._episodes
+        values = episodes.checked(actions, self.action_space.shape or ())
+        over = self._over
+        if self.autoreset_mode == AutoresetMode.DISABLED and over.any():
+            raise hurcules.Error(
+                f"episodes {np.flatnonzero(over).tolist()} are over: reset them by reset_mask"
+            )
+        goes_on = ~over
+        episodes.step(values, None if goes_on.all() else goes_on)
+        if over.any():  # NEXT_STEP: the step after an end is the reset
+            self._begin(over)
+        step = episodes.look(remember=goes_on)
+        self._steps[goes_on] += 1
+        reward = np.where(goes_on, step.reward, 0.0)
+        terminated = step.terminated & goes_on
+        truncated = (self._steps >= self._limit) & goes_on & ~terminated
+        ended = terminated | truncated
+        observation, info = _observation(step), _info(step)
+        if self.autoreset_mode == AutoresetMode.SAME_STEP and ended.any():
+            self._begin(ended)
+            observation, info = self._same_step(ended, observation, info)
+            ended = np.zeros(self.num_envs, dtype=bool)
+        self._over = ended
+        return observation, reward, terminated, truncated, info
+
+    def get_state(self) -> NDArray[np.float64]:
+        """(num_envs, s) everything that decides how the episodes go on, generators excepted."""
+        counters = np.stack([self._steps, self._over], axis=1).astype(np.float64)
+        return np.concatenate([self._episodes.state(), counters], axis=1)
+
+    def set_state(self, state: NDArray[np.float64]) -> None:
+        """Goes back to states from `get_state`: the same actions then give the same bits.
+
+        Raises:
+            hurcules.Error: they are no states, or belong to another environment or version.
+        """
+        values = np.asarray(state, dtype=np.float64)
+        self._episodes.restore(values[:, :-2])
+        self._steps = values[:, -2].astype(np.int64)
+        self._over = values[:, -1] > 0.0
+
+    def observe(self) -> Any:
+        """The observations now, after `set_state` say."""
+        return _observation(self._episodes.look(remember=None))
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Nothing is held beyond memory."""
+
+    def _begin(self, chosen: NDArray[np.bool_]) -> None:
+        self._episodes.reset(chosen)
+        self._steps[chosen] = 0
+        self._over = self._over & ~chosen
+
+    def _same_step(
+        self, ended: NDArray[np.bool_], observation: Any, info: dict[str, Any]
+    ) -> tuple[Any, dict[str, Any]]:
+        """The first observations of new episodes; the last ones of the old under `final_`."""
+        step = self._episodes.look(remember=None)
+        fresh, fresh_info = _observation(step), _info(step)
+        final_obs = np.full(self.num_envs, None, dtype=object)
+        for i in np.flatnonzero(ended):
+            final_obs[i] = _row(observation, int(i))
+        final_info = {
+            name: np.where(ended, values, np.zeros_like(values)) for name, values in info.items()
+        }
+        final_info |= {f"_{name}": ended.copy() for name in _names(info)}
+        merged = {name: _chosen(ended, fresh_info[name], info[name]) for name in info}
+        merged |= {"final_obs": final_obs, "_final_obs": ended.copy()}
+        merged |= {"final_info": final_info, "_final_info": ended.copy()}
+        if isinstance(self.single_observation_space, spaces.Dict):
+            return {n: _chosen(ended, fresh[n], observation[n]) for n in observation}, merged
+        return _chosen(ended, fresh, observation), merged
+
+
+def _chosen(mask: NDArray[np.bool_], one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
+    return np.where(mask.reshape(-1, *[1] * (one.ndim - 1)), one, other)
+
+
+def _names(info: dict[str, Any]) -> list[str]:
+    return [name for name in info if not name.startswith("_")]
+
+
+def _row(observation: Any, i: int) -> Any:
+    if isinstance(observation, dict):
+        return {name: values[i].copy() for name, values in observation.items()}
+    return observation[i].copy()
+
+
+def _observation(step: Step) -> Any:
+    return step.observation if len(step.observation) > 1 else step.observation["observation"]
+
+
+def _info(step: Step) -> dict[str, Any]:
+    known = np.ones(len(step.reward), dtype=bool)
+    return {**step.info, **{f"_{name}": known.copy() for name in step.info}}
