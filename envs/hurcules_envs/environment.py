@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import mujoco
@@ -88,19 +89,25 @@ class Environment(ABC):
         simulation: the loop, at its start; episodes run on copies of it.
         actions: by channel what 1 in the action means [SI]; the channels of the controller that a
             policy commands, in this order.
+        observation: its groups, one after the other.
+        quantities: what is read after each step, names for hurcules.Quantities.
+        memory: by name how many numbers an episode remembers.
+        terms: of the reward, in the order in which they are added.
+        goal: how many numbers a goal has; 0: no goal environment.
+        rate: steps of the policy a second [Hz].
+        task_description: what is wanted, in a sentence.
     """
 
-    observation: ClassVar[tuple[Group, ...]]
-    quantities: ClassVar[tuple[str, ...]] = ()  # names for hurcules.Quantities
-    memory: ClassVar[Mapping[str, int]] = {}  # by name how many numbers an episode remembers
-    terms: ClassVar[tuple[str, ...]]  # of the reward, in the order in which they are added
-    goal: ClassVar[int] = 0  # numbers of the goal; 0: no goal environment
-    rate: ClassVar[float] = 20.0  # [Hz] steps a second by default
-    fidelities: ClassVar[tuple[str, ...]] = tuple(FIDELITIES)
+    terms: ClassVar[tuple[str, ...]]
     task_description: ClassVar[str]
 
     simulation: hurcules.Simulation
     actions: Mapping[str, float]
+    observation: tuple[Group, ...]
+    quantities: tuple[str, ...] = ()
+    memory: Mapping[str, int] = MappingProxyType({})
+    goal: int = 0
+    rate: float = 20.0
     _drawn: tuple[mujoco.MjModel, mujoco.MjData] | None = None
 
     @abstractmethod
@@ -123,7 +130,7 @@ class Environment(ABC):
         """Which episodes are over without success, (n,); a robot that falls always is."""
         return np.zeros(len(numbers.action), dtype=bool)
 
-    def remember(self, numbers: Numbers) -> None:
+    def remember(self, numbers: Numbers) -> None:  # noqa: B027  most remember nothing
         """Updates `numbers.memory` in place after a step, before all else is asked."""
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
@@ -151,7 +158,7 @@ class Environment(ABC):
         """The simulation's model with all that is only seen."""
         return self.simulation.model
 
-    def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:
+    def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:  # noqa: B027  no marks
         """Adds marks (goals, say) to the picture of episode i."""
 
 

@@ -100,7 +100,7 @@ class Episodes:
             start = self.environment.start(generator)
             if start.qpos is not None:
                 starts[i] = start.qpos
-            self._begin(i, start)
+            self._begin(int(i), start)
         self.batch.reset(seeds, chosen.tolist(), starts)
         self._action[chosen] = 0.0
         self._worst[chosen] = 0.0

@@ -100,9 +100,7 @@ def load_robot(
 
 
 @lru_cache(maxsize=8)
-def _load(
-    robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | None
-) -> RobotSetup:
+def _load(robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | None) -> RobotSetup:
     if robot in hurcules.models.names():
         if frames or joints:
             raise hurcules.Error(f"robot '{robot}' has hands and joints of its own")

@@ -11,6 +11,7 @@ from gymnasium.utils import EzPickle
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules import _core
 from hurcules.rendering import make_renderer, pose
 from hurcules_envs.episodes import Episodes, Step
 from hurcules_envs.registry import make_environment
@@ -62,7 +63,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self._renderer: mujoco.Renderer | None = None
 
     @property
-    def simulation(self) -> hurcules.Simulation:
+    def simulation(self) -> _core.Simulation:
         """The loop underneath."""
         return self._episodes.batch[0]
 

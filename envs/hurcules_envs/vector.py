@@ -182,11 +182,13 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         final_obs = np.full(self.num_envs, None, dtype=object)
         for i in np.flatnonzero(ended):
             final_obs[i] = _row(observation, int(i))
-        final_info = {
+        final_info: dict[str, Any] = {
             name: np.where(ended, values, np.zeros_like(values)) for name, values in info.items()
         }
         final_info |= {f"_{name}": ended.copy() for name in _names(info)}
-        merged = {name: _chosen(ended, fresh_info[name], info[name]) for name in info}
+        merged: dict[str, Any] = {
+            name: _chosen(ended, fresh_info[name], info[name]) for name in info
+        }
         merged |= {"final_obs": final_obs, "_final_obs": ended.copy()}
         merged |= {"final_info": final_info, "_final_info": ended.copy()}
         if isinstance(self.single_observation_space, spaces.Dict):

@@ -226,7 +226,8 @@ void bind_options(py::module_& module) {
       .def_readwrite("sensors", &Options::sensors)
       .def_readwrite("monitors", &Options::monitors)
       .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer")
-      .def_readwrite("physics", &Options::physics, "false: the robot is where it is commanded to be");
+      .def_readwrite("physics", &Options::physics,
+                     "false: the robot is where it is commanded to be");
 }
 
 void bind_run(py::class_<Simulation>& simulation) {
@@ -344,9 +345,10 @@ void reset_batch(SimulationBatch& self, const std::vector<std::uint64_t>& seeds,
 
 void restore_batch(SimulationBatch& self, const Matrix& states,
                    const std::optional<std::vector<bool>>& mask) {
-  require(states.rows() == static_cast<Index>(self.size()) && (!mask || mask->size() == self.size()),
-          "restore wants " + std::to_string(self.size()) + " states, " +
-              std::to_string(states.rows()) + " came");
+  require(
+      states.rows() == static_cast<Index>(self.size()) && (!mask || mask->size() == self.size()),
+      "restore wants " + std::to_string(self.size()) + " states, " + std::to_string(states.rows()) +
+          " came");
   py::gil_scoped_release release;
   self.for_each([&](std::size_t i) {
     if (mask && !(*mask)[i]) return;
@@ -449,7 +451,8 @@ void bind_sim(py::module_& module) {
       .def(py::init(&make_own), "model"_a, "data"_a, "controller"_a, "options"_a = MissionOptions{},
            py::keep_alive<1, 2>(), py::keep_alive<1, 3>());
   py::class_<Quantities>(module, "Quantities", kQuantities)
-      .def(py::init<const Simulation&, const std::vector<std::string>&>(), "simulation"_a, "names"_a)
+      .def(py::init<const Simulation&, const std::vector<std::string>&>(), "simulation"_a,
+           "names"_a)
       .def_property_readonly("names", &Quantities::names)
       .def_property_readonly("sizes", &Quantities::sizes, "of each name")
       .def("__len__", &Quantities::size);

@@ -188,8 +188,8 @@ std::shared_ptr<WholeBodyController> make(
     const py::dict& stacks, const std::string& control, std::optional<double> dt,
     const std::string& base, const std::string& support,
     const std::map<std::string, std::pair<double, double>>& servo, bool feed_forward,
-    bool torque_scaling,
-    const std::optional<DriveOptions>& drive, const std::pair<std::string, std::string>& belts,
+    bool torque_scaling, const std::optional<DriveOptions>& drive,
+    const std::pair<std::string, std::string>& belts,
     const std::optional<VelocityControllerOptions>& velocity,
     const std::optional<AccelerationControllerOptions>& acceleration) {
   auto held = std::make_shared<Held>();

@@ -2144,6 +2144,7 @@ class WholeBodyController:
       servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
         default reckoned from the model.
       feed_forward: servos are told the torques that the model says.
+      torque_scaling: the motion slows down where a motor would be asked for more than its peak.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.
       belts: names of the left and right joint of the driven belts.
       velocity: VelocityControllerOptions; its dt is not read.
@@ -2165,6 +2166,7 @@ class WholeBodyController:
         support: str = "",
         servo: collections.abc.Mapping[str, tuple[float, float]] = {},
         feed_forward: bool = True,
+        torque_scaling: bool = True,
         drive: DriveOptions | None = None,
         belts: tuple[str, str] = ("L_lower_belt", "R_lower_belt"),
         velocity: VelocityControllerOptions | None = None,
@@ -2663,6 +2665,7 @@ class SimulationOptions:
         sensors: SensorOptions = ...,
         monitors: MonitorOptions = ...,
         max_seconds: float = ...,
+        physics: bool = True,
     ) -> None: ...
     @property
     def max_seconds(self) -> float:
@@ -2670,6 +2673,12 @@ class SimulationOptions:
 
     @max_seconds.setter
     def max_seconds(self, arg0: float) -> None: ...
+    @property
+    def physics(self) -> bool:
+        """false: the robot is where it is commanded to be"""
+
+    @physics.setter
+    def physics(self, arg0: bool) -> None: ...
     @property
     def seed(self) -> int: ...
     @seed.setter
@@ -2762,7 +2771,10 @@ class Simulation:
     def ray_angles(self) -> NDArray[np.float64]:
         """(rays,) [rad] about z of the scanner's site, 0 along its x; empty without a scanner."""
 
-    def reset(self, seed: int) -> None:
+    def read(self, quantities: Quantities) -> NDArray[np.float64]:
+        """(m,) their present values."""
+
+    def reset(self, seed: int, start: ArrayLike | None = None) -> None:
         """Back to the start of the mission, varied by this seed."""
 
     def restore(self, state: ArrayLike) -> None:
@@ -2860,6 +2872,30 @@ class Simulation:
     def time(self) -> float:
         """[s] since reset"""
 
+class Quantities:
+    """Named numbers of a simulation, found once and read together.
+
+    Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FRAME (3 each, in the
+    world), matrix/FRAME (9); value/TASK, target/TASK; joint/JOINT, joint_velocity/JOINT; sensor/SENSOR;
+    monitor/NAME; excess/KIND, commanded_excess/KIND (position, velocity, torque: the worst so far);
+    contact_force/BODY; self_contacts; scaled; and each channel of the observation and the log, alone
+    ("q/KN") or as a group ("q").
+
+    Args:
+      simulation: Simulation that they are of; they can be read from any copy of it.
+      names: list of names.
+
+    Raises:
+      Error: a name that does not exist, with those that do."""
+
+    def __init__(self, simulation: Simulation, names: collections.abc.Sequence[str]) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def sizes(self) -> list[int]:
+        """of each name"""
+
 class SimulationBatch:
     """Many copies of a simulation on threads, stepped in one call.
 
@@ -2887,22 +2923,24 @@ class SimulationBatch:
     def observation(self) -> NDArray[np.float64]:
         """(n, m) what a policy sees now, see Simulation.observation_names."""
 
+    def read(self, quantities: Quantities) -> NDArray[np.float64]:
+        """(n, m) their present values."""
+
     def reset(
         self,
         seeds: collections.abc.Sequence[int],
         mask: collections.abc.Sequence[bool] | None = None,
+        starts: ArrayLike | None = None,
     ) -> None:
-        """Back to the start; seeds (n,), mask (n,) bool: which."""
+        """Back to the start; seeds (n,), mask (n,) bool: which, starts (n, nq): where that is."""
 
     def restore(
-        self,
-        states: collections.abc.Sequence[collections.abc.Sequence[float]],
-        mask: collections.abc.Sequence[bool] | None = None,
+        self, states: ArrayLike, mask: collections.abc.Sequence[bool] | None = None
     ) -> None:
         """Goes on from state()."""
 
-    def state(self) -> list[NDArray[np.float64]]:
-        """List of n arrays: all that decides how each goes on, see Simulation.state."""
+    def state(self) -> NDArray[np.float64]:
+        """(n, s) all that decides how each goes on, see Simulation.state."""
 
     def step(
         self,

@@ -62,9 +62,9 @@ void Plant::move(const Vector& configuration, double dt) {
 
 const std::vector<ActuatorStatus>& Plant::actuators() {
   for (const Motor& motor : motors_) {
-    actuators_[static_cast<std::size_t>(motor.actuator)] = {
-        motor.limits.at(data_->qvel[motor.dof]), brakes_.is_shut(motor.actuator),
-        brakes_.load(motor.actuator)};
+    actuators_[static_cast<std::size_t>(motor.actuator)] = {motor.limits.at(data_->qvel[motor.dof]),
+                                                            brakes_.is_shut(motor.actuator),
+                                                            brakes_.load(motor.actuator)};
   }
   return actuators_;
 }

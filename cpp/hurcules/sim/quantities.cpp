@@ -15,7 +15,8 @@ namespace {
 
 enum Source { kPositions, kVelocities, kSensors };
 
-int find_object(const mjModel* m, int type, mjtSize count, const char* kind, const std::string& name) {
+int find_object(const mjModel* m, int type, mjtSize count, const char* kind,
+                const std::string& name) {
   const int found = mj_name2id(m, type, name.c_str());
   if (found >= 0) return found;
   std::vector<std::string> names;
@@ -92,8 +93,10 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
   const std::string rest = slash == std::string::npos ? "" : name.substr(slash + 1);
   Quantity found;
   const std::vector<std::pair<std::string, std::pair<Kind, Index>>> frames = {
-      {"position", {Kind::Position, 3}}, {"rotation", {Kind::Rotation, 3}},
-      {"matrix", {Kind::RotationMatrix, 9}}, {"velocity", {Kind::Velocity, 3}},
+      {"position", {Kind::Position, 3}},
+      {"rotation", {Kind::Rotation, 3}},
+      {"matrix", {Kind::RotationMatrix, 9}},
+      {"velocity", {Kind::Velocity, 3}},
       {"spin", {Kind::Spin, 3}}};
   for (const auto& [word, what] : frames) {
     if (group != word) continue;
@@ -210,7 +213,7 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
     case Kind::Data: {
       const double* const all = quantity.source == kPositions    ? d->qpos
                                 : quantity.source == kVelocities ? d->qvel
-                                                                : d->sensordata;
+                                                                 : d->sensordata;
       out = Eigen::Map<const Vector>(all + quantity.places.front(), quantity.size);
       return;
     }
@@ -219,7 +222,8 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       const Recorder& recorder =
           quantity.kind == Kind::Observation ? simulation.observation() : simulation.log();
       for (Index i = 0; i < quantity.size; ++i) {
-        out[i] = recorder.now(static_cast<std::size_t>(quantity.places[static_cast<std::size_t>(i)]));
+        out[i] =
+            recorder.now(static_cast<std::size_t>(quantity.places[static_cast<std::size_t>(i)]));
       }
       return;
     }

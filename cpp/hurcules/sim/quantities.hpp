@@ -29,7 +29,7 @@ class Quantities {
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] const std::vector<Index>& sizes() const { return sizes_; }  // of each name
-  [[nodiscard]] Index size() const { return size_; }                       // of all
+  [[nodiscard]] Index size() const { return size_; }                        // of all
   // as they are now; out (size), one name after the other. `simulation` is the one that the names
   // were found in, or a copy of it.
   void read(const Simulation& simulation, VectorRef out) const;

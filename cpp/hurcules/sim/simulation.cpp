@@ -23,8 +23,8 @@ constexpr std::size_t kStateHeader = 4;
 // of all names along the vectors of a controller's simulation (FNV-1a), 32 bits
 double hash_of(const TelemetryNames& names) {
   std::uint32_t hash = 2166136261U;
-  for (const auto* list : {&names.coordinates, &names.joints, &names.levels, &names.task_rows,
-                           &names.commands}) {
+  for (const auto* list :
+       {&names.coordinates, &names.joints, &names.levels, &names.task_rows, &names.commands}) {
     for (const std::string& name : *list) {
       for (const char letter : name + ";") {
         hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;

@@ -35,7 +35,7 @@ struct FallOptions {
 
 struct SimulationOptions {
   std::uint64_t seed = 0;
-  bool record = true;     // keep the time series
+  bool record = true;  // keep the time series
   // false: the robot is where its references are, at once and whatever it touches; nothing else
   // moves, no force acts, no monitor looks. For learning at a fraction of the time.
   bool physics = true;

@@ -64,10 +64,11 @@ std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.0
   return controller;
 }
 
-Simulation simulate(const char* actuators = kMotors) {
+Simulation simulate(const char* actuators = kMotors, bool physics = true) {
   const ModelPtr model = load_model_text(arm(actuators));
   SimulationOptions options;
   options.record = false;
+  options.physics = physics;
   return {model, make(model), options};
 }
 
@@ -199,6 +200,82 @@ TEST(WholeBody, GoesOnFromASnapshotBitForBitInAnotherCopyToo) {
   simulation.restore(state);
   simulation.step(200, &command);
   EXPECT_TRUE(same_bits(simulation.state(), later));
+}
+
+TEST(WholeBody, ASnapshotHasOneLengthAndNoNotANumber) {
+  Simulation simulation = simulate();
+  const std::size_t length = simulation.state().size();
+  for (int i = 0; i < 40; ++i) {
+    const Vector command = Eigen::Vector3d(std::sin(i), std::cos(2.0 * i), 0.02);
+    simulation.step(20, &command);
+    if (i == 20) simulation.controller().use("accelerate");
+    const std::vector<double> state = simulation.state();
+    EXPECT_EQ(state.size(), length);
+    for (const double value : state) EXPECT_FALSE(std::isnan(value));
+  }
+  std::vector<double> state = simulation.state();
+  state[0] += 1.0;
+  EXPECT_TRUE(contains(error_text([&] { simulation.restore(state); }), "another version"));
+  state = simulation.state();
+  state.push_back(0.0);
+  EXPECT_TRUE(contains(error_text([&] { simulation.restore(state); }), "another model"));
+}
+
+TEST(WholeBody, WithoutPhysicsIsWhereItIsCommandedToBe) {
+  Simulation real = simulate(), ideal = simulate(kMotors, false);
+  const Frame tip = ideal.world().frame("tip");
+  const Vector3 start = ideal.world().position(tip);
+  const Vector command = Eigen::Vector3d(-0.1, 0.05, 0.01);
+  for (Simulation* one : {&real, &ideal}) {
+    one->step(500, &command);
+    one->step(1000);
+  }
+  const Vector3 moved = ideal.world().position(tip) - start;
+  EXPECT_NEAR(moved.x(), -0.1, 1e-6);
+  EXPECT_NEAR(moved.z(), 0.05, 1e-6);
+  EXPECT_NEAR(ideal.plant().qpos()[3], 0.01, 1e-9);  // the finger
+  EXPECT_LT((ideal.world().configuration() - ideal.controller().q_des()).cwiseAbs().maxCoeff(),
+            1e-15);
+  EXPECT_LT((real.world().position(tip) - ideal.world().position(tip)).norm(), 1e-3);
+  EXPECT_EQ(ideal.limits().measured().position, 0.0);
+}
+
+TEST(WholeBody, StartsWhereItIsTold) {
+  Simulation simulation = simulate();
+  const Vector start = Eigen::Vector4d(-0.2, 1.1, 0.4, 0.02);
+  simulation.reset(0, &start);
+  EXPECT_EQ(Vector(simulation.plant().qpos()), start);
+  simulation.step(200);
+  EXPECT_LT((simulation.plant().qpos() - start).cwiseAbs().maxCoeff(), 1e-3);
+  simulation.reset(0);
+  EXPECT_EQ(simulation.plant().qpos()[0], 0.3);
+  const Vector bad = Vector::Zero(2);
+  EXPECT_TRUE(contains(error_text([&] { simulation.reset(0, &bad); }), "qpos of 4"));
+}
+
+TEST(Quantities, AreReadByNameFromACopyToo) {
+  const Simulation original = simulate();
+  const Quantities quantities(
+      original, {"position/tip", "velocity/tip", "rotation/tip", "value/tip", "joint/j2",
+                 "joint_velocity/finger", "q", "q/j3", "monitor/power_W", "excess/position",
+                 "self_contacts"});
+  EXPECT_EQ(quantities.sizes(), (std::vector<Index>{3, 3, 3, 2, 1, 1, 3, 1, 1, 1, 1}));
+  const std::unique_ptr<Simulation> copy = original.clone();
+  const Vector command = Eigen::Vector3d(-0.1, 0.05, 0.01);
+  copy->step(300, &command);
+  Vector values(quantities.size());
+  quantities.read(*copy, values);
+  const Frame tip = copy->world().frame("tip");
+  EXPECT_EQ(Vector3(values.head<3>()), copy->world().position(tip));
+  EXPECT_NEAR(values[3], -0.1, 0.02);  // the tip's velocity
+  EXPECT_EQ(values[9], values[0]);     // the task's value: x and z of the tip
+  EXPECT_EQ(values[10], values[2]);
+  EXPECT_EQ(values[11], copy->plant().qpos()[1]);
+  EXPECT_EQ(values[12], copy->plant().qvel()[3]);
+  EXPECT_EQ(values[15], values[16]);  // the third coordinate, alone
+  EXPECT_EQ(values[18], copy->limits().measured().position);
+  EXPECT_TRUE(contains(error_text([&] { Quantities(original, {"speed"}); }), "there are: "));
+  EXPECT_TRUE(contains(error_text([&] { Quantities(original, {"position/nose"}); }), "nose"));
 }
 
 TEST(SimulationBatch, HasTheBitsOfEachAloneOnOneThreadAndOnTwo) {
