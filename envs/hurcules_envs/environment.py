@@ -87,11 +87,14 @@ class Environment(ABC):
 
     Attributes:
         simulation: the loop, at its start; episodes run on copies of it.
-        actions: by channel what 1 in the action means [SI]; the channels of the controller that a
-            policy commands, in this order.
+        actions: by channel what 1 in the action means [SI], one number or one a component; the
+            channels of the controller that a policy commands, in this order.
         observation: its groups, one after the other.
         quantities: what is read after each step, names for hurcules.Quantities.
         memory: by name how many numbers an episode remembers.
+        parameters: entries of the memory that the model follows: masses, friction, stiffness. With
+            any, each episode has a model of its own, see `configure`.
+        components: by action that is no channel the names of its numbers, see `command`.
         terms: of the reward, in the order in which they are added.
         goal: how many numbers a goal has; 0: no goal environment.
         rate: steps of the policy a second [Hz].
@@ -102,10 +105,12 @@ class Environment(ABC):
     task_description: ClassVar[str]
 
     simulation: hurcules.Simulation
-    actions: Mapping[str, float]
+    actions: Mapping[str, float | Array]
     observation: tuple[Group, ...]
     quantities: tuple[str, ...] = ()
     memory: Mapping[str, int] = MappingProxyType({})
+    parameters: tuple[str, ...] = ()
+    components: Mapping[str, tuple[str, ...]] = MappingProxyType({})
     goal: int = 0
     rate: float = 20.0
     _drawn: tuple[mujoco.MjModel, mujoco.MjData] | None = None
@@ -132,6 +137,32 @@ class Environment(ABC):
 
     def remember(self, numbers: Numbers) -> None:  # noqa: B027  most remember nothing
         """Updates `numbers.memory` in place after a step, before all else is asked."""
+
+    def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
+        """Writes the parameters of an episode into its own model, before it starts.
+
+        MuJoCo wants `mj_setConst` after a change of masses or sizes.
+
+        Args:
+            model: that of the episode.
+            values: by name each of `parameters`, (size,).
+
+        Raises:
+            NotImplementedError: there are parameters, and nothing that writes them.
+        """
+        raise NotImplementedError(f"{type(self).__name__} has parameters, but no configure()")
+
+    def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
+        """What the channels are commanded by an action; by default its own parts.
+
+        Args:
+            action: by name, (n, size) [SI].
+            numbers: as they were before this step.
+
+        Returns:
+            By channel, (n, size) [SI]; a channel that is not named gets zero.
+        """
+        return action
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
         """Of a goal environment: the reward of other goals, any leading axes."""

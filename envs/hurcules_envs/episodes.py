@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import reprlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,9 @@ class Episodes:
         self.environment = environment
         self.n = n
         simulation = environment.simulation
-        self.batch = hurcules.SimulationBatch(simulation, n, threads)
+        own = n if environment.parameters else 0
+        self._models = [copy.copy(simulation.model) for _ in range(own)]
+        self.batch = hurcules.SimulationBatch(simulation, n, threads, self._models)
         self.generators = [np.random.default_rng() for _ in range(n)]
         names = [*environment.quantities, *_WATCHED]
         self._quantities = hurcules.Quantities(simulation, names)
@@ -71,7 +74,7 @@ class Episodes:
             name: slice(int(stop) - size, int(stop))
             for name, size, stop in zip(names, self._quantities.sizes, stops, strict=True)
         }
-        self._commands = _Commands(simulation, environment.actions)
+        self._commands = _Commands(environment)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
         self._memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
@@ -113,7 +116,8 @@ class Episodes:
             mask: (n,) which episodes go on; None: all.
         """
         self._action = action if mask is None else np.where(mask[:, None], action, 0.0)
-        self.batch.step(self._ticks, self._commands.of(self._action), mask)
+        commands = self._commands.of(self._action, self._numbers)
+        self.batch.step(self._ticks, commands, mask)
 
     def look(self, *, remember: NDArray[np.bool_] | None) -> Step:
         """Reads the simulations and judges.
@@ -121,9 +125,8 @@ class Episodes:
         Args:
             remember: (n,) whose memory goes on; None: nobody's (after a reset).
         """
-        values = self.batch.read(self._quantities)
-        views = {name: values[:, part] for name, part in self._slices.items()}
-        numbers = Numbers(views, self._memory, self._action, self.period)
+        views = self._read()
+        numbers = self._numbers(views)
         environment = self.environment
         if remember is not None:
             before = {name: entry.copy() for name, entry in self._memory.items()}
@@ -172,6 +175,10 @@ class Episodes:
         for entry in self._info.values():
             entry[chosen] = values[chosen, place]
             place += 1
+        if self._models:  # the first time it was checked, now it meets the model that it had
+            for i in np.flatnonzero(chosen):
+                self._configure(int(i))
+            self.batch.restore(values[:, :own], chosen.tolist())
 
     def checked(self, action: object, shape: tuple[int, ...]) -> Array:
         """The action as float64.
@@ -192,6 +199,20 @@ class Episodes:
             entry[i] = start.memory.get(name, 0.0)
         for name, value in start.info.items():
             self._info.setdefault(name, np.zeros(self.n))[i] = value
+        self._configure(i)
+
+    def _configure(self, i: int) -> None:
+        if self._models:
+            values = {name: self._memory[name][i] for name in self.environment.parameters}
+            self.environment.configure(self._models[i], values)
+
+    def _read(self) -> dict[str, Array]:
+        values = self.batch.read(self._quantities)
+        return {name: values[:, part] for name, part in self._slices.items()}
+
+    def _numbers(self, views: Mapping[str, Array] | None = None) -> Numbers:
+        read = self._read() if views is None else views
+        return Numbers(read, self._memory, self._action, self.period)
 
     def _make_spaces(self) -> None:
         environment = self.environment
@@ -253,30 +274,42 @@ class Episodes:
 class _Commands:
     """From actions in [-1, 1] to commands of the controller."""
 
-    def __init__(self, simulation: hurcules.Simulation, actions: Mapping[str, float]) -> None:
-        names = simulation.command_names
-        scale = np.array(simulation.command_scale)
-        sizes = dict(simulation.controller.channels)
-        first, place = {}, 0
-        for name, size in simulation.controller.channels:
-            first[name] = place
+    def __init__(self, environment: Environment) -> None:
+        simulation = environment.simulation
+        names, scale = simulation.command_names, np.array(simulation.command_scale)
+        self._environment = environment
+        self._channels: dict[str, slice] = {}
+        place = 0
+        for channel, size in simulation.controller.channels:
+            self._channels[channel] = slice(place, place + size)
             place += size
-        columns: list[int] = []
-        for channel in actions:
-            hurcules.validation.require_known("channel", channel, list(sizes))
-            columns += range(first[channel], first[channel] + sizes[channel])
-        self._columns = np.array(columns)
-        self._size = len(names)
-        self.names = [names[i] for i in columns]
-        self.scale = np.concatenate(
-            [np.broadcast_to(value, sizes[channel]) for channel, value in actions.items()]
-        ).astype(np.float64)
-        if (self.scale > scale[self._columns] + 1e-12).any():
-            raise hurcules.Error("an action's scale is larger than that of its channel")
+        self._size = place
+        self._parts: dict[str, slice] = {}
+        self.names: list[str] = []
+        scales = []
+        for action, most in environment.actions.items():
+            components = environment.components.get(action)
+            if components is None:
+                hurcules.validation.require_known("channel", action, list(self._channels))
+                components = tuple(names[self._channels[action]])
+                if (np.asarray(most) > scale[self._channels[action]] + 1e-12).any():
+                    raise hurcules.Error(
+                        f"action '{action}': its scale is larger than that of its channel"
+                    )
+            self._parts[action] = slice(len(self.names), len(self.names) + len(components))
+            self.names += components
+            scales.append(np.broadcast_to(most, len(components)))
+        self.scale = np.concatenate(scales).astype(np.float64)
 
-    def of(self, action: Array) -> Array:
+    def of(self, action: Array, numbers: Callable[[], Numbers]) -> Array:
+        """(n, k) commands; the numbers are read only where an environment turns its action."""
+        parts = {name: (action * self.scale)[:, part] for name, part in self._parts.items()}
+        given: Mapping[str, Array] = parts
+        if type(self._environment).command is not Environment.command:
+            given = self._environment.command(parts, numbers())
         commands = np.zeros((len(action), self._size))
-        commands[:, self._columns] = action * self.scale
+        for name, values in given.items():
+            commands[:, self._channels[name]] = values
         return commands
 
 
