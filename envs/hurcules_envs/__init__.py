@@ -3,19 +3,27 @@
 `gymnasium.make("hurcules_envs:Hurcules/Stretch-v0")` imports it by itself.
 """
 
-from gymnasium.envs.registration import register
+import gymnasium
 
 import hurcules  # noqa: F401  # first of all: it chooses MuJoCo's OpenGL
-from hurcules_envs.registry import register as register_environment
+from hurcules_envs.registry import register
 
-# id: (entry point as text, so that a spec can be stored; steps of 20 ms)
-_STEPS = {"Hurcules/Stretch-v0": ("hurcules_envs.stretch:StretchEnv", 3000)}
+# id: (class, steps until an episode is truncated, options)
+_ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
+    "Hurcules/Reach-v0": ("hurcules_envs.reach:Reach", 100, {}),
+    "Hurcules/ReachJoint-v0": ("hurcules_envs.reach:Reach", 100, {"action": "joint"}),
+    "Hurcules/ReachPrecise-v0": ("hurcules_envs.reach:ReachPrecise", 150, {}),
+    "Hurcules/Drive-v0": ("hurcules_envs.drive:Drive", 300, {}),
+}
 
-ENVIRONMENTS = tuple(_STEPS)
+ENVIRONMENTS = ("Hurcules/Stretch-v0", *_ENVIRONMENTS)
 
-__all__ = ["ENVIRONMENTS"]
+__all__ = ["ENVIRONMENTS", "register"]
 
-register_environment("Hurcules/Reach-v0", "hurcules_envs.reach:Reach", 100)
-
-for _id, (_entry_point, _most) in _STEPS.items():
-    register(id=_id, entry_point=_entry_point, max_episode_steps=_most)
+gymnasium.register(
+    id="Hurcules/Stretch-v0",
+    entry_point="hurcules_envs.stretch:StretchEnv",
+    max_episode_steps=3000,
+)
+for _id, (_class, _steps, _options) in _ENVIRONMENTS.items():
+    register(_id, _class, _steps, **_options)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 import hurcules
 from hurcules.validation import require_known
 
-__all__ = ["ACTIONS", "Levels", "channel_of"]
+__all__ = ["ACTIONS", "channel_of", "joint_channel"]
 
-ACTIONS = ("twist", "delta", "pose")
-
-Levels = list[Any]
+ACTIONS = ("twist", "delta", "pose", "joint")
 
 # by action: full scale of positions [m/s or m] and of orientations [rad/s or rad]
 _SCALES: Mapping[str, tuple[float, float]] = {
@@ -44,3 +44,12 @@ def channel_of(action: str, task: hurcules.Task, *, turns: bool = False) -> tupl
     if action == "delta":
         return hurcules.Delta(task, scale), scale
     return hurcules.Target(task, scale), scale
+
+
+def joint_channel(posture: hurcules.PostureTask, robot: hurcules.Robot) -> tuple[Any, Any]:
+    """A channel that moves all coordinates by velocities, and its scales (n,) [rad/s].
+
+    The scales are the coordinates' limits of velocity, at most 1.
+    """
+    scale = np.array([min(one.max_velocity, 1.0) for one in robot.coordinates])
+    return hurcules.Twist(posture, scale), scale

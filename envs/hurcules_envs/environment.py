@@ -66,20 +66,31 @@ class Numbers:
     """What is known after a step, by name, one row an episode.
 
     `numbers["value/left"]` is (n, 3): a quantity of `Environment.quantities`, or an entry of the
-    memory. `numbers.action` is (n, k) in [-1, 1].
+    memory. `numbers.action` is (n, k) in [-1, 1], `numbers.finished` (n,) bool: the simulation is
+    over, by a fall say.
     """
 
     def __init__(
-        self, values: Mapping[str, Array], memory: dict[str, Array], action: Array, dt: float
+        self,
+        values: Mapping[str, Array],
+        memory: dict[str, Array],
+        action: Array,
+        dt: float,
+        finished: NDArray[np.bool_],
     ) -> None:
         self._values = values
         self.memory = memory
         self.action = action
         self.dt = dt
+        self.finished = finished
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""
         return self._values[name] if name in self._values else self.memory[name]
+
+    def row(self, *names: str) -> Array:
+        """Several of them side by side, (n, ...)."""
+        return np.concatenate([self[name] for name in names], axis=1)
 
 
 class Environment(ABC):
@@ -133,6 +144,10 @@ class Environment(ABC):
 
     def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
         """Which episodes are over without success, (n,); a robot that falls always is."""
+        return np.zeros(len(numbers.action), dtype=bool)
+
+    def ended(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Which episodes success ends, (n,); by default none: they go on to their time limit."""
         return np.zeros(len(numbers.action), dtype=bool)
 
     def remember(self, numbers: Numbers) -> None:  # noqa: B027  most remember nothing

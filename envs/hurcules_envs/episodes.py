@@ -48,6 +48,7 @@ class Episodes:
         generators: one each, for what differs between episodes.
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 means [SI].
+        memory: by name what each remembers, (n, size).
         single_action_space: Box(-1, 1, (k,), float32).
         single_observation_space: a Box, or a Dict of a goal environment.
     """
@@ -76,7 +77,7 @@ class Episodes:
         }
         self._commands = _Commands(environment)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
-        self._memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
+        self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
         self._action = np.zeros((n, len(self.action_scale)))
         self._worst = np.zeros(n)
@@ -127,27 +128,28 @@ class Episodes:
         """
         views = self._read()
         numbers = self._numbers(views)
+        over = self.batch.finished
+        self.numbers = numbers
         environment = self.environment
         if remember is not None:
-            before = {name: entry.copy() for name, entry in self._memory.items()}
+            before = {name: entry.copy() for name, entry in self.memory.items()}
             environment.remember(numbers)
-            for name, entry in self._memory.items():
+            for name, entry in self.memory.items():
                 entry[~remember] = before[name][~remember]
         terms = environment.reward(numbers)
         success = environment.succeeded(numbers)
-        over = self.batch.finished
         failure = environment.failed(numbers) | over
         step = Step()
         step.observation = self._observe(numbers)
         step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
-        step.terminated = failure & ~success | over
+        step.terminated = failure | environment.ended(numbers)
         step.info = self._describe(terms, success, failure, views)
         return step
 
     def state(self) -> Array:
         """(n, s) everything that decides how the episodes go on, generators excepted."""
         parts = [self.batch.state(), self._action, self._worst[:, None]]
-        parts += [self._memory[name] for name in self._memory]
+        parts += [self.memory[name] for name in self.memory]
         parts += [entry[:, None] for entry in self._info.values()]
         return np.concatenate(parts, axis=1)
 
@@ -159,7 +161,7 @@ class Episodes:
         """
         values = numbers_of("state", state)
         rest = self._action.shape[1] + 1 + len(self._info)
-        rest += sum(entry.shape[1] for entry in self._memory.values())
+        rest += sum(entry.shape[1] for entry in self.memory.values())
         own = self.batch.state().shape[1]
         if values.shape != (self.n, own + rest):
             raise hurcules.Error(
@@ -169,7 +171,7 @@ class Episodes:
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
         self.batch.restore(values[:, :own], chosen.tolist())
         place = own
-        for entry in (self._action, self._worst[:, None], *self._memory.values()):
+        for entry in (self._action, self._worst[:, None], *self.memory.values()):
             entry[chosen] = values[chosen, place : place + entry.shape[1]]
             place += entry.shape[1]
         for entry in self._info.values():
@@ -195,7 +197,7 @@ class Episodes:
         return np.clip(values, -1.0, 1.0)
 
     def _begin(self, i: int, start: Start) -> None:
-        for name, entry in self._memory.items():
+        for name, entry in self.memory.items():
             entry[i] = start.memory.get(name, 0.0)
         for name, value in start.info.items():
             self._info.setdefault(name, np.zeros(self.n))[i] = value
@@ -203,7 +205,7 @@ class Episodes:
 
     def _configure(self, i: int) -> None:
         if self._models:
-            values = {name: self._memory[name][i] for name in self.environment.parameters}
+            values = {name: self.memory[name][i] for name in self.environment.parameters}
             self.environment.configure(self._models[i], values)
 
     def _read(self) -> dict[str, Array]:
@@ -212,7 +214,7 @@ class Episodes:
 
     def _numbers(self, views: Mapping[str, Array] | None = None) -> Numbers:
         read = self._read() if views is None else views
-        return Numbers(read, self._memory, self._action, self.period)
+        return Numbers(read, self.memory, self._action, self.period, self.batch.finished)
 
     def _make_spaces(self) -> None:
         environment = self.environment

@@ -1,28 +1,54 @@
-"""Hurcules/Reach-v0: the hands of a robot go to where they are wanted."""
+"""Hurcules/Reach-v0 and ReachPrecise-v0: the hands of a robot go to where they are wanted."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules_envs.commands import channel_of
+from hurcules_envs.commands import channel_of, joint_channel
+from hurcules_envs.drawing import add_ball
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of
 from hurcules_envs.robots import load_robot, sample_postures
+from hurcules_envs.rotations import angle_between, quaternion
 
-__all__ = ["Reach"]
+__all__ = ["Reach", "ReachPrecise"]
 
 HOLD = 0.5  # [s] at the goal
+TURN = 0.3  # [m/rad] what an angle counts in the reward
 
 
 class Reach(Environment):
-    """Both hands reach goals that some posture without contact has.
+    """The hands reach goals that some posture without contact has.
 
-    Two goals are never out of reach together, and never far from where the robot stands. The policy
-    moves the references of the hands; limits come before them, posture after them.
+    All goals can be reached at once from where the robot stands. An action moves the references of
+    the hands; limits come before them, the posture gives way to them. Positions are in the world,
+    whose axes are x forward, y left, z up at the start. h is the number of hands, 2 for Hurcules.
+
+    Action: Box(-1, 1, (3 h,), float32), x, y, z of each hand. Zero holds.
+
+    | action  | scale | what 1 means                                          |
+    |---------|-------|-------------------------------------------------------|
+    | "twist" | 0.3   | velocity of the reference [m/s]                       |
+    | "delta" | 0.05  | reference beside the measured hand [m]                |
+    | "pose"  | 2.0   | reference in the world [m]                            |
+    | "joint" |       | velocity of each coordinate's reference [rad/s], (n,) |
+
+    Observation: Dict. `observation` of shape (9 h,), and `achieved_goal`, `desired_goal` (3 h,).
+
+    | group    | size | unit | bound | what it is               |
+    |----------|------|------|-------|--------------------------|
+    | hand     | 3 h  | m    | 5     | hands in the world       |
+    | velocity | 3 h  | m/s  | 5     | their velocities         |
+    | lead     | 3 h  | m    | 1     | references minus hands   |
+
+    Reward: `distance`, minus the mean distance of the hands [m]; `success`, 1 while all hands are
+    within the tolerance. Success: they were so for half a second. Nothing ends the episode but a
+    fall.
     """
 
     task_description = "Bring each hand to its goal and hold it there."
@@ -36,6 +62,7 @@ class Reach(Environment):
         frames: Sequence[str] | None = None,
         joints: Sequence[str] | None = None,
         tolerance: float = 0.03,
+        angle: float | None = None,
         sparse: bool = False,
         rate: float = 20.0,
     ) -> None:
@@ -43,90 +70,76 @@ class Reach(Environment):
 
         Args:
             fidelity: "exact", "fast" or "kinematic".
-            action: "twist", "delta" or "pose" of the hands.
+            action: "twist", "delta" or "pose" of the hands, or "joint" for comparison.
             robot: "rescue", "manipulation" or the path of an MJCF file.
             frames: of a path: the frames of its hands.
             joints: of a path: its coordinates.
             tolerance: [m] of each hand.
+            angle: [rad] of each hand; None: hands may turn as they like.
             sparse: reward without the distance.
             rate: steps a second [Hz].
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
-        if not 0.0 < tolerance < np.inf:
-            raise hurcules.Error(f"tolerance: wanted a length > 0 [m], got {tolerance!r}")
+        for name, value in (("tolerance", tolerance), ("angle", 1.0 if angle is None else angle)):
+            if not 0.0 < value < np.inf:
+                raise hurcules.Error(f"{name}: wanted a number > 0, got {value!r}")
         self.setup = load_robot(robot, frames, joints)
         self.postures = sample_postures(robot, frames, joints)
-        self.tolerance, self.sparse, self.rate = tolerance, sparse, rate
-        tick = tick_of(fidelity, rate)
-        plan = self.setup.robot()
-        plan.set_qpos(self.postures.qpos[0])
-        hands = {
-            f"hand_{i}": hurcules.PositionTask(f"hand_{i}", plan, frame)
-            for i, frame in enumerate(self.setup.hands)
-        }
-        channels = {name: channel_of(action, hand) for name, hand in hands.items()}
-        self.actions = {name: scale for name, (_, scale) in channels.items()}
-        posture = hurcules.PostureTask("posture", plan)
-        controller = hurcules.WholeBodyController(
-            plan,
-            [self.setup.limits(plan), list(hands.values()), posture],
-            {name: channel for name, (channel, _) in channels.items()},
-            dt=tick,
-            support=self.setup.support,
-            servo=self.setup.servo,
-            torque_scaling=fidelity != "kinematic",
-        )
-        model = self.setup.model
-        if fidelity != "kinematic":
-            model = hurcules.models.with_timestep(model, tick)
-        self.simulation = hurcules.Simulation(
-            model=model, controller=controller, record=False, physics=fidelity != "kinematic"
-        )
-        h = len(hands)
-        self.goal = 3 * h
-        self.memory = {"goal": 3 * h, "held": 1, "done": 1}
-        self.quantities = tuple(f"{w}/{n}" for w in ("value", "target") for n in hands) + tuple(
-            f"velocity/{frame}" for frame in self.setup.hands
+        self.tolerance, self.angle, self.sparse, self.rate = tolerance, angle, sparse, rate
+        self._names = [f"hand_{i}" for i in range(len(self.setup.hands))]
+        self._build(fidelity, action, tick_of(fidelity, rate))
+        h = len(self._names)
+        self._size = 3 if angle is None else 7  # of a hand in the goal
+        self.goal = self._size * h
+        self.memory = {"goal": self.goal, "held": 1, "done": 1}
+        self.quantities = tuple(
+            [f"{what}/{name}" for what in ("value", "target") for name in self._names]
+            + [f"velocity/{frame}" for frame in self.setup.hands]
+            + [f"rotation/{frame}" for frame in self.setup.hands]
         )
         self.observation = (
             Group("hand", 3 * h, "m", 5.0, "hands in the world"),
             Group("velocity", 3 * h, "m/s", 5.0, "their velocities"),
             Group("lead", 3 * h, "m", 1.0, "references minus hands"),
         )
-        self._hands = list(hands)
 
     def start(self, generator: np.random.Generator) -> Start:
         """A posture to start from, another one whose hands are the goals."""
-        first, second = generator.choice(len(self.postures.qpos), 2, replace=False)
-        return Start(self.postures.qpos[first], {"goal": self.postures.hands[second].ravel()})
+        postures = self.postures
+        first, second = generator.choice(len(postures.qpos), 2, replace=False)
+        goal = postures.hands[second]
+        if self.angle is not None:
+            goal = np.concatenate([goal, quaternion(postures.turns[second])], axis=-1)
+        return Start(postures.qpos[first], {"goal": goal.ravel()})
 
     def remember(self, numbers: Numbers) -> None:
         """How long the hands have been at their goals."""
-        at_goal = self._distances(numbers["goal"], self._hand(numbers)).max(axis=1) < self.tolerance
+        distance, angle = self._errors(*self.goals(numbers))
         held = numbers.memory["held"]
-        held[:, 0] = np.where(at_goal, held[:, 0] + numbers.dt, 0.0)
+        held[:, 0] = np.where(self._at_goal(distance, angle), held[:, 0] + numbers.dt, 0.0)
         numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """Hands, velocities, leads; the goals stand beside them."""
-        hand = self._hand(numbers)
-        target = np.concatenate([numbers[f"target/{name}"] for name in self._hands], axis=1)
-        velocity = [numbers[f"velocity/{frame}"] for frame in self.setup.hands]
-        return {
-            "hand": hand,
-            "velocity": np.concatenate(velocity, axis=1),
-            "lead": target - hand,
-        }
+        hand = numbers.row(*(f"value/{name}" for name in self._names))
+        target = numbers.row(*(f"target/{name}" for name in self._names))
+        velocity = numbers.row(*(f"velocity/{frame}" for frame in self.setup.hands))
+        return {"hand": hand, "velocity": velocity, "lead": target - hand}
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""
-        return self._hand(numbers), numbers["goal"]
+        parts = []
+        for name, frame in zip(self._names, self.setup.hands, strict=True):
+            parts.append(numbers[f"value/{name}"])
+            if self.angle is not None:
+                parts.append(quaternion(numbers[f"rotation/{frame}"]))
+        return np.concatenate(parts, axis=1), numbers["goal"]
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Minus the mean distance, and 1 for all hands within the tolerance."""
-        return self._terms(self._hand(numbers), numbers["goal"])
+        return self._terms(*self.goals(numbers))
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
         """The reward of other goals, any leading axes."""
@@ -138,19 +151,103 @@ class Reach(Environment):
         """All hands were at their goals for half a second."""
         return numbers["done"][:, 0] > 0.0
 
+    def expert(self, numbers: Numbers) -> Array:
+        """Actions (n, k) that lead each hand straight to its goal; for "twist" without angles."""
+        achieved, desired = self.goals(numbers)
+        return np.clip(3.0 * (desired - achieved) / 0.3, -1.0, 1.0)
+
+    def visual_model(self) -> mujoco.MjModel:
+        """The robot with its surfaces."""
+        if self.setup.name in hurcules.models.names():
+            return hurcules.models.load(self.setup.name, "flat", bed=self.setup.name != "rescue")
+        return self.setup.model
+
+    def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:
+        """The goals, as balls."""
+        for goal in episodes.memory["goal"][i].reshape(-1, self._size):
+            add_ball(scene, goal[:3], max(self.tolerance, 0.02), (0.1, 0.8, 0.2, 0.7))
+
+    def _build(self, fidelity: str, action: str, tick: float) -> None:
+        setup, plan = self.setup, self.setup.robot()
+        plan.set_qpos(self.postures.qpos[0])
+        hands = [
+            hurcules.PositionTask(name, plan, frame)
+            for name, frame in zip(self._names, setup.hands, strict=True)
+        ]
+        posture = hurcules.PostureTask("posture", plan)
+        if action == "joint":
+            channels = {"joints": joint_channel(posture, plan)}
+            levels: list[Any] = [setup.limits(plan), posture, hands]
+        else:
+            channels = {hand.name: channel_of(action, hand) for hand in hands}
+            levels = [setup.limits(plan), hands, posture]
+            if self.angle is not None:
+                turns = [
+                    hurcules.OrientationTask(f"{name}_turn", plan, frame)
+                    for name, frame in zip(self._names, setup.hands, strict=True)
+                ]
+                channels |= {turn.name: channel_of(action, turn, turns=True) for turn in turns}
+                levels.insert(2, turns)
+        self.actions = {name: scale for name, (_, scale) in channels.items()}
+        controller = hurcules.WholeBodyController(
+            plan,
+            levels,
+            {name: channel for name, (channel, _) in channels.items()},
+            dt=tick,
+            support=setup.support,
+            servo=setup.servo,
+            torque_scaling=fidelity != "kinematic",
+        )
+        physics = fidelity != "kinematic"
+        model = hurcules.models.with_timestep(setup.model, tick) if physics else setup.model
+        self.simulation = hurcules.Simulation(
+            model=model, controller=controller, record=False, physics=physics
+        )
+
     def _terms(self, achieved: Array, desired: Array) -> dict[str, Array]:
-        distance = self._distances(achieved, desired)
+        distance, angle = self._errors(achieved, desired)
         shaped = 0.0 if self.sparse else 1.0
         return {
-            "distance": -shaped * distance.mean(axis=-1),
-            "success": (distance.max(axis=-1) < self.tolerance).astype(np.float64),
+            "distance": -shaped * (distance + TURN * angle).mean(axis=-1),
+            "success": self._at_goal(distance, angle).astype(np.float64),
         }
 
-    def _hand(self, numbers: Numbers) -> Array:
-        return np.concatenate([numbers[f"value/{name}"] for name in self._hands], axis=1)
+    def _at_goal(self, distance: Array, angle: Array) -> NDArray[np.bool_]:
+        near = distance.max(axis=-1) < self.tolerance
+        return near if self.angle is None else near & (angle.max(axis=-1) < self.angle)
 
-    @staticmethod
-    def _distances(one: Array, other: Array) -> Array:
-        """(..., h) [m]."""
-        difference = (one - other).reshape(*one.shape[:-1], -1, 3)
-        return np.linalg.norm(difference, axis=-1)
+    def _errors(self, one: Array, other: Array) -> tuple[Array, Array]:
+        """Distances [m] and angles [rad] of the hands, (..., h) each."""
+        one = one.reshape(*one.shape[:-1], -1, self._size)
+        other = other.reshape(*other.shape[:-1], -1, self._size)
+        difference = one[..., :3] - other[..., :3]
+        distance = np.sqrt(np.einsum("...i,...i->...", difference, difference))
+        if self.angle is None:
+            return distance, np.zeros_like(distance)
+        return distance, angle_between(one[..., 3:], other[..., 3:])
+
+
+class ReachPrecise(Reach):
+    """As `Reach`, within 10 mm, and 0.1 rad of the orientation too.
+
+    The arms want seven joints each: by default the manipulation robot. The action goes on with the
+    turning of each hand (rotation vector in the world, 0.6 rad/s for "twist"), the goals with the
+    quaternion (w, x, y, z) of each hand.
+    """
+
+    task_description = "Bring each hand to its goal, turned as wanted, and hold it there."
+
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        action: str = "twist",
+        robot: str = "manipulation",
+        frames: Sequence[str] | None = None,
+        joints: Sequence[str] | None = None,
+        tolerance: float = 0.01,
+        angle: float = 0.1,
+        sparse: bool = False,
+        rate: float = 20.0,
+    ) -> None:
+        """See `Reach`."""
+        super().__init__(fidelity, action, robot, frames, joints, tolerance, angle, sparse, rate)

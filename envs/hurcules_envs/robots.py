@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 
 POOL = 256  # postures that starts and goals are drawn from
 POOL_SEED = 20261123
+# [rad] how far Hurcules' postures are from its keyframe at most
+NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
+ARM = 1.0
 
 
 @dataclass(frozen=True)
@@ -123,7 +126,7 @@ def _load(robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | 
 
 
 def _hurcules(name: str) -> RobotSetup:
-    model = hurcules.models.load(name, "flat", bed=False, visuals=False)
+    model = hurcules.models.load(name, "flat", bed=name != "rescue", visuals=False)
     robot = hurcules.Robot(model)
     ranges = hurcules.mode_ranges("rescue_ready_without_bed")
     return RobotSetup(
@@ -200,10 +203,8 @@ def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Arr
         low, high = max(low, -np.pi, coordinate.lower), min(high, np.pi, coordinate.upper)
         margin = 0.05 * (high - low)
         low, high = low + margin, high - margin
-        near = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
-        if setup.drives and coordinate.name in near:
-            reach = near[coordinate.name]
-            low, high = max(low, value - reach), min(high, value + reach)
+        reach = NEAR.get(coordinate.name, ARM) if setup.drives else np.pi
+        low, high = max(low, value - reach), min(high, value + reach)
         lower.append(low)
         upper.append(max(low, high))
     return np.array(lower), np.array(upper)

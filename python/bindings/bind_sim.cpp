@@ -193,10 +193,20 @@ void bind_options(py::module_& module) {
   py::enum_<BaseSource>(module, "BaseSource", "Where the planner's support stands.")
       .value("Held", BaseSource::Held, "where it stood at the start")
       .value("Sensed", BaseSource::Sensed, "where it is now");
+  py::class_<FallOptions>(module, "FallOptions", kFall)
+      .def(py::init([](std::string frame, double min_height, double max_tilt) {
+             return FallOptions{std::move(frame), min_height, max_tilt};
+           }),
+           "frame"_a = "", "min_height"_a = -std::numeric_limits<double>::infinity(),
+           "max_tilt"_a = std::numeric_limits<double>::infinity())
+      .def_readwrite("frame", &FallOptions::frame)
+      .def_readwrite("min_height", &FallOptions::min_height, "[m]")
+      .def_readwrite("max_tilt", &FallOptions::max_tilt, "[rad]");
   py::class_<Options>(module, "SimulationOptions", kOptions)
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
                        bool timed, BaseSource base, SensorOptions sensors,
-                       const MonitorOptions& monitors, double max_seconds, bool physics) {
+                       const MonitorOptions& monitors, double max_seconds, bool physics,
+                       const FallOptions& fall) {
              Options options;
              options.seed = seed;
              options.variation = variation;
@@ -208,13 +218,15 @@ void bind_options(py::module_& module) {
              options.monitors = monitors;
              options.max_seconds = max_seconds;
              options.physics = physics;
+             options.fall = fall;
              return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
            "method"_a = defaults.method, "record"_a = defaults.record,
            "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
            "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors,
-           "max_seconds"_a = defaults.max_seconds, "physics"_a = defaults.physics)
+           "max_seconds"_a = defaults.max_seconds, "physics"_a = defaults.physics,
+           "fall"_a = defaults.fall)
       .def_readwrite("seed", &Options::seed)
       .def_readwrite("variation", &Options::variation)
       .def_readwrite("method", &Options::method)
@@ -226,6 +238,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("sensors", &Options::sensors)
       .def_readwrite("monitors", &Options::monitors)
       .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer")
+      .def_readwrite("fall", &Options::fall, "when the robot counts as fallen")
       .def_readwrite("physics", &Options::physics,
                      "false: the robot is where it is commanded to be");
 }

@@ -149,6 +149,13 @@ inline constexpr const char* kFigures =
 inline constexpr const char* kThesisFigures =
     "What the thesis reports for those figures that it gives.";
 inline constexpr const char* kEvents = "(time [s], text) of phases, and of limits met and left.";
+inline constexpr const char* kFall = R"(When a run ends because the robot fell.
+
+Args:
+  frame: whose height is watched; "": nothing is.
+  min_height: of the frame above the controller's support [m].
+  max_tilt: of the support against its start [rad].
+)";
 inline constexpr const char* kQuantities = R"(Named numbers of a simulation, found once and read together.
 
 Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FRAME (3 each, in the

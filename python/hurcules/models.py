@@ -48,25 +48,27 @@ def load(
     *,
     bed: bool = True,
     visuals: bool = True,
+    seed: int = 0,
 ) -> mujoco.MjModel:
     """Compiles a robot in its surroundings.
 
     Args:
         name: one of `names()`; by default the robot that the scene is made for, else "rescue".
         scene: one of `scenes()`; by default that of the mission, without a mission "flat". A scene
-            that is made has its default parameters and seed 0 here; see `hurcules.scenes.load`.
+            that is made has its default parameters here; see `hurcules.scenes.load`.
         mission: one of `hurcules.missions()`.
         bed: False takes the transfer bed off the rescue robot.
         visuals: False leaves out what is only seen; the physics is the same to the bit, the model
             a fraction of the size.
+        seed: of a scene that is drawn.
 
     Raises:
         Error: an unknown name, no bed to take off, a scene made for another robot, or MuJoCo's text
             about broken MJCF.
     """
     if scene in _made() and scene not in mjcf.stems("scenes") and bed and visuals:
-        return made.load(scene, name or "rescue")
-    spec = _spec(name, scene, mission)
+        return made.load(scene, name or "rescue", seed=seed)
+    spec = _spec(name, scene, mission, seed)
     if not bed:
         transfer_bed.detach(spec)
     return mjcf.compile(spec if visuals else mjcf.without_visuals(spec))
@@ -79,12 +81,12 @@ def with_timestep(model: mujoco.MjModel, timestep: float) -> mujoco.MjModel:
     return changed
 
 
-def _spec(name: str | None, scene: str | None, mission: str | None) -> mujoco.MjSpec:
+def _spec(name: str | None, scene: str | None, mission: str | None, seed: int) -> mujoco.MjSpec:
     """Robot and surroundings, not compiled yet."""
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
     if scene in _made() and scene not in mjcf.stems("scenes"):
-        return made.make(scene, robot=name or "rescue")
+        return made.make(scene, robot=name or "rescue", seed=seed)
     surroundings = mjcf.existing("scenes", scene, "scene", scenes())
     inhabitant = _robot_in(surroundings)
     name = name or inhabitant or "rescue"

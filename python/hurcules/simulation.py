@@ -15,7 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hurcules import _core, models
-from hurcules._core import Error, MonitorOptions, SensorOptions, WholeBodyController
+from hurcules._core import (
+    Error,
+    FallOptions,
+    MonitorOptions,
+    SensorOptions,
+    WholeBodyController,
+)
 from hurcules.validation import require_known
 
 __all__ = ["Simulation", "SimulationBatch"]
@@ -50,6 +56,7 @@ class Simulation(_core.Simulation):
         monitors: MonitorOptions | None = None,
         max_seconds: float = math.inf,
         physics: bool = True,
+        fall: FallOptions | None = None,
     ) -> None:
         """A mission in its scene, or a controller of your own in any model.
 
@@ -69,6 +76,7 @@ class Simulation(_core.Simulation):
             max_seconds: the run ends when it takes longer [s].
             physics: False: the robot is where it is commanded to be, at once and whatever it
                 touches; nothing else moves and no force acts.
+            fall: when a robot without a mission counts as fallen; None: never.
 
         Raises:
             Error: no such mission, method or sensor (the text names those that exist), a bad
@@ -84,6 +92,7 @@ class Simulation(_core.Simulation):
             monitors=monitors or MonitorOptions(),
             max_seconds=max_seconds,
             physics=physics,
+            fall=fall or FallOptions(),
         )
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")

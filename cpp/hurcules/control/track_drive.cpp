@@ -60,13 +60,14 @@ void TrackDrive::compute(const RobotState& state, VectorRef ctrl) {
   braked_ = controller_.braked();
 }
 
-void TrackDrive::roll(VectorRef qpos, double dt) const {
+void TrackDrive::roll(VectorRef qpos, const Vector3& centre, double dt) const {
   const DriveCommand now = controller_.reference();
   auto root = qpos.segment<7>(root_qpos_);
   const Eigen::Quaterniond attitude(root[3], root[4], root[5], root[6]);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(now.yaw_rate * dt, Vector3::UnitZ()));
-  root.head<2>() += dt * now.speed * forward_of((turn * attitude).toRotationMatrix());
   const Eigen::Quaterniond turned = (turn * attitude).normalized();
+  root.head<3>() = centre + turn * (Vector3(root.head<3>()) - centre);
+  root.head<2>() += dt * now.speed * forward_of(turned.toRotationMatrix());
   root.tail<4>() << turned.w(), turned.vec();
   const DriveOptions& options = controller_.options();
   const double half = 0.5 * now.yaw_rate * options.gauge;

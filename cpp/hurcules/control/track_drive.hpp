@@ -28,9 +28,9 @@ class TrackDrive {
   // the same without controls: the profiles go on
   void follow(const RobotState& state);
 
-  // what an ideal robot does with the last command: its root moves over level ground and its belts
-  // turn as the profiles ask for; qpos (nq), dt [s]
-  void roll(VectorRef qpos, double dt) const;
+  // What an ideal robot does with the last command: its root moves over level ground, turning about
+  // a point in W, and its belts turn as the profiles ask for; qpos (nq), dt [s]
+  void roll(VectorRef qpos, const Vector3& centre, double dt) const;
 
   [[nodiscard]] DriveController& controller() { return controller_; }
   [[nodiscard]] const DriveController& controller() const { return controller_; }

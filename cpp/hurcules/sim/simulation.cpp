@@ -267,7 +267,7 @@ void Simulation::advance_plan() {
                                 servo.actuator(i).actuator == drive->right().actuator);
     if (!belt) seen_qpos_[servo.actuator(i).qpos] = servo.position()[i];
   }
-  if (drive) drive->roll(seen_qpos_, dt());
+  if (drive) drive->roll(seen_qpos_, placed_->com(), dt());  // skids about its weight
   plant_.move(seen_qpos_, dt());
 }
 
