@@ -19,6 +19,7 @@ from hurcules_envs.rotations import angle_between, quaternion
 __all__ = ["Reach", "ReachPrecise"]
 
 HOLD = 0.5  # [s] at the goal
+NEAR = 0.1  # [m] over which nearness grows
 TURN = 0.3  # [m/rad] what an angle counts in the reward
 
 
@@ -46,13 +47,13 @@ class Reach(Environment):
     | velocity | 3 h  | m/s  | 5     | their velocities         |
     | lead     | 3 h  | m    | 1     | references minus hands   |
 
-    Reward: `distance`, minus the mean distance of the hands [m]; `success`, 1 while all hands are
-    within the tolerance. Success: they were so for half a second. Nothing ends the episode but a
+    Reward: `distance`, minus the mean distance d of the hands [m]; `nearness`, the mean of
+    1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance. Success: they were so for half a second. Nothing ends the episode but a
     fall.
     """
 
     task_description = "Bring each hand to its goal and hold it there."
-    terms = ("distance", "success")
+    terms = ("distance", "nearness", "success")
 
     def __init__(
         self,
@@ -138,13 +139,13 @@ class Reach(Environment):
         return np.concatenate(parts, axis=1), numbers["goal"]
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
-        """Minus the mean distance, and 1 for all hands within the tolerance."""
+        """Distance, nearness, and 1 for all hands within the tolerance."""
         return self._terms(*self.goals(numbers))
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
         """The reward of other goals, any leading axes."""
         terms = self._terms(np.asarray(achieved, float), np.asarray(desired, float))
-        reward = terms["distance"] + terms["success"]
+        reward = sum(terms.values())
         return float(reward) if np.ndim(reward) == 0 else reward
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
@@ -206,9 +207,10 @@ class Reach(Environment):
 
     def _terms(self, achieved: Array, desired: Array) -> dict[str, Array]:
         distance, angle = self._errors(achieved, desired)
-        shaped = 0.0 if self.sparse else 1.0
+        shaped, error = 0.0 if self.sparse else 1.0, distance + TURN * angle
         return {
-            "distance": -shaped * (distance + TURN * angle).mean(axis=-1),
+            "distance": -shaped * error.mean(axis=-1),
+            "nearness": shaped * (1.0 - np.tanh(error / NEAR)).mean(axis=-1),
             "success": self._at_goal(distance, angle).astype(np.float64),
         }
 

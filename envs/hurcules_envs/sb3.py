@@ -1,0 +1,146 @@
+"""Native vectors of environments for Stable-Baselines3, which does not take Gymnasium's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode
+import torch
+from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
+from stable_baselines3.common.vec_env import VecEnv
+
+from hurcules_envs.vector import NativeVectorEnv
+
+__all__ = ["GoalFeatures", "Sb3VecEnv", "make_sb3"]
+
+
+SCALE = 3.0  # of the way to a goal, beside velocities and angles
+
+
+class Sb3VecEnv(VecEnv):
+    """A `NativeVectorEnv` in mode SAME_STEP as a VecEnv of Stable-Baselines3.
+
+    The info of an episode is whole in its last step; before that it holds `is_success` alone.
+    """
+
+    def __init__(self, environment: NativeVectorEnv) -> None:
+        if environment.autoreset_mode != AutoresetMode.SAME_STEP:
+            raise ValueError(f"wanted autoreset mode SAME_STEP, got {environment.autoreset_mode}")
+        self.environment = environment
+        self.render_mode = None
+        self._seeds: list[int] | None = None
+        self._returns = np.zeros(environment.num_envs)
+        self._lengths = np.zeros(environment.num_envs, dtype=int)
+        super().__init__(
+            environment.num_envs,
+            environment.single_observation_space,
+            environment.single_action_space,
+        )
+
+    def reset(self) -> Any:
+        """Starts all episodes."""
+        observation, _ = self.environment.reset(seed=self._seeds)
+        self._seeds = None
+        self._returns[:], self._lengths[:] = 0.0, 0
+        return observation
+
+    def seed(self, seed: int | None = None) -> list[int | None]:
+        """Episode i gets seed + i at the next reset."""
+        if seed is None:
+            return [None] * self.num_envs
+        self._seeds = [seed + i for i in range(self.num_envs)]
+        return list(self._seeds)
+
+    def step_async(self, actions: np.ndarray) -> None:
+        """Keeps the actions for `step_wait`."""
+        self._actions = actions
+
+    def step_wait(self) -> Any:
+        """Takes the step; ended episodes are reset, their last observation stands in their info."""
+        observation, reward, terminated, truncated, info = self.environment.step(self._actions)
+        done = terminated | truncated
+        self._returns += reward
+        self._lengths += 1
+        success = info["is_success"]
+        infos: list[dict[str, Any]] = [{"is_success": bool(one)} for one in success]
+        for i in np.flatnonzero(done):
+            infos[i] = self._last(info, int(i)) | {
+                "terminal_observation": info["final_obs"][i],
+                "TimeLimit.truncated": bool(truncated[i] and not terminated[i]),
+                "episode": {"r": float(self._returns[i]), "l": int(self._lengths[i]), "t": 0.0},
+            }
+        self._returns[done], self._lengths[done] = 0.0, 0
+        return observation, reward.astype(np.float32), done, infos
+
+    def close(self) -> None:
+        """Closes the environment."""
+        self.environment.close()
+
+    def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
+        """An attribute of the vector, once for each episode asked for."""
+        return [getattr(self.environment, attr_name) for _ in self._get_indices(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
+        """Sets an attribute of the vector."""
+        setattr(self.environment, attr_name, value)
+
+    def env_method(self, method_name: str, *args: Any, indices: Any = None, **kwargs: Any) -> Any:
+        """Calls a method of the vector; `compute_reward` once, with all rows."""
+        if method_name == "compute_reward":
+            return [self.environment.environment.compute_reward(*args, **kwargs)]
+        return [
+            getattr(self.environment, method_name)(*args, **kwargs)
+            for _ in self._get_indices(indices)
+        ]
+
+    def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
+        """Whether it is wrapped: `Monitor` is built in, others are not there."""
+        return [wrapper_class.__name__ == "Monitor" for _ in self._get_indices(indices)]
+
+    @staticmethod
+    def _last(info: dict[str, Any], i: int) -> dict[str, Any]:
+        final = info["final_info"]
+        return {n: v[i].item() for n, v in final.items() if not n.startswith("_")}
+
+
+class GoalFeatures(BaseFeaturesExtractor):
+    """What a network sees of a goal environment: the observation, and how far the goal is.
+
+    Networks learn from differences at once what they learn from two places late.
+    """
+
+    def __init__(self, observation_space: gymnasium.spaces.Dict) -> None:
+        sizes = {name: space.shape[0] for name, space in observation_space.spaces.items()}
+        super().__init__(observation_space, sizes["observation"] + sizes["achieved_goal"])
+
+    def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
+        """(n, features)."""
+        way = SCALE * (observations["desired_goal"] - observations["achieved_goal"])
+        return torch.cat([observations["observation"], way], dim=1)
+
+
+def make_sb3(
+    name: str, num_envs: int, threads: int = 0, max_episode_steps: int | None = None, **options: Any
+) -> Sb3VecEnv:
+    """Makes a vector of environments for Stable-Baselines3.
+
+    Args:
+        name: id of an environment of this package, "Hurcules/Reach-v0".
+        num_envs: how many episodes side by side.
+        threads: 0 for one a processor.
+        max_episode_steps: None: that of the environment.
+        options: of the environment, by keyword.
+    """
+    spec = gymnasium.spec(name)
+    return Sb3VecEnv(
+        NativeVectorEnv(
+            num_envs=num_envs,
+            max_episode_steps=max_episode_steps or spec.max_episode_steps,
+            threads=threads,
+            autoreset_mode=AutoresetMode.SAME_STEP,
+            **{**spec.kwargs, **options},
+        )
+    )
