@@ -196,9 +196,9 @@ class Drive(Environment):
         shaped = 0.0 if self.sparse else 1.0
         return {
             "progress": shaped * numbers["gained"][:, 0],
-            "heading": -0.1 * shaped * near * self._turn(achieved, desired),
+            "heading": -0.1 * shaped * self._turn(achieved, desired) * near,
             "success": 10.0 * numbers["done"][:, 0],
-            "fall": -10.0 * numbers.finished,
+            "fall": -10.0 * numbers.finished.astype(np.float64),
         }
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:

@@ -48,8 +48,8 @@ class Reach(Environment):
     | lead     | 3 h  | m    | 1     | references minus hands   |
 
     Reward: `distance`, minus the mean distance d of the hands [m]; `nearness`, the mean of
-    1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance. Success: they were so for half a second. Nothing ends the episode but a
-    fall.
+    1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance. Success: they were
+    so for half a second. Nothing ends the episode but a fall.
     """
 
     task_description = "Bring each hand to its goal and hold it there."

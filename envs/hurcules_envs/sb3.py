@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
 import numpy as np
-from gymnasium.vector import AutoresetMode
 import torch
+from gymnasium.vector import AutoresetMode
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
@@ -113,7 +112,7 @@ class GoalFeatures(BaseFeaturesExtractor):
     """
 
     def __init__(self, observation_space: gymnasium.spaces.Dict) -> None:
-        sizes = {name: space.shape[0] for name, space in observation_space.spaces.items()}
+        sizes = {name: (space.shape or (0,))[0] for name, space in observation_space.items()}
         super().__init__(observation_space, sizes["observation"] + sizes["achieved_goal"])
 
     def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:

@@ -12,6 +12,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of
 from hurcules_envs.registry import make_environment
 
@@ -77,6 +78,11 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
     def batch(self) -> hurcules.SimulationBatch:
         """The loops underneath."""
         return self._episodes.batch
+
+    @property
+    def numbers(self) -> Numbers:
+        """What was read after the last step; what an expert acts upon."""
+        return self._episodes.numbers
 
     def reset(
         self,

@@ -2633,6 +2633,30 @@ class BaseSource(_Enum):
     Sensed: ClassVar[BaseSource]
     __members__: ClassVar[dict[str, BaseSource]]
 
+class FallOptions:
+    """When a run ends because the robot fell.
+
+    Args:
+      frame: whose height is watched; "": nothing is.
+      min_height: of the frame above the controller's support [m].
+      max_tilt: of the support against its start [rad]."""
+
+    frame: str
+
+    def __init__(self, frame: str = "", min_height: float = ..., max_tilt: float = ...) -> None: ...
+    @property
+    def max_tilt(self) -> float:
+        """[rad]"""
+
+    @max_tilt.setter
+    def max_tilt(self, arg0: float) -> None: ...
+    @property
+    def min_height(self) -> float:
+        """[m]"""
+
+    @min_height.setter
+    def min_height(self, arg0: float) -> None: ...
+
 class SimulationOptions:
     """Options of a simulation.
 
@@ -2666,7 +2690,14 @@ class SimulationOptions:
         monitors: MonitorOptions = ...,
         max_seconds: float = ...,
         physics: bool = True,
+        fall: FallOptions = ...,
     ) -> None: ...
+    @property
+    def fall(self) -> FallOptions:
+        """when the robot counts as fallen"""
+
+    @fall.setter
+    def fall(self, arg0: FallOptions) -> None: ...
     @property
     def max_seconds(self) -> float:
         """[s] the run ends when it takes longer"""

@@ -1,0 +1,273 @@
+"""Training a policy, and judging it: Stable-Baselines3 on native vectors of environments."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from stable_baselines3 import PPO, SAC, HerReplayBuffer
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.callbacks import BaseCallback
+
+import hurcules
+import hurcules_envs
+from hurcules.validation import require_known
+from hurcules_envs.sb3 import GoalFeatures, make_sb3
+
+__all__ = ["Evaluation", "TrainOptions", "evaluate", "load_policy", "train"]
+
+ALGORITHMS = ("ppo", "sac", "her")
+PPO_SETTINGS = {
+    "n_steps": 32,
+    "batch_size": 128,
+    "n_epochs": 10,
+    "gamma": 0.9,
+    "gae_lambda": 0.9,
+    "learning_rate": 2e-3,
+}
+# by the beginning of an id: what differs
+RECIPES: Mapping[str, Mapping[str, Any]] = {
+    "Hurcules/Reach": {},
+    "Hurcules/Drive": {"gamma": 0.98, "gae_lambda": 0.95, "n_steps": 128, "learning_rate": 1e-3},
+}
+OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
+
+
+@dataclass(frozen=True)
+class TrainOptions:
+    """What is trained, and for how long.
+
+    Attributes:
+        environment: id, "Hurcules/Reach-v0".
+        algorithm: "ppo", "sac" or "her" (SAC with hindsight, goal environments only).
+        steps: of all episodes together.
+        episodes: side by side.
+        seed: of networks, actions and episodes.
+        options: of the environment.
+        out: folder of the results.
+    """
+
+    environment: str
+    algorithm: str = "ppo"
+    steps: int = 100_000
+    episodes: int = 16
+    seed: int = 0
+    options: Mapping[str, Any] = field(default_factory=dict)
+    out: Path = Path("out/train")
+    checkpoint_every: int = 20_000
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """How a policy did.
+
+    Attributes:
+        episodes: how many.
+        success: share of them.
+        low: lower end of its 95 % interval (Wilson).
+        high: upper end.
+        mean_return: sum of rewards, mean.
+        mean_length: steps, mean.
+        falls: share that ended by a fall.
+        limit_excess: worst, measured [rad].
+        self_contacts: share of steps in which the robot touched itself.
+    """
+
+    episodes: int
+    success: float
+    low: float
+    high: float
+    mean_return: float
+    mean_length: float
+    falls: float
+    limit_excess: float
+    self_contacts: float
+
+
+def train(options: TrainOptions, progress: Callable[[int, float], None] | None = None) -> Path:
+    """Trains a policy; goes on where an earlier run in the same folder was stopped.
+
+    Writes checkpoint.zip every `checkpoint_every` steps, policy.zip at the end, settings.json, and
+    the logs of TensorBoard where that is installed.
+
+    Args:
+        options: what, and for how long.
+        progress: is told the steps done and the share of successes among the last episodes.
+
+    Returns:
+        The folder.
+
+    Raises:
+        hurcules.Error: an unknown environment, algorithm or option, or a folder with another run.
+    """
+    require_known("environment", options.environment, hurcules_envs.ENVIRONMENTS)
+    require_known("algorithm", options.algorithm, ALGORITHMS)
+    torch.set_num_threads(1)  # small networks: more threads only wait for each other
+    environment = make_sb3(options.environment, options.episodes, **options.options)
+    out, checkpoint = options.out, options.out / "checkpoint.zip"
+    settings = json.loads(json.dumps(asdict(options) | {"out": str(out)}))
+    out.mkdir(parents=True, exist_ok=True)
+    written = out / "settings.json"
+    if written.exists():
+        earlier = json.loads(written.read_text())
+        differing = [n for n in settings if n != "steps" and earlier.get(n) != settings[n]]
+        if differing:
+            raise hurcules.Error(
+                f"{out} holds a run with another {', '.join(differing)}: give another folder"
+            )
+    written.write_text(json.dumps(settings, indent=2) + "\n")
+    model = _model(options, environment)
+    if checkpoint.exists():
+        model = type(model).load(checkpoint, environment, device="cpu")
+    left = options.steps - model.num_timesteps
+    if left > 0:
+        watch = _Watch(checkpoint, options.checkpoint_every, progress)
+        model.learn(left, callback=watch, reset_num_timesteps=False)
+        watch.save()
+    model.save(out / "policy.zip")
+    environment.close()
+    return out
+
+
+def load_policy(folder: Path) -> tuple[BaseAlgorithm, dict[str, Any]]:
+    """Reads a policy and its settings from a folder that `train` wrote.
+
+    Raises:
+        hurcules.Error: there is none.
+    """
+    policy, settings = folder / "policy.zip", folder / "settings.json"
+    if not (policy.exists() and settings.exists()):
+        raise hurcules.Error(f"{folder}: wanted policy.zip and settings.json, as train writes them")
+    known = json.loads(settings.read_text())
+    kind = PPO if known["algorithm"] == "ppo" else SAC
+    if known["algorithm"] == "her":
+        environment = make_sb3(known["environment"], 1, **known["options"])
+        return kind.load(policy, environment, device="cpu"), known
+    return kind.load(policy, device="cpu"), known
+
+
+def evaluate(
+    act: Callable[[Any], NDArray[Any]],
+    environment: str,
+    episodes: int = 100,
+    seed: int = 10_000,
+    threads: int = 0,
+    **options: Any,
+) -> Evaluation:
+    """Runs a policy once in each of many episodes.
+
+    Args:
+        act: actions (n, k) for observations.
+        environment: id.
+        episodes: how many, side by side.
+        seed: of the first; they are not those of training.
+        threads: 0 for one a processor.
+        options: of the environment.
+    """
+    vector = gymnasium.make_vec(environment, num_envs=episodes, threads=threads, **options)
+    observation, info = vector.reset(seed=seed)
+    running = np.ones(episodes, dtype=bool)
+    success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
+    returns, lengths = np.zeros(episodes), np.zeros(episodes)
+    touching, excess = 0.0, 0.0
+    while running.any():
+        observation, reward, terminated, truncated, info = vector.step(act(observation))
+        returns[running] += reward[running]
+        lengths[running] += 1
+        touching += float((info["self_contacts"][running] > 0).sum())
+        excess = max(excess, float(info["limit_excess"][running].max()))
+        success[running] = info["is_success"][running]
+        fell[running] = info["failed"][running]
+        running &= ~(terminated | truncated)
+    vector.close()
+    low, high = _wilson(int(success.sum()), episodes)
+    return Evaluation(
+        episodes=episodes,
+        success=float(success.mean()),
+        low=low,
+        high=high,
+        mean_return=float(returns.mean()),
+        mean_length=float(lengths.mean()),
+        falls=float(fell.mean()),
+        limit_excess=excess,
+        self_contacts=touching / float(lengths.sum()),
+    )
+
+
+def _model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
+    goal = isinstance(environment.observation_space, gymnasium.spaces.Dict)
+    if options.algorithm == "her" and not goal:
+        raise hurcules.Error(f"her: {options.environment} is no goal environment")
+    kind = "MultiInputPolicy" if goal else "MlpPolicy"
+    network: dict[str, Any] = {"net_arch": [64, 64]}
+    if goal:
+        network["features_extractor_class"] = GoalFeatures
+    shared = {"seed": options.seed, "device": "cpu", "tensorboard_log": _tensorboard(options.out)}
+    if options.algorithm == "ppo":
+        recipe = next((r for n, r in RECIPES.items() if options.environment.startswith(n)), {})
+        settings = {**PPO_SETTINGS, **recipe}
+        network["log_std_init"] = 0.0
+        return PPO(kind, environment, policy_kwargs=network, **settings, **shared)
+    settings = dict(OFF_POLICY)
+    if options.algorithm == "her":
+        settings["replay_buffer_class"] = HerReplayBuffer
+        settings["replay_buffer_kwargs"] = {"n_sampled_goal": 4}
+    network["net_arch"] = [256, 256]
+    return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
+
+
+def _tensorboard(out: Path) -> str | None:
+    try:
+        import torch.utils.tensorboard  # noqa: F401
+    except ImportError:
+        return None
+    return str(out / "tensorboard")
+
+
+def _wilson(successes: int, n: int) -> tuple[float, float]:
+    """The 95 % interval of a share (Wilson 1927)."""
+    z, p = 1.96, successes / n
+    middle = (p + z * z / (2 * n)) / (1 + z * z / n)
+    half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+class _Watch(BaseCallback):
+    """Saves checkpoints, whole or not at all, and tells how far it is."""
+
+    def __init__(
+        self, checkpoint: Path, every: int, progress: Callable[[int, float], None] | None
+    ) -> None:
+        super().__init__()
+        self._checkpoint, self._every, self._progress = checkpoint, every, progress
+        self._saved = 0
+        self._ends: list[bool] = []
+
+    def save(self) -> None:
+        """Writes the checkpoint in place of the last one."""
+        beside = self._checkpoint.with_suffix(".new.zip")
+        self.model.save(beside)
+        beside.replace(self._checkpoint)
+        self._saved = self.num_timesteps
+
+    def _on_training_start(self) -> None:
+        self._saved = self.num_timesteps
+
+    def _on_step(self) -> bool:
+        for done, info in zip(self.locals["dones"], self.locals["infos"], strict=True):
+            if done:
+                self._ends = [*self._ends[-99:], bool(info["is_success"])]
+        if self.num_timesteps - self._saved >= self._every:
+            self.save()
+        if self._progress is not None:
+            share = sum(self._ends) / len(self._ends) if self._ends else 0.0
+            self._progress(self.num_timesteps, share)
+        return True

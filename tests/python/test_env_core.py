@@ -1,0 +1,240 @@
+"""Strategy: each registered environment that is written over arrays, in its fastest fidelity: what
+Gymnasium's checker wants, sameness of bits alone and side by side, resets, states, bad input."""
+
+import json
+import pickle
+import warnings
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode
+
+import hurcules
+import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.registry import make_environment
+
+FAST = {"fidelity": "kinematic"}
+IDS = [
+    ("Hurcules/Reach-v0", FAST),
+    ("Hurcules/Reach-v0", {"fidelity": "fast", "robot": "manipulation", "sparse": True}),
+    ("Hurcules/Reach-v0", {**FAST, "action": "delta"}),
+    ("Hurcules/Reach-v0", {**FAST, "action": "pose"}),
+    ("Hurcules/ReachJoint-v0", FAST),
+    ("Hurcules/ReachPrecise-v0", FAST),
+    ("Hurcules/Drive-v0", FAST),
+    ("Hurcules/Drive-v0", {"fidelity": "fast", "terrain": "ramps"}),
+]
+
+
+def same(one, other):
+    if isinstance(one, dict):
+        return all(np.array_equal(one[name], other[name]) for name in one)
+    return np.array_equal(one, other)
+
+
+def row(observation, i):
+    return {name: v[i] for name, v in observation.items()}
+
+
+@pytest.mark.parametrize(("name", "options"), IDS)
+def test_an_environment_passes_gymnasiums_checker_without_a_warning(name, options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = gym.make(name, **options)
+        check_env(env.unwrapped, skip_render_check=True)
+        env.close()
+        env.close()
+
+
+@pytest.mark.parametrize(("name", "options"), IDS[-2:] + IDS[:1])
+def test_side_by_side_and_on_two_threads_it_has_the_bits_that_it_has_alone(name, options):
+    singles = [gym.make(name, **options) for _ in range(3)]
+    vectors = [gym.make_vec(name, num_envs=3, threads=t, **options) for t in (1, 2)]
+    alone = [env.reset(seed=7 + i)[0] for i, env in enumerate(singles)]
+    together = [vector.reset(seed=7)[0] for vector in vectors]
+    generator = np.random.default_rng(0)
+    for _ in range(25):
+        for observation in together:
+            assert all(same(alone[i], row(observation, i)) for i in range(3))
+        actions = generator.uniform(-1, 1, vectors[0].action_space.shape).astype(np.float32)
+        steps = [vector.step(actions) for vector in vectors]
+        together = [step[0] for step in steps]
+        for i, env in enumerate(singles):
+            alone[i], reward, _, _, info = env.step(actions[i])
+            for step in steps:
+                assert step[1][i] == reward
+                assert step[4]["self_distance"][i] == info["self_distance"]
+
+
+@pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[-1]])
+def test_a_state_goes_on_with_the_same_bits_in_another_instance(name, options):
+    env, other = gym.make(name, **options).unwrapped, gym.make(name, **options).unwrapped
+    env.reset(seed=1)
+    other.reset(seed=2)
+    generator = np.random.default_rng(3)
+    actions = generator.uniform(-1, 1, (40, *env.action_space.shape)).astype(np.float32)
+    lengths = set()
+    for action in actions[:15]:
+        env.step(action)
+        state = env.get_state()
+        assert np.isfinite(state[~np.isinf(state)]).all()
+        lengths.add(len(state))
+    assert len(lengths) == 1
+    other.set_state(env.get_state())
+    assert same(env.observe(), other.observe())
+    for action in actions[15:]:
+        one, reward, *_ = env.step(action)
+        two, again, *_ = other.step(action)
+        assert same(one, two)
+        assert reward == again
+    with pytest.raises(hurcules.Error, match="wanted shape"):
+        env.set_state(env.get_state()[:-1])
+    with pytest.raises(hurcules.Error, match="wanted shape"):
+        gym.make("Hurcules/ReachJoint-v0", **FAST).unwrapped.set_state(env.get_state())
+
+
+def test_an_observation_is_never_written_again():
+    vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, **FAST)
+    kept, _ = vector.reset(seed=0)
+    copies = {name: values.copy() for name, values in kept.items()}
+    first, *_, info = vector.step(np.ones((2, 6), np.float32))
+    time = info["time"].copy()
+    vector.step(np.ones((2, 6), np.float32))
+    assert same(kept, copies)
+    assert not same(first, copies)
+    assert (info["time"] == time).all()
+
+
+def limited(mode):
+    return gym.make_vec(
+        "Hurcules/Reach-v0", num_envs=2, max_episode_steps=3, autoreset_mode=mode, **FAST
+    )
+
+
+def test_the_step_after_an_end_is_the_reset():
+    vector = limited(AutoresetMode.NEXT_STEP)
+    vector.reset(seed=0)
+    actions = np.ones((2, 6), np.float32)
+    ends = [vector.step(actions)[3].all() for _ in range(8)]
+    assert ends == [False, False, True, False, False, False, True, False]
+    assert vector.metadata["autoreset_mode"] == AutoresetMode.NEXT_STEP
+
+
+def test_in_the_same_step_the_last_observation_is_kept_beside_the_new_one():
+    vector, plain = limited(AutoresetMode.SAME_STEP), gym.make("Hurcules/Reach-v0", **FAST)
+    vector.reset(seed=4)
+    plain.reset(seed=4)
+    action = np.full(6, 0.5, np.float32)
+    for k in range(3):
+        observation, _, _, truncated, info = vector.step(np.tile(action, (2, 1)))
+        expected, *_ = plain.step(action)
+        assert truncated.all() == (k == 2)
+    assert same(info["final_obs"][0], expected)
+    assert info["final_info"]["time"][0] == pytest.approx(0.15)
+    assert info["time"][0] == 0.0
+    again, _ = plain.reset()
+    assert same(row(observation, 0), again)
+
+
+def test_without_autoreset_who_is_over_is_reset_by_a_mask():
+    vector = limited(AutoresetMode.DISABLED)
+    vector.reset(seed=0)
+    actions = np.zeros((2, 6), np.float32)
+    for _ in range(3):
+        *_, info = vector.step(actions)
+    with pytest.raises(hurcules.Error, match="reset_mask"):
+        vector.step(actions)
+    vector.reset(options={"reset_mask": np.array([True, True])})
+    *_, info = vector.step(actions)
+    assert info["time"] == pytest.approx([0.05, 0.05])
+    with pytest.raises(hurcules.Error, match="at least one true"):
+        vector.reset(options={"reset_mask": np.array([False, False])})
+
+
+@pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[5]])
+def test_the_reward_of_another_goal_agrees_with_that_of_the_step(name, options):
+    vector = gym.make_vec(name, num_envs=4, **options)
+    vector.reset(seed=1)
+    for _ in range(10):
+        observation, reward, _, _, info = vector.step(vector.action_space.sample())
+    env = vector.environment
+    goals = observation["achieved_goal"], observation["desired_goal"]
+    assert env.compute_reward(*goals, None) == pytest.approx(reward, abs=1e-6)
+    assert env.compute_reward(goals[0][1], goals[1][1], None) == pytest.approx(reward[1], abs=1e-6)
+    assert reward == pytest.approx(sum(info[f"reward_{term}"] for term in env.terms))
+
+
+def test_specs_and_environments_can_be_stored():
+    env = gym.make("Hurcules/Drive-v0", **FAST)
+    again = pickle.loads(pickle.dumps(env.unwrapped))
+    assert again.action_names == env.unwrapped.action_names
+    assert json.loads(env.spec.to_json())["id"] == "Hurcules/Drive-v0"
+
+
+@pytest.mark.parametrize(
+    ("path", "options", "steps", "least"),
+    [
+        ("hurcules_envs.reach:Reach", FAST, 100, 0.9),
+        ("hurcules_envs.drive:Drive", FAST, 200, 1.0),
+        ("hurcules_envs.drive:Drive", {"fidelity": "fast"}, 200, 1.0),
+    ],
+)
+def test_the_expert_succeeds_and_holding_or_constant_actions_do_not(path, options, steps, least):
+    name = {"Reach": "Hurcules/Reach-v0", "Drive": "Hurcules/Drive-v0"}[path.split(":")[1]]
+    count = 20 if options == FAST else 4
+
+    def success(act):
+        vector = gym.make_vec(name, num_envs=count, max_episode_steps=steps, **options)
+        vector.reset(seed=100)
+        done = np.zeros(count, dtype=bool)
+        running = np.ones(count, dtype=bool)
+        for _ in range(steps):
+            *_, terminated, truncated, info = vector.step(act(vector))
+            done |= running & info["is_success"]
+            running &= ~(terminated | truncated)
+        return done.mean()
+
+    assert success(lambda v: v.environment.expert(v.numbers)) >= least
+    if options == FAST:
+        size = gym.make(name, **options).action_space.shape
+        for constant in (np.zeros(size), np.ones(size), -np.ones(size)):
+            assert success(lambda v, c=constant: np.tile(c, (count, 1))) == 0.0
+
+
+BAD = [
+    ({"fidelity": "best"}, "fidelity 'best' does not exist"),
+    ({"action": "torque"}, "action 'torque' does not exist"),
+    ({"robot": "spot"}, "robot: wanted"),
+    ({"robot": __file__}, "wants frames"),
+    ({"tolerance": -1.0}, "tolerance: wanted"),
+    ({"rate": 1000.0}, "rate: wanted"),
+    ({"colour": "red"}, "option 'colour' does not exist"),
+]
+
+
+@pytest.mark.parametrize(("options", "text"), BAD)
+def test_a_bad_option_says_what_was_wanted(options, text):
+    with pytest.raises(hurcules.Error, match=text):
+        make_environment("hurcules_envs.reach:Reach", options)
+
+
+def test_a_bad_action_says_what_was_wanted():
+    env = gym.make("Hurcules/Reach-v0", **FAST).unwrapped
+    vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, **FAST)
+    env.reset(seed=0)
+    vector.reset(seed=0)
+    for action, text in (
+        (np.zeros(5), "wanted shape"),
+        (np.full(6, np.nan), "wanted finite numbers"),
+        ("left", "wanted an array of numbers"),
+    ):
+        with pytest.raises(hurcules.Error, match=text):
+            env.step(action)
+    with pytest.raises(hurcules.Error, match=r"index \(1, 2\)"):
+        bad = np.zeros((2, 6))
+        bad[1, 2] = np.inf
+        vector.step(bad)
+    with pytest.raises(hurcules.Error, match="no options exist"):
+        env.reset(options={"goal": 1})
