@@ -63,6 +63,7 @@ FLOORS: tuple[set[str], ...] = (
 DYNAMIC = {
     "hurcules._moved": "the new place of a module that has moved, until the next release",
     "hurcules.opengl": "a part of MuJoCo",
+    "hurcules_envs.registry": "an environment by the name of its class, as a spec stores it",
     "hurcules_studies.thesis.measures": "the modules of its own folder",
 }
 

@@ -7,7 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
-#include "hurcules/tasks/value_task.hpp"
+#include "hurcules/control/tasks.hpp"
 
 namespace hurcules {
 
