@@ -95,30 +95,6 @@ Returns:
 Raises:
   Error: an unknown joint, or arrays that do not fit.
 )";
-inline constexpr const char* kBatch = R"(Many copies of a simulation on threads, stepped in one call.
-
-Each has controller and data of its own; they share the model unless each gets its own. Its bits
-are those that it has alone, whatever the number of threads. Copies record nothing.
-
-Args:
-  simulation: Simulation to copy, in its present state.
-  n: how many.
-  threads: 0 for one a processor.
-  models: one mujoco.MjModel each, of the same names and shapes, or none.
-
-Raises:
-  Error: n < 1, or models that do not fit.
-)";
-inline constexpr const char* kBatchStep = R"(Control ticks of all. Releases the interpreter lock.
-
-Args:
-  ticks: how many; one that is finished stands still.
-  commands: (n, k) SI, or None.
-  mask: (n,) bool: which are stepped; None: all.
-
-Raises:
-  Error: arrays of another shape, or not finite.
-)";
 inline constexpr const char* kReset = "Back to the start of the mission, varied by this seed.";
 inline constexpr const char* kState =
     "All that decides how the run goes on, as one array; the log and the events are not in it.";

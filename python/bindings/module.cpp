@@ -23,6 +23,7 @@ void bind_drive(py::module_& module);
 void bind_whole_body(py::module_& module);
 void bind_plant(py::module_& module);
 void bind_sim(py::module_& module);
+void bind_batch(py::module_& module);
 void bind_power(py::module_& module);
 
 namespace {
@@ -77,5 +78,6 @@ PYBIND11_MODULE(_core, module) {
   bind_whole_body(module);
   bind_plant(module);
   bind_sim(module);
+  bind_batch(module);
   bind_power(module);
 }

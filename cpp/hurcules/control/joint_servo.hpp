@@ -81,7 +81,6 @@ class JointServo {
     return motors_[static_cast<std::size_t>(joint)].coordinate;
   }
   [[nodiscard]] const Vector& position() const { return position_; }    // [rad] (m) reference
-  [[nodiscard]] const Vector& velocity() const { return velocity_; }    // [rad/s] (m) reference
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
   // [N m], (m), before saturation
   [[nodiscard]] const Vector& demand() const { return pid_.demand(); }

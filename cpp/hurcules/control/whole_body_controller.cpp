@@ -13,12 +13,24 @@ namespace hurcules {
 
 namespace {
 
+const std::string& name_of(const NamedStack& stack) {
+  return stack.name;
+}
+
+const std::string& name_of(const Channel& channel) {
+  return channel.name();
+}
+
+const std::string& name_of(const Task* task) {
+  return task->name();
+}
+
 template <class Named>
 void require_distinct(const std::vector<Named>& all, const char* kind) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      require(all[i]->name() != all[k]->name(),
-              std::string("two ") + kind + " are called '" + all[i]->name() + "'");
+      require(name_of(all[i]) != name_of(all[k]),
+              std::string("two ") + kind + " are called '" + name_of(all[i]) + "'");
     }
   }
 }
@@ -64,14 +76,11 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
     servo_.leave(servo_.find(options_.drive->left));
     servo_.leave(servo_.find(options_.drive->right));
   }
-  for (std::size_t i = 0; i < stacks_.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      require(stacks_[i].name != stacks_[k].name,
-              "two stacks are called '" + stacks_[i].name + "'");
-    }
-    laws_.push_back(stacks_[i].order == ControlOrder::Velocity
-                        ? make_law(plan_, stacks_[i].stack, options_.velocity)
-                        : make_law(plan_, stacks_[i].stack, options_.acceleration));
+  require_distinct(stacks_, "stacks");
+  for (const NamedStack& stack : stacks_) {
+    laws_.push_back(stack.order == ControlOrder::Velocity
+                        ? make_law(plan_, stack.stack, options_.velocity)
+                        : make_law(plan_, stack.stack, options_.acceleration));
   }
   collect_tasks();
   check_channels();
@@ -103,11 +112,8 @@ void WholeBodyController::collect_tasks() {
 }
 
 void WholeBodyController::check_channels() {
+  require_distinct(channels_, "channels");
   for (const Channel& channel : channels_) {
-    for (const Channel& other : channels_) {
-      require(&other == &channel || other.name() != channel.name(),
-              "two channels are called '" + channel.name() + "'");
-    }
     for (const std::string& entry : channel.entries()) command_names_.push_back(entry);
     if (channel.kind() == ChannelKind::Drive) {
       require(drive_.has_value(), "channel '" + channel.name() +
@@ -337,11 +343,7 @@ void WholeBodyController::set_delta(Task& task, const ConstVectorRef& delta,
   twin.advance(velocity, dt());
   velocity.setZero();
   twin.advance(velocity, dt());
-  scratch_.clear();
-  StateWriter writer(scratch_);
-  twin.save(writer);
-  StateReader reader(scratch_);
-  task.restore(reader);
+  copy_memory(twin, task, scratch_);
 }
 
 void WholeBodyController::read_forces(const RobotState& state) {
@@ -407,15 +409,6 @@ void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
 void WholeBodyController::lead(const RobotState& state) {
   refer();
   if (drive_) drive_->follow(state);
-}
-
-void WholeBodyController::compute(const RobotState& state, const Vector* command, bool first,
-                                  VectorRef ctrl) {
-  kinematics(state);
-  apply(command, first, state);
-  measure();
-  solve(state);
-  actuate(state, ctrl);
 }
 
 void WholeBodyController::save(StateWriter& writer) const {

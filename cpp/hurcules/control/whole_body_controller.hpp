@@ -101,12 +101,12 @@ class WholeBodyController {
   void lead(const RobotState& state);
   // the reference stays where it is, the servos hold it
   void hold();
-  // all of them
-  void compute(const RobotState& state, const Vector* command, bool first, VectorRef ctrl);
 
   [[nodiscard]] double dt() const { return options_.dt; }
   [[nodiscard]] const WholeBodyControllerOptions& options() const { return options_; }
   [[nodiscard]] const Robot& plan() const { return plan_; }
+  // the plan as a scratch robot on the support, to find the start that `reset` then takes
+  [[nodiscard]] Robot& plan_to_place() { return plan_; }
   [[nodiscard]] const Vector& q_des() const { return q_; }    // [rad] (n)
   [[nodiscard]] const Vector& qd_des() const { return qd_; }  // [rad/s] (n)
   [[nodiscard]] const Vector& command() const {

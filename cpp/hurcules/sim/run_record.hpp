@@ -40,7 +40,6 @@ class RunRecord {
 
   [[nodiscard]] std::string text(const Event& event, const Monitors& monitors) const;
   [[nodiscard]] const TelemetryNames& names() const { return names_; }
-  [[nodiscard]] const std::vector<std::string>& phases() const { return phases_; }
   void truncate(double time);  // [s]
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

@@ -165,14 +165,15 @@ void Simulation::tick(const Vector* command, bool first) {
   StageTimer timer(options_.clock, record_.stage_seconds);
   sense();
   check_sensors();
+  const RobotState state = sensed();
   timer.done(Stage::Sense);
-  think(command, first, timer);
+  think(state, command, first, timer);
   if (options_.physics) {
-    actuate();
+    actuate(state);
     timer.done(Stage::Servo);
     advance_plant();
   } else {
-    controller_->lead(sensed());
+    controller_->lead(state);
     timer.done(Stage::Servo);
     advance_plan();
   }
@@ -184,7 +185,8 @@ void Simulation::tick(const Vector* command, bool first) {
 }
 
 // from what is sensed to the reference; one who is held has no other thought than to stay
-void Simulation::think(const Vector* command, bool first, StageTimer& timer) {
+void Simulation::think(const RobotState& state, const Vector* command, bool first,
+                       StageTimer& timer) {
   WholeBodyController& controller = *controller_;
   if (held()) {
     controller.hold();
@@ -193,7 +195,6 @@ void Simulation::think(const Vector* command, bool first, StageTimer& timer) {
     for (const Stage stage : {Stage::Kinematics, Stage::Problem, Stage::Solve}) timer.done(stage);
     return;
   }
-  const RobotState state = sensed();
   controller.kinematics(state);
   timer.done(Stage::Kinematics);
   if (!command && supervisor_) command = &supervisor_->command(dt());
@@ -231,9 +232,9 @@ void Simulation::check_sensors() {
   if (held()) plant_.brakes().close();
 }
 
-void Simulation::actuate() {
+void Simulation::actuate(const RobotState& state) {
   Eigen::Map<Vector> ctrl(plant_.data()->ctrl, plant_.model()->nu);
-  controller_->actuate(sensed(), ctrl);
+  controller_->actuate(state, ctrl);
   if (const std::optional<TrackDrive>& drive = controller_->drive();
       drive && !held() && !battery_.empty()) {
     for (const JointActuator* belt : {&drive->left(), &drive->right()}) {
@@ -331,11 +332,7 @@ void Simulation::observe() {
 // the tasks at the real robot, with the targets that they have now
 void Simulation::measure_world() {
   for (std::size_t i = 0; i < measured_.size(); ++i) {
-    task_state_.clear();
-    StateWriter writer(task_state_);
-    planned_tasks_[i]->save(writer);
-    StateReader reader(task_state_);
-    measured_[i]->restore(reader);
+    copy_memory(*planned_tasks_[i], *measured_[i], task_state_);
     measured_[i]->update(world_);
   }
   record_.note_measured(*controller_, measured_tasks_);
@@ -415,13 +412,7 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
 
 void Simulation::place(std::uint64_t seed, const Vector* where) {
   Vector start = where ? *where : initial_qpos_;
-  if (supervisor_) {
-    Robot robot(plant_.model_ptr(), world_.coordinate_names());
-    if (const std::string& support = controller_->options().support; !support.empty()) {
-      robot.stand_on(support);
-    }
-    start = supervisor_->start(plant_, robot, seed);
-  }
+  if (supervisor_) start = supervisor_->start(plant_, controller_->plan_to_place(), seed);
   plant_.reset(-1);
   plant_.place(start);
   controller_->reset(start);

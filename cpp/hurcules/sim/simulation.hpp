@@ -110,16 +110,15 @@ class Simulation {
   [[nodiscard]] const Supervisor* supervisor() const { return supervisor_.get(); }
   [[nodiscard]] const Sensors& sensors() const { return sensors_; }
   [[nodiscard]] const Monitors& monitors() const { return monitors_; }
-  [[nodiscard]] const SimulationOptions& options() const { return options_; }
   // the supervisor's, then the worst that the monitors saw
   [[nodiscard]] std::vector<Figure> figures() const;
 
  private:
   void tick(const Vector* command, bool first);
-  void think(const Vector* command, bool first, StageTimer& timer);
+  void think(const RobotState& state, const Vector* command, bool first, StageTimer& timer);
   void sense();
   void check_sensors();
-  void actuate();
+  void actuate(const RobotState& state);
   void advance_plant();
   void advance_plan();
   void record();

@@ -23,8 +23,9 @@ Task::Task(std::string name, Index rows, const Robot& robot)
 }
 
 void Task::set_max_speed(double speed) {
-  require(speed > 0.0 && std::isfinite(speed),
-          "max_speed of task '" + name_ + "' wants a positive number, got " + std::to_string(speed));
+  require(
+      speed > 0.0 && std::isfinite(speed),
+      "max_speed of task '" + name_ + "' wants a positive number, got " + std::to_string(speed));
   max_speed_ = speed;
 }
 
@@ -75,6 +76,14 @@ void Task::require_rows(const ConstVectorRef& values, const char* what) const {
                 " values, " + std::to_string(values.size()) + " came");
   if (!values.allFinite())
     throw Error(std::string(what) + " of task '" + name_ + "' wants finite values");
+}
+
+void copy_memory(const Task& from, Task& to, std::vector<double>& scratch) {
+  scratch.clear();
+  StateWriter writer(scratch);
+  from.save(writer);
+  StateReader reader(scratch);
+  to.restore(reader);
 }
 
 }  // namespace hurcules

@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hurcules/base/state.hpp"
 #include "hurcules/base/types.hpp"
@@ -83,5 +84,9 @@ class Task {
  private:
   ModelIdentity identity_;
 };
+
+// `to`, a copy of `from` on another robot of its model, gets what `from` keeps between ticks: target,
+// feed-forwards, interval. Allocates nothing once `scratch` has grown.
+void copy_memory(const Task& from, Task& to, std::vector<double>& scratch);
 
 }  // namespace hurcules

@@ -246,6 +246,22 @@ TEST_P(EveryTask, IntervalIsKeptInTheSnapshot) {
   EXPECT_EQ(task_->upper(), Vector::Constant(m, 0.2));
 }
 
+TEST_P(EveryTask, ACopyGetsTheMemory) {
+  const auto copy = task_->clone();
+  task_->advance(Vector::Constant(task_->rows(), 0.1), 0.5);
+  task_->set_interval(Vector::Constant(task_->rows(), -0.1), task_->upper());
+  std::vector<double> scratch;
+  copy_memory(*task_, *copy, scratch);
+  task_->update(robot_);
+  copy->update(robot_);
+  EXPECT_EQ(copy->error(), task_->error());
+  EXPECT_EQ(copy->velocity_des(), task_->velocity_des());
+  EXPECT_EQ(copy->lower(), task_->lower());
+  const NoAllocation guard;
+  copy_memory(*task_, *copy, scratch);
+  EXPECT_EQ(guard.count(), 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, EveryTask, testing::ValuesIn(all_cases()),
                          [](const auto& test) { return test.param.name; });
 
