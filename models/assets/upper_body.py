@@ -5,7 +5,7 @@ Metres, in the frame of the link that shows the mesh.
 
 import numpy as np
 
-from solids import arc, box, lathe, mirror, panel, shell
+from solids import arc, box, lathe, mirror, panel, plate, shell
 
 
 def pelvis():
@@ -126,24 +126,18 @@ def backpack():
 
 
 def neck():
-    """Yaw column with a flange."""
-    return lathe(
-        [
-            (0.062, -0.02),
-            (0.062, 0.0),
-            (0.046, 0.012),
-            (0.042, 0.05),
-            (0.055, 0.056),
-            (0.055, 0.075),
-            (0.04, 0.08),
-        ],
-        24,
-        axis="z",
-    )
+    """Yaw column with a fork that bears the head's pitch axis, 0.08 m above the frame."""
+    part = lathe([(0.062, -0.02), (0.062, 0.0), (0.046, 0.012), (0.046, 0.020)], 24, axis="z")
+    part += box((0.056, 0.272, 0.022), (0, 0, 0.023), 0.005)
+    cheek = [(-0.028, 0.014), (0.028, 0.014), (0.028, 0.080)]
+    turned = np.radians(np.arange(20, 180, 20))
+    cheek += [(0.028 * np.cos(a), 0.080 + 0.028 * np.sin(a)) for a in turned]
+    part += mirror(plate([*cheek, (-0.028, 0.080)], 0.123, 0.136, 0.003))
+    return part + mirror(lathe([(0.018, 0.134), (0.018, 0.139), (0.014, 0.141)], 20, (0, 0, 0.08)))
 
 
 def head():
-    """Camera head: hull with a visor recess, pitch bearings."""
+    """Camera head: hull with a visor recess, on the shaft of its pitch axis."""
     part = shell(
         [
             (0.012, 0.10, 0.16, 0),
@@ -155,7 +149,7 @@ def head():
         ],
         0.035,
     )
-    return part + mirror(lathe([(0.05, 0.125), (0.05, 0.142), (0.04, 0.146)], 20, (0, 0, 0.045)))
+    return part + lathe([(0.020, -0.125), (0.020, 0.125)], 20)
 
 
 def visor():
