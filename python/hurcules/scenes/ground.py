@@ -35,6 +35,7 @@ class Ground:
     Attributes:
         spec: the model.
         rng: random numbers of the scene's seed.
+        friction: sliding friction of everything that is ground.
     """
 
     def __init__(self, robot: str | None, friction: float, seed: int) -> None:
@@ -51,7 +52,7 @@ class Ground:
         self.spec = mjcf.parse([*files, folder / "scenes" / "flat.xml"])
         self.rng = np.random.default_rng(seed)
         self._robot = robot
-        self._friction = friction
+        self.friction = friction
         add_materials(self.spec)
         if robot is None:  # the robot brings the sun that follows it
             _add_sun(self.spec)
@@ -158,7 +159,7 @@ class Ground:
         return geom
 
     def _slide(self, geom: Any) -> None:
-        geom.friction[0] = self._friction
+        geom.friction[0] = self.friction
 
 
 def _add_sun(spec: Any) -> None:

@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from hurcules.scenes.ground import Ground, turn
 from hurcules.scenes.parameters import choice, count, flag, number
@@ -18,6 +20,7 @@ PIECES = {"timber_2x4": 0.019, "timber_4x4": 0.0445, "concrete_block": 0.095}  #
 HANDLE = 1.54  # [m] of the sled's bar before its middle
 EYE = (-0.62, 0.0, 0.02)  # [m] the towing eye in the frame of the upper legs
 CHAIN = 0.40  # [m] of coupling between eye and handle: clear of the lower legs' ends
+FALL = 4.0  # [s] until a heap lies
 CASE_RADIUS, BOX_HALF = 0.067, 0.14  # [m] of the shell (with its band) and the box
 
 
@@ -55,19 +58,37 @@ class Debris(Scene):
     distance: float = number(2.5, 1.5, 20.0, "m", "from the start to its near side")
 
     def build(self, ground: Ground) -> None:
-        """Each piece lies above those before it: it falls into place in the first second."""
+        """Each piece falls from above those before it; the scene begins when all lie."""
         names = ["concrete_block"] * self.blocks
         names += ["timber_4x4", "timber_2x4"] * (self.timber // 2) + ["timber_2x4"] * (
             self.timber % 2
         )
-        height = 0.0
-        for index, name in enumerate(names, start=1):
+        poses, height = [], 0.0
+        for name in names:
             low = np.array([self.distance + 0.5, -self.width / 2])
             place = low + ground.rng.random(2) * (self.length, self.width)
             yaw = turn("z", ground.rng.uniform(-math.pi, math.pi))
             thick = PIECES[name]
-            ground.attach(name, f"piece_{index}_", (*place, height + thick + 0.002), yaw)
+            poses.append(np.array([*place, height + thick + 0.002, *yaw]))
             height += 2 * thick + 0.004
+        fallen = _fallen(names, poses, ground)
+        for index, (name, pose) in enumerate(zip(names, fallen, strict=True), start=1):
+            ground.attach(name, f"piece_{index}_", pose[:3], pose[3:])
+
+
+def _fallen(
+    names: list[str], poses: list[NDArray[np.float64]], ground: Ground
+) -> NDArray[np.float64]:
+    """Where pieces come to rest on level ground, (n, 7): position [m], quaternion."""
+    if not names:
+        return np.zeros((0, 7))
+    alone = Ground(None, ground.friction, 0)
+    for index, (name, pose) in enumerate(zip(names, poses, strict=True)):
+        alone.attach(name, f"{index}_", pose[:3], pose[3:])
+    model = alone.spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=round(FALL / model.opt.timestep))
+    return data.qpos.reshape(-1, 7).copy()
 
 
 @dataclass(frozen=True)
