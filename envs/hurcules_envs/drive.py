@@ -236,10 +236,10 @@ class Drive(Environment):
         return np.clip(action, -1.0, 1.0)
 
     def camera(self) -> mujoco.MjvCamera:
-        """From behind and above."""
+        """From above, with all places where the goal may lie."""
         camera = mujoco.MjvCamera()
-        camera.lookat[:] = (1.0, 0.0, 0.3)
-        camera.distance, camera.azimuth, camera.elevation = 9.0, 140.0, -25.0
+        camera.lookat[:] = (0.0 if self.terrain == "flat" else 3.0, 0.0, 0.0)
+        camera.distance, camera.azimuth, camera.elevation = 11.0, 140.0, -45.0
         return camera
 
     def visual_model(self) -> mujoco.MjModel:

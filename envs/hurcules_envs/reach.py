@@ -163,6 +163,16 @@ class Reach(Environment):
             return hurcules.models.load(self.setup.name, "flat", bed=self.setup.name != "rescue")
         return self.setup.model
 
+    def camera(self) -> mujoco.MjvCamera:
+        """Of Hurcules from the front left, head and hands within; of others as MuJoCo says."""
+        camera = mujoco.MjvCamera()
+        if not self.setup.drives:
+            mujoco.mjv_defaultFreeCamera(self.setup.model, camera)
+            return camera
+        camera.lookat[:] = (0.4, 0.0, 0.9)
+        camera.distance, camera.azimuth, camera.elevation = 4.8, 130.0, -15.0
+        return camera
+
     def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:
         """The goals, as balls."""
         for goal in episodes.memory["goal"][i].reshape(-1, self._size):
