@@ -16,19 +16,19 @@ from hurcules_envs.environment import Array, Environment, Numbers, Start
 
 __all__ = ["Episodes", "Step", "numbers_of"]
 
-# read after each step beside what the environment wants
-_WATCHED = (
-    "excess/position",
-    "excess/velocity",
-    "excess/torque",
-    "commanded_excess/position",
-    "monitor/self_collision_distance_m",
-    "monitor/static_margin_m",
-    "self_contacts",
-    "scaled",
-    "status",
-    "changes",
-)
+# read after each step beside what the environment wants, and what it is called in info
+_WATCHED = {
+    "excess/position": "limit_excess",
+    "excess/velocity": "limit_excess_velocity",
+    "excess/torque": "limit_excess_torque",
+    "commanded_excess/position": "commanded_excess",
+    "monitor/self_collision_distance_m": "self_distance",
+    "monitor/static_margin_m": "support_margin",
+    "self_contacts": "self_contacts",
+    "scaled": "scaled",
+    "status": "solver_status",
+    "changes": "solver_changes",
+}
 
 
 class Step(dict[str, NDArray[Any]]):
@@ -132,10 +132,10 @@ class Episodes:
         self.numbers = numbers
         environment = self.environment
         if remember is not None:
-            before = {name: entry.copy() for name, entry in self.memory.items()}
+            kept = None if remember.all() else {n: v[~remember] for n, v in self.memory.items()}
             environment.remember(numbers)
-            for name, entry in self.memory.items():
-                entry[~remember] = before[name][~remember]
+            for name, values in (kept or {}).items():
+                self.memory[name][~remember] = values
         terms = environment.reward(numbers)
         success = environment.succeeded(numbers)
         failure = environment.failed(numbers) | over
@@ -234,7 +234,8 @@ class Episodes:
         groups = self.environment.observe(numbers)
         parts = [groups[group.name] for group in self.environment.observation]
         values = np.concatenate(parts, axis=1, dtype=np.float32)
-        result = {"observation": np.clip(values, -self._high, self._high)}
+        np.minimum(values, self._high, out=values)
+        result = {"observation": np.maximum(values, -self._high, out=values)}
         if self.environment.goal:
             achieved, desired = self.environment.goals(numbers)
             result["achieved_goal"] = achieved.astype(np.float32)
@@ -248,27 +249,14 @@ class Episodes:
         failure: NDArray[np.bool_],
         views: Mapping[str, Array],
     ) -> dict[str, NDArray[Any]]:
-        excess = views["excess/position"][:, 0]
-        touching = views["self_contacts"][:, 0]
-        cost = (excess > self._worst + 1e-12) | (touching > 0)
-        self._worst = excess.copy()
+        watched = {name: views[name][:, 0] for name in _WATCHED}
+        excess, touching = watched["excess/position"], watched["self_contacts"]
+        cost = ((excess > self._worst + 1e-12) | (touching > 0)).astype(np.float64)
+        self._worst[:] = excess
         info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
-        info |= {
-            "is_success": success,
-            "failed": failure,
-            "cost": cost.astype(np.float64),
-            "limit_excess": excess.copy(),
-            "limit_excess_velocity": views["excess/velocity"][:, 0].copy(),
-            "limit_excess_torque": views["excess/torque"][:, 0].copy(),
-            "commanded_excess": views["commanded_excess/position"][:, 0].copy(),
-            "self_distance": views["monitor/self_collision_distance_m"][:, 0].copy(),
-            "self_contacts": touching.copy(),
-            "support_margin": views["monitor/static_margin_m"][:, 0].copy(),
-            "scaled": views["scaled"][:, 0].copy(),
-            "solver_status": views["status"][:, 0].copy(),
-            "solver_changes": views["changes"][:, 0].copy(),
-            "time": np.asarray(self.batch.time),
-        }
+        info |= {"is_success": success, "failed": failure, "cost": cost}
+        info |= {_WATCHED[name]: values for name, values in watched.items()}
+        info["time"] = self.batch.time
         info |= {name: entry.copy() for name, entry in self._info.items()}
         return info
 

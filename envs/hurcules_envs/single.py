@@ -20,6 +20,7 @@ __all__ = ["SingleEnv"]
 
 WIDTH, HEIGHT = 640, 368  # [pixels], multiples of 16 as encoders want them
 
+_ALL = np.ones(1, dtype=bool)
 Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
 
 
@@ -104,7 +105,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         """
         values = self._episodes.checked(action, self.action_space.shape or ())
         self._episodes.step(values[None])
-        step = self._episodes.look(remember=np.ones(1, dtype=bool))
+        step = self._episodes.look(remember=_ALL)
         if self.render_mode == "human":
             self.render()
         return _first(step), float(step.reward[0]), bool(step.terminated[0]), False, _info(step)
