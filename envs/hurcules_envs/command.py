@@ -1,4 +1,4 @@
-"""The commands `hurcules train` and `hurcules evaluate`."""
+"""The commands `hurcules train`, `evaluate` and `record`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 import hurcules
 from hurcules.cli import results_in
 
-__all__ = ["evaluate", "train"]
+__all__ = ["evaluate", "record", "train"]
 
 MISSING = "training wants Stable-Baselines3 and PyTorch: pip install 'hurcules[train]'"
 
@@ -34,6 +34,10 @@ def train(
     robot: Robot = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
     out: Annotated[Path | None, results_in("out/train/ENVIRONMENT")] = None,
+    ray: Annotated[
+        str | None,
+        typer.Option(help="Address of a Ray cluster, auto, or local: PPO by RLlib."),
+    ] = None,
     judge: Annotated[int, typer.Option(help="Episodes of the evaluation, in exact.")] = 100,
 ) -> None:
     """Train a policy that commands a robot in task space, then judge it in the full physics.
@@ -43,10 +47,12 @@ def train(
 
     For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`
     """
-    training = _training()
     name = _full(environment)
     options = _given(fidelity=fidelity or "kinematic", robot=robot, action=action)
     folder = out or Path("out", "train", name.split("/")[-1])
+    if ray is not None:
+        return _on_cluster(ray, name, steps, folder, options, envs, seed)
+    training = _training()
     wanted = training.TrainOptions(
         environment=name, algorithm=algo, steps=steps, episodes=envs, seed=seed, options=options,
         out=folder,
@@ -63,6 +69,21 @@ def train(
     _judge(folder, judge, "exact", None, console)
 
 
+def _on_cluster(
+    address: str, name: str, steps: int, folder: Path, options: dict[str, str], envs: int, seed: int
+) -> None:
+    try:
+        from hurcules_envs import rllib
+    except ImportError as error:
+        raise hurcules.Error(f"--ray wants RLlib: pip install 'ray[rllib]' ({error})") from error
+    console = Console()
+    checkpoint = rllib.train(
+        name, address, steps, folder, options, episodes=envs, seed=seed,
+        progress=lambda done, mean: console.print(f"{done:>9,} steps   mean return {mean:.2f}"),
+    )  # fmt: skip
+    console.print(f"{checkpoint}")
+
+
 def evaluate(
     folder: Annotated[Path, typer.Argument(help="That train wrote.")],
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
@@ -74,6 +95,41 @@ def evaluate(
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`
     """
     _judge(folder, episodes, fidelity, robot, Console())
+
+
+def record(
+    environment: Annotated[str, typer.Argument(help="Reach-v0, Drive-v0, ...")],
+    policy: Annotated[str, typer.Option(help="expert, or a folder that train wrote.")] = "expert",
+    episodes: Annotated[int, typer.Option(help="How many.")] = 100,
+    seed: Annotated[int, typer.Option(help="Of the first one.")] = 0,
+    fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
+    out: Annotated[Path | None, results_in("out/data")] = None,
+) -> None:
+    """Record episodes as a Minari data set for imitation.
+
+    For example `hurcules record Drive-v0 --episodes 100`
+    """
+    from hurcules_envs import recording
+
+    name, author = _full(environment), "expert"
+    act: Any = _expert
+    if policy != "expert":
+        model, _ = _training().load_policy(Path(policy))
+        act, author = (lambda _, seen: model.predict(seen, deterministic=True)[0]), "policy"
+    with Progress() as bar:
+        task = bar.add_task(f"{author} in {name}", total=episodes)
+        folder = out or Path("out", "data")
+        identifier = recording.record(
+            name, act, episodes, folder, seed=seed, author=author, fidelity=fidelity,
+            progress=lambda done: bar.update(task, completed=done),
+        )  # fmt: skip
+    Console().print(f"{identifier} in {folder}")
+
+
+def _expert(env: Any, seen: Any) -> Any:
+    if not hasattr(env.environment, "expert"):
+        raise hurcules.Error(f"{env.spec.id} has no expert: give --policy FOLDER")
+    return env.environment.expert(env.numbers)[0]
 
 
 def _judge(folder: Path, episodes: int, fidelity: str, robot: str | None, console: Console) -> None:

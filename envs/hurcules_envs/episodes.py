@@ -53,16 +53,21 @@ class Episodes:
         single_observation_space: a Box, or a Dict of a goal environment.
     """
 
-    def __init__(self, environment: Environment, n: int, threads: int) -> None:
+    def __init__(
+        self, environment: Environment, n: int, threads: int, *, flat: bool = False
+    ) -> None:
         """Copies the environment's simulation n times.
 
         Args:
             environment: what runs.
             n: how many episodes.
             threads: 0 for one a processor.
+            flat: of a goal environment: one array of the observation and the way from what is
+                achieved to what is desired, in place of a dictionary.
         """
         self.environment = environment
         self.n = n
+        self._flat = flat and environment.goal > 0
         simulation = environment.simulation
         own = n if environment.parameters else 0
         self._models = [copy.copy(simulation.model) for _ in range(own)]
@@ -224,7 +229,10 @@ class Episodes:
         box = spaces.Box(-self._high, self._high, dtype=np.float32)
         self.single_action_space = spaces.Box(-1.0, 1.0, self.action_scale.shape, np.float32)
         self.single_observation_space: spaces.Space[Any] = box
-        if environment.goal:
+        if self._flat:
+            high = np.concatenate([self._high, np.full(environment.goal, 100.0, np.float32)])
+            self.single_observation_space = spaces.Box(-high, high, dtype=np.float32)
+        elif environment.goal:
             goal = spaces.Box(-100.0, 100.0, (environment.goal,), np.float32)
             self.single_observation_space = spaces.Dict(
                 {"observation": box, "achieved_goal": goal, "desired_goal": goal}
@@ -238,6 +246,9 @@ class Episodes:
         result = {"observation": np.maximum(values, -self._high, out=values)}
         if self.environment.goal:
             achieved, desired = self.environment.goals(numbers)
+            if self._flat:
+                way = (desired - achieved).astype(np.float32)
+                return {"observation": np.concatenate([result["observation"], way], axis=1)}
             result["achieved_goal"] = achieved.astype(np.float32)
             result["desired_goal"] = desired.astype(np.float32)
         return result

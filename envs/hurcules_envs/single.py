@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import _core
 from hurcules.rendering import make_renderer, pose
+from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step
 from hurcules_envs.registry import make_environment
 
@@ -36,24 +37,31 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 20}  # noqa: RUF012
 
-    def __init__(self, environment: str, render_mode: str | None = None, **options: Any) -> None:
+    def __init__(
+        self,
+        environment: str,
+        render_mode: str | None = None,
+        flat: bool = False,
+        **options: Any,
+    ) -> None:
         """Builds the environment.
 
         Args:
             environment: "module:Class" of an `Environment`.
             render_mode: None, "rgb_array", or "human" (a window).
+            flat: of a goal environment: one array, the observation and the way to the goal.
             options: of the environment, by keyword.
 
         Raises:
             hurcules.Error: an unknown render mode or option, or a bad value.
         """
-        EzPickle.__init__(self, environment, render_mode, **options)
+        EzPickle.__init__(self, environment, render_mode, flat, **options)
         hurcules.validation.require_known(
             "render mode", render_mode or "rgb_array", self.metadata["render_modes"]
         )
         self.render_mode = render_mode
         self.environment = make_environment(environment, options)
-        self._episodes = Episodes(self.environment, 1, threads=1)
+        self._episodes = Episodes(self.environment, 1, threads=1, flat=flat)
         self.metadata = self.metadata | {"render_fps": round(1.0 / self._episodes.period)}
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
@@ -62,6 +70,11 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self.task_description = self.environment.task_description
         self._viewer: Any = None
         self._renderer: mujoco.Renderer | None = None
+
+    @property
+    def numbers(self) -> Numbers:
+        """What was read after the last step; what an expert acts upon."""
+        return self._episodes.numbers
 
     @property
     def simulation(self) -> _core.Simulation:

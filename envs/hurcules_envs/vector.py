@@ -33,6 +33,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         threads: int = 0,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         render_mode: str | None = None,
+        flat: bool = False,
         **options: Any,
     ) -> None:
         """Builds the environment once, and its episodes.
@@ -44,6 +45,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             threads: of the pool; 0 for one a processor.
             autoreset_mode: NextStep (default), SameStep or Disabled, see Gymnasium.
             render_mode: None; pictures are drawn by the single environment.
+            flat: of a goal environment: one array, the observation and the way to the goal.
             options: of the environment, by keyword.
 
         Raises:
@@ -55,7 +57,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             raise hurcules.Error("render_mode: a vector of environments draws no pictures")
         self.num_envs = num_envs
         self.environment = make_environment(environment, options)
-        self._episodes = Episodes(self.environment, num_envs, threads)
+        self._episodes = Episodes(self.environment, num_envs, threads, flat=flat)
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {
             "autoreset_mode": self.autoreset_mode,

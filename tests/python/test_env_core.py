@@ -24,6 +24,7 @@ IDS = [
     ("Hurcules/ReachJoint-v0", FAST),
     ("Hurcules/ReachPrecise-v0", FAST),
     ("Hurcules/Drive-v0", FAST),
+    ("Hurcules/Drive-v0", {**FAST, "flat": True}),
     ("Hurcules/Drive-v0", {"fidelity": "fast", "terrain": "ramps"}),
 ]
 
@@ -48,7 +49,7 @@ def test_an_environment_passes_gymnasiums_checker_without_a_warning(name, option
         env.close()
 
 
-@pytest.mark.parametrize(("name", "options"), IDS[-2:] + IDS[:1])
+@pytest.mark.parametrize(("name", "options"), IDS[-3::2] + IDS[:1])
 def test_side_by_side_and_on_two_threads_it_has_the_bits_that_it_has_alone(name, options):
     singles = [gym.make(name, **options) for _ in range(3)]
     vectors = [gym.make_vec(name, num_envs=3, threads=t, **options) for t in (1, 2)]
