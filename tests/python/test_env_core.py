@@ -239,3 +239,62 @@ def test_a_bad_action_says_what_was_wanted():
         vector.step(bad)
     with pytest.raises(hurcules.Error, match="no options exist"):
         env.reset(options={"goal": 1})
+
+
+def test_recorded_actions_alone_give_the_same_episode(tmp_path, monkeypatch):
+    pytest.importorskip("minari", reason="pip install 'hurcules[data]'")
+    pytest.importorskip("jax", reason="pip install 'hurcules[data]'")
+    import minari
+
+    from hurcules_envs.recording import record
+
+    name = "Hurcules/Drive-v0"
+
+    def expert(env, _):
+        return env.environment.expert(env.numbers)[0]
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # Minari's own, about what it computes
+        identifier = record(name, expert, 2, tmp_path, seed=3, fidelity="kinematic")
+        monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+        data = minari.load_dataset(identifier)
+        with pytest.raises(hurcules.Error, match="exists"):
+            record(name, expert, 1, tmp_path, fidelity="kinematic")
+    assert data.total_episodes == 2
+    env = gym.make(name, **FAST)
+    for number, episode in enumerate(data):
+        observation, _ = env.reset(seed=3 + number)
+        for k, action in enumerate(episode.actions):
+            assert np.array_equal(
+                observation["observation"], episode.observations["observation"][k]
+            )
+            observation, reward, *_ = env.step(action)
+            assert reward == episode.rewards[k]
+
+
+def test_a_training_that_was_stopped_goes_on(tmp_path):
+    training = pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
+    options = training.TrainOptions(
+        "Hurcules/Reach-v0",
+        steps=1024,
+        episodes=8,
+        options=FAST,
+        out=tmp_path,
+        checkpoint_every=512,
+    )
+    training.train(options)
+    checkpoint = (tmp_path / "checkpoint.zip").stat().st_mtime_ns
+    more = training.TrainOptions(**{**vars(options), "steps": 2048})
+    seen = []
+    training.train(more, lambda done, _: seen.append(done))
+    assert seen[0] == 1024 + 8
+    assert (tmp_path / "checkpoint.zip").stat().st_mtime_ns > checkpoint
+    with pytest.raises(hurcules.Error, match="another seed"):
+        training.train(training.TrainOptions(**{**vars(options), "seed": 1}))
+    model, settings = training.load_policy(tmp_path)
+    assert model.num_timesteps == 2048
+    result = training.evaluate(
+        lambda seen: model.predict(seen, deterministic=True)[0], settings["environment"], 4, **FAST
+    )
+    assert result.episodes == 4
+    assert result.low <= result.success <= result.high
