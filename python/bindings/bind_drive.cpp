@@ -1,13 +1,15 @@
 // control: the drive controller.
+#include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/control/drive_controller.hpp"
+#include "hurcules/control/track_drive.hpp"
 #include "options.hpp"
 #include "state.hpp"
 
@@ -106,7 +108,7 @@ Args:
   left: [rad/s] rate of the left driven belt, > 0 forward.
   right: [rad/s] of the right one.
   yaw_rate: [rad/s] of the gyro about the vertical, > 0 to the left.
-  speed: [m/s] over ground along the heading.
+  speed: [m/s] along the ground, up and down slopes too, by heading.
   pose: (x, y, yaw) [m, m, rad]; wanted while the robot parks.
 
 Returns:
@@ -114,6 +116,27 @@ Returns:
 
 Raises:
   Error: a measurement is not finite, or the pose is missing.
+)";
+constexpr const char* kTrackDrive =
+    R"(What the drive controller of a robot measures, from its joints and its root.
+
+Args:
+  robot: Robot with a free joint at its root.
+  options: DriveOptions.
+  left: joint of the left driven belt.
+  right: of the right one.
+
+Raises:
+  Error: a belt without an actuator, a robot without a free root, or an option out of range.
+)";
+constexpr const char* kMeasure = R"(What belts, gyro and localisation tell.
+
+Args:
+  qpos: (nq,) of the model.
+  qvel: (nv,) of the model.
+
+Raises:
+  Error: arrays of another size.
 )";
 constexpr const char* kBraked = "whether the brakes of both drives are to be shut";
 
@@ -135,6 +158,39 @@ std::array<double, 2> compute(DriveController& self, double left, double right, 
   }
   const DriveTorques torques = self.compute(state);
   return {torques.left, torques.right};
+}
+
+DriveState measure(const TrackDrive& self, const Vector& qpos, const Vector& qvel) {
+  require(self.fits(qpos, qvel), "measure wants qpos and qvel of the robot's model, " +
+                                     std::to_string(qpos.size()) + " and " +
+                                     std::to_string(qvel.size()) + " numbers came");
+  return self.measure({qpos, qvel, {}});
+}
+
+void bind_track_drive(py::module_& module) {
+  py::class_<DriveState>(module, "DriveState", "What the drive controller measures.")
+      .def_readonly("left", &DriveState::left, "[rad/s] of the driven belt, > 0 forward")
+      .def_readonly("right", &DriveState::right, "[rad/s]")
+      .def_readonly("yaw_rate", &DriveState::yaw_rate, "[rad/s] about the vertical")
+      .def_readonly("speed", &DriveState::speed,
+                    "[m/s] along the ground, up and down slopes too, by heading")
+      .def_property_readonly(
+          "pose",
+          [](const DriveState& self) {
+            return std::array<double, 3>{self.pose.x, self.pose.y, self.pose.yaw};
+          },
+          "(x, y, yaw) of the root [m, m, rad]");
+  py::class_<TrackDrive>(module, "TrackDrive", kTrackDrive)
+      .def(py::init([](const Robot& robot, const DriveOptions& options, const std::string& left,
+                       const std::string& right) {
+             return TrackDrive(robot, {.left = left, .right = right, .drive = options});
+           }),
+           "robot"_a, "options"_a = DriveOptions{}, "left"_a = TrackDriveOptions{}.left,
+           "right"_a = TrackDriveOptions{}.right)
+      .def("measure", &measure, "qpos"_a, "qvel"_a, kMeasure)
+      .def_property_readonly(
+          "controller", [](TrackDrive& self) -> DriveController& { return self.controller(); },
+          py::return_value_policy::reference_internal);
 }
 
 void bind_parking_options(py::module_& module) {
@@ -220,4 +276,5 @@ void bind_drive(py::module_& module) {
       .def_property_readonly("parking_phase", &DriveController::parking_phase)
       .def_property_readonly("reference", reference,
                              "(2,) speed [m/s] and yaw rate [rad/s] of the moment");
+  bind_track_drive(module);
 }

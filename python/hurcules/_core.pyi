@@ -2055,7 +2055,7 @@ class DriveController:
           left: [rad/s] rate of the left driven belt, > 0 forward.
           right: [rad/s] of the right one.
           yaw_rate: [rad/s] of the gyro about the vertical, > 0 to the left.
-          speed: [m/s] over ground along the heading.
+          speed: [m/s] along the ground, up and down slopes too, by heading.
           pose: (x, y, yaw) [m, m, rad]; wanted while the robot parks.
 
         Returns:
@@ -2113,6 +2113,63 @@ class DriveController:
     @property
     def slipping(self) -> bool:
         """whether a belt was held back in the last period"""
+
+class DriveState:
+    """What the drive controller measures."""
+
+    @property
+    def left(self) -> float:
+        """[rad/s] of the driven belt, > 0 forward"""
+
+    @property
+    def pose(self) -> list[float]:
+        """(x, y, yaw) of the root [m, m, rad]"""
+
+    @property
+    def right(self) -> float:
+        """[rad/s]"""
+
+    @property
+    def speed(self) -> float:
+        """[m/s] along the ground, up and down slopes too, by heading"""
+
+    @property
+    def yaw_rate(self) -> float:
+        """[rad/s] about the vertical"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+class TrackDrive:
+    """What the drive controller of a robot measures, from its joints and its root.
+
+    Args:
+      robot: Robot with a free joint at its root.
+      options: DriveOptions.
+      left: joint of the left driven belt.
+      right: of the right one.
+
+    Raises:
+      Error: a belt without an actuator, a robot without a free root, or an option out of range."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        options: DriveOptions = ...,
+        left: str = "L_lower_belt",
+        right: str = "R_lower_belt",
+    ) -> None: ...
+    def measure(self, qpos: ArrayLike, qvel: ArrayLike) -> DriveState:
+        """What belts, gyro and localisation tell.
+
+        Args:
+          qpos: (nq,) of the model.
+          qvel: (nv,) of the model.
+
+        Raises:
+          Error: arrays of another size."""
+
+    @property
+    def controller(self) -> DriveController: ...
 
 class Channel:
     """What a command moves; see Twist and the others."""

@@ -211,6 +211,38 @@ def view_model(
     view(name, seed, seconds)
 
 
+@app.command("export")
+def export_model(
+    name: Annotated[str, typer.Argument(help="A model of `hurcules list`.")] = "rescue",
+    scene: Annotated[str, typer.Option(help="A scene of `hurcules list`.")] = "flat",
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            help="File to write; meshes go to the folder `assets` beside it.",
+            show_default="out/NAME.xml",
+        ),
+    ] = None,
+    actuators: Annotated[
+        str, typer.Option(help="`motor`, torques; `position`, servos that hold the robot up.")
+    ] = "motor",
+    mjx: Annotated[bool, typer.Option("--mjx", help="Leave out what MJX does not take.")] = False,
+) -> None:
+    """Write a robot in a scene as one MJCF file, for other programs.
+
+    With `--actuators position` it stands in any viewer. Such programs know nothing of our tracks:
+    the belts have no traction there.
+
+    For example `hurcules export rescue --actuators position`, or:
+
+    - `hurcules export manipulation --scene stairs --out /tmp/stairs.xml`
+
+    - `hurcules export rescue --mjx --actuators position`
+    """
+    from hurcules.export import export
+
+    print(export(out or Path("out", f"{name}.xml"), name, scene, actuators=actuators, mjx=mjx))
+
+
 @app.command()
 def doctor() -> None:
     """Say what this machine has and lacks, with the remedy.

@@ -16,7 +16,7 @@ from hurcules import scenes as made
 from hurcules._core import Error
 from hurcules.mjcf import folder, parse
 
-__all__ = ["folder", "load", "names", "parse", "path", "scenes", "with_timestep"]
+__all__ = ["folder", "load", "make", "names", "parse", "path", "scenes", "with_timestep"]
 
 
 def names() -> list[str]:
@@ -68,7 +68,7 @@ def load(
     """
     if scene in _made() and scene not in mjcf.stems("scenes") and bed and visuals:
         return made.load(scene, name or "rescue", seed=seed)
-    spec = _spec(name, scene, mission, seed)
+    spec = make(name, scene, mission, seed)
     if not bed:
         transfer_bed.detach(spec)
     return mjcf.compile(spec if visuals else mjcf.without_visuals(spec))
@@ -81,8 +81,13 @@ def with_timestep(model: mujoco.MjModel, timestep: float) -> mujoco.MjModel:
     return changed
 
 
-def _spec(name: str | None, scene: str | None, mission: str | None, seed: int) -> mujoco.MjSpec:
-    """Robot and surroundings, not compiled yet."""
+def make(
+    name: str | None = None,
+    scene: str | None = None,
+    mission: str | None = None,
+    seed: int = 0,
+) -> mujoco.MjSpec:
+    """A robot in its surroundings, not compiled yet; arguments and errors as those of `load`."""
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
     if scene in _made() and scene not in mjcf.stems("scenes"):

@@ -49,7 +49,7 @@ FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in ("cameras", "mjcf", "transfer_bed", "video")},
     {"hurcules.scenes"},
     {"hurcules.models"},
-    {"hurcules.doctor", "hurcules.simulation"},
+    {"hurcules.doctor", "hurcules.export", "hurcules.simulation"},
     {"hurcules", "hurcules.recording"},
     {"hurcules.report", "hurcules.summary", "hurcules.view"},
     {"hurcules.run"},

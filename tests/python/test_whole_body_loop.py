@@ -161,3 +161,18 @@ def test_what_cannot_be_is_refused(case: str) -> None:
     make, text = REFUSED[case]
     with pytest.raises(hurcules.Error, match=text):
         make()
+
+
+@pytest.mark.parametrize(
+    ("setting", "value", "said"),
+    [("timestep", 5e-3, "time step of 5 ms"), ("iterations", 4, "4 iterations")],
+)
+def test_settings_with_which_tracks_go_wrong_are_warned_of(setting, value, said):
+    model = hurcules.models.load("rescue")
+    setattr(model.opt, setting, value)
+    robot = hurcules.Robot(model)
+    controller = hurcules.WholeBodyController(
+        robot, [hurcules.PostureTask("posture", robot)], dt=5e-3
+    )
+    with pytest.warns(UserWarning, match=said):
+        hurcules.Simulation(model=model, controller=controller)

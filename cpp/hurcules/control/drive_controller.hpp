@@ -49,7 +49,7 @@ struct DriveOptions {
 struct DriveState {
   double left = 0.0, right = 0.0;  // [rad/s] of the driven belts, > 0 forward
   double yaw_rate = 0.0;           // [rad/s] gyro about the vertical, > 0 to the left
-  double speed = 0.0;              // [m/s] over ground along the heading
+  double speed = 0.0;              // [m/s] along the ground, up and down slopes too, by heading
   PlanarPose pose;                 // used while parking only
 };
 

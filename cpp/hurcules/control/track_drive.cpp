@@ -1,6 +1,7 @@
 #include "hurcules/control/track_drive.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
@@ -26,11 +27,15 @@ Eigen::Vector2d forward_of(const Matrix3& R) {
 }  // namespace
 
 TrackDrive::TrackDrive(const Robot& robot, const TrackDriveOptions& options)
-    : controller_(options.drive), root_qpos_(robot.root_qpos()), root_dof_(robot.root_dof()) {
+    : controller_(options.drive),
+      root_qpos_(robot.root_qpos()),
+      root_dof_(robot.root_dof()),
+      qpos_size_(robot.qpos().size()) {
   const std::vector<JointActuator> all = joint_actuators(robot);
   left_ = find(all, options.left);
   right_ = find(all, options.right);
   require(root_qpos_ >= 0, "a robot that drives wants a free joint at its root");
+  dofs_ = std::max<Index>({root_dof_ + 6, left_.dof + 1, right_.dof + 1});
 }
 
 DriveState TrackDrive::measure(const RobotState& state) const {
@@ -43,7 +48,11 @@ DriveState TrackDrive::measure(const RobotState& state) const {
   measured.right = state.qvel[right_.dof];
   // of the free joint: velocity in the world, rates in the body
   measured.yaw_rate = R.row(2).dot(Vector3(v[3], v[4], v[5]));
-  measured.speed = forward.dot(Eigen::Vector2d(v[0], v[1]));
+  // along the ground, as the belts run: on a slope it rises with the way; steeper than 45 degrees is
+  // no driving but a fall
+  const double ahead = forward.dot(Eigen::Vector2d(v[0], v[1]));
+  measured.speed =
+      std::copysign(std::hypot(ahead, std::min(std::abs(v[2]), std::abs(ahead))), ahead);
   measured.pose = {q[0], q[1], std::atan2(forward.y(), forward.x())};
   return measured;
 }

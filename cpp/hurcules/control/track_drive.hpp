@@ -37,6 +37,10 @@ class TrackDrive {
   [[nodiscard]] bool braked() const { return braked_; }  // both brakes want to be shut
   [[nodiscard]] const JointActuator& left() const { return left_; }
   [[nodiscard]] const JointActuator& right() const { return right_; }
+  // whether a state can be one of its model
+  [[nodiscard]] bool fits(const Vector& qpos, const Vector& qvel) const {
+    return qpos.size() == qpos_size_ && qvel.size() >= dofs_;
+  }
   void reset();
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
@@ -45,6 +49,7 @@ class TrackDrive {
   DriveController controller_;
   JointActuator left_, right_;
   int root_qpos_, root_dof_;
+  Index qpos_size_, dofs_ = 0;
   bool braked_ = true;
 };
 

@@ -5,12 +5,11 @@ torques and brakes; `hold_joints(model)` keeps the posture meanwhile.
 """
 
 from hurcules.driving.brakes import BeltBrakes, hold_joints, release_joint
-from hurcules.driving.chassis import Chassis, Motion, drive_options, yaw_of
+from hurcules.driving.chassis import Chassis, drive_options, yaw_of
 
 __all__ = [
     "BeltBrakes",
     "Chassis",
-    "Motion",
     "drive_options",
     "hold_joints",
     "release_joint",

@@ -3,29 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import mujoco
-import numpy as np
 
-from hurcules._core import DriveController, DriveOptions, ParkingOptions
+from hurcules._core import (
+    DriveController,
+    DriveOptions,
+    DriveState,
+    ParkingOptions,
+    Robot,
+    TrackDrive,
+)
 from hurcules.driving.brakes import BeltBrakes
 
-__all__ = ["Chassis", "Motion", "drive_options", "yaw_of"]
+__all__ = ["Chassis", "drive_options", "yaw_of"]
 
 # [m] of the drive pose: forward of the knee axis, where turns in place were measured to be about
 TURN_CENTRE = -0.42
-
-
-@dataclass(frozen=True)
-class Motion:
-    """What the drive controller measures."""
-
-    left: float  # [rad/s] of the driven belts
-    right: float
-    yaw_rate: float  # [rad/s] about the vertical
-    speed: float  # [m/s] over ground along the heading
-    pose: tuple[float, float, float]  # x, y [m] of the knee axis, heading [rad]
 
 
 def drive_options(model: mujoco.MjModel, steps: int = 1) -> DriveOptions:
@@ -50,30 +44,16 @@ class Chassis:
     """A robot's drives: measures, lets the drive controller decide, and writes what it wants."""
 
     def __init__(self, model: mujoco.MjModel, options: DriveOptions) -> None:
-        self.controller = DriveController(options)
+        self._drive = TrackDrive(Robot(model), options)
+        self.controller: DriveController = self._drive.controller
         self._brakes = BeltBrakes(model)
-        self._body = model.body("upper_legs").id
-        dofs = [model.jnt_dofadr[model.joint(f"{side}_lower_belt").id] for side in "LR"]
-        self._left, self._right = (int(dof) for dof in dofs)
         self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
 
-    def sense(self, data: mujoco.MjData) -> Motion:
+    def sense(self, data: mujoco.MjData) -> DriveState:
         """What belts, gyro and localisation tell, without noise."""
-        axes = data.xmat[self._body]
-        # the track axle is level however the legs are folded: forward is at right angles to it
-        forward = np.array([axes[4], -axes[1]]) / math.hypot(axes[1], axes[4])
-        x, y, _ = data.xpos[self._body]
-        # of the free joint: velocity in the world, rates in the body
-        rate = float(axes[6:9] @ data.qvel[3:6])
-        return Motion(
-            float(data.qvel[self._left]),
-            float(data.qvel[self._right]),
-            rate,
-            float(forward @ data.qvel[0:2]),
-            (float(x), float(y), math.atan2(forward[1], forward[0])),
-        )
+        return self._drive.measure(data.qpos, data.qvel)
 
-    def act(self, data: mujoco.MjData, motion: Motion) -> None:
+    def act(self, data: mujoco.MjData, motion: DriveState) -> None:
         """One period of the controller; writes torques and brakes."""
         torques = self.controller.compute(
             motion.left, motion.right, motion.yaw_rate, motion.speed, motion.pose

@@ -10,7 +10,8 @@ import numpy as np
 
 import hurcules
 from hurcules import scenes, transfer_bed
-from hurcules.driving import Chassis, Motion, drive_options
+from hurcules._core import DriveState
+from hurcules.driving import Chassis, drive_options
 from hurcules_studies.thesis.measures.problems import Array
 
 __all__ = ["BELTS", "DRIVING_SPEED", "RADIUS", "Powered", "Rover", "Trip", "flat", "laden"]
@@ -108,7 +109,7 @@ class Rover:
         }
         self._start = self.data.qpos.copy()
 
-    def period(self) -> Motion:
+    def period(self) -> DriveState:
         """One period of the drive controller: what it sensed."""
         motion = self._chassis.sense(self.data)
         self.data.ctrl[self._motors] = self.controller.compute(
@@ -121,7 +122,7 @@ class Rover:
             self.powered.read()
         return motion
 
-    def run(self, seconds: float, look: Callable[[Motion], object] | None = None) -> None:
+    def run(self, seconds: float, look: Callable[[DriveState], object] | None = None) -> None:
         """Goes on for a time [s], and shows what was sensed."""
         for _ in range(round(1e3 * seconds / STEPS)):
             motion = self.period()
