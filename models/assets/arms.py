@@ -1,8 +1,9 @@
-"""Meshes of the arms; all symmetric in y, so that left and right share them.
+"""Meshes of the arms; symmetric in y, so that left and right share them; the flanges are mirrored.
 
 Metres, in the frame of the link that shows the mesh.
 """
 
+import numpy as np
 from solids import box, lathe, loft, mirror, panel, plate, shell
 
 
@@ -126,6 +127,30 @@ def scoop_liner():
     )
 
 
+# Flange on the inner edge of the left blade (the right one is its mirror image): the same wedge,
+# (y, z) of its corners [m], from inside out.
+FLANGE = ((-0.060, -0.34), (-0.180, -0.40), (-0.180, -0.58), (-0.160, -0.70), (-0.040, -0.70))
+
+
+def scoop_top(z):
+    """Upper face of the wedge over the length of the flange [m]."""
+    root, tip = 0.006643, -0.016
+    return tip + (z + 0.70) / 0.36 * (root - tip)
+
+
+def scoop_flange():
+    """Carries what lies between the arms: 0.12 m wide, to the tip; its root is cut diagonally."""
+    below = np.array([(SCOOP_BOTTOM, y, z) for y, z in FLANGE])
+    above = np.array([(scoop_top(z) - 0.5 * LINER, y, z) for y, z in FLANGE])
+    return loft([above, below])
+
+
+def scoop_flange_liner():
+    """Sliding plastic on the flange."""
+    rows = [(scoop_top(z), y, z) for y, z in FLANGE]
+    return loft([[(x, y, z) for x, y, z in rows], [(x - 0.5 * LINER, y, z) for x, y, z in rows]])
+
+
 def forearm():
     """Sleeve of the manipulation forearm."""
     return shell(
@@ -206,6 +231,8 @@ PARTS = (
     scoop_blade,
     scoop_tip,
     scoop_liner,
+    scoop_flange,
+    scoop_flange_liner,
     forearm,
     wrist_roll,
     wrist_pitch,

@@ -11,7 +11,7 @@ import pytest
 
 from robot_models import ROBOTS, geoms_of, on_flat_ground, place, top_of
 
-# [robot#links] link: mass kg, centre of mass in the link m, inertia kg m2
+# [robot#links] link: mass kg, centre of mass in the link m, inertia kg m2 (x, y, z; yz if any)
 LINKS = {
     "upper_legs": (90, (-0.27, 0, 0.03), (2.32, 5.76, 6.90)),
     "battery": (60, (0, 0, 0), (0.56, 1.31, 1.19)),
@@ -35,7 +35,8 @@ PARTS = {
 }
 LOWER_ARMS = {
     "rescue": {
-        "L_larm": (11.5, (0, 0, -0.30), (0.511, 0.499, 0.016)),
+        # with the flange on its inner edge: 1.4 of the 11.5 kg
+        "L_larm": (11.5, (0, -0.0135, -0.30), (0.526, 0.499, 0.033), -0.035),
         "transfer_bed": (23, (0, 0, 0), (0.418, 0.261, 0.654)),
     },
     "manipulation": {
@@ -74,12 +75,14 @@ def test_the_robot_weighs_680_kg(robot):  # [robot#what-the-thesis-gives]
 
 def test_links_have_the_mass_centre_and_inertia_of_the_table(robot):
     name, model, _ = robot
-    for link, (mass, centre, inertia) in {**LINKS, **LOWER_ARMS[name]}.items():
+    for link, (mass, centre, inertia, *yz) in {**LINKS, **LOWER_ARMS[name]}.items():
         parts = [link, *PARTS.get(link, [])]
         m, c, tensor = composite(model, parts)
         assert m == pytest.approx(mass), link
         assert c == pytest.approx(centre, abs=1e-4), link
-        assert tensor == pytest.approx(np.diag(inertia), abs=1e-4), link
+        wanted = np.diag(inertia)
+        wanted[1, 2] = wanted[2, 1] = sum(yz)
+        assert tensor == pytest.approx(wanted, abs=1e-4), link
 
 
 def test_the_right_side_mirrors_the_left(robot):

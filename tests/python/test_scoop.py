@@ -60,6 +60,7 @@ def test_what_is_drawn_is_what_touches(robot: mujoco.MjModel) -> None:
     for hull, *looks in (
         ("scoop_blade_hull", "scoop_blade"),
         ("scoop_tip_hull", "scoop_tip"),
+        ("scoop_flange_hull", "scoop_flange"),
     ):
         mine, seen = meshes(robot, hull), meshes(robot, *looks)
         top = mine[:, 0].max()
@@ -72,11 +73,27 @@ def test_what_is_drawn_is_what_touches(robot: mujoco.MjModel) -> None:
     assert liner[:, 2].min() == pytest.approx(both[:, 2].min(), abs=1e-4)
 
 
+def test_the_flange_widens_the_wedge_on_its_inner_edge(robot: mujoco.MjModel) -> None:
+    flange, blade = meshes(robot, "scoop_flange_hull"), meshes(robot, "scoop_blade_hull")
+    assert flange[:, 1].min() == pytest.approx(-0.18, abs=1e-6)  # the robot's middle is on the right
+    assert flange[:, 2].max() == pytest.approx(-0.34, abs=1e-6)
+    assert flange[:, 2].min() == pytest.approx(TIP, abs=1e-6)
+    # its upper face goes on where the blade's is, to 0.2 mm
+    low, high = np.array([-0.0085, -0.58]), np.array([0.018, -0.16])
+    upper = flange[(flange[:, 0] > BOTTOM + 1e-3) & (flange[:, 2] > -0.6)]
+    along = (upper[:, 2] - low[1]) / (high[1] - low[1])
+    assert upper[:, 0] == pytest.approx(low[0] + along * (high[0] - low[0]), abs=2e-4)
+    assert blade[:, 1].min() == pytest.approx(-0.06, abs=1e-6)
+    right = robot.geom("R_scoop_flange").dataid[0]
+    begin = robot.mesh_vertadr[right]
+    assert robot.mesh_vertnum[right] == len(flange) and begin > 0
+
+
 def test_the_plastic_decides_the_friction_on_cloth() -> None:
     model = scenes.load("casualty", robot="rescue")
     data = mujoco.MjData(model)
     chest = model.geom("casualty_ribs_back").id
-    for part in ("blade", "tip"):
+    for part in ("blade", "tip", "flange"):
         mine = model.geom(f"L_scoop_{part}").id
         assert model.geom_priority[mine] > model.geom_priority[chest]
         assert model.geom_friction[mine, 0] == PLASTIC

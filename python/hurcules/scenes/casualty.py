@@ -28,14 +28,19 @@ class Casualty(Scene):
     mass: int = choice(75, (50, 75, 90, 120), "of the person, kg")
     lying: str = choice("back", tuple(ROLL), "on which side")
     distance: float = number(2.72, 1.5, 20.0, "m", "from the start to the person's middle")
+    lateral: float = number(0.0, -5.0, 5.0, "m", "the person's middle to the left of the way")
     heading: float = number(0.0, -math.pi, math.pi, "rad", "turned by this; 0: head to the left")
+    cloth: float = number(0.45, 0.1, 1.5, "", "friction of the clothes on the ground")
 
     def build(self, ground: Ground) -> None:
         """Lays the person down just above the ground."""
         quat = _product(turn("z", self.heading), _product(turn("y", ROLL[self.lying]), BACK))
         low, middle = _extent(self.mass, quat)
-        pos = (self.distance - middle[0], -middle[1], -low)
+        pos = (self.distance - middle[0], self.lateral - middle[1], -low)
         ground.attach(f"casualty_{self.mass}kg", "casualty_", pos, quat)
+        for geom in ground.spec.geoms:
+            if geom.name.startswith("casualty_") and geom.contype:
+                geom.friction[0] = self.cloth
 
 
 def _extent(mass: int, quat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:

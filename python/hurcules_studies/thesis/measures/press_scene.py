@@ -57,7 +57,7 @@ def model_of(surface: Surface) -> mujoco.MjModel:
             _add_plate(spec, f"{side}_plate", (1.9, y, PLATE_TOP), surface.stiffness)
         _add_sensor(spec, f"{side}_press", f"{side}_larm")
         ground = f"{side}_plate" if surface.stiffness else "floor"
-        for part in ("blade", "tip"):
+        for part in ("blade", "tip", "flange"):
             if surface.untouched:
                 spec.geom(f"{side}_scoop_{part}").conaffinity = 0
                 spec.geom(f"{side}_scoop_{part}").contype = 0
