@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bare_chain.hpp"
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "measure.hpp"
 
 namespace {

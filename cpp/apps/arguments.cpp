@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 
 namespace hurcules_sim {
 

@@ -13,7 +13,7 @@
 
 #include "arguments.hpp"
 #include "hurcules/base/error.hpp"
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "report.hpp"
 
 namespace {

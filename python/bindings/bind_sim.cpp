@@ -14,7 +14,7 @@
 #include "bind_sensors.hpp"
 #include "bind_sim_docs.hpp"
 #include "hurcules/base/error.hpp"
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "hurcules/sim/quantities.hpp"
 #include "hurcules/sim/simulation.hpp"
 #include "mujoco_pointer.hpp"
@@ -48,6 +48,16 @@ std::unique_ptr<Simulation> make_simulation(const ModelObject& model, const Data
   const Scene scene = scene_of(model, data);
   return std::make_unique<MissionSimulation>(borrow_model(scene.model), mission, options,
                                              scene.data);
+}
+
+std::unique_ptr<Simulation> make_table(const ModelObject& model, const DataObject& data,
+                                       const std::shared_ptr<WholeBodyController>& controller,
+                                       const MissionTable& table, const MissionSetup& setup,
+                                       const MissionOptions& options) {
+  const Scene scene = scene_of(model, data);
+  auto mission = std::make_unique<Mission>(setup, table, *controller, options.variation);
+  return std::make_unique<MissionSimulation>(borrow_model(scene.model), controller,
+                                             std::move(mission), options, scene.data);
 }
 
 std::unique_ptr<Simulation> make_own(const ModelObject& model, const DataObject& data,
@@ -328,6 +338,8 @@ void bind_sim(py::module_& module) {
   py::class_<Simulation> simulation(module, "Simulation", kSimulation);
   simulation
       .def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",
+           "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
+      .def(py::init(&make_table), "model"_a, "data"_a, "controller"_a, "table"_a, "setup"_a,
            "options"_a = MissionOptions{}, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
       .def(py::init(&make_own), "model"_a, "data"_a, "controller"_a, "options"_a = MissionOptions{},
            py::keep_alive<1, 2>(), py::keep_alive<1, 3>());

@@ -25,6 +25,7 @@ void bind_plant(py::module_& module);
 void bind_sim(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_power(py::module_& module);
+void bind_mission(py::module_& module);
 
 namespace {
 
@@ -77,6 +78,7 @@ PYBIND11_MODULE(_core, module) {
   bind_drive(module);
   bind_whole_body(module);
   bind_plant(module);
+  bind_mission(module);
   bind_sim(module);
   bind_batch(module);
   bind_power(module);

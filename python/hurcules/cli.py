@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.table import Table
 
 import hurcules
-from hurcules import plugins
+from hurcules import lift, plugins
 from hurcules._core import Error
 from hurcules.output import WriteError
 from hurcules.plugins import MethodOptions, Methods
@@ -116,6 +116,8 @@ def run_mission(
 
     - `hurcules run --sensors`
 
+    - `hurcules run lift --mass 90 --offset 0.05,-0.1 --yaw 0.2 --friction 0.6 --pose back`
+
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
     """
     if mission.startswith("-"):  # the first unknown option took the mission's place
@@ -133,10 +135,11 @@ def run_mission(
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
     require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
-    if context.args:
+    parameters = lift.parameters_of(context.args) if mission == "lift" else {}
+    if context.args and not parameters:
         kind = "no such option" if context.args[0].startswith("-") else "unexpected argument"
         raise Error(f"{kind}: {context.args[0]}")
-    options = RunOptions(mission, seed, folder, seconds, method, video, sensors)
+    options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
     raise typer.Exit(run(options, Console()))
 
 

@@ -41,6 +41,17 @@ FIGURES = {
     "torque_excess_max_nm": Figure("torque asked for above a motor's limit"),
     "energy_J": Figure("energy from the battery, standby included"),
     "battery_share": Figure("share of the battery that was used"),
+    # of the lift
+    "held_height_m": Figure("held above where the person lay by, least"),
+    "held_on_ground_share": Figure("share of the weight on the ground while held, largest"),
+    "held_drift_m": Figure("slid along the arms while held by"),
+    "laid_down_share": Figure("share of the weight on the ground in the end"),
+    "pushed_m": Figure("pushed along the ground by"),
+    "push_N": Figure("largest push of both arms along the ground"),
+    "contact_share": Figure("largest contact force, share of its region's limit"),
+    "support_N": Figure("largest force that carries a region of the body"),
+    "neck_extension_rad": Figure("head hangs back by, at the most"),
+    "head_mps2": Figure("largest acceleration of the head, gravity included [m/s²]"),
     # of the monitors: the worst of the run
     "self_collision_distance_m": Figure("nearest that the robot came to itself", "§4.2.1"),
     "static_margin_m": Figure("centre of mass inside its support by, least", "§4.2.1"),

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +44,7 @@ class RunOptions:
     method: str = "lexicographic"
     video: bool = True
     sensors: bool = False  # with the noise of `hurcules.sensors.realistic`
+    parameters: Mapping[str, Any] = field(default_factory=dict)  # of the mission
 
 
 def run(options: RunOptions, console: Console) -> int:
@@ -68,6 +69,7 @@ def run(options: RunOptions, console: Console) -> int:
         method=options.method,
         timed=True,
         sensors=realistic() if options.sensors else None,
+        parameters=options.parameters,
     )
     ticks = _ticks(options.seconds, simulation.dt)
     with Interrupts() as interrupts:

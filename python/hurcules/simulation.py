@@ -10,12 +10,13 @@ import math
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hurcules import _core, models
+from hurcules import _core, lift, models
 from hurcules._core import (
     Error,
     FallOptions,
@@ -23,14 +24,20 @@ from hurcules._core import (
     SensorOptions,
     WholeBodyController,
 )
+from hurcules.mission_table import Mission
 from hurcules.validation import require_known
 
-__all__ = ["Simulation", "SimulationBatch"]
+__all__ = ["Simulation", "SimulationBatch", "missions"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 
 Array = NDArray[np.float64]
 Command = Mapping[str, ArrayLike] | ArrayLike
+
+
+def missions() -> list[str]:
+    """Returns the names of the missions."""
+    return [*_core.missions(), "lift"]
 
 
 class Simulation(_core.Simulation):
@@ -46,7 +53,7 @@ class Simulation(_core.Simulation):
 
     def __init__(
         self,
-        mission: str | None = None,
+        mission: str | Mission | None = None,
         seed: int = 0,
         *,
         model: mujoco.MjModel | str | Path | None = None,
@@ -60,11 +67,13 @@ class Simulation(_core.Simulation):
         max_seconds: float = math.inf,
         physics: bool = True,
         fall: FallOptions | None = None,
+        parameters: Mapping[str, Any] | None = None,
     ) -> None:
         """A mission in its scene, or a controller of your own in any model.
 
         Args:
-            mission: one of `hurcules.missions()`; with neither a mission nor a model: "stretch".
+            mission: one of `hurcules.missions()`; with neither a mission nor a model: "stretch". A
+                `hurcules.Mission`, a table of phases, runs in your model with your controller.
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
             model: of a simulation without a mission, or the path of one. It starts where the
                 controller's robot stands.
@@ -80,6 +89,7 @@ class Simulation(_core.Simulation):
             physics: False: the robot is where it is commanded to be, at once and whatever it
                 touches; nothing else moves and no force acts.
             fall: when a robot without a mission counts as fallen; None: never.
+            parameters: of the mission: for "lift" those of `hurcules.lift.Person`.
 
         Raises:
             Error: no such mission, method or sensor (the text names those that exist), a bad
@@ -99,17 +109,26 @@ class Simulation(_core.Simulation):
         )
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")
-        if model is not None and mission is not None:
+        if model is not None and isinstance(mission, str):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
+        if parameters and mission != "lift":
+            raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
+        table = mission if isinstance(mission, Mission) else None
+        if table is not None and controller is None:
+            raise Error("a table of phases wants a model and a controller")
+        if mission == "lift":
+            table, model = lift.mission(), lift.model(lift.person(parameters or {}))
+            controller = lift.controller(model)
         if controller is not None:
-            self.mission = None
+            self.mission = table.setup.name if table else None
             self.model = _model(model)
             _warn_of_settings(self.model)
             self.data = mujoco.MjData(self.model)
-            super().__init__(self.model, self.data, controller, options)
+            rows = (table.rows, table.setup) if table else ()
+            super().__init__(self.model, self.data, controller, *rows, options)
             return
         self.mission = mission or "stretch"
-        require_known("mission", self.mission, _core.missions())
+        require_known("mission", self.mission, missions())
         self.model = models.load(mission=self.mission)
         self.data = mujoco.MjData(self.model)
         super().__init__(self.model, self.data, self.mission, options)

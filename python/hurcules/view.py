@@ -14,9 +14,9 @@ from typing import Any
 import mujoco
 
 from hurcules import models
-from hurcules._core import Error, missions, step
+from hurcules._core import Error, step
 from hurcules.driving import hold_joints
-from hurcules.simulation import Simulation
+from hurcules.simulation import Simulation, missions
 from hurcules.validation import require_known
 
 __all__ = ["view"]

@@ -2,24 +2,126 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/mission/stretch.hpp"
 #include "hurcules/mission/variation.hpp"
 
 namespace hurcules {
 
-Mission::Mission(MissionSetup setup, const WholeBodyController& controller, double variation)
+Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyController& controller,
+                 double variation)
     : setup_(std::move(setup)),
+      table_(std::move(table)),
       variation_(variation),
       limits_(controller.law(0).limits()),
+      initial_qpos_(controller.plan().qpos()),
+      dt_(controller.dt()),
       operated_(Vector::Zero(controller.scale().size())) {
   require(variation_ >= 0.0 && std::isfinite(variation_), "variation wants a number >= 0");
+  check_table(table_, controller);
+  for (const Measure& measure : table_.measures) {
+    figures_.push_back({measure.name, 0.0, std::numeric_limits<double>::quiet_NaN()});
+  }
+  compile(controller);
+}
+
+// the table with places instead of names
+void Mission::compile(const WholeBodyController& controller) {
+  for (const Task* task : controller.tasks()) {
+    if (dynamic_cast<const ForceTask*>(task)) force_names_.push_back(task->name());
+  }
+  forces_ = Vector::Zero(static_cast<Index>(force_names_.size()));
+  const auto watch = [](const Condition& condition) {
+    Watch made;
+    made.condition = condition;
+    return made;
+  };
+  for (const Phase& phase : table_.phases) {
+    const std::string where = "phase '" + phase.name + "'";
+    Row row;
+    for (const Lead& lead : phase.leads) {
+      const ChannelPlace place = find_channel(controller, lead.channel, where);
+      Way way;
+      way.row = place.row;
+      way.size = place.channel->size();
+      way.along = lead.by;
+      if (lead.rate.size() > 0) {
+        way.speed = lead.rate.norm();
+        way.along = way.speed > 0.0 ? Vector(lead.rate / way.speed) : lead.rate;
+        way.length = lead.way;
+      }
+      row.ways.push_back(std::move(way));
+    }
+    if (!phase.keys.empty()) {
+      row.posture.emplace(phase.keys, controller.plan().coordinate_names(), phase.seconds);
+      row.posture_row = find_channel(controller, phase.posture, where).row;
+      row.posture_size = controller.plan().size();
+    }
+    for (const Condition& condition : phase.done) row.done.push_back(watch(condition));
+    for (const Reaction& reaction : phase.late) row.late_left.push_back(reaction.times);
+    for (const Trouble& trouble : phase.troubles) {
+      row.troubles.push_back(watch(trouble.when));
+      row.troubles_left.emplace_back();
+      for (const Reaction& reaction : trouble.reactions) {
+        row.troubles_left.back().push_back(reaction.times);
+      }
+    }
+    rows_.push_back(std::move(row));
+  }
+}
+
+std::unique_ptr<Supervisor> Mission::clone(WholeBodyController& controller) const {
+  auto copy = std::make_unique<Mission>(setup_, table_, controller, variation_);
+  copy->initial_qpos_ = initial_qpos_;
+  return copy;
+}
+
+void Mission::attach(const Plant& plant, Recorder& log) {
+  model_ = plant.model();
+  data_ = plant.data();
+  log.add("mission/elapsed_s", &elapsed_);
+  log.add("mission/progress", &progress_);
+  log.add("mission/waiting", &waiting_);
+  log.add("mission/force", force_names_, forces_);
+  if (!setup_.casualty.empty()) {
+    casualty_ = std::make_unique<CasualtyWatch>(plant.model(), setup_.casualty);
+    casualty_->add_log_channels(log);
+  }
+  const auto find = [&log](const std::string& where, const std::string& quantity) {
+    const double* const source = log.source(quantity);
+    if (!source) throw Error(where + ": " + unknown_name("quantity", quantity, log.channels()));
+    return source;
+  };
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::string where = "phase '" + table_.phases[i].name + "'";
+    for (std::vector<Watch>* watches : {&rows_[i].done, &rows_[i].troubles}) {
+      for (Watch& watch : *watches) watch.source = find(where, watch.condition.quantity);
+    }
+  }
+  gauges_.clear();
+  for (const Measure& measure : table_.measures) {
+    const std::string where = "figure '" + measure.name + "'";
+    Gauge gauge;
+    gauge.source = find(where, measure.quantity);
+    gauge.counts.assign(rows_.size(), measure.phases.empty());
+    for (const std::string& phase : measure.phases) {
+      gauge.counts[find_phase(table_.phases, phase, where)] = true;
+    }
+    gauges_.push_back(std::move(gauge));
+  }
+  attached_ = true;
+}
+
+bool Mission::needs_log() const {
+  return !table_.measures.empty() || !setup_.casualty.empty() ||
+         std::any_of(rows_.begin(), rows_.end(),
+                     [](const Row& row) { return !row.done.empty() || !row.troubles.empty(); });
 }
 
 Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
-  Vector qpos = plant.keyframe_qpos(plant.find_keyframe(setup_.keyframe));
+  Vector qpos = setup_.keyframe.empty() ? initial_qpos_
+                                        : plant.keyframe_qpos(plant.find_keyframe(setup_.keyframe));
   Random random(seed);
   Variation variation;
   variation.scale = variation_;
@@ -34,125 +136,307 @@ Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
 }
 
 void Mission::reset(WholeBodyController& controller, const Robot& world) {
+  require(attached_ || !needs_log(), "a mission with conditions wants a simulation");
   for (Figure& figure : figures_) figure.value = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Phase& phase = table_.phases[i];
+    for (std::size_t k = 0; k < phase.late.size(); ++k) rows_[i].late_left[k] = phase.late[k].times;
+    for (std::size_t k = 0; k < phase.troubles.size(); ++k) {
+      const std::vector<Reaction>& row = phase.troubles[k].reactions;
+      for (std::size_t r = 0; r < row.size(); ++r) rows_[i].troubles_left[k][r] = row[r].times;
+    }
+  }
+  for (Gauge& gauge : gauges_) {
+    gauge.seen_least = gauge.seen_most = std::numeric_limits<double>::quiet_NaN();
+  }
+  why_ = {};
+  verdict_.clear();
+  answer_.reset();
+  paused_ = ended_ = false;
+  if (casualty_) casualty_->reset();
   begin(controller, world);
   enter(0, controller, 0.0);
 }
 
+void Mission::enter(std::size_t phase, WholeBodyController& controller, double time) {
+  phase_ = phase;
+  phase_start_ = now_ = time;
+  doing_ = Doing::Leading;
+  elapsed_ = progress_ = waiting_ = extra_ = 0.0;
+  Row& row = rows_[phase_];
+  for (std::vector<Watch>* watches : {&row.done, &row.troubles}) {
+    for (Watch& watch : *watches) watch.since = 0.0;
+  }
+  for (Way& way : row.ways) way.given = 0.0;
+  const std::string& stack = table_.phases[phase_].stack;
+  if (controller.moves_joints() || controller.stacks()[controller.active()].name != stack) {
+    controller.use(stack);
+    controller.hold_targets();  // where the plan is: nothing jumps
+  }
+  if (row.posture) row.posture->start(controller.q_des());
+  entered(time);
+}
+
+const Vector& Mission::command(double dt) {
+  operated_.setZero();
+  if (doing_ != Doing::Leading || paused_) return operated_;
+  const double time = now_ - phase_start_, seconds = table_.phases[phase_].seconds;
+  Row& row = rows_[phase_];
+  for (const Way& way : row.ways) {
+    auto part = operated_.segment(way.row, way.size);
+    if (way.length > 0.0) {  // by a rate; the last tick gives what is left
+      part = way.along * std::min(way.speed, (way.length - way.given) / dt);
+    } else {
+      part = way.along * ((smooth_step((time + dt) / seconds) - smooth_step(time / seconds)) / dt);
+    }
+  }
+  if (row.posture) {
+    row.posture->velocity(time, dt, operated_.segment(row.posture_row, row.posture_size));
+  }
+  return operated_;
+}
+
+double Mission::given() const {
+  double sum = 0.0;
+  int count = 0;
+  for (const Way& way : rows_[phase_].ways) {
+    if (way.length <= 0.0 || !std::isfinite(way.length)) continue;
+    sum += way.given / way.length;
+    ++count;
+  }
+  return count > 0 ? sum / count : 1.0;
+}
+
+double Mission::progress(double elapsed) const {
+  const double seconds = table_.phases[phase_].seconds;
+  return std::min(seconds > 0.0 ? elapsed / seconds : 1.0, given());
+}
+
+void Mission::note_commanded(const WholeBodyController& controller, const TickReport& report) {
+  const Vector& command = controller.command();
+  for (Way& way : rows_[phase_].ways) {
+    if (way.length > 0.0) {
+      way.given += way.along.dot(command.segment(way.row, way.size)) * controller.dt();
+    }
+  }
+  Index force = 0;
+  for (const Task* task : controller.tasks()) {
+    if (const auto* const one = dynamic_cast<const ForceTask*>(task))
+      forces_[force++] = one->force();
+  }
+  commanded(controller, report);
+}
+
+void Mission::note_measured(const TickReport& report) {
+  if (casualty_) casualty_->look(model_, data_);
+  for (std::size_t i = 0; i < gauges_.size(); ++i) {
+    if (!gauges_[i].counts[phase_]) continue;
+    gauges_[i].look(table_.measures[i].take, figures_[i].value);
+  }
+  measured(report);
+}
+
 bool Mission::advance(WholeBodyController& controller, double time) {
-  while (phases_[phase_].done(time - phase_start_)) {
-    if (phase_ + 1 == phases_.size()) return false;
+  now_ = time;
+  if (paused_ || doing_ != Doing::Leading) return wait(time, controller);
+  elapsed_ = time - phase_start_;
+  progress_ = progress(elapsed_);
+  std::optional<std::size_t> cause;
+  for (std::size_t i = 0; i < rows_[phase_].troubles.size(); ++i) {
+    if (rows_[phase_].troubles[i].look(dt_) && !cause) cause = i + 1;
+  }
+  if (!cause && elapsed_ > table_.phases[phase_].within + extra_) cause = 0;
+  if (cause) return react(*cause, controller, time);
+  while (over(time)) {
+    if (phase_ + 1 == rows_.size()) {
+      ended_ = true;
+      tell();
+      return false;
+    }
     enter(phase_ + 1, controller, time);
   }
   return true;
 }
 
-void Mission::enter(std::size_t phase, WholeBodyController& controller, double time) {
-  phase_ = phase;
-  phase_start_ = time;
-  controller.use(phases_[phase_].stack);
-  if (phases_[phase_].enter) phases_[phase_].enter(time);
+bool Mission::over(double time) {
+  bool done = progress(time - phase_start_) >= 1.0;
+  for (Watch& watch : rows_[phase_].done) done = watch.look(dt_) && done;
+  return done;
 }
 
-const Vector& Mission::command(double dt) {
-  operated_.setZero();
-  if (phases_[phase_].operate) phases_[phase_].operate(operated_, dt);
-  return operated_;
+bool Mission::Watch::look(double dt) {
+  const bool now = condition.above ? *source >= condition.value : *source <= condition.value;
+  const bool long_enough = since >= condition.seconds;  // so far
+  since = now ? since + dt : 0.0;
+  return now && long_enough;
+}
+
+void Mission::Gauge::look(Measure::Take take, double& value) {
+  const double now = *source;
+  if (!(seen_least <= now)) seen_least = now;
+  if (!(seen_most >= now)) seen_most = now;
+  switch (take) {
+    case Measure::Take::Largest:
+      value = seen_most;
+      break;
+    case Measure::Take::Smallest:
+      value = seen_least;
+      break;
+    case Measure::Take::Span:
+      value = seen_most - seen_least;
+      break;
+    case Measure::Take::Last:
+      value = now;
+      break;
+  }
+}
+
+// the first reaction that is left; none: abort
+bool Mission::react(std::size_t cause, WholeBodyController& controller, double time) {
+  const Phase& phase = table_.phases[phase_];
+  const std::vector<Reaction>& reactions =
+      cause == 0 ? phase.late : phase.troubles[cause - 1].reactions;
+  std::vector<int>& left =
+      cause == 0 ? rows_[phase_].late_left : rows_[phase_].troubles_left[cause - 1];
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    if (left[i] == 0) continue;
+    --left[i];
+    switch (reactions[i].kind) {
+      case ReactionKind::Back:
+        enter(find_phase(table_.phases, reactions[i].phase, ""), controller, time);
+        return true;
+      case ReactionKind::Hold:
+      case ReactionKind::Ask:
+        doing_ = reactions[i].kind == ReactionKind::Hold ? Doing::Holding : Doing::Asking;
+        wait_until_ = time + reactions[i].seconds;
+        cause_ = cause;
+        answer_.reset();
+        waiting_ = 1.0;
+        return true;
+      case ReactionKind::Lower:
+        why_ = {phase_ + 1, cause};
+        tell();
+        enter(find_phase(table_.phases, table_.safety, ""), controller, time);
+        return true;
+      case ReactionKind::Abort:
+        break;
+    }
+  }
+  why_ = {phase_ + 1, cause};
+  ended_ = true;
+  tell();
+  return false;
+}
+
+// holds, asks or is paused: the clock of the phase stands
+bool Mission::wait(double time, WholeBodyController& controller) {
+  phase_start_ += dt_;
+  if (paused_ || doing_ == Doing::Leading) return true;
+  const bool silent = time >= wait_until_;
+  const bool asks = doing_ == Doing::Asking;
+  if (!silent && !(asks && answer_)) return true;
+  const bool go_on = asks ? answer_.value_or(false) : true;
+  answer_.reset();
+  waiting_ = 0.0;
+  doing_ = Doing::Leading;
+  if (!go_on) return react(cause_, controller, time);
+  if (asks && cause_ == 0) extra_ = elapsed_;  // as much time once more
+  return true;
+}
+
+// what is missing, in words: why it was lowered or aborted, else the first figure out of its bounds
+void Mission::tell() {
+  verdict_.clear();
+  if (why_.phase > 0) {
+    const Phase& phase = table_.phases[why_.phase - 1];
+    verdict_ = "phase '" + phase.name + "': ";
+    verdict_ += why_.cause == 0 ? std::string("took too long")
+                                : to_string(phase.troubles[why_.cause - 1].when);
+    return;
+  }
+  if (!ended_) return;
+  for (std::size_t i = 0; i < table_.measures.size(); ++i) {
+    const Measure& measure = table_.measures[i];
+    const double value = figures_[i].value;
+    if (value >= measure.least && value <= measure.most) continue;
+    const bool high = value > measure.most;
+    verdict_ = measure.name + " is " + to_text(value) + ", wanted at ";
+    verdict_ += high ? "most " : "least ";
+    verdict_ += to_text(high ? measure.most : measure.least);
+    return;
+  }
 }
 
 std::vector<std::string> Mission::phase_names() const {
   std::vector<std::string> names;
-  for (const Phase& phase : phases_) names.push_back(phase.name);
+  for (const Phase& phase : table_.phases) names.push_back(phase.name);
   return names;
 }
 
 void Mission::save(StateWriter& writer) const {
-  writer.put(static_cast<double>(phase_));
-  writer.put(phase_start_);
+  for (const std::size_t number : {phase_, cause_, why_.phase, why_.cause}) {
+    writer.put(static_cast<double>(number));
+  }
+  for (const bool flag : {paused_, ended_}) writer.put(flag ? 1.0 : 0.0);
+  writer.put(static_cast<double>(static_cast<int>(doing_)));
+  for (const double value :
+       {phase_start_, now_, wait_until_, extra_, elapsed_, progress_, waiting_}) {
+    writer.put(value);
+  }
   for (const Figure& figure : figures_) writer.put(figure.value);
+  for (const Gauge& gauge : gauges_) {
+    writer.put(gauge.seen_least);
+    writer.put(gauge.seen_most);
+  }
+  for (const Row& row : rows_) {
+    for (const int left : row.late_left) writer.put(left);
+    for (const std::vector<int>& lefts : row.troubles_left) {
+      for (const int left : lefts) writer.put(left);
+    }
+    for (const Watch& watch : row.done) writer.put(watch.since);
+    for (const Watch& watch : row.troubles) writer.put(watch.since);
+    for (const Way& way : row.ways) writer.put(way.given);
+    if (row.posture) row.posture->save(writer);
+  }
+  if (casualty_) casualty_->save(writer);
   save_memory(writer);
 }
 
 void Mission::restore(StateReader& reader) {
-  phase_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(phases_.size()) - 1));
-  phase_start_ = reader.get();
-  for (Figure& figure : figures_) figure.value = reader.get_any();
-  restore_memory(reader);
-}
-
-namespace {
-
-struct Entry {
-  MissionSetup setup;
-  std::shared_ptr<WholeBodyController> (*controller)(const Robot& robot,
-                                                     const MissionOptions& options);
-  std::unique_ptr<Mission> (*mission)(WholeBodyController& controller, double variation);
-};
-
-template <class M>
-Entry entry() {
-  return {M::setup_of(), &M::make_controller,
-          [](WholeBodyController& controller, double variation) -> std::unique_ptr<Mission> {
-            return std::make_unique<M>(controller, variation);
-          }};
-}
-
-// all missions that there are
-const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Stretch>()};
-  return all;
-}
-
-const Entry& find(const std::string& name) {
-  for (const Entry& candidate : entries()) {
-    if (candidate.setup.name == name) return candidate;
+  const auto phases = static_cast<Index>(rows_.size());
+  phase_ = static_cast<std::size_t>(reader.get_count(phases - 1));
+  const auto causes = static_cast<Index>(rows_[phase_].troubles.size());
+  cause_ = static_cast<std::size_t>(reader.get_count(causes));
+  why_.phase = static_cast<std::size_t>(reader.get_count(phases));
+  const std::size_t most = why_.phase > 0 ? rows_[why_.phase - 1].troubles.size() : 0;
+  why_.cause = static_cast<std::size_t>(reader.get_count(static_cast<Index>(most)));
+  paused_ = reader.get_count(1) > 0;
+  ended_ = reader.get_count(1) > 0;
+  doing_ = static_cast<Doing>(reader.get_count(static_cast<Index>(Doing::Asking)));
+  for (double* value :
+       {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_}) {
+    *value = reader.get();
   }
-  throw Error(unknown_name("mission", name, mission_names()));
-}
-
-SimulationOptions with_setup(const MissionSetup& setup, const MissionOptions& options) {
-  SimulationOptions all = options;
-  all.max_seconds = std::min(all.max_seconds, setup.max_seconds);
-  all.fall = {"pelvis", setup.min_height, setup.max_tilt};
-  return all;
-}
-
-}  // namespace
-
-const MissionSetup& mission_setup(const std::string& name) {
-  return find(name).setup;
-}
-
-std::shared_ptr<WholeBodyController> make_mission_controller(const std::string& mission,
-                                                             const ModelPtr& model,
-                                                             const MissionOptions& options) {
-  const Entry& entry = find(mission);
-  Robot robot(model);
-  robot.stand_on(entry.setup.support);
-  return entry.controller(robot, options);
-}
-
-std::unique_ptr<Mission> make_mission(const std::string& mission, WholeBodyController& controller,
-                                      double variation) {
-  return find(mission).mission(controller, variation);
-}
-
-MissionSimulation::MissionSimulation(const ModelPtr& model, const std::string& mission,
-                                     const MissionOptions& options, mjData_* data)
-    : MissionSimulation(model, make_mission_controller(mission, model, options), mission, options,
-                        data) {}
-
-MissionSimulation::MissionSimulation(const ModelPtr& model,
-                                     const std::shared_ptr<WholeBodyController>& controller,
-                                     const std::string& mission, const MissionOptions& options,
-                                     mjData_* data)
-    : Simulation(model, controller, with_setup(mission_setup(mission), options),
-                 make_mission(mission, *controller, options.variation), data) {}
-
-std::vector<std::string> mission_names() {
-  std::vector<std::string> names;
-  for (const Entry& candidate : entries()) names.push_back(candidate.setup.name);
-  return names;
+  for (Figure& figure : figures_) figure.value = reader.get_any();
+  for (Gauge& gauge : gauges_) {
+    gauge.seen_least = reader.get_any();
+    gauge.seen_most = reader.get_any();
+  }
+  constexpr Index kMost = 1'000'000;
+  for (Row& row : rows_) {
+    for (int& left : row.late_left) left = static_cast<int>(reader.get_count(kMost));
+    for (std::vector<int>& lefts : row.troubles_left) {
+      for (int& left : lefts) left = static_cast<int>(reader.get_count(kMost));
+    }
+    for (Watch& watch : row.done) watch.since = reader.get();
+    for (Watch& watch : row.troubles) watch.since = reader.get();
+    for (Way& way : row.ways) way.given = reader.get();
+    if (row.posture) row.posture->restore(reader);
+  }
+  if (casualty_) casualty_->restore(reader);
+  answer_.reset();
+  tell();
+  restore_memory(reader);
 }
 
 }  // namespace hurcules

@@ -1,103 +1,158 @@
-// A mission: a table of phases that commands a simulation, and the figures that tell how it went.
+// A mission: a table of phases (phase.hpp) that commands a simulation, and the figures that tell how
+// it went.
 //
-// It is made for a controller, whose tasks it knows by name. A command moves the controller's
-// channels: the operator's or, in its place, somebody else's.
+// It is made for a controller, whose stacks, tasks and channels it knows by name. A command moves
+// the controller's channels: the mission's own or, in its place, somebody else's; ways count what
+// was really commanded. Each phase begins with the references where they are: its stack takes over
+// the present velocity, its targets hold, and its ways start from there.
+//
+// Each tick, after the figures: what is in trouble reacts (the first reaction that is left), what is
+// late reacts, what is done goes on. While it holds or asks the phase's clock stands.
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "hurcules/mission/phase.hpp"
+#include "hurcules/mission/casualty_watch.hpp"
+#include "hurcules/mission/posture_way.hpp"
 #include "hurcules/mission/robot_tables.hpp"
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/table.hpp"
+#include "hurcules/sim/supervisor.hpp"
 
 namespace hurcules {
 
 // What a mission wants to find when it starts.
 struct MissionSetup {
   std::string name;
-  std::string scene;         // file under models/
-  std::string keyframe;      // where the robot starts
-  std::string support;       // body that the robot stands on
-  double max_seconds = 0.0;  // [s] the mission fails when it takes longer
-  double min_height = 0.0;   // [m] of the pelvis above the support; below, the robot fell
-  double max_tilt = 0.0;     // [rad] of the support against its start; above, the robot fell
-  std::vector<ServoGains> servo;
+  std::string scene = "";     // file under models/
+  std::string keyframe = "";  // where the robot starts; "": where the controller's plan stands
+  std::string support = "";   // body that the robot stands on
+  double max_seconds =
+      std::numeric_limits<double>::infinity();  // [s] it fails when it takes longer
+  double min_height = 0.0;  // [m] of the pelvis above the support; below, the robot fell
+  double max_tilt = 0.0;    // [rad] of the support against its start; above, the robot fell
+  std::vector<ServoGains> servo = {};
+  std::string casualty = "";  // prefix of the person's names in the model, "" for nobody to watch
 };
 
 class Mission : public Supervisor {
  public:
+  // variation: scale of what differs between seeds (variation.hpp); throws Error as check_table
+  Mission(MissionSetup setup, MissionTable table, const WholeBodyController& controller,
+          double variation);
   Mission(const Mission&) = delete;
   Mission& operator=(const Mission&) = delete;
 
   [[nodiscard]] const MissionSetup& setup() const { return setup_; }
-  [[nodiscard]] const std::vector<Phase>& phases() const { return phases_; }
+  [[nodiscard]] const MissionTable& table() const { return table_; }
+  // the phases stand still, the robot holds, until false
+  void pause(bool on) { paused_ = on; }
+  [[nodiscard]] bool paused() const { return paused_; }
+  // it waits for an answer
+  [[nodiscard]] bool asks() const { return doing_ == Doing::Asking; }
+  void answer(bool yes) { answer_ = yes; }
 
+  void attach(const Plant& plant, Recorder& log) override;
   Vector start(const Plant& plant, Robot& robot, std::uint64_t seed) override;
   void reset(WholeBodyController& controller, const Robot& world) override;
   const Vector& command(double dt) override;
-  void note_commanded(const WholeBodyController& controller, const TickReport& report) override = 0;
+  void note_commanded(const WholeBodyController& controller, const TickReport& report) final;
+  void note_measured(const TickReport& report) final;
   bool advance(WholeBodyController& controller, double time) override;
   [[nodiscard]] std::vector<std::string> phase_names() const override;
   [[nodiscard]] std::size_t phase() const override { return phase_; }
   [[nodiscard]] const std::vector<Figure>& figures() const override { return figures_; }
+  [[nodiscard]] std::string_view verdict() const override { return verdict_; }
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
+  [[nodiscard]] std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const override;
 
  protected:
-  // variation: scale of what differs between seeds (variation.hpp)
-  Mission(MissionSetup setup, const WholeBodyController& controller, double variation);
-  virtual void begin(WholeBodyController& controller, const Robot& world) = 0;
-  // what it remembers beside its figures
-  virtual void save_memory(StateWriter& writer) const = 0;
-  virtual void restore_memory(StateReader& reader) = 0;
+  // what a mission of its own adds: at the start, at each phase, after each half of a tick
+  virtual void begin(WholeBodyController& /*controller*/, const Robot& /*world*/) {}
+  virtual void entered(double /*time*/) {}
+  virtual void commanded(const WholeBodyController& /*controller*/, const TickReport& /*report*/) {}
+  virtual void measured(const TickReport& /*report*/) {}
+  virtual void save_memory(StateWriter& /*writer*/) const {}
+  virtual void restore_memory(StateReader& /*reader*/) {}
   [[nodiscard]] double variation() const { return variation_; }
+  // mean share of the ways by a rate that the phase has been given, 1 without one
+  [[nodiscard]] double given() const;
 
-  std::vector<Phase> phases_;
   std::vector<Figure> figures_;
 
  private:
+  enum class Doing { Leading, Holding, Asking };
+  // a condition, and for how long it has been true
+  struct Watch {
+    Condition condition;
+    const double* source = nullptr;
+    double since = 0.0;  // [s]
+    bool look(double dt);
+  };
+  struct Way {
+    Index row = 0, size = 0;  // of the command
+    Vector along;             // (size) of length 1 for a rate; the whole way, smoothly
+    double speed = 0.0;       // [unit] of a rate, 0 for a whole way
+    double length = 0.0;      // of a rate
+    double given = 0.0;       // of it so far
+  };
+  struct Row {
+    std::vector<Way> ways;
+    std::optional<PostureWay> posture;
+    Index posture_row = 0, posture_size = 0;
+    std::vector<Watch> done, troubles;
+    std::vector<int> late_left;                   // times, of each reaction
+    std::vector<std::vector<int>> troubles_left;  // the same
+  };
+  struct Gauge {  // of a measure
+    const double* source = nullptr;
+    std::vector<bool> counts;  // a phase
+    double seen_least = std::numeric_limits<double>::quiet_NaN(), seen_most = seen_least;
+    void look(Measure::Take take, double& value);
+  };
+  // what it was lowered or aborted for
+  struct Why {
+    std::size_t phase = 0;  // place + 1, 0: nothing
+    std::size_t cause = 0;  // 0 late, else the trouble before it
+  };
+  void compile(const WholeBodyController& controller);
   void enter(std::size_t phase, WholeBodyController& controller, double time);
+  [[nodiscard]] double progress(double elapsed) const;
+  [[nodiscard]] bool over(double time);
+  // false: the run is over
+  bool react(std::size_t cause, WholeBodyController& controller, double time);
+  bool wait(double time, WholeBodyController& controller);
+  void tell();
+  [[nodiscard]] bool needs_log() const;
 
   MissionSetup setup_;
+  MissionTable table_;
   double variation_;
   const Task* limits_;  // of the first stack, null for none
+  Vector initial_qpos_;
+  std::vector<Row> rows_;
+  std::vector<Gauge> gauges_;
+  std::unique_ptr<CasualtyWatch> casualty_;
+  const mjModel_* model_ = nullptr;
+  const mjData_* data_ = nullptr;
+  bool attached_ = false, paused_ = false, ended_ = false;
+  std::optional<bool> answer_;
   std::size_t phase_ = 0;
-  double phase_start_ = 0.0;  // [s]
+  double phase_start_ = 0.0, now_ = 0.0, dt_ = 0.0;  // [s]
+  Doing doing_ = Doing::Leading;
+  double wait_until_ = 0.0, extra_ = 0.0;  // [s] on top of `within`
+  std::size_t cause_ = 0;                  // of what it holds or asks, as in Why
+  Why why_;
+  double elapsed_ = 0.0, progress_ = 0.0, waiting_ = 0.0;  // columns of the log
+  std::vector<std::string> force_names_;                   // of the controller's force tasks
+  Vector forces_;                                          // [N] (force tasks) as they read them
+  std::string verdict_;
   Vector operated_;
 };
-
-struct MissionOptions : SimulationOptions {
-  double variation = 1.0;                // scale of what differs between seeds, >= 0
-  std::string method = "lexicographic";  // of the solver
-  BaseSource base = BaseSource::Held;
-};
-
-// The simulation of a mission by name, in its scene. Throws Error with the names that exist.
-class MissionSimulation : public Simulation {
- public:
-  MissionSimulation(const ModelPtr& model, const std::string& mission,
-                    const MissionOptions& options = {}, mjData_* data = nullptr);
-  [[nodiscard]] const Mission& mission() const {
-    return static_cast<const Mission&>(*supervisor());
-  }
-
- private:
-  MissionSimulation(const ModelPtr& model, const std::shared_ptr<WholeBodyController>& controller,
-                    const std::string& mission, const MissionOptions& options, mjData_* data);
-};
-
-// the parts of it: a controller, and the mission for it
-[[nodiscard]] std::shared_ptr<WholeBodyController> make_mission_controller(
-    const std::string& mission, const ModelPtr& model, const MissionOptions& options = {});
-[[nodiscard]] std::unique_ptr<Mission> make_mission(const std::string& mission,
-                                                    WholeBodyController& controller,
-                                                    double variation = 1.0);
-// what each mission wants, without a robot
-[[nodiscard]] const MissionSetup& mission_setup(const std::string& name);
-[[nodiscard]] std::vector<std::string> mission_names();
 
 }  // namespace hurcules

@@ -1,23 +1,72 @@
-// One phase of a mission: which stack rules, what happens at its start, who commands, and when it
-// is over.
+// One row of a mission's table, as data: which stack rules, what is led where, when it is over, and
+// what happens in trouble. Quantities are columns of the log, by name; those of the mission itself
+// begin with "mission/", those of a casualty with "casualty/".
 #pragma once
 
-#include <functional>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "hurcules/base/types.hpp"
 
 namespace hurcules {
 
+// A quantity on one side of a value, for some time on end.
+struct Condition {
+  std::string quantity;
+  bool above = true;     // the quantity >= value; false: <= value
+  double value = 0.0;    // in the unit of the quantity
+  double seconds = 0.0;  // [s]
+};
+
+enum class ReactionKind {
+  Back,   // goes to a phase before this one, or begins this one anew
+  Hold,   // stands still for some seconds, then goes on
+  Ask,    // stands still until somebody answers: yes goes on, no or silence is the next reaction
+  Lower,  // goes to the phase that the table names as the way to safety
+  Abort,  // the run is over
+};
+
+struct Reaction {
+  ReactionKind kind = ReactionKind::Abort;
+  std::string phase = "";  // of Back
+  double seconds = 0.0;    // [s] of Hold and Ask
+  int times = 1;           // in a run; then the next one in the row
+};
+
+// What must not be, and what is done about it: the first reaction that is left.
+struct Trouble {
+  Condition when;
+  std::vector<Reaction> reactions;
+};
+
+// What the operator's hand does to one channel.
+struct Lead {
+  std::string channel;
+  Vector rate = {};  // [unit of the channel] at which it is led on and on, or
+  double way = std::numeric_limits<double>::infinity();  // [unit s] until so much has been given
+  Vector by = {};  // [unit s] the way that it is led in the seconds of the phase, smoothly
+};
+
+// Angles of coordinates [rad] at a share of a motion, 0 to 1; the others stay as at its beginning.
+// "SP" means both "LSP" and "RSP".
+struct PostureKey {
+  double share = 1.0;
+  std::vector<std::pair<std::string, double>> angles;
+};
+
 struct Phase {
   std::string name;
-  std::string stack;  // of the controller
-  // once, before its first tick at this time [s]
-  std::function<void(double time)> enter;
-  // each tick of dt [s]: what the operator commands, (k), in [m/s] or [rad/s]; it comes in as zero
-  std::function<void(VectorRef command, double dt)> operate;
-  // each tick, before anything else: true ends the phase; elapsed [s] since its start
-  std::function<bool(double elapsed)> done;
+  std::string stack;             // of the controller
+  double seconds = 0.0;          // [s] that leads by a way and postures take, the least duration
+  std::vector<Lead> leads = {};  // channels that are not led hold
+  std::string posture = "";      // channel of a PostureTask over all coordinates
+  std::vector<PostureKey> keys = {};  // where that leads to
+  std::vector<Condition> done = {};   // all of them, when all motions have ended
+  double within = std::numeric_limits<double>::infinity();  // [s]
+  std::vector<Reaction> late = {};                          // when it takes longer
+  std::vector<Trouble> troubles = {};
 };
 
 }  // namespace hurcules

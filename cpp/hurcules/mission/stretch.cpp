@@ -16,6 +16,8 @@ constexpr double kStretchSpeed = 0.0215;  // [m/s] the operator's button; sets t
 constexpr double kSpeedShare = 0.9;
 constexpr double kStretchLength = 0.875;  // [m] where the pelvis has given way by 0.40 m
 
+// the phases
+enum : std::size_t { kSettle, kStretch, kHold };
 // first command of each, in the order of the channels
 enum : Index { kLeft = 0, kRight = 3 };
 // the tasks, in the order of the stack
@@ -96,18 +98,19 @@ std::shared_ptr<WholeBodyController> Stretch::make_controller(const Robot& robot
   return controller;
 }
 
-Stretch::Stretch(WholeBodyController& controller, double variation)
-    : Mission(setup_of(), controller, variation), story_(controller.plan(), figures_) {
-  const auto after = [](double seconds) {
-    return [seconds](double elapsed) { return elapsed >= seconds; };
-  };
-  const auto begin = [this](double time) { story_.start(time); };
-  const auto stretch = [this](VectorRef command, double dt) { operate(command, dt); };
-  const auto stretched = [this](double) { return stretched_ >= kStretchLength; };
-  phases_ = {{"settle", "stretch", {}, {}, after(kSettleSeconds)},
-             {"stretch", "stretch", begin, stretch, stretched},
-             {"hold", "stretch", {}, {}, after(kHoldSeconds)}};
+MissionTable Stretch::table_of() {
+  const Lead left{"left_hand", Vector3(kStretchSpeed, 0.0, 0.0), kStretchLength};
+  const Lead right{"right_hand", Vector3(kStretchSpeed, 0.0, 0.0), kStretchLength};
+  MissionTable table;
+  table.phases.resize(3);
+  table.phases[kSettle] = {.name = "settle", .stack = "stretch", .seconds = kSettleSeconds};
+  table.phases[kStretch] = {.name = "stretch", .stack = "stretch", .leads = {left, right}};
+  table.phases[kHold] = {.name = "hold", .stack = "stretch", .seconds = kHoldSeconds};
+  return table;
 }
+
+Stretch::Stretch(WholeBodyController& controller, double variation)
+    : Mission(setup_of(), table_of(), controller, variation), story_(controller.plan(), figures_) {}
 
 std::unique_ptr<Supervisor> Stretch::clone(WholeBodyController& controller) const {
   return std::make_unique<Stretch>(controller, variation());
@@ -121,21 +124,19 @@ void Stretch::begin(WholeBodyController& controller, const Robot& world) {
   story_.reset();
 }
 
-void Stretch::operate(VectorRef command, double dt) const {
-  // the last tick gives what is left
-  const double left = kStretchLength - stretched_;
-  command[kLeft] = command[kRight] = std::min(kStretchSpeed, left / dt);
+void Stretch::entered(double time) {
+  if (phase() == kStretch) story_.start(time);
 }
 
-void Stretch::note_commanded(const WholeBodyController& controller, const TickReport& report) {
+void Stretch::commanded(const WholeBodyController& controller, const TickReport& report) {
   const Vector& command = controller.command();
   stretched_ += 0.5 * (command[kLeft] + command[kRight]) * controller.dt();
   story_.note_stretched(stretched_);
-  if (phase() > 0) story_.note_commanded(report, errors_of(report));
+  if (phase() > kSettle) story_.note_commanded(report, errors_of(report));
 }
 
-void Stretch::note_measured(const TickReport& report) {
-  if (phase() > 0) story_.note_measured(report, errors_of(report));
+void Stretch::measured(const TickReport& report) {
+  if (phase() > kSettle) story_.note_measured(report, errors_of(report));
 }
 
 void Stretch::save_memory(StateWriter& writer) const {

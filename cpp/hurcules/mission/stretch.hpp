@@ -7,7 +7,7 @@
 #pragma once
 
 #include "hurcules/control/tasks.hpp"
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "hurcules/mission/stretch_figures.hpp"
 
 namespace hurcules {
@@ -17,20 +17,21 @@ class Stretch final : public Mission {
   // for a controller of make_controller, or a clone of one
   Stretch(WholeBodyController& controller, double variation);
   [[nodiscard]] static MissionSetup setup_of();
+  [[nodiscard]] static MissionTable table_of();
   // tasks, stack and channels of the stretch; the robot stands on the mission's support
   [[nodiscard]] static std::shared_ptr<WholeBodyController> make_controller(
       const Robot& robot, const MissionOptions& options);
 
-  void note_commanded(const WholeBodyController& controller, const TickReport& report) override;
-  void note_measured(const TickReport& report) override;
   [[nodiscard]] std::string_view verdict() const override { return story_.verdict(); }
   [[nodiscard]] std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const override;
 
  private:
   void begin(WholeBodyController& controller, const Robot& world) override;
+  void entered(double time) override;
+  void commanded(const WholeBodyController& controller, const TickReport& report) override;
+  void measured(const TickReport& report) override;
   void save_memory(StateWriter& writer) const override;
   void restore_memory(StateReader& reader) override;
-  void operate(VectorRef command, double dt) const;
 
   StretchFigures story_;
   double stretched_ = 0.0;  // [m] forward command given so far, mean of both hands

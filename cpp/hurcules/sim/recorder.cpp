@@ -23,6 +23,12 @@ void Recorder::add(const std::string& prefix, const std::vector<std::string>& na
   }
 }
 
+const double* Recorder::source(const std::string& channel) const {
+  const auto found = std::find(channels_.begin(), channels_.end(), channel);
+  if (found == channels_.end()) return nullptr;
+  return sources_[static_cast<std::size_t>(found - channels_.begin())];
+}
+
 void Recorder::reserve(std::size_t rows) {
   const std::size_t wanted = (rows_ + rows) * columns();
   // at least twice what there was, so that many small requests cost no more than one

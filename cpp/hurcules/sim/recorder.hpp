@@ -18,6 +18,9 @@ class Recorder {
   // PREFIX/NAME for each entry of a vector whose size stays as it is
   void add(const std::string& prefix, const std::vector<std::string>& names, const Vector& sources);
 
+  // what a channel is copied from, null where there is none of this name
+  [[nodiscard]] const double* source(const std::string& channel) const;
+
   // room for so many rows more; outside the tick
   void reserve(std::size_t rows);
   // one row of what the sources hold now

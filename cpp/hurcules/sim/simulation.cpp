@@ -123,6 +123,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       placed_->stand_on(support);
     }
   }
+  if (supervisor_) supervisor_->attach(plant_, record_.log);
   reset(options_.seed);
   std::vector<double> values;
   write(values);

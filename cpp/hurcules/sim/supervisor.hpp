@@ -10,6 +10,7 @@
 #include "hurcules/base/state.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
 #include "hurcules/sim/plant.hpp"
+#include "hurcules/sim/recorder.hpp"
 
 namespace hurcules {
 
@@ -33,6 +34,10 @@ struct TickReport {
 class Supervisor {
  public:
   virtual ~Supervisor() = default;
+
+  // once, before anything else: the plant that it will see, and the log, to which it may add
+  // channels of its own and whose channels it may watch
+  virtual void attach(const Plant& /*plant*/, Recorder& /*log*/) {}
 
   // qpos (nq) at which a run of this seed starts; `robot` is scratch and stands on the support
   [[nodiscard]] virtual Vector start(const Plant& plant, Robot& robot, std::uint64_t seed) = 0;

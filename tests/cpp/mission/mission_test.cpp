@@ -1,11 +1,10 @@
 // Strategy: a made-up mission on the small arm shows what the state machine promises, tick by tick;
 // no physics. The stretch has its own file.
-#include "hurcules/mission/mission.hpp"
-
 #include <cmath>
 #include <memory>
 
 #include "hurcules/control/tasks.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
 #include "support/tiny_models.hpp"
 
@@ -29,38 +28,37 @@ std::shared_ptr<WholeBodyController> make_controller(const Robot& robot) {
   return controller;
 }
 
-// wait 0.5 s, move the hand for 0.2 m, done
+// wait 0.5 s, nothing, move the hand for 0.2 m
+MissionTable wave_table() {
+  MissionTable table;
+  table.phases = {
+      {.name = "wait", .stack = "reach", .seconds = 0.5},
+      {.name = "skipped", .stack = "reach"},
+      {.name = "move", .stack = "reach", .leads = {{"hand", Vector3(0.1, 0.0, 0.0), 0.2}}}};
+  return table;
+}
+
 class Wave final : public Mission {
  public:
-  explicit Wave(const WholeBodyController& controller) : Mission({}, controller, 1.0) {
-    const auto enter = [this](const char* name) {
-      return [this, name](double time) {
-        entered.emplace_back(name);
-        entered_at.push_back(time);
-      };
-    };
-    phases_ = {{"wait", "reach", enter("wait"), {}, [](double t) { return t >= 0.5; }},
-               {"skipped", "reach", enter("skipped"), {}, [](double) { return true; }},
-               {"move", "reach", enter("move"), [](VectorRef c, double) { c[0] = 0.1; },
-                [this](double) { return moved >= 0.2; }}};
+  explicit Wave(const WholeBodyController& controller)
+      : Mission({.name = "wave"}, wave_table(), controller, 1.0) {
     figures_ = {{"moved_m", NAN, 0.2}};
   }
-  void note_commanded(const WholeBodyController& controller, const TickReport&) override {
-    moved += controller.command()[0] * controller.dt();
-    figures_[0].value = moved;
-  }
-  void note_measured(const TickReport&) override {}
-  std::string_view verdict() const override { return ""; }
-  std::unique_ptr<Supervisor> clone(WholeBodyController& controller) const override {
-    return std::make_unique<Wave>(controller);
-  }
 
-  std::vector<std::string> entered;
+  std::vector<std::string> names;
   std::vector<double> entered_at;
   double moved = 0.0;
 
  private:
   void begin(WholeBodyController&, const Robot&) override { moved = 0.0; }
+  void entered(double time) override {
+    names.push_back(phase_names()[phase()]);
+    entered_at.push_back(time);
+  }
+  void commanded(const WholeBodyController& controller, const TickReport&) override {
+    moved += controller.command()[0] * controller.dt();
+    figures_[0].value = moved;
+  }
   void save_memory(StateWriter& writer) const override { writer.put(moved); }
   void restore_memory(StateReader& reader) override { moved = reader.get(); }
 };
@@ -69,16 +67,31 @@ class MissionTest : public testing::Test {
  protected:
   MissionTest() { wave_.reset(*controller_, robot_); }
   // one tick of 0.1 s; false when the mission is over
-  bool tick(const Vector* command = nullptr) {
+  bool tick(const Vector* command = nullptr) { return tick(wave_, command); }
+  bool tick(Mission& mission, const Vector* command = nullptr) {
     const Vector qvel = Vector::Zero(3);
     const std::vector<ActuatorStatus> none;
     const RobotState state{robot_.qpos(), qvel, none};
-    controller_->apply(command ? command : &wave_.command(0.1), true, state);
-    wave_.note_commanded(*controller_, {time_, active_, 0.0, 0.0, tasks_});
+    controller_->apply(command ? command : &mission.command(0.1), true, state);
+    mission.note_commanded(*controller_, {time_, active_, 0.0, 0.0, tasks_});
+    mission.note_measured({time_, active_, 0.0, 0.0, tasks_});
     time_ += 0.1;
-    return wave_.advance(*controller_, time_);
+    return mission.advance(*controller_, time_);
   }
+  // with a log of one column, "load"
+  std::unique_ptr<Mission> make(MissionTable table) {
+    auto mission = std::make_unique<Mission>(MissionSetup{.name = "made"}, std::move(table),
+                                             *controller_, 1.0);
+    Recorder log;
+    log.add("load", &load_);
+    mission->attach(plant_, log);
+    mission->reset(*controller_, robot_);
+    time_ = 0.0;
+    return mission;
+  }
+  double load_ = 0.0;
   Robot robot_{load_model_text(kArm)};
+  Plant plant_{robot_.model()};
   std::shared_ptr<WholeBodyController> controller_ = make_controller(robot_);
   Wave wave_{*controller_};
   Eigen::VectorXi active_;
@@ -89,7 +102,7 @@ class MissionTest : public testing::Test {
 TEST_F(MissionTest, EntersEachPhaseOnceAndInOrder) {
   int ticks = 1;
   while (tick()) ++ticks;
-  EXPECT_EQ(wave_.entered, (std::vector<std::string>{"wait", "skipped", "move"}));
+  EXPECT_EQ(wave_.names, (std::vector<std::string>{"wait", "skipped", "move"}));
   EXPECT_NEAR(wave_.entered_at[2], 0.5, 1e-12);
   EXPECT_EQ(ticks, 5 + 20);
   EXPECT_NEAR(wave_.moved, 0.2, 1e-12);
@@ -135,6 +148,184 @@ TEST_F(MissionTest, ARestoredOneGoesOnTheSame) {
   EXPECT_TRUE(reader.at_end());
   EXPECT_EQ(other.phase(), wave_.phase());
   EXPECT_EQ(other.moved, wave_.moved);
+  EXPECT_EQ(other.command(0.1), wave_.command(0.1));
+}
+
+TEST_F(MissionTest, AWayIsLedSmoothlyAndWhole) {
+  MissionTable table;
+  table.phases = {{.name = "by",
+                   .stack = "reach",
+                   .seconds = 2.0,
+                   .leads = {{"hand", {}, 1.0, Vector3(0, 0.1, 0)}}}};
+  const auto mission = make(table);
+  double way = 0.0, fastest = 0.0;
+  do {
+    const double speed = mission->command(0.1)[1];
+    way += 0.1 * speed;
+    fastest = std::max(fastest, speed);
+  } while (tick(*mission));
+  EXPECT_NEAR(way, 0.1, 1e-12);
+  EXPECT_NEAR(fastest, 0.1 / 2.0 * 1.875, 1e-3);  // of x^3 (10 - 15 x + 6 x^2), in the middle
+  EXPECT_NEAR(time_, 2.0, 1e-9);
+}
+
+TEST_F(MissionTest, AConditionCountsOnlyWhenItHasBeenTrueForItsTime) {
+  MissionTable table;
+  table.phases = {{.name = "wait", .stack = "reach", .done = {{"load", true, 5.0, 0.3}}}};
+  const auto mission = make(table);
+  load_ = 6.0;
+  tick(*mission), tick(*mission);
+  load_ = 4.0;
+  tick(*mission);
+  load_ = 5.0;
+  EXPECT_TRUE(tick(*mission));
+  EXPECT_TRUE(tick(*mission));
+  EXPECT_TRUE(tick(*mission));
+  EXPECT_FALSE(tick(*mission));
+  EXPECT_EQ(mission->verdict(), "");
+}
+
+TEST_F(MissionTest, ReactionsAreCountedAndTheNextFollows) {
+  MissionTable table;
+  Trouble heavy;
+  heavy.when = {"load", true, 5.0};
+  heavy.reactions = {{ReactionKind::Back, "start", 0.0, 2}, {ReactionKind::Lower}};
+  table.phases = {{.name = "start", .stack = "reach", .seconds = 0.2},
+                  {.name = "carry", .stack = "reach", .seconds = 5.0},
+                  {.name = "put", .stack = "reach", .seconds = 0.3}};
+  table.phases[1].troubles.push_back(heavy);
+  table.safety = "put";
+  const auto mission = make(table);
+  load_ = 9.0;
+  std::vector<std::size_t> seen;
+  bool goes_on = true;
+  while (goes_on) {
+    if (seen.empty() || seen.back() != mission->phase()) seen.push_back(mission->phase());
+    goes_on = tick(*mission);
+  }
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 0, 1, 0, 1, 2}));
+  EXPECT_EQ(mission->verdict(), "phase 'carry': load >= 5");
+}
+
+TEST_F(MissionTest, WhatTakesTooLongHoldsThenAborts) {
+  MissionTable table;
+  table.phases = {{.name = "wait",
+                   .stack = "reach",
+                   .done = {{"load", true, 5.0}},
+                   .within = 0.5,
+                   .late = {{ReactionKind::Hold, "", 0.3}, {ReactionKind::Abort}}}};
+  const auto mission = make(table);
+  while (tick(*mission)) {
+  }
+  EXPECT_NEAR(time_, 0.6 + 0.3 + 0.1, 1e-9);
+  EXPECT_EQ(mission->verdict(), "phase 'wait': took too long");
+}
+
+TEST_F(MissionTest, AnAnswerGoesOnOrTakesTheNextReaction) {
+  MissionTable table;
+  table.phases = {{.name = "carry",
+                   .stack = "reach",
+                   .seconds = 1.0,
+                   .troubles = {{{"load", true, 5.0},
+                                 {{ReactionKind::Ask, "", 9.0, 1}, {ReactionKind::Abort}}}}}};
+  for (const bool yes : {true, false}) {
+    load_ = 0.0;
+    const auto mission = make(table);
+    tick(*mission);
+    load_ = 6.0;
+    tick(*mission);
+    EXPECT_TRUE(mission->asks());
+    EXPECT_TRUE(tick(*mission));
+    load_ = 0.0;
+    mission->answer(yes);
+    EXPECT_EQ(tick(*mission), yes);
+    EXPECT_FALSE(mission->asks());
+  }
+}
+
+TEST_F(MissionTest, APauseFreezesTheTable) {
+  const auto mission = make(wave_table());
+  tick(*mission), tick(*mission);
+  mission->pause(true);
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(tick(*mission));
+  EXPECT_EQ(mission->phase(), 0U);
+  mission->pause(false);
+  tick(*mission), tick(*mission), tick(*mission), tick(*mission);
+  EXPECT_EQ(mission->phase(), 2U);
+}
+
+TEST_F(MissionTest, FiguresMeasureTheirPhasesAndJudgeTheRun) {
+  MissionTable table;
+  table.phases = {{.name = "one", .stack = "reach", .seconds = 0.3},
+                  {.name = "two", .stack = "reach", .seconds = 0.3}};
+  table.measures = {{"most", "load", Measure::Take::Largest, {"two"}},
+                    {"span", "load", Measure::Take::Span, {}, 0.0, 3.0}};
+  const auto mission = make(table);
+  load_ = 7.0;
+  for (int i = 0; i < 3; ++i) tick(*mission);
+  for (load_ = 1.0; tick(*mission); load_ += 1.0) {
+  }
+  EXPECT_EQ(mission->figures()[0].value, 3.0);
+  EXPECT_EQ(mission->figures()[1].value, 6.0);
+  EXPECT_EQ(mission->verdict(), "span is 6, wanted at most 3");
+}
+
+// each with one thing wrong
+TEST_F(MissionTest, ATableIsCheckedWhenItIsLoaded) {
+  const Phase good{.name = "good", .stack = "reach", .seconds = 1.0};
+  const auto text = [&](const Phase& phase) {
+    return error_text([&] { (void)make(MissionTable{{good, phase}, "good"}); });
+  };
+  const Phase bad{.name = "bad", .stack = "reach", .seconds = 1.0};
+  const auto expect = [&](const Phase& phase, const char* wanted) {
+    EXPECT_TRUE(contains(text(phase), wanted)) << text(phase);
+    EXPECT_TRUE(contains(text(phase), "phase 'bad'")) << text(phase);
+  };
+  Phase row = bad;
+  row.stack = "raech";
+  expect(row, "stack 'raech' does not exist; there are: reach");
+  row = bad;
+  row.leads = {{"hnad", Vector3(1, 0, 0), 1.0}};
+  expect(row, "channel 'hnad' does not exist; there are: hand");
+  row.leads = {{"hand", Vector::Ones(2), 1.0}};
+  expect(row, "wants 3 finite numbers, 2 came");
+  row = bad;
+  row.done = {{"laod", true, 1.0}};
+  expect(row, "quantity 'laod' does not exist; there are: load");
+  row = bad;
+  row.within = 0.0;
+  expect(row, "within wants a time above 0");
+  row = bad;
+  row.within = 1.0;
+  expect(row, "at least one reaction");
+  row.late = {{ReactionKind::Back, "godo", 0.0, 1}, {ReactionKind::Abort}};
+  expect(row, "phase 'godo' does not exist; there are: good, bad");
+  row.late = {{ReactionKind::Back, "good", 0.0, 0}, {ReactionKind::Abort}};
+  expect(row, "a count above 0");
+  row.late = {{ReactionKind::Back, "good", 0.0, 1}};
+  expect(row, "a way to safety");
+  row = bad;
+  row.seconds = 0.0;
+  row.leads = {{"hand", Vector3(1, 0, 0)}};
+  expect(row, "never ends");
+  row = bad;
+  row.posture = "hand";
+  row.keys = {{1.0, {{"a", 0.0}}}};
+  expect(row, "wants a PostureTask of all coordinates");
+  EXPECT_TRUE(contains(error_text([&] {
+                         (void)make(MissionTable{{good, good}, ""});
+                       }),
+                       "two phases are called 'good'"));
+}
+
+TEST_F(MissionTest, TheTableCanBeRead) {
+  MissionTable table = wave_table();
+  table.phases[0].within = 3.0;
+  table.phases[0].late = {{ReactionKind::Hold, "", 2.0, 2}, {ReactionKind::Abort}};
+  const std::string text = table_text(table);
+  EXPECT_TRUE(contains(text, "1  wait  [reach]  0.5 s\n")) << text;
+  EXPECT_TRUE(contains(text, "within 3 s: hold 2 s, 2 times, then abort")) << text;
+  EXPECT_TRUE(contains(text, "hand at 0.1 0 0 until 0.2")) << text;
 }
 
 TEST(Missions, AreFoundByNameAndUnknownOnesAreToldTheNames) {

@@ -1,7 +1,7 @@
 // Strategy: every allocation is counted while the closed loop runs on the real scene.
 #include "support/no_allocation.hpp"
 
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 

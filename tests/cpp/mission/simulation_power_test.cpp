@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 

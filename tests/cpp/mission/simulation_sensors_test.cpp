@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 

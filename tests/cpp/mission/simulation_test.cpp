@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 
@@ -155,7 +155,7 @@ TEST(Simulation, ZeroCommandHoldsTheHands) {
   MissionSimulation simulation(stretch_scene(), "stretch", quiet());
   const Vector zero = Vector::Zero(11);
   simulation.step(3000, &zero);
-  EXPECT_EQ(simulation.mission().phases()[simulation.mission().phase()].name, "stretch");
+  EXPECT_EQ(simulation.mission().table().phases[simulation.mission().phase()].name, "stretch");
   EXPECT_LT(simulation.telemetry().level_error_measured[1], 2e-3);
   EXPECT_LT(simulation.telemetry().qd.cwiseAbs().maxCoeff(), 2e-3);
 }

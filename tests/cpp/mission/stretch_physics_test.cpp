@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "hurcules/mission/mission.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 

@@ -1,0 +1,160 @@
+"""Lifts many persons: masses, places, headings, frictions; one line of JSON a run.
+
+    python benchmarks/lift_sweep.py OUT.jsonl [--cells nominal,place,mass,friction] [--seeds 1]
+                                    [--workers 2]
+
+Each run is the mission `lift` in the physics, friction alone. A seed moves the person by up to 1 cm
+and 17 mrad, and each of the robot's joints by up to 0.7 mrad. Runs that OUT.jsonl already holds are
+left out, so that an interrupted sweep goes on. `--show` prints the success map of a file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import hurcules
+
+VARIATION = 1 / 3  # of 3 cm, 50 mrad, 2 mrad
+FIRST_SEED = 1000
+NOMINAL = {"mass": 75, "offset": (0.0, 0.0), "yaw": 0.0, "friction": 0.45, "pose": "back"}
+Cell = dict[str, Any]
+
+
+def cells(kind: str) -> Iterator[Cell]:
+    """The settings of a part of the sweep."""
+    changes: dict[str, list[Cell]] = {
+        "nominal": [{}],
+        "mass": [{"mass": mass} for mass in (50, 90, 120)],
+        "friction": [{"friction": mu} for mu in (0.4, 0.6, 0.9)],
+        "place": [
+            {"offset": (dx, dy), "yaw": yaw}
+            for dx, dy, yaw in (
+                (0.10, 0.0, 0.0),
+                (-0.10, 0.0, 0.0),
+                (0.0, 0.15, 0.0),
+                (0.0, -0.15, 0.0),
+                (0.0, 0.0, 0.26),
+                (0.0, 0.0, -0.26),
+            )
+        ],
+        "corner": [
+            {"offset": (dx, dy), "yaw": yaw}
+            for dx in (-0.10, 0.10)
+            for dy in (-0.15, 0.15)
+            for yaw in (-0.26, 0.26)
+        ],
+        "heavy": [
+            {"mass": 120, "offset": (0.0, dy), "yaw": yaw}
+            for dy, yaw in ((0.15, 0.0), (-0.15, 0.0), (0.0, 0.26), (0.0, -0.26))
+        ],
+        "light": [
+            {"mass": 50, "offset": (0.0, dy), "yaw": yaw}
+            for dy, yaw in ((0.15, 0.0), (-0.15, 0.0), (0.0, 0.26), (0.0, -0.26))
+        ],
+        "pose": [{"pose": pose} for pose in ("left", "front", "right")],
+    }
+    if kind not in changes:
+        raise SystemExit(f"no cells '{kind}'; there are: {', '.join(changes)}")
+    for change in changes[kind]:
+        yield NOMINAL | change
+
+
+def lift(task: tuple[Cell, int]) -> dict[str, Any]:
+    """One run: how it ended, its figures, and the largest share of a motor's peak torque."""
+    cell, seed = task
+    simulation = hurcules.Simulation(
+        "lift", seed, variation=VARIATION, record=False, parameters=cell
+    )
+    model, controller = simulation.model, simulation.controller
+    joints = [model.joint(name).id for name in controller.joints]
+    motors = [model.actuator_trnid[: model.nu, 0].tolist().index(joint) for joint in joints]
+    peak = model.actuator_forcerange[motors, 1]
+    share: dict[str, float] = defaultdict(float)
+    while not simulation.finished:
+        simulation.step(20)
+        now = np.abs(controller.torque) / peak
+        phase = simulation.phase
+        share[phase] = max(share[phase], float(now.max()))
+    return {
+        **cell,
+        "seed": seed,
+        "success": simulation.success,
+        "reason": simulation.reason,
+        "seconds": simulation.time,
+        "torque_share": dict(share),
+        "figures": {name: float(value) for name, value in simulation.figures().items()},
+    }
+
+
+def key(run: dict[str, Any]) -> tuple[Any, ...]:
+    """What tells runs apart."""
+    return (*_place(run), run["seed"])
+
+
+def _place(run: dict[str, Any]) -> tuple[Any, ...]:
+    return (run["mass"], *run["offset"], run["yaw"], run["friction"], run["pose"])
+
+
+def show(path: Path) -> None:
+    """Prints the map: a line a cell with how many of how many, and why not."""
+    runs = [json.loads(line) for line in path.read_text().splitlines()]
+    table = defaultdict(list)
+    for run in runs:
+        table[_place(run)].append(run)
+    print("mass  ahead  left   yaw    mu    pose   success  push  drift  torque  failures")
+    for place, found in table.items():
+        mass, dx, dy, yaw, mu, pose = place
+        good = sum(run["success"] for run in found)
+        push = max(run["figures"]["push_N"] for run in found)
+        drift = max(run["figures"]["held_drift_m"] for run in found)
+        torque = max(max(run["torque_share"].values()) for run in found)
+        why = "; ".join(run["reason"] for run in found if not run["success"])
+        print(
+            f"{mass:4} {dx:+6.2f} {dy:+6.2f} {yaw:+6.2f} {mu:5.2f} {pose:>6} "
+            f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f}   {why}"
+        )
+    good = sum(run["success"] for run in runs)
+    print(f"{good} of {len(runs)}")
+
+
+def main() -> None:
+    """Runs what is missing."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--cells", default="nominal")
+    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--show", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.show:
+        return show(arguments.out)
+    done = set()
+    if arguments.out.exists():
+        done = {key(json.loads(line)) for line in arguments.out.read_text().splitlines()}
+    tasks = [
+        (cell, FIRST_SEED + seed)
+        for kind in arguments.cells.split(",")
+        for cell in cells(kind)
+        for seed in range(arguments.seeds)
+        if key(cell | {"seed": FIRST_SEED + seed}) not in done
+    ]
+    with (
+        multiprocessing.get_context("spawn").Pool(arguments.workers) as pool,
+        arguments.out.open("a") as file,
+    ):
+        for run in pool.imap_unordered(lift, tasks):
+            file.write(json.dumps(run) + "\n")
+            file.flush()
+            print(key(run), run["success"], run["reason"], flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,177 @@
+#include "hurcules/mission/casualty_watch.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+// [N] largest quasi-static force of a contact, ISO/TS 15066 Annex A as widely reproduced
+// [test-methods#contact]
+double limit_of(const std::string& region) {
+  static const std::vector<std::pair<std::string, double>> table = {
+      {"skull", 130.0},      {"face", 65.0},     {"neck", 150.0},  {"upper_back", 210.0},
+      {"lower_back", 210.0}, {"chest", 140.0},   {"belly", 110.0}, {"pelvis", 180.0},
+      {"upper_arm", 150.0},  {"forearm", 160.0}, {"hand", 140.0},  {"thigh", 220.0},
+      {"shank", 130.0},      {"foot", 130.0}};
+  for (const auto& [name, limit] : table) {
+    if (region.size() >= name.size() &&
+        region.compare(region.size() - name.size(), name.size(), name) == 0) {
+      return limit;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+int body_of(const mjModel* m, const std::string& name) {
+  const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
+  require(id >= 0, "a mission with a casualty wants a body '" + name + "', the model has none");
+  return id;
+}
+
+int row_of(const mjModel* m, const std::string& sensor) {
+  const int id = mj_name2id(m, mjOBJ_SENSOR, sensor.c_str());
+  return id < 0 ? -1 : m->sensor_adr[id];
+}
+
+Vector3 at(const mjtNum* values, int i) {
+  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+}
+
+}  // namespace
+
+const std::vector<std::string>& CasualtyWatch::names() {
+  static const std::vector<std::string> all = {
+      "on_ground",        "on_left_arm",   "on_right_arm", "on_rest",       "behind_tips_m",
+      "aside_m",          "height_m",      "moved_m",      "sag_m",         "push_n",
+      "neck_flexion_rad", "neck_turn_rad", "head_mps2",    "contact_share", "support_n"};
+  return all;
+}
+
+CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix)
+    : region_of_(static_cast<std::size_t>(m->nbody), -1) {
+  pelvis_ = body_of(m, prefix + "pelvis");
+  chest_ = body_of(m, prefix + "thorax");
+  root_ = m->body_rootid[pelvis_];
+  weight_ = m->body_subtreemass[root_] * std::abs(m->opt.gravity[2]);
+  arms_[0] = body_of(m, "L_larm");
+  arms_[1] = body_of(m, "R_larm");
+  robot_ = m->body_rootid[arms_[0]];
+  tips_[0] = mj_name2id(m, mjOBJ_SITE, "L_tcp");
+  tips_[1] = mj_name2id(m, mjOBJ_SITE, "R_tcp");
+  require(tips_[0] >= 0 && tips_[1] >= 0, "a mission with a casualty wants sites L_tcp and R_tcp");
+  flexion_ = row_of(m, prefix + "neck_flexion");
+  turn_ = row_of(m, prefix + "neck_turn");
+  head_ = row_of(m, prefix + "head_acceleration");
+  std::vector<double> limits;
+  for (int i = 0; i < m->nbody; ++i) {
+    const char* const text = mj_id2name(m, mjOBJ_BODY, i);
+    const std::string name = text ? text : "";
+    if (m->body_rootid[i] != root_ || name.rfind(prefix, 0) != 0) continue;
+    const std::string region = name.substr(prefix.size());
+    if (mj_name2id(m, mjOBJ_SENSOR, (prefix + "force_" + region).c_str()) < 0) continue;
+    region_of_[static_cast<std::size_t>(i)] = static_cast<int>(regions_.size());
+    regions_.push_back(region);
+    limits.push_back(limit_of(region));
+  }
+  limits_ = Eigen::Map<const Vector>(limits.data(), static_cast<Index>(limits.size()));
+  forces_ = Vector::Zero(limits_.size());
+  values_ = Vector::Zero(kQuantities);
+}
+
+void CasualtyWatch::add_log_channels(Recorder& log) const {
+  log.add("casualty", names(), values_);
+  log.add("casualty/force", regions_, forces_);
+}
+
+void CasualtyWatch::reset() {
+  looked_ = false;
+  values_.setZero();
+  forces_.setZero();
+}
+
+void CasualtyWatch::save(StateWriter& writer) const {
+  writer.put(looked_ ? 1.0 : 0.0);
+  for (const Vector* vector : {&values_, &forces_}) writer.put(*vector);
+  writer.put(Vector(origin_));
+}
+
+void CasualtyWatch::restore(StateReader& reader) {
+  looked_ = reader.get_count(1) > 0;
+  for (Vector* vector : {&values_, &forces_}) reader.get(*vector);
+  Vector origin(3);
+  reader.get(origin);
+  origin_ = origin;
+}
+
+void CasualtyWatch::look(const mjModel* m, const mjData* d) {
+  values_.setZero();
+  add_up(m, d);
+  const Vector3 centre = at(d->subtree_com, root_);
+  if (!looked_) origin_ = centre;
+  looked_ = true;
+  const Vector3 left = at(d->site_xpos, tips_[0]), right = at(d->site_xpos, tips_[1]);
+  Vector3 aside = left - right;  // the robot's left, level
+  aside.z() = 0.0;
+  aside.normalize();
+  const Vector3 ahead = aside.cross(Vector3::UnitZ());
+  const Vector3 from_tips = centre - 0.5 * (left + right);
+  values_[kBehindTips] = -from_tips.dot(ahead);
+  values_[kAside] = from_tips.dot(aside);
+  values_[kHeight] = centre.z() - origin_.z();
+  values_[kMoved] = (centre - origin_).head<2>().norm();
+  values_[kSag] = at(d->xpos, chest_).z() - at(d->xpos, pelvis_).z();
+  if (flexion_ >= 0) values_[kNeckFlexion] = d->sensordata[flexion_];
+  if (turn_ >= 0) values_[kNeckTurn] = d->sensordata[turn_];
+  if (head_ >= 0) values_[kHead] = Eigen::Map<const Vector3>(d->sensordata + head_).norm();
+  const bool lies = values_[kOnGround] > kLying;
+  for (Index i = 0; i < forces_.size(); ++i) {
+    double& worst = values_[lies ? kContactShare : kSupport];
+    worst = std::max(worst, lies ? forces_[i] / limits_[i] : forces_[i]);
+  }
+}
+
+// contacts of the person, by partner and by region
+void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
+  forces_.setZero();
+  Vector3 push = Vector3::Zero();
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0 || contact.geom[0] < 0 || contact.geom[1] < 0) continue;
+    const int bodies[2] = {m->geom_bodyid[contact.geom[0]], m->geom_bodyid[contact.geom[1]]};
+    const bool second = m->body_rootid[bodies[1]] == root_;
+    if ((m->body_rootid[bodies[0]] == root_) == second) continue;  // both, or none
+    const int mine = bodies[second ? 1 : 0], other = bodies[second ? 0 : 1];
+    mjtNum wrench[6];
+    mj_contactForce(m, d, i, wrench);
+    // on the second body, world axes: the frame's rows are normal and tangents
+    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> frame(contact.frame);
+    const Vector3 force =
+        (second ? 1.0 : -1.0) * (frame.transpose() * Vector3(wrench[0], wrench[1], wrench[2]));
+    const double share = force.z() / weight_;
+    if (m->body_weldid[other] == 0) {
+      values_[kOnGround] += share;
+      continue;
+    }
+    if (m->body_rootid[other] != robot_) continue;
+    if (other == arms_[0] || other == arms_[1]) {
+      values_[other == arms_[0] ? kOnLeft : kOnRight] += share;
+      push += force;
+    } else {
+      values_[kOnRest] += share;
+    }
+    const int region = region_of_[static_cast<std::size_t>(mine)];
+    if (region >= 0) forces_[region] += wrench[0];
+  }
+  values_[kPush] = push.head<2>().norm();
+}
+
+}  // namespace hurcules

@@ -1,0 +1,69 @@
+// What a mission sees of a person that the robot lifts: on what the weight rests, where the body's
+// centre lies on the arms, and what the arms press on each region of the body.
+//
+// Taken from the physics itself; on a robot, load cells of the arms and a camera would tell it. An
+// arm that pushes somebody who lies is a contact, judged by its force; one that carries is a
+// support, judged by its pressure [test-methods#contact]: at more than kLying of the weight on the
+// ground it counts as a contact.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hurcules/base/state.hpp"
+#include "hurcules/sim/recorder.hpp"
+
+struct mjModel_;
+struct mjData_;
+
+namespace hurcules {
+
+class CasualtyWatch {
+ public:
+  static constexpr double kLying = 0.15;  // share of the weight
+  // prefix of all names of the person; throws Error where the model has nobody of this name
+  CasualtyWatch(const mjModel_* model, const std::string& prefix);
+  void add_log_channels(Recorder& log) const;  // "casualty/NAME"
+  // ways are counted from where the person lies at the first look after it
+  void reset();
+  void look(const mjModel_* model, const mjData_* data);
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  enum Quantity : Index {
+    kOnGround,      // shares of the weight: on the ground,
+    kOnLeft,        // on the left arm,
+    kOnRight,       // on the right arm,
+    kOnRest,        // on any other part of the robot
+    kBehindTips,    // [m] the tips are ahead of the body's centre of mass
+    kAside,         // [m] the centre is to the left of the middle between the tips
+    kHeight,        // [m] the centre is above where it lay
+    kMoved,         // [m] and from there along the ground
+    kSag,           // [m] pelvis below (or above) the chest
+    kPush,          // [N] of the arms along the ground
+    kNeckFlexion,   // [rad] negative: extension
+    kNeckTurn,      // [rad]
+    kHead,          // [m/s^2] of the head, gravity included
+    kContactShare,  // largest force of a contact by the robot, over its region's limit
+    kSupport,       // [N] largest force that a region is carried by
+    kQuantities
+  };
+  [[nodiscard]] static const std::vector<std::string>& names();
+  void add_up(const mjModel_* model, const mjData_* data);
+
+  int root_ = 0, pelvis_ = 0, chest_ = 0, robot_ = 0;  // bodies
+  int arms_[2] = {0, 0};                               // bodies, left and right
+  int tips_[2] = {0, 0};                               // sites
+  int flexion_ = -1, turn_ = -1, head_ = -1;           // rows of the sensors, -1: none
+  double weight_ = 0.0;                                // [N]
+  std::vector<int> region_of_;                         // (nbody), -1: none
+  std::vector<std::string> regions_;
+  Vector limits_;  // [N] (regions)
+  Vector values_;  // (kQuantities)
+  Vector forces_;  // [N] (regions) by the robot
+  bool looked_ = false;
+  Vector3 origin_ = Vector3::Zero();
+};
+
+}  // namespace hurcules

@@ -1,0 +1,250 @@
+#include "hurcules/mission/table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/mission/posture_way.hpp"
+#include "hurcules/tasks/posture_task.hpp"
+
+namespace hurcules {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Phase>& phases) {
+  std::vector<std::string> names;
+  for (const Phase& phase : phases) names.push_back(phase.name);
+  return names;
+}
+
+bool ends(const Lead& lead) {
+  return lead.rate.size() == 0 || std::isfinite(lead.way);
+}
+
+void check_leads(const Phase& phase, const WholeBodyController& controller,
+                 const std::string& where) {
+  for (const Lead& lead : phase.leads) {
+    const Index size = find_channel(controller, lead.channel, where).channel->size();
+    const bool led_by_rate = lead.rate.size() > 0;
+    const Vector& given = led_by_rate ? lead.rate : lead.by;
+    require(led_by_rate == (lead.by.size() == 0),
+            where + ": channel '" + lead.channel + "' wants a rate or a way, one of them");
+    require(given.size() == size && given.allFinite(),
+            where + ": channel '" + lead.channel + "' wants " + std::to_string(size) +
+                " finite numbers, " + std::to_string(given.size()) + " came");
+    require(lead.way > 0.0, where + ": the way of channel '" + lead.channel +
+                                "' wants a number above 0, " + to_text(lead.way) + " came");
+    require(led_by_rate || phase.seconds > 0.0,
+            where + ": a way that is led wants seconds above 0");
+  }
+}
+
+void check_posture(const Phase& phase, const WholeBodyController& controller,
+                   const std::string& where) {
+  require(phase.posture.empty() == phase.keys.empty(),
+          where + ": a posture wants a channel and keys, both or none");
+  if (phase.keys.empty()) return;
+  const Channel& channel = *find_channel(controller, phase.posture, where).channel;
+  const auto& names = controller.plan().coordinate_names();
+  require(dynamic_cast<const PostureTask*>(channel.task()) &&
+              channel.size() == static_cast<Index>(names.size()),
+          where + ": channel '" + phase.posture +
+              "' wants a PostureTask of all coordinates to lead a posture by");
+  require(phase.seconds > 0.0, where + ": a posture wants seconds above 0");
+  double before = 0.0;
+  for (const PostureKey& key : phase.keys) {
+    require(key.share > before && key.share <= 1.0,
+            where + ": the shares of a posture want to rise to 1, " + to_text(key.share) + " came");
+    before = key.share;
+    for (const auto& [name, angle] : key.angles) {
+      if (coordinates_of(name, names).empty()) {
+        throw Error(where + ": " + unknown_name("coordinate", name, names));
+      }
+      require(std::isfinite(angle), where + ": the angle of '" + name + "' is no finite number");
+    }
+  }
+  require(before == 1.0, where + ": the last share of a posture wants to be 1");
+}
+
+void check_reactions(const std::vector<Reaction>& row, const MissionTable& table,
+                     const std::string& where) {
+  require(!row.empty(), where + ": trouble wants at least one reaction");
+  for (const Reaction& reaction : row) {
+    require(reaction.times > 0, where + ": reaction '" + to_string(reaction.kind) +
+                                    "' wants a count above 0, else it goes round for ever");
+    if (reaction.kind == ReactionKind::Back) (void)find_phase(table.phases, reaction.phase, where);
+    if (reaction.kind == ReactionKind::Hold || reaction.kind == ReactionKind::Ask) {
+      require(reaction.seconds > 0.0,
+              where + ": reaction '" + to_string(reaction.kind) + "' wants seconds above 0");
+    }
+    if (reaction.kind == ReactionKind::Lower) {
+      require(!table.safety.empty(), where + ": lower wants the table to name the way to safety");
+    }
+  }
+  const ReactionKind last = row.back().kind;
+  require(last == ReactionKind::Lower || last == ReactionKind::Abort,
+          where + ": the last reaction wants to be a way to safety, lower or abort; it is '" +
+              to_string(last) + "'");
+}
+
+void check_condition(const Condition& condition, const std::string& where) {
+  require(!condition.quantity.empty() && std::isfinite(condition.value) && condition.seconds >= 0.0,
+          where + ": a condition wants a quantity, a finite value and seconds >= 0");
+}
+
+void check_phase(const Phase& phase, const MissionTable& table,
+                 const WholeBodyController& controller) {
+  const std::string where = "phase '" + phase.name + "'";
+  require(phase.seconds >= 0.0 && std::isfinite(phase.seconds),
+          where + ": seconds want a finite number >= 0, " + to_text(phase.seconds) + " came");
+  require(phase.within > 0.0,
+          where + ": within wants a time above 0, " + to_text(phase.within) + " s came");
+  std::vector<std::string> stacks;
+  for (const NamedStack& stack : controller.stacks()) stacks.push_back(stack.name);
+  if (std::find(stacks.begin(), stacks.end(), phase.stack) == stacks.end()) {
+    throw Error(where + ": " + unknown_name("stack", phase.stack, stacks));
+  }
+  check_leads(phase, controller, where);
+  check_posture(phase, controller, where);
+  const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
+  require(phase.seconds > 0.0 || led || !phase.done.empty() || phase.leads.empty(),
+          where + " never ends: it wants seconds, a way, or a condition");
+  for (const Condition& condition : phase.done) check_condition(condition, where);
+  if (std::isfinite(phase.within)) check_reactions(phase.late, table, where + ", late");
+  for (const Trouble& trouble : phase.troubles) {
+    check_condition(trouble.when, where);
+    check_reactions(trouble.reactions, table, where + ", " + to_string(trouble.when));
+  }
+}
+
+// appended piece by piece: GCC 12 takes "..." + std::string for an overlap
+void add(std::string& text, const std::vector<std::string>& pieces) {
+  for (const std::string& piece : pieces) text += piece;
+}
+
+std::string reactions_text(const std::vector<Reaction>& row) {
+  std::string text;
+  for (const Reaction& reaction : row) {
+    if (!text.empty()) text += ", then ";
+    text += to_string(reaction.kind);
+    if (reaction.kind == ReactionKind::Back) add(text, {" to '", reaction.phase, "'"});
+    if (reaction.seconds > 0.0) add(text, {" ", to_text(reaction.seconds), " s"});
+    if (reaction.times > 1) add(text, {", ", std::to_string(reaction.times), " times"});
+  }
+  return text;
+}
+
+std::string numbers(const Vector& values) {
+  std::string text;
+  for (const double value : values) {
+    if (!text.empty()) text += " ";
+    text += to_text(value);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+std::string to_string(ReactionKind kind) {
+  switch (kind) {
+    case ReactionKind::Back:
+      return "back";
+    case ReactionKind::Hold:
+      return "hold";
+    case ReactionKind::Ask:
+      return "ask";
+    case ReactionKind::Lower:
+      return "lower";
+    case ReactionKind::Abort:
+      return "abort";
+  }
+  return "";
+}
+
+std::string to_string(const Condition& condition) {
+  std::string text = condition.quantity;
+  add(text, {condition.above ? " >= " : " <= ", to_text(condition.value)});
+  if (condition.seconds > 0.0) add(text, {" for ", to_text(condition.seconds), " s"});
+  return text;
+}
+
+std::size_t find_phase(const std::vector<Phase>& phases, const std::string& name,
+                       const std::string& where) {
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    if (phases[i].name == name) return i;
+  }
+  throw Error(where + ": " + unknown_name("phase", name, names_of(phases)));
+}
+
+ChannelPlace find_channel(const WholeBodyController& controller, const std::string& name,
+                          const std::string& where) {
+  ChannelPlace place;
+  std::vector<std::string> names;
+  for (const Channel& channel : controller.channels()) {
+    place.channel = &channel;
+    if (channel.name() == name) return place;
+    place.row += channel.size();
+    names.push_back(channel.name());
+  }
+  throw Error(where + ": " + unknown_name("channel", name, names));
+}
+
+void check_table(const MissionTable& table, const WholeBodyController& controller) {
+  require(!table.phases.empty(), "a mission wants at least one phase");
+  for (std::size_t i = 0; i < table.phases.size(); ++i) {
+    const std::string& name = table.phases[i].name;
+    require(!name.empty(), "phase " + std::to_string(i + 1) + " wants a name");
+    require(find_phase(table.phases, name, "") == i, "two phases are called '" + name + "'");
+    check_phase(table.phases[i], table, controller);
+  }
+  if (!table.safety.empty()) (void)find_phase(table.phases, table.safety, "safety");
+  for (const Measure& measure : table.measures) {
+    const std::string where = "figure '" + measure.name + "'";
+    require(!measure.name.empty(), "a figure wants a name");
+    require(measure.least <= measure.most, where + ": least wants to be below most");
+    for (const std::string& phase : measure.phases) (void)find_phase(table.phases, phase, where);
+  }
+}
+
+std::string table_text(const MissionTable& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.phases.size(); ++i) {
+    const Phase& phase = table.phases[i];
+    add(text, {std::to_string(i + 1), "  ", phase.name, "  [", phase.stack, "]"});
+    if (phase.seconds > 0.0) add(text, {"  ", to_text(phase.seconds), " s"});
+    text += "\n";
+    for (const Lead& lead : phase.leads) {
+      const bool by_rate = lead.rate.size() > 0;
+      add(text, {"     ", lead.channel, by_rate ? " at " : " by ",
+                 numbers(by_rate ? lead.rate : lead.by)});
+      if (std::isfinite(lead.way)) add(text, {" until ", to_text(lead.way)});
+      text += "\n";
+    }
+    for (const PostureKey& key : phase.keys) {
+      add(text, {"     at ", to_text(key.share), ":"});
+      for (const auto& [name, angle] : key.angles) add(text, {" ", name, " ", to_text(angle)});
+      text += "\n";
+    }
+    for (const Condition& condition : phase.done) {
+      add(text, {"     done: ", to_string(condition), "\n"});
+    }
+    if (std::isfinite(phase.within)) {
+      add(text, {"     within ", to_text(phase.within), " s: ", reactions_text(phase.late), "\n"});
+    }
+    for (const Trouble& trouble : phase.troubles) {
+      add(text,
+          {"     if ", to_string(trouble.when), ": ", reactions_text(trouble.reactions), "\n"});
+    }
+  }
+  if (!table.safety.empty()) add(text, {"lower goes to '", table.safety, "'\n"});
+  return text;
+}
+
+}  // namespace hurcules

@@ -1,0 +1,54 @@
+// A mission as data: its phases in their order, the way to safety, and what a run is measured by.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hurcules/control/whole_body_controller.hpp"
+#include "hurcules/mission/phase.hpp"
+
+namespace hurcules {
+
+// A figure of a run: a quantity over some phases, and between what it must lie in the end.
+struct Measure {
+  enum class Take { Largest, Smallest, Span, Last };  // Span: largest - smallest
+  std::string name;                                   // with its unit
+  std::string quantity;                               // a column of the log
+  Take take = Take::Last;
+  std::vector<std::string> phases = {};  // none: all
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+};
+
+struct MissionTable {
+  std::vector<Phase> phases;
+  std::string safety = "";  // the phase that Lower goes to, "" for none
+  std::vector<Measure> measures = {};
+};
+
+[[nodiscard]] std::string to_string(ReactionKind kind);
+[[nodiscard]] std::string to_string(const Condition& condition);
+[[nodiscard]] std::string to_text(double number);  // "0.3"
+
+// Throws Error, naming the row: an unknown phase, stack, channel or coordinate with those that exist;
+// a lead of the wrong size, or one that never ends while nothing else ends the phase; a time-out
+// that is not above 0, or without a reaction; reactions that do not end in safety (Lower or Abort);
+// a jump without a count. Quantities are checked when a simulation brings its log.
+void check_table(const MissionTable& table, const WholeBodyController& controller);
+
+// as text: a line a phase, those of its conditions and reactions below
+[[nodiscard]] std::string table_text(const MissionTable& table);
+
+// place of a phase; throws Error with the names that exist; `where` for the text
+[[nodiscard]] std::size_t find_phase(const std::vector<Phase>& phases, const std::string& name,
+                                     const std::string& where);
+// first command and channel of this name; throws Error with the names that exist
+struct ChannelPlace {
+  const Channel* channel = nullptr;
+  Index row = 0;
+};
+[[nodiscard]] ChannelPlace find_channel(const WholeBodyController& controller,
+                                        const std::string& name, const std::string& where);
+
+}  // namespace hurcules

@@ -1,0 +1,198 @@
+// mission: tables of phases as data, and the simulation that runs one.
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+using namespace hurcules;
+using namespace hurcules_bindings;
+
+void bind_mission(py::module_& module);
+
+namespace {
+
+constexpr const char* kCondition = R"(A quantity on one side of a value, for some time on end.
+
+Args:
+  quantity: a column of the log: `simulation.channels`.
+  above: the quantity is at least the value; False: at most.
+  value: in the unit of the quantity.
+  seconds: [s].
+)";
+constexpr const char* kReaction = R"(What a mission does about trouble.
+
+Args:
+  kind: "back" to a phase, "hold" or "ask" for some seconds, "lower" to the way to safety, "abort".
+  phase: of "back"; the present one begins anew.
+  seconds: [s] of "hold" and "ask".
+  times: in a run; then the next reaction in the row.
+)";
+constexpr const char* kTrouble = R"(What must not be, and the reactions to it.
+
+Args:
+  when: Condition.
+  reactions: list of Reaction; the first that is left; the last is "lower" or "abort".
+)";
+constexpr const char* kLead = R"(What a phase does to one channel.
+
+Args:
+  channel: of the controller.
+  rate: (k,) SI at which it is led, or
+  way: until so much has been given [SI s]; inf: on and on.
+  by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
+)";
+constexpr const char* kKey = R"(Angles of coordinates at a share of a motion.
+
+Args:
+  share: 0 to 1.
+  angles: by coordinate [rad]; the others stay as at the beginning.
+)";
+constexpr const char* kPhase = R"(One row of a mission's table.
+
+Args:
+  name: of the row.
+  stack: of the controller, which rules.
+  seconds: [s] that ways and postures take, the least duration.
+  leads: list of Lead; channels that are not led hold.
+  posture: channel of a PostureTask over all coordinates.
+  keys: list of PostureKey, where it leads to.
+  done: list of Condition, all of them, when all motions have ended.
+  within: [s].
+  late: list of Reaction, when it takes longer.
+  troubles: list of Trouble.
+)";
+constexpr const char* kMeasure = R"(A figure of a run: a quantity over some phases.
+
+Args:
+  name: of the figure, with its unit.
+  quantity: a column of the log.
+  take: "largest", "smallest", "span" (largest less smallest) or "last".
+  phases: list of names, none: all.
+  least: below, the mission failed.
+  most: above, the mission failed.
+)";
+constexpr const char* kTable = R"(A mission as data.
+
+Args:
+  phases: list of Phase, in their order.
+  safety: name of the phase that "lower" goes to.
+  measures: list of Measure.
+)";
+constexpr const char* kTableText =
+    R"(The table as text: a line a phase, conditions and reactions below.)";
+constexpr const char* kSetup = R"(What a mission wants of its run.
+
+Args:
+  name: of the mission.
+  support: body that the robot stands on.
+  max_seconds: [s] it fails when it takes longer.
+  min_height: [m] of the pelvis above the support; below, the robot fell.
+  max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
+  casualty: what stands before the names of the person to watch, "" for nobody.
+)";
+
+const std::vector<std::pair<std::string, ReactionKind>>& kinds() {
+  static const std::vector<std::pair<std::string, ReactionKind>> all = {
+      {"back", ReactionKind::Back},   {"hold", ReactionKind::Hold},   {"ask", ReactionKind::Ask},
+      {"lower", ReactionKind::Lower}, {"abort", ReactionKind::Abort},
+  };
+  return all;
+}
+
+const std::vector<std::pair<std::string, Measure::Take>>& takes() {
+  static const std::vector<std::pair<std::string, Measure::Take>> all = {
+      {"largest", Measure::Take::Largest},
+      {"smallest", Measure::Take::Smallest},
+      {"span", Measure::Take::Span},
+      {"last", Measure::Take::Last},
+  };
+  return all;
+}
+
+template <class Value>
+Value named(const std::vector<std::pair<std::string, Value>>& all, const char* what,
+            const std::string& text) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : all) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  throw Error(unknown_name(what, text, names));
+}
+
+template <class Value>
+std::string name_of(const std::vector<std::pair<std::string, Value>>& all, Value wanted) {
+  for (const auto& [name, value] : all) {
+    if (value == wanted) return name;
+  }
+  return "";
+}
+
+void bind_rows(py::module_& module) {
+  bind_options<Condition>(
+      module, "Condition", kCondition,
+      {required("quantity", &Condition::quantity), field("above", &Condition::above),
+       field("value", &Condition::value), field("seconds", &Condition::seconds)});
+  bind_options<Reaction>(
+      module, "Reaction", kReaction,
+      {text_field<Reaction>(
+           "kind", [](const Reaction& self) { return name_of(kinds(), self.kind); },
+           [](Reaction& self, const std::string& text) {
+             self.kind = named(kinds(), "reaction", text);
+           }),
+       field("phase", &Reaction::phase), field("seconds", &Reaction::seconds),
+       field("times", &Reaction::times)});
+  bind_options<Trouble>(
+      module, "Trouble", kTrouble,
+      {required("when", &Trouble::when), required("reactions", &Trouble::reactions)});
+  bind_options<Lead>(module, "Lead", kLead,
+                     {required("channel", &Lead::channel), field("rate", &Lead::rate),
+                      field("way", &Lead::way), field("by", &Lead::by)});
+  bind_options<PostureKey>(
+      module, "PostureKey", kKey,
+      {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});
+  bind_options<Phase>(module, "Phase", kPhase,
+                      {required("name", &Phase::name), required("stack", &Phase::stack),
+                       field("seconds", &Phase::seconds), field("leads", &Phase::leads),
+                       field("posture", &Phase::posture), field("keys", &Phase::keys),
+                       field("done", &Phase::done), field("within", &Phase::within),
+                       field("late", &Phase::late), field("troubles", &Phase::troubles)});
+}
+
+}  // namespace
+
+void bind_mission(py::module_& module) {
+  bind_rows(module);
+  bind_options<Measure>(
+      module, "Measure", kMeasure,
+      {required("name", &Measure::name), required("quantity", &Measure::quantity),
+       text_field<Measure>(
+           "take", [](const Measure& self) { return name_of(takes(), self.take); },
+           [](Measure& self, const std::string& text) {
+             self.take = named(takes(), "take", text);
+           }),
+       field("phases", &Measure::phases), field("least", &Measure::least),
+       field("most", &Measure::most)});
+  bind_options<MissionTable>(
+      module, "MissionTable", kTable,
+      {required("phases", &MissionTable::phases), field("safety", &MissionTable::safety),
+       field("measures", &MissionTable::measures)})
+      .def("text", &table_text, kTableText);
+  bind_options<MissionSetup>(
+      module, "MissionSetup", kSetup,
+      {required("name", &MissionSetup::name), field("support", &MissionSetup::support),
+       field("max_seconds", &MissionSetup::max_seconds),
+       field("min_height", &MissionSetup::min_height), field("max_tilt", &MissionSetup::max_tilt),
+       field("casualty", &MissionSetup::casualty)});
+}

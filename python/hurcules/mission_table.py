@@ -1,0 +1,264 @@
+"""Missions as data: a TOML file of phases, conditions and reactions, and back.
+
+    [mission]
+    name = "wave"
+    safety = "lower"            # the phase that the reaction "lower" goes to
+
+    [[phase]]
+    name = "reach"
+    stack = "arms"
+    seconds = 2.0               # that ways (`by`) and postures take, the least duration
+    lead.hand = { by = [0.1, 0.0, 0.0] }             # or { rate = [...], way = 0.2 }
+    done = ["mission/force/hand <= -2.5 for 0.3 s"]  # all of them
+    within = 10.0
+    late = ["hold 2 s", "back to reach, 2 times", "abort"]
+    trouble = [{ when = "monitor/static_margin_m <= 0.03", do = ["lower"] }]
+
+A posture is `posture = "CHANNEL"` with `keys = [{ share = 1.0, HIP = 0.3, SP = 1.2 }]`. Quantities
+are columns of the log (`simulation.channels`). A `[[figure]]` is a quantity over some phases, with
+the bounds that make a run a success.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from hurcules._core import (
+    Condition,
+    Error,
+    Lead,
+    Measure,
+    MissionSetup,
+    MissionTable,
+    Phase,
+    PostureKey,
+    Reaction,
+    Trouble,
+)
+
+__all__ = ["Mission", "condition", "reaction"]
+
+Row = TypeVar("Row")
+
+_CONDITION = re.compile(r"(\S+)\s*(>=|<=)\s*(\S+?)(?:\s+for\s+(\S+)\s*s)?")
+_REACTION = re.compile(
+    r"(?:back to (?P<phase>[^,]+)|(?P<wait>hold|ask) (?P<seconds>[\d.e+-]+) s|(?P<end>lower|abort))"
+    r"(?:, (?P<times>\d+) times?)?"
+)
+
+
+@dataclass(frozen=True)
+class Mission:
+    """A mission as data: what it wants of its run, and its table.
+
+    Attributes:
+        setup: hurcules.MissionSetup.
+        rows: hurcules.MissionTable.
+    """
+
+    setup: MissionSetup
+    rows: MissionTable
+
+    @classmethod
+    def load(cls, path: str | Path) -> Mission:
+        """Reads a TOML file.
+
+        Raises:
+            Error: no such file, no TOML, an unknown key, a condition or reaction that cannot be
+                read; the text says where. What depends on a controller (stacks, channels,
+                coordinates, quantities) is checked when a simulation is made.
+        """
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+            return cls.read(tomllib.loads(text))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise Error(f"mission file {path}: {error}") from error
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Mission:
+        """The same from what a TOML file holds."""
+        _known(data, ("mission", "phase", "figure"), "mission")
+        head = dict(data.get("mission", {}))
+        safety = head.pop("safety", "")
+        phases = [_phase(row) for row in data.get("phase", [])]
+        measures = [_of(Measure, row, "figure") for row in data.get("figure", [])]
+        table = MissionTable(phases=phases, safety=safety, measures=measures)
+        return cls(_of(MissionSetup, head, "[mission]"), table)
+
+    def table(self) -> str:
+        """The phases as text, conditions and reactions below each."""
+        return self.rows.text()
+
+    def save(self, path: str | Path) -> None:
+        """Writes the TOML file that `load` reads.
+
+        Raises:
+            Error: the file cannot be written.
+        """
+        try:
+            Path(path).write_text(self.toml(), encoding="utf-8")
+        except OSError as error:
+            raise Error(f"mission file {path}: {error}") from error
+
+    def toml(self) -> str:
+        """The text of that file."""
+        setup = {name: getattr(self.setup, name) for name in _SETUP}
+        lines = ["[mission]", *_entries(setup, MissionSetup(name=""))]
+        if self.rows.safety:
+            lines.append(f"safety = {_value(self.rows.safety)}")
+        for phase in self.rows.phases:
+            lines += ["", "[[phase]]", *_phase_lines(phase)]
+        for measure in self.rows.measures:
+            row = {name: getattr(measure, name) for name in _MEASURE}
+            lines += ["", "[[figure]]", *_entries(row, Measure(name="", quantity=""))]
+        return "\n".join(lines) + "\n"
+
+
+_SETUP = ("name", "support", "max_seconds", "min_height", "max_tilt", "casualty")
+_MEASURE = ("name", "quantity", "take", "phases", "least", "most")
+_PHASE = ("name", "stack", "seconds", "posture", "within")
+
+
+def condition(text: str) -> Condition:
+    """Reads "QUANTITY >= 0.3 for 2 s".
+
+    Raises:
+        Error: it is none.
+    """
+    found = _CONDITION.fullmatch(text.strip())
+    try:
+        if found:
+            name, sign, value, seconds = found.groups()
+            return Condition(
+                quantity=name, above=sign == ">=", value=float(value), seconds=float(seconds or 0)
+            )
+    except ValueError:
+        pass
+    raise Error(f"condition {text!r}: wanted 'QUANTITY >= NUMBER' or <=, maybe 'for NUMBER s'")
+
+
+def reaction(text: str) -> Reaction:
+    """Reads "back to PHASE", "hold 2 s", "ask 30 s", "lower" or "abort", maybe with ", 3 times".
+
+    Raises:
+        Error: it is none.
+    """
+    found = _REACTION.fullmatch(text.strip())
+    if not found:
+        wanted = "'back to PHASE', 'hold 2 s', 'ask 30 s', 'lower' or 'abort', maybe ', 3 times'"
+        raise Error(f"reaction {text!r}: wanted {wanted}")
+    kind = "back" if found["phase"] else found["wait"] or found["end"]
+    return Reaction(
+        kind=kind,
+        phase=found["phase"] or "",
+        seconds=float(found["seconds"] or 0),
+        times=int(found["times"] or 1),
+    )
+
+
+def _phase(row: Mapping[str, Any]) -> Phase:
+    where = f"phase {row.get('name', '?')!r}"
+    _known(row, (*_PHASE, "lead", "keys", "done", "late", "trouble"), where)
+    leads = [
+        _of(Lead, {"channel": name, **lead}, where) for name, lead in row.get("lead", {}).items()
+    ]
+    keys = []
+    for key in row.get("keys", []):
+        angles = [(name, float(angle)) for name, angle in key.items() if name != "share"]
+        keys.append(PostureKey(share=float(key.get("share", 1.0)), angles=angles))
+    troubles = []
+    for one in row.get("trouble", []):
+        _known(one, ("when", "do"), where)
+        reactions = [reaction(text) for text in one.get("do", [])]
+        troubles.append(Trouble(when=condition(one.get("when", "")), reactions=reactions))
+    values = {name: row[name] for name in _PHASE if name in row}
+    return _of(
+        Phase,
+        {
+            **values,
+            "leads": leads,
+            "keys": keys,
+            "done": [condition(text) for text in row.get("done", [])],
+            "late": [reaction(text) for text in row.get("late", [])],
+            "troubles": troubles,
+        },
+        where,
+    )
+
+
+def _of(kind: type[Row], values: Mapping[str, Any], where: str) -> Row:
+    try:
+        return kind(**values)
+    except Error as error:
+        raise Error(f"{where}: {error}") from error
+
+
+def _known(row: Mapping[str, Any], names: Sequence[str], where: str) -> None:
+    for key in row:
+        if key not in names:
+            raise Error(f"{where}: no entry '{key}'; there are: {', '.join(names)}")
+
+
+def _phase_lines(phase: Phase) -> list[str]:
+    row = {name: getattr(phase, name) for name in _PHASE}
+    lines = _entries(row, Phase(name="", stack=""))
+    for lead in phase.leads:
+        parts = [f"rate = {_value(lead.rate.tolist())}"] if lead.rate.size else []
+        parts += [f"way = {_value(lead.way)}"] if math.isfinite(lead.way) else []
+        parts += [f"by = {_value(lead.by.tolist())}"] if lead.by.size else []
+        lines.append(f"lead.{lead.channel} = {{ {', '.join(parts)} }}")
+    if phase.keys:
+        lines.append("keys = [")
+        for key in phase.keys:
+            angles = ", ".join(f"{name} = {_value(angle)}" for name, angle in key.angles)
+            lines.append(f"  {{ share = {_value(key.share)}, {angles} }},")
+        lines.append("]")
+    if phase.done:
+        lines.append(f"done = {_value([_condition_text(one) for one in phase.done])}")
+    if phase.late:
+        lines.append(f"late = {_value([_reaction_text(one) for one in phase.late])}")
+    if phase.troubles:
+        lines.append("trouble = [")
+        for trouble in phase.troubles:
+            when = _value(_condition_text(trouble.when))
+            do = _value([_reaction_text(one) for one in trouble.reactions])
+            lines.append(f"  {{ when = {when}, do = {do} }},")
+        lines.append("]")
+    return lines
+
+
+def _condition_text(one: Condition) -> str:
+    text = f"{one.quantity} {'>=' if one.above else '<='} {one.value!r}"
+    return text + (f" for {one.seconds!r} s" if one.seconds else "")
+
+
+def _reaction_text(one: Reaction) -> str:
+    text = {"back": f"back to {one.phase}", "hold": f"hold {one.seconds!r} s"}.get(
+        one.kind, one.kind
+    )
+    if one.kind == "ask":
+        text = f"ask {one.seconds!r} s"
+    return text + (f", {one.times} times" if one.times > 1 else "")
+
+
+def _entries(values: Mapping[str, Any], defaults: object) -> list[str]:
+    """Lines of what differs from the defaults."""
+    return [
+        f"{name} = {_value(value)}"
+        for name, value in values.items()
+        if value != getattr(defaults, name)
+    ]
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, list):
+        return "[" + ", ".join(_value(one) for one in value) + "]"
+    return repr(value)

@@ -1,0 +1,183 @@
+"""Missions as TOML: what is read is what is written, and every mistake is told with its row.
+
+Strategy: a small table on an arm of two joints, with and without one thing wrong; the table of the
+lift as it comes. What the phases do is tests/cpp/mission/mission_test.cpp's matter, the lift itself
+test_lift.py's.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+import pytest
+
+import hurcules
+from hurcules import Error, Mission, mjcf
+from hurcules.mission_table import condition, reaction
+
+ARM = """
+<mujoco>
+  <compiler angle="radian"/>
+  <worldbody>
+    <body name="upper" pos="0 0 1">
+      <joint name="j1" axis="0 1 0" range="-3 3" limited="true"/>
+      <geom type="capsule" size="0.03" fromto="0 0 0 0.4 0 0" mass="1"/>
+      <body name="lower" pos="0.4 0 0">
+        <joint name="j2" axis="0 1 0" range="-3 3" limited="true"/>
+        <geom type="capsule" size="0.03" fromto="0 0 0 0.4 0 0" mass="1"/>
+        <site name="hand" pos="0.4 0 0"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor joint="j1" gear="50" ctrlrange="-1 1"/>
+    <motor joint="j2" gear="50" ctrlrange="-1 1"/>
+  </actuator>
+</mujoco>
+"""
+ROWS = """
+[mission]
+name = "wave"
+safety = "back"
+
+[[phase]]
+name = "up"
+stack = "posture"
+posture = "posture"
+seconds = 1.0
+keys = [{ share = 0.5, j1 = -0.2 }, { share = 1.0, j1 = -0.5, j2 = 0.3 }]
+done = ["q/j1 <= -0.45 for 0.1 s"]
+within = 3.0
+late = ["hold 0.5 s", "back to up, 2 times", "abort"]
+trouble = [{ when = "q/j2 >= 2.0", do = ["ask 5.0 s", "lower"] }]
+
+[[phase]]
+name = "back"
+stack = "posture"
+lead.posture = { rate = [0.5, 0.0], way = 0.2 }
+
+[[figure]]
+name = "reached_rad"
+quantity = "q/j1"
+take = "smallest"
+phases = ["up"]
+most = -0.4
+"""
+
+
+def loop(text: str = ROWS) -> hurcules.Simulation:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(
+        robot, None, {"posture": hurcules.Twist(posture, 2.0)}, stacks={"posture": [posture]}
+    )
+    return hurcules.Simulation(read(text), model=model, controller=controller)
+
+
+def read(text: str) -> Mission:
+    import tomllib
+
+    return Mission.read(tomllib.loads(text))
+
+
+def test_a_table_runs_in_the_loop_and_its_figures_judge_it() -> None:
+    simulation = loop()
+    assert simulation.phases == ["up", "back"]
+    simulation.step(5000)
+    assert simulation.success, simulation.reason
+    assert simulation.figures()["reached_rad"] == pytest.approx(-0.5, abs=0.02)
+    assert simulation.data.joint("j1").qpos[0] == pytest.approx(-0.3, abs=0.02)
+    assert simulation.mission == "wave"
+    failed = loop(ROWS.replace("most = -0.4", "most = -0.9"))
+    failed.step(5000)
+    assert not failed.success
+    assert failed.reason.startswith("reached_rad is -0.")
+
+
+def test_the_same_table_gives_the_same_bits_from_a_snapshot() -> None:
+    one, other = loop(), loop()
+    one.step(700)
+    other.restore(one.state())
+    one.step(300)
+    other.step(300)
+    assert one.phase == other.phase
+    assert (one.state() == other.state()).all()
+
+
+def test_what_is_saved_is_what_was_loaded(tmp_path: Path) -> None:
+    for mission in (read(ROWS), Mission.load(mjcf.folder() / "missions" / "lift.toml")):
+        mission.save(tmp_path / "copy.toml")
+        copy = Mission.load(tmp_path / "copy.toml")
+        assert copy.setup == mission.setup
+        assert copy.rows == mission.rows
+        assert copy.table() == mission.table()
+    assert "trouble" in read(ROWS).toml()
+
+
+def test_the_table_is_printed() -> None:
+    text = read(ROWS).table()
+    assert "1  up  [posture]  1 s" in text
+    assert "within 3 s: hold 0.5 s, then back to 'up', 2 times, then abort" in text
+    assert "if q/j2 >= 2: ask 5 s, then lower" in text
+    assert "lower goes to 'back'" in text
+
+
+def test_a_user_adds_a_phase() -> None:
+    mission = read(ROWS)
+    wait = hurcules.Phase(name="wait", stack="posture", seconds=0.5)
+    rows = hurcules.MissionTable(
+        phases=[*mission.rows.phases, wait], safety="back", measures=mission.rows.measures
+    )
+    assert Mission(mission.setup, rows).rows.phases[-1].name == "wait"
+
+
+def test_conditions_and_reactions_are_read_from_text() -> None:
+    one = condition("monitor/static_margin_m <= 0.05 for 0.3 s")
+    assert (one.quantity, one.above, one.value) == ("monitor/static_margin_m", False, 0.05)
+    assert one.seconds == 0.3
+    two = reaction("back to set down, 3 times")
+    assert (two.kind, two.phase, two.times) == ("back", "set down", 3)
+    for text in ("", "q/j1 > 3", "q/j1 >= much"):
+        with pytest.raises(Error, match="wanted 'QUANTITY >= NUMBER'"):
+            condition(text)
+    for text in ("", "retreat", "hold", "lower, many times"):
+        with pytest.raises(Error, match="wanted 'back to PHASE'"):
+            reaction(text)
+
+
+@pytest.mark.parametrize(
+    "old, new, wanted",
+    [
+        (
+            'stack = "posture"\nposture',
+            'stack = "pasture"\nposture',
+            "stack 'pasture' does not exist",
+        ),
+        ("j2 = 0.3", "j9 = 0.3", "coordinate 'j9' does not exist; there are: j1, j2"),
+        ("q/j1 <= -0.45", "q/j7 <= -0.45", "quantity 'q/j7' does not exist"),
+        ("within = 3.0", "within = 0.0", "within wants a time above 0"),
+        ("back to up", "back to top", "phase 'top' does not exist; there are: up, back"),
+        (', "abort"]', "]", "a way to safety"),
+        ("lead.posture", "lead.pasture", "channel 'pasture' does not exist"),
+        ("rate = [0.5, 0.0]", "rate = [0.5]", "wants 2 finite numbers, 1 came"),
+        (", way = 0.2", "", "never ends"),
+        ("seconds = 1.0", "secnds = 1.0", "no entry 'secnds'"),
+        ('safety = "back"', 'safety = "home"', "phase 'home' does not exist"),
+        ('take = "smallest"', 'take = "least"', "take 'least' does not exist"),
+    ],
+)
+def test_a_mistake_is_told_with_its_row(old: str, new: str, wanted: str) -> None:
+    assert old in ROWS
+    with pytest.raises(Error, match=r"phase|figure|safety") as raised:
+        loop(ROWS.replace(old, new, 1))
+    assert wanted in str(raised.value)
+
+
+def test_a_file_that_is_none_is_told(tmp_path: Path) -> None:
+    with pytest.raises(Error, match=r"nothing\.toml"):
+        Mission.load(tmp_path / "nothing.toml")
+    (tmp_path / "bad.toml").write_text("[mission")
+    with pytest.raises(Error, match=r"bad\.toml"):
+        Mission.load(tmp_path / "bad.toml")
