@@ -40,7 +40,6 @@ SUPPORT = "lower_leg_L"
 # head looks up as far as it can, or it meets the person when the trunk leans by more than 1.2 rad
 START = {"KN": 1.763, "HIP": 0.36, "NKP": -1.19, "SP": 1.9645, "EB": 1.2251}
 DISTANCE = 2.30  # [m] of the person's middle from the knee axis: tips clear of the nearer hand
-AIM = 0.06  # [m] to the head's side of the person's centre of mass
 SPRING = 1100.0  # [N/m] of the elbows' springs at the tips
 
 
@@ -125,7 +124,7 @@ def model(person: Person) -> mujoco.MjModel:
         mass=person.mass,
         lying=person.pose,
         distance=DISTANCE + dx,
-        lateral=dy - AIM,
+        lateral=dy,
         heading=person.yaw,
         cloth=person.friction,
     ).compile()

@@ -17,7 +17,7 @@ from hurcules import Error, lift
 @pytest.fixture(scope="module")
 def run() -> tuple[hurcules.Simulation, dict[str, list[np.ndarray]]]:
     """The simulation at its end, and by phase where the person's trunk was."""
-    simulation = hurcules.Simulation("lift", variation=0.0, record=False)
+    simulation = hurcules.Simulation("lift", variation=0.0)
     places: dict[str, list[np.ndarray]] = {}
     while not simulation.finished:
         simulation.step(100)
@@ -36,6 +36,17 @@ def test_a_person_is_lifted_held_and_laid_down(run) -> None:
     assert np.ptp(held[:, 2]) < 0.03
     last = places["rest"][-1]
     assert last[2] == pytest.approx(start[2], abs=0.06)
+
+
+@pytest.mark.slow
+def test_no_commanded_velocity_jumps_between_phases(run) -> None:
+    simulation, _ = run
+    log = simulation.log()
+    assert len(set(log["phase"])) == len(simulation.phases)
+    most = 20.0 * simulation.dt  # [rad/s] one tick of the acceleration limit
+    for channel, values in log.items():
+        if channel.startswith("qd_des/"):
+            assert np.abs(np.diff(values)).max() <= most + 1e-9, channel
 
 
 @pytest.mark.slow

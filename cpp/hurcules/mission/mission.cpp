@@ -138,24 +138,35 @@ Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
 void Mission::reset(WholeBodyController& controller, const Robot& world) {
   require(attached_ || !needs_log(), "a mission with conditions wants a simulation");
   for (Figure& figure : figures_) figure.value = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Phase& phase = table_.phases[i];
-    for (std::size_t k = 0; k < phase.late.size(); ++k) rows_[i].late_left[k] = phase.late[k].times;
-    for (std::size_t k = 0; k < phase.troubles.size(); ++k) {
-      const std::vector<Reaction>& row = phase.troubles[k].reactions;
-      for (std::size_t r = 0; r < row.size(); ++r) rows_[i].troubles_left[k][r] = row[r].times;
-    }
-  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) start_anew(table_.phases[i], rows_[i]);
   for (Gauge& gauge : gauges_) {
     gauge.seen_least = gauge.seen_most = std::numeric_limits<double>::quiet_NaN();
   }
   why_ = {};
+  cause_ = 0;
+  wait_until_ = 0.0;
+  forces_.setZero();
   verdict_.clear();
   answer_.reset();
   paused_ = ended_ = false;
   if (casualty_) casualty_->reset();
   begin(controller, world);
   enter(0, controller, 0.0);
+}
+
+void Mission::start_anew(const Phase& phase, Row& row) {
+  for (std::size_t i = 0; i < phase.late.size(); ++i) row.late_left[i] = phase.late[i].times;
+  for (std::size_t i = 0; i < phase.troubles.size(); ++i) {
+    const std::vector<Reaction>& reactions = phase.troubles[i].reactions;
+    for (std::size_t k = 0; k < reactions.size(); ++k) {
+      row.troubles_left[i][k] = reactions[k].times;
+    }
+  }
+  for (std::vector<Watch>* watches : {&row.done, &row.troubles}) {
+    for (Watch& watch : *watches) watch.since = 0.0;
+  }
+  for (Way& way : row.ways) way.given = 0.0;
+  if (row.posture) row.posture->start(Vector::Zero(row.posture_size));
 }
 
 void Mission::enter(std::size_t phase, WholeBodyController& controller, double time) {
@@ -303,6 +314,7 @@ bool Mission::react(std::size_t cause, WholeBodyController& controller, double t
     --left[i];
     switch (reactions[i].kind) {
       case ReactionKind::Back:
+        if (!why_.final) why_ = {phase_ + 1, cause, false};
         enter(find_phase(table_.phases, reactions[i].phase, ""), controller, time);
         return true;
       case ReactionKind::Hold:
@@ -314,7 +326,7 @@ bool Mission::react(std::size_t cause, WholeBodyController& controller, double t
         waiting_ = 1.0;
         return true;
       case ReactionKind::Lower:
-        why_ = {phase_ + 1, cause};
+        why_ = {phase_ + 1, cause, true};
         tell();
         enter(find_phase(table_.phases, table_.safety, ""), controller, time);
         return true;
@@ -322,7 +334,7 @@ bool Mission::react(std::size_t cause, WholeBodyController& controller, double t
         break;
     }
   }
-  why_ = {phase_ + 1, cause};
+  why_ = {phase_ + 1, cause, true};
   ended_ = true;
   tell();
   return false;
@@ -344,17 +356,19 @@ bool Mission::wait(double time, WholeBodyController& controller) {
   return true;
 }
 
-// what is missing, in words: why it was lowered or aborted, else the first figure out of its bounds
+// what is missing, in words: why it was lowered or aborted, else the first figure out of its bounds,
+// and what it went back for
 void Mission::tell() {
   verdict_.clear();
+  std::string cause;
   if (why_.phase > 0) {
     const Phase& phase = table_.phases[why_.phase - 1];
-    verdict_ = "phase '" + phase.name + "': ";
-    verdict_ += why_.cause == 0 ? std::string("took too long")
-                                : to_string(phase.troubles[why_.cause - 1].when);
-    return;
+    cause = "phase '" + phase.name + "': ";
+    cause += why_.cause == 0 ? std::string("took too long")
+                             : to_string(phase.troubles[why_.cause - 1].when);
   }
-  if (!ended_) return;
+  if (why_.final) verdict_ = cause;
+  if (why_.final || !ended_) return;
   for (std::size_t i = 0; i < table_.measures.size(); ++i) {
     const Measure& measure = table_.measures[i];
     const double value = figures_[i].value;
@@ -363,6 +377,7 @@ void Mission::tell() {
     verdict_ = measure.name + " is " + to_text(value) + ", wanted at ";
     verdict_ += high ? "most " : "least ";
     verdict_ += to_text(high ? measure.most : measure.least);
+    if (!cause.empty()) verdict_ += "; " + cause;
     return;
   }
 }
@@ -377,7 +392,7 @@ void Mission::save(StateWriter& writer) const {
   for (const std::size_t number : {phase_, cause_, why_.phase, why_.cause}) {
     writer.put(static_cast<double>(number));
   }
-  for (const bool flag : {paused_, ended_}) writer.put(flag ? 1.0 : 0.0);
+  for (const bool flag : {paused_, ended_, why_.final}) writer.put(flag ? 1.0 : 0.0);
   writer.put(static_cast<double>(static_cast<int>(doing_)));
   for (const double value :
        {phase_start_, now_, wait_until_, extra_, elapsed_, progress_, waiting_}) {
@@ -412,6 +427,7 @@ void Mission::restore(StateReader& reader) {
   why_.cause = static_cast<std::size_t>(reader.get_count(static_cast<Index>(most)));
   paused_ = reader.get_count(1) > 0;
   ended_ = reader.get_count(1) > 0;
+  why_.final = reader.get_count(1) > 0;
   doing_ = static_cast<Doing>(reader.get_count(static_cast<Index>(Doing::Asking)));
   for (double* value :
        {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_}) {

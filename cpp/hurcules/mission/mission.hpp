@@ -17,10 +17,10 @@
 #include <string_view>
 #include <vector>
 
-#include "hurcules/mission/casualty_watch.hpp"
 #include "hurcules/mission/posture_way.hpp"
 #include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/mission/table.hpp"
+#include "hurcules/sim/casualty_watch.hpp"
 #include "hurcules/sim/supervisor.hpp"
 
 namespace hurcules {
@@ -115,12 +115,14 @@ class Mission : public Supervisor {
     double seen_least = std::numeric_limits<double>::quiet_NaN(), seen_most = seen_least;
     void look(Measure::Take take, double& value);
   };
-  // what it was lowered or aborted for
+  // what it went back, was lowered or aborted for
   struct Why {
     std::size_t phase = 0;  // place + 1, 0: nothing
     std::size_t cause = 0;  // 0 late, else the trouble before it
+    bool final = false;     // lowered or aborted
   };
   void compile(const WholeBodyController& controller);
+  static void start_anew(const Phase& phase, Row& row);
   void enter(std::size_t phase, WholeBodyController& controller, double time);
   [[nodiscard]] double progress(double elapsed) const;
   [[nodiscard]] bool over(double time);

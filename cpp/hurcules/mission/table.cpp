@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/control/tasks.hpp"
 #include "hurcules/mission/posture_way.hpp"
-#include "hurcules/tasks/posture_task.hpp"
 
 namespace hurcules {
 

@@ -256,8 +256,8 @@ TEST_F(MissionTest, APauseFreezesTheTable) {
 
 TEST_F(MissionTest, FiguresMeasureTheirPhasesAndJudgeTheRun) {
   MissionTable table;
-  table.phases = {{.name = "one", .stack = "reach", .seconds = 0.3},
-                  {.name = "two", .stack = "reach", .seconds = 0.3}};
+  table.phases = {{.name = "one", .stack = "reach", .seconds = 0.25},
+                  {.name = "two", .stack = "reach", .seconds = 0.25}};
   table.measures = {{"most", "load", Measure::Take::Largest, {"two"}},
                     {"span", "load", Measure::Take::Span, {}, 0.0, 3.0}};
   const auto mission = make(table);

@@ -1,4 +1,4 @@
-#include "hurcules/mission/casualty_watch.hpp"
+#include "hurcules/sim/casualty_watch.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -33,7 +33,7 @@ double limit_of(const std::string& region) {
 
 int body_of(const mjModel* m, const std::string& name) {
   const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
-  require(id >= 0, "a mission with a casualty wants a body '" + name + "', the model has none");
+  require(id >= 0, "a watched casualty wants a body '" + name + "', the model has none");
   return id;
 }
 
@@ -67,7 +67,7 @@ CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix)
   robot_ = m->body_rootid[arms_[0]];
   tips_[0] = mj_name2id(m, mjOBJ_SITE, "L_tcp");
   tips_[1] = mj_name2id(m, mjOBJ_SITE, "R_tcp");
-  require(tips_[0] >= 0 && tips_[1] >= 0, "a mission with a casualty wants sites L_tcp and R_tcp");
+  require(tips_[0] >= 0 && tips_[1] >= 0, "a watched casualty wants sites L_tcp and R_tcp");
   flexion_ = row_of(m, prefix + "neck_flexion");
   turn_ = row_of(m, prefix + "neck_turn");
   head_ = row_of(m, prefix + "head_acceleration");

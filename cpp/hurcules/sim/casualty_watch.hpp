@@ -1,4 +1,4 @@
-// What a mission sees of a person that the robot lifts: on what the weight rests, where the body's
+// What is seen of a person that the robot lifts: on what the weight rests, where the body's
 // centre lies on the arms, and what the arms press on each region of the body.
 //
 // Taken from the physics itself; on a robot, load cells of the arms and a camera would tell it. An
