@@ -2458,6 +2458,330 @@ class Plant:
     def is_sound(self) -> bool:
         """False once a position, velocity or acceleration was not finite or huge; it then stands still"""
 
+class Condition:
+    """A quantity on one side of a value, for some time on end.
+
+    Args:
+      quantity: a column of the log: `simulation.channels`.
+      above: the quantity is at least the value; False: at most.
+      value: in the unit of the quantity.
+      seconds: [s]."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    above: bool
+    quantity: str
+
+    def __copy__(self) -> Condition: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Condition: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self, *, quantity: str, above: bool = True, value: float = 0.0, seconds: float = 0.0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def seconds(self) -> float: ...
+    @seconds.setter
+    def seconds(self, arg0: float) -> None: ...
+    @property
+    def value(self) -> float: ...
+    @value.setter
+    def value(self, arg0: float) -> None: ...
+
+class Reaction:
+    """What a mission does about trouble.
+
+    Args:
+      kind: "back" to a phase, "hold" or "ask" for some seconds, "lower" to the way to safety, "abort".
+      phase: of "back"; the present one begins anew.
+      seconds: [s] of "hold" and "ask".
+      times: in a run; then the next reaction in the row."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    kind: str
+    phase: str
+
+    def __copy__(self) -> Reaction: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Reaction: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self, *, kind: str = "abort", phase: str = "", seconds: float = 0.0, times: int = 1
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def seconds(self) -> float: ...
+    @seconds.setter
+    def seconds(self, arg0: float) -> None: ...
+    @property
+    def times(self) -> int: ...
+    @times.setter
+    def times(self, arg0: int) -> None: ...
+
+class Trouble:
+    """What must not be, and the reactions to it.
+
+    Args:
+      when: Condition.
+      reactions: list of Reaction; the first that is left; the last is "lower" or "abort"."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    when: Condition
+
+    def __copy__(self) -> Trouble: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Trouble: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self, *, when: Condition, reactions: collections.abc.Sequence[Reaction]
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def reactions(self) -> list[Reaction]: ...
+    @reactions.setter
+    def reactions(self, arg0: collections.abc.Sequence[Reaction]) -> None: ...
+
+class Lead:
+    """What a phase does to one channel.
+
+    Args:
+      channel: of the controller.
+      rate: (k,) SI at which it is led, or
+      way: until so much has been given [SI s]; inf: on and on.
+      by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    channel: str
+
+    def __copy__(self) -> Lead: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Lead: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self, *, channel: str, rate: ArrayLike = ..., way: float = ..., by: ArrayLike = ...
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def by(self) -> NDArray[np.float64]: ...
+    @by.setter
+    def by(self, arg0: ArrayLike) -> None: ...
+    @property
+    def rate(self) -> NDArray[np.float64]: ...
+    @rate.setter
+    def rate(self, arg0: ArrayLike) -> None: ...
+    @property
+    def way(self) -> float: ...
+    @way.setter
+    def way(self, arg0: float) -> None: ...
+
+class PostureKey:
+    """Angles of coordinates at a share of a motion.
+
+    Args:
+      share: 0 to 1.
+      angles: by coordinate [rad]; the others stay as at the beginning."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __copy__(self) -> PostureKey: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> PostureKey: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self, *, share: float = 1.0, angles: collections.abc.Sequence[tuple[str, float]] = []
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angles(self) -> list[tuple[str, float]]: ...
+    @angles.setter
+    def angles(self, arg0: collections.abc.Sequence[tuple[str, float]]) -> None: ...
+    @property
+    def share(self) -> float: ...
+    @share.setter
+    def share(self, arg0: float) -> None: ...
+
+class Phase:
+    """One row of a mission's table.
+
+    Args:
+      name: of the row.
+      stack: of the controller, which rules.
+      seconds: [s] that ways and postures take, the least duration.
+      leads: list of Lead; channels that are not led hold.
+      posture: channel of a PostureTask over all coordinates.
+      keys: list of PostureKey, where it leads to.
+      done: list of Condition, all of them, when all motions have ended.
+      within: [s].
+      late: list of Reaction, when it takes longer.
+      troubles: list of Trouble."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    name: str
+    posture: str
+    stack: str
+
+    def __copy__(self) -> Phase: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Phase: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self,
+        *,
+        name: str,
+        stack: str,
+        seconds: float = 0.0,
+        leads: collections.abc.Sequence[Lead] = [],
+        posture: str = "",
+        keys: collections.abc.Sequence[PostureKey] = [],
+        done: collections.abc.Sequence[Condition] = [],
+        within: float = ...,
+        late: collections.abc.Sequence[Reaction] = [],
+        troubles: collections.abc.Sequence[Trouble] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def done(self) -> list[Condition]: ...
+    @done.setter
+    def done(self, arg0: collections.abc.Sequence[Condition]) -> None: ...
+    @property
+    def keys(self) -> list[PostureKey]: ...
+    @keys.setter
+    def keys(self, arg0: collections.abc.Sequence[PostureKey]) -> None: ...
+    @property
+    def late(self) -> list[Reaction]: ...
+    @late.setter
+    def late(self, arg0: collections.abc.Sequence[Reaction]) -> None: ...
+    @property
+    def leads(self) -> list[Lead]: ...
+    @leads.setter
+    def leads(self, arg0: collections.abc.Sequence[Lead]) -> None: ...
+    @property
+    def seconds(self) -> float: ...
+    @seconds.setter
+    def seconds(self, arg0: float) -> None: ...
+    @property
+    def troubles(self) -> list[Trouble]: ...
+    @troubles.setter
+    def troubles(self, arg0: collections.abc.Sequence[Trouble]) -> None: ...
+    @property
+    def within(self) -> float: ...
+    @within.setter
+    def within(self, arg0: float) -> None: ...
+
+class Measure:
+    """A figure of a run: a quantity over some phases.
+
+    Args:
+      name: of the figure, with its unit.
+      quantity: a column of the log.
+      take: "largest", "smallest", "span" (largest less smallest) or "last".
+      phases: list of names, none: all.
+      least: below, the mission failed.
+      most: above, the mission failed."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    name: str
+    quantity: str
+    take: str
+
+    def __copy__(self) -> Measure: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Measure: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self,
+        *,
+        name: str,
+        quantity: str,
+        take: str = "last",
+        phases: collections.abc.Sequence[str] = [],
+        least: float = ...,
+        most: float = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def least(self) -> float: ...
+    @least.setter
+    def least(self, arg0: float) -> None: ...
+    @property
+    def most(self) -> float: ...
+    @most.setter
+    def most(self, arg0: float) -> None: ...
+    @property
+    def phases(self) -> list[str]: ...
+    @phases.setter
+    def phases(self, arg0: collections.abc.Sequence[str]) -> None: ...
+
+class MissionTable:
+    """A mission as data.
+
+    Args:
+      phases: list of Phase, in their order.
+      safety: name of the phase that "lower" goes to.
+      measures: list of Measure."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    safety: str
+
+    def __copy__(self) -> MissionTable: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> MissionTable: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self,
+        *,
+        phases: collections.abc.Sequence[Phase],
+        safety: str = "",
+        measures: collections.abc.Sequence[Measure] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def text(self) -> str:
+        """The table as text: a line a phase, conditions and reactions below."""
+
+    @property
+    def measures(self) -> list[Measure]: ...
+    @measures.setter
+    def measures(self, arg0: collections.abc.Sequence[Measure]) -> None: ...
+    @property
+    def phases(self) -> list[Phase]: ...
+    @phases.setter
+    def phases(self, arg0: collections.abc.Sequence[Phase]) -> None: ...
+
+class MissionSetup:
+    """What a mission wants of its run.
+
+    Args:
+      name: of the mission.
+      support: body that the robot stands on.
+      max_seconds: [s] it fails when it takes longer.
+      min_height: [m] of the pelvis above the support; below, the robot fell.
+      max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
+      casualty: what stands before the names of the person to watch, "" for nobody."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    casualty: str
+    name: str
+    support: str
+
+    def __copy__(self) -> MissionSetup: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> MissionSetup: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self,
+        *,
+        name: str,
+        support: str = "",
+        max_seconds: float = ...,
+        min_height: float = 0.0,
+        max_tilt: float = 0.0,
+        casualty: str = "",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def max_seconds(self) -> float: ...
+    @max_seconds.setter
+    def max_seconds(self, arg0: float) -> None: ...
+    @property
+    def max_tilt(self) -> float: ...
+    @max_tilt.setter
+    def max_tilt(self, arg0: float) -> None: ...
+    @property
+    def min_height(self) -> float: ...
+    @min_height.setter
+    def min_height(self, arg0: float) -> None: ...
+
 class SensorModel:
     """How a sensor departs from the truth; all zero: not at all, to the last bit.
 
@@ -2795,6 +3119,16 @@ class Simulation:
         model: mujoco.MjModel,
         data: mujoco.MjData,
         mission: str = "stretch",
+        options: SimulationOptions = ...,
+    ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        controller: WholeBodyController,
+        table: MissionTable,
+        setup: MissionSetup,
         options: SimulationOptions = ...,
     ) -> None: ...
     @overload

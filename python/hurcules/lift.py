@@ -33,11 +33,11 @@ from hurcules._core import (
 )
 from hurcules.mission_table import Mission
 
-__all__ = ["Person", "controller", "mission", "model", "parameters_of", "person"]
+__all__ = ["Person", "controller", "mission", "model", "parameters_of", "person", "spec"]
 
 SUPPORT = "lower_leg_L"
-# tips 5 cm above the ground, 1.80 m ahead of the knee axis, lower arms 0.12 rad below the level; the
-# head looks up as far as it can, or it meets the person when the trunk leans by more than 1.2 rad
+# tips 5 cm above the ground, 1.80 m ahead of the knee axis, lower arms 0.12 rad below the level;
+# the head looks up, or it would meet the person where the trunk leans by more than 1.2 rad
 START = {"KN": 1.763, "HIP": 0.36, "NKP": -1.19, "SP": 1.9645, "EB": 1.2251}
 DISTANCE = 2.30  # [m] of the person's middle from the knee axis: tips clear of the nearer hand
 SPRING = 1100.0  # [N/m] of the elbows' springs at the tips
@@ -112,11 +112,16 @@ _OPTIONS: Mapping[str, Callable[[str], Any]] = {
 
 
 def model(person: Person) -> mujoco.MjModel:
-    """The robot at its start, the person across its way, the head to its left.
+    """The robot, and the person across its way, the head to its left.
 
     Raises:
         Error: a person that there is not.
     """
+    return spec(person).compile()
+
+
+def spec(person: Person) -> mujoco.MjSpec:
+    """The same, not compiled yet."""
     dx, dy = person.offset
     return scenes.make(
         "casualty",
@@ -127,7 +132,7 @@ def model(person: Person) -> mujoco.MjModel:
         lateral=dy,
         heading=person.yaw,
         cloth=person.friction,
-    ).compile()
+    )
 
 
 def mission() -> Mission:

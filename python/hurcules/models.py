@@ -11,7 +11,7 @@ from pathlib import Path
 
 import mujoco
 
-from hurcules import _core, mjcf, transfer_bed
+from hurcules import _core, lift, mjcf, transfer_bed
 from hurcules import scenes as made
 from hurcules._core import Error
 from hurcules.mjcf import folder, parse
@@ -88,6 +88,8 @@ def make(
     seed: int = 0,
 ) -> mujoco.MjSpec:
     """A robot in its surroundings, not compiled yet; arguments and errors as those of `load`."""
+    if scene is None and mission == "lift" and name in (None, "rescue"):
+        return lift.spec(lift.Person())
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
     if scene in _made() and scene not in mjcf.stems("scenes"):

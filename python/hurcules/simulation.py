@@ -119,19 +119,24 @@ class Simulation(_core.Simulation):
         if mission == "lift":
             table, model = lift.mission(), lift.model(lift.person(parameters or {}))
             controller = lift.controller(model)
+        self.mission: str | None
         if controller is not None:
             self.mission = table.setup.name if table else None
             self.model = _model(model)
             _warn_of_settings(self.model)
             self.data = mujoco.MjData(self.model)
-            rows = (table.rows, table.setup) if table else ()
-            super().__init__(self.model, self.data, controller, *rows, options)
+            if table is None:
+                super().__init__(self.model, self.data, controller, options)
+            else:
+                rows, setup = table.rows, table.setup
+                super().__init__(self.model, self.data, controller, rows, setup, options)
             return
-        self.mission = mission or "stretch"
-        require_known("mission", self.mission, missions())
-        self.model = models.load(mission=self.mission)
+        name = str(mission or "stretch")
+        self.mission = name
+        require_known("mission", name, missions())
+        self.model = models.load(mission=name)
         self.data = mujoco.MjData(self.model)
-        super().__init__(self.model, self.data, self.mission, options)
+        super().__init__(self.model, self.data, name, options)
 
     def reset(self, seed: int = 0, start: ArrayLike | None = None) -> None:
         """Back to the start.

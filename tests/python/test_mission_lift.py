@@ -69,7 +69,17 @@ def test_a_person_that_there_is_not_is_told() -> None:
 
 
 def test_the_command_line_names_the_person() -> None:
-    words = "--mass 90 --offset=0.05,-0.1 --yaw 0.2 --friction 0.6 --pose left".split()
+    words = [
+        "--mass",
+        "90",
+        "--offset=0.05,-0.1",
+        "--yaw",
+        "0.2",
+        "--friction",
+        "0.6",
+        "--pose",
+        "left",
+    ]
     assert lift.parameters_of(words) == {
         "mass": 90,
         "offset": (0.05, -0.1),

@@ -75,7 +75,9 @@ def test_what_is_drawn_is_what_touches(robot: mujoco.MjModel) -> None:
 
 def test_the_flange_widens_the_wedge_on_its_inner_edge(robot: mujoco.MjModel) -> None:
     flange, blade = meshes(robot, "scoop_flange_hull"), meshes(robot, "scoop_blade_hull")
-    assert flange[:, 1].min() == pytest.approx(-0.18, abs=1e-6)  # the robot's middle is on the right
+    assert flange[:, 1].min() == pytest.approx(
+        -0.18, abs=1e-6
+    )  # the robot's middle is on the right
     assert flange[:, 2].max() == pytest.approx(-0.34, abs=1e-6)
     assert flange[:, 2].min() == pytest.approx(TIP, abs=1e-6)
     # its upper face goes on where the blade's is, to 0.2 mm
