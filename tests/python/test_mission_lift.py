@@ -42,7 +42,7 @@ def test_a_person_is_lifted_held_and_laid_down(run) -> None:
 def test_no_commanded_velocity_jumps_between_phases(run) -> None:
     simulation, _ = run
     log = simulation.log()
-    assert len(set(log["phase"])) == len(simulation.phases)
+    assert log["phase"][-1] == len(simulation.phases) - 1
     most = 20.0 * simulation.dt  # [rad/s] one tick of the acceleration limit
     for channel, values in log.items():
         if channel.startswith("qd_des/"):
