@@ -50,9 +50,10 @@ Vector3 at(const mjtNum* values, int i) {
 
 const std::vector<std::string>& CasualtyWatch::names() {
   static const std::vector<std::string> all = {
-      "on_ground",        "on_left_arm",   "on_right_arm", "on_rest",       "behind_tips_m",
-      "aside_m",          "height_m",      "moved_m",      "sag_m",         "push_n",
-      "neck_flexion_rad", "neck_turn_rad", "head_mps2",    "contact_share", "support_n"};
+      "on_ground",     "on_left_arm", "on_right_arm",  "on_rest",
+      "behind_tips_m", "aside_m",     "height_m",      "moved_m",
+      "sag_m",         "heading_rad", "push_n",        "neck_flexion_rad",
+      "neck_turn_rad", "head_mps2",   "contact_share", "support_n"};
   return all;
 }
 
@@ -129,6 +130,8 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
   values_[kHeight] = centre.z() - origin_.z();
   values_[kMoved] = (centre - origin_).head<2>().norm();
   values_[kSag] = at(d->xpos, chest_).z() - at(d->xpos, pelvis_).z();
+  const Vector3 body = at(d->xpos, chest_) - at(d->xpos, pelvis_);
+  values_[kHeading] = std::atan2(-body.dot(ahead), body.dot(aside));
   if (flexion_ >= 0) values_[kNeckFlexion] = d->sensordata[flexion_];
   if (turn_ >= 0) values_[kNeckTurn] = d->sensordata[turn_];
   if (head_ >= 0) values_[kHead] = Eigen::Map<const Vector3>(d->sensordata + head_).norm();

@@ -41,6 +41,7 @@ class CasualtyWatch {
     kHeight,        // [m] the centre is above where it lay
     kMoved,         // [m] and from there along the ground
     kSag,           // [m] pelvis below (or above) the chest
+    kHeading,       // [rad] of the body from pelvis to chest, 0: to the robot's left
     kPush,          // [N] of the arms along the ground
     kNeckFlexion,   // [rad] negative: extension
     kNeckTurn,      // [rad]
