@@ -4,7 +4,9 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,17 +44,107 @@ Raises:
   Error: fewer than three corners, or corners that are not convex.
 )";
 constexpr const char* kDistanceTask =
-    R"(Bodies keep away from each other: e (k,) [m], a distance a pair, margin <= e.
+    R"(Bodies keep away from each other: e (m,) [m], distances of the nearest pairs, margin <= e.
+
+Controllers brake before the margin as before a joint limit, with half of the acceleration that the
+coordinates have along a row; the gain plays no part. A row belongs to a pair of geoms while that is
+nearer than `most` and among the nearest; without one it asks for nothing (e = most, J = 0).
 
 Args:
   name, robot: see TorqueLimits.
-  pairs: of names of bodies or geoms.
+  pairs: of names of bodies or geoms; a body stands for its geoms that can touch something.
   margin: [m].
   most: [m] > margin; pairs farther apart ask for nothing.
+  rows: so many pairs of geoms count at a time, the nearest.
 
 Raises:
-  Error: a name that does not exist, or most <= margin.
+  Error: a name that does not exist, no pair, or most <= margin.
 )";
+constexpr const char* kSelfCollision =
+    R"(The robot keeps away from itself: a DistanceTask for a level above the hands.
+
+Its pairs are found: geoms of the robot that the model lets touch (contype, conaffinity, exclude).
+Left out are neighbours in the tree, pairs in contact now or in nearly every sampled posture, and
+pairs that come nearer than 2 `most` in none. A pair that is nearer than the margin now keeps half of
+its present distance.
+
+Args:
+  robot: Robot, in a posture that it may stand in.
+  margin, most, rows: see DistanceTask.
+  postures: sampled between the limits, evenly.
+  seed: of the samples.
+
+Returns:
+  DistanceTask "self_collision"; without a pair it asks for nothing.
+
+Raises:
+  Error: most <= margin, or postures or rows below 1.
+)";
+constexpr const char* kObstacles =
+    R"(The robot keeps away from what stands around it: a DistanceTask for a level above the hands.
+
+Its pairs are found as by self_collision: geoms of the robot with all that stands still (floor,
+walls, tables), and with the bodies of these names, wherever they are: they may move
+(DistanceTask.set_obstacle).
+
+Args:
+  robot, margin, most, rows, postures, seed: see self_collision.
+  bodies: names of bodies that have joints, or are moved by mocap, and count too.
+
+Returns:
+  DistanceTask "obstacles"; without a pair it asks for nothing.
+
+Raises:
+  Error: a name that is no body or a body of the robot, or see self_collision.
+)";
+constexpr const char* kSetObstacle =
+    R"(Where a body is that the coordinates do not move, and how it moves, until the next call.
+
+The distance then counts that it comes: the robot gives way in time.
+
+Args:
+  robot: the robot of the task.
+  body: name of a body of some pair.
+  position: (3,) [m] in the world.
+  rotation: (3, 3) in the world, None for none.
+  velocity: (3,) [m/s] of its origin.
+  angular_velocity: (3,) [rad/s].
+
+Raises:
+  Error: a body that is in no pair or part of the robot, a matrix that is no rotation.
+)";
+
+using NearPair = std::tuple<std::string, std::string, double>;
+
+std::pair<std::string, std::string> names_of(const Robot& robot, const GeomPair& pair) {
+  return {geom_name(robot, pair.first), geom_name(robot, pair.second)};
+}
+
+std::vector<std::pair<std::string, std::string>> pair_names(const DistanceTask& task,
+                                                            const Robot& robot) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const GeomPair& pair : task.pairs()) names.push_back(names_of(robot, pair));
+  return names;
+}
+
+std::vector<NearPair> near_pairs(const DistanceTask& task, const Robot& robot) {
+  std::vector<NearPair> near;
+  for (Index row = 0; row < task.rows(); ++row) {
+    if (task.pair(row) < 0) continue;
+    const auto [first, second] =
+        names_of(robot, task.pairs()[static_cast<std::size_t>(task.pair(row))]);
+    near.emplace_back(first, second, task.error()[row]);
+  }
+  return near;
+}
+
+void set_obstacle(DistanceTask& task, const Robot& robot, const std::string& body,
+                  const Vector3& position, const std::optional<Matrix3>& rotation,
+                  const Vector3& velocity, const Vector3& angular_velocity) {
+  task.set_obstacle(
+      robot, body,
+      {{position, rotation.value_or(Matrix3::Identity())}, velocity, angular_velocity});
+}
 
 }  // namespace
 
@@ -72,11 +164,39 @@ void bind_limit_tasks(py::module_& module) {
   const DistanceTaskOptions distance;
   const auto make_distance = [](std::string name, const Robot& robot,
                                 std::vector<std::pair<std::string, std::string>> pairs,
-                                double margin, double most) {
-    return std::make_unique<DistanceTask>(std::move(name), robot,
-                                          DistanceTaskOptions{std::move(pairs), margin, most});
+                                double margin, double most, Index rows) {
+    return std::make_unique<DistanceTask>(
+        std::move(name), robot, DistanceTaskOptions{std::move(pairs), margin, most, rows});
   };
   py::class_<DistanceTask, Task>(module, "DistanceTask", kDistanceTask)
       .def(py::init(make_distance), "name"_a, "robot"_a, "pairs"_a, "margin"_a = distance.margin,
-           "most"_a = distance.most);
+           "most"_a = distance.most, "rows"_a = distance.rows)
+      .def("set_obstacle", &set_obstacle, "robot"_a, "body"_a, "position"_a,
+           "rotation"_a = py::none(), "velocity"_a = Vector3::Zero().eval(),
+           "angular_velocity"_a = Vector3::Zero().eval(), kSetObstacle)
+      .def("clear_obstacles", &DistanceTask::clear_obstacles,
+           "All obstacles where the robot has them, at rest.")
+      .def("pairs", &pair_names, "robot"_a, "Names of the geoms of each pair.")
+      .def("near", &near_pairs, "robot"_a,
+           "Names of the geoms of the pairs that have a row, and their e [m], as of the last "
+           "update.");
+  const CollisionOptions usual;
+  module.def(
+      "self_collision",
+      [](const Robot& robot, double margin, double most, Index rows, int postures, unsigned seed) {
+        return std::make_unique<DistanceTask>(
+            self_collision(robot, {margin, most, rows, postures, seed}));
+      },
+      "robot"_a, "margin"_a = usual.margin, "most"_a = usual.most, "rows"_a = usual.rows,
+      "postures"_a = usual.postures, "seed"_a = usual.seed, kSelfCollision);
+  module.def(
+      "obstacles",
+      [](const Robot& robot, const std::vector<std::string>& bodies, double margin, double most,
+         Index rows, int postures, unsigned seed) {
+        return std::make_unique<DistanceTask>(
+            obstacles(robot, bodies, {margin, most, rows, postures, seed}));
+      },
+      "robot"_a, "bodies"_a = std::vector<std::string>(), "margin"_a = usual.margin,
+      "most"_a = usual.most, "rows"_a = usual.rows, "postures"_a = usual.postures,
+      "seed"_a = usual.seed, kObstacles);
 }

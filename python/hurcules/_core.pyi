@@ -857,16 +857,21 @@ class BalanceTask(Task):
     ) -> None: ...
 
 class DistanceTask(Task):
-    """Bodies keep away from each other: e (k,) [m], a distance a pair, margin <= e.
+    """Bodies keep away from each other: e (m,) [m], distances of the nearest pairs, margin <= e.
+
+    Controllers brake before the margin as before a joint limit, with half of the acceleration that the
+    coordinates have along a row; the gain plays no part. A row belongs to a pair of geoms while that is
+    nearer than `most` and among the nearest; without one it asks for nothing (e = most, J = 0).
 
     Args:
       name, robot: see TorqueLimits.
-      pairs: of names of bodies or geoms.
+      pairs: of names of bodies or geoms; a body stands for its geoms that can touch something.
       margin: [m].
       most: [m] > margin; pairs farther apart ask for nothing.
+      rows: so many pairs of geoms count at a time, the nearest.
 
     Raises:
-      Error: a name that does not exist, or most <= margin."""
+      Error: a name that does not exist, no pair, or most <= margin."""
 
     def __init__(
         self,
@@ -875,7 +880,40 @@ class DistanceTask(Task):
         pairs: collections.abc.Sequence[tuple[str, str]],
         margin: float = 0.03,
         most: float = 0.3,
+        rows: int = 16,
     ) -> None: ...
+    def clear_obstacles(self) -> None:
+        """All obstacles where the robot has them, at rest."""
+
+    def near(self, robot: Robot) -> list[tuple[str, str, float]]:
+        """Names of the geoms of the pairs that have a row, and their e [m], as of the last update."""
+
+    def pairs(self, robot: Robot) -> list[tuple[str, str]]:
+        """Names of the geoms of each pair."""
+
+    def set_obstacle(
+        self,
+        robot: Robot,
+        body: str,
+        position: ArrayLike,
+        rotation: ArrayLike | None = None,
+        velocity: ArrayLike = ...,
+        angular_velocity: ArrayLike = ...,
+    ) -> None:
+        """Where a body is that the coordinates do not move, and how it moves, until the next call.
+
+        The distance then counts that it comes: the robot gives way in time.
+
+        Args:
+          robot: the robot of the task.
+          body: name of a body of some pair.
+          position: (3,) [m] in the world.
+          rotation: (3, 3) in the world, None for none.
+          velocity: (3,) [m/s] of its origin.
+          angular_velocity: (3,) [rad/s].
+
+        Raises:
+          Error: a body that is in no pair or part of the robot, a matrix that is no rotation."""
 
 class ForceLoop(_Enum):
     """The law of a force loop, see ForceGains."""
@@ -3553,6 +3591,58 @@ def mode_ranges(mode: str) -> dict[str, Any]:
 
     Raises:
       Error: an unknown mode."""
+
+def obstacles(
+    robot: Robot,
+    bodies: collections.abc.Sequence[str] = [],
+    margin: float = 0.02,
+    most: float = 0.15,
+    rows: int = 16,
+    postures: int = 200,
+    seed: int = 0,
+) -> DistanceTask:
+    """The robot keeps away from what stands around it: a DistanceTask for a level above the hands.
+
+    Its pairs are found as by self_collision: geoms of the robot with all that stands still (floor,
+    walls, tables), and with the bodies of these names, wherever they are: they may move
+    (DistanceTask.set_obstacle).
+
+    Args:
+      robot, margin, most, rows, postures, seed: see self_collision.
+      bodies: names of bodies that have joints, or are moved by mocap, and count too.
+
+    Returns:
+      DistanceTask "obstacles"; without a pair it asks for nothing.
+
+    Raises:
+      Error: a name that is no body or a body of the robot, or see self_collision."""
+
+def self_collision(
+    robot: Robot,
+    margin: float = 0.02,
+    most: float = 0.15,
+    rows: int = 16,
+    postures: int = 200,
+    seed: int = 0,
+) -> DistanceTask:
+    """The robot keeps away from itself: a DistanceTask for a level above the hands.
+
+    Its pairs are found: geoms of the robot that the model lets touch (contype, conaffinity, exclude).
+    Left out are neighbours in the tree, pairs in contact now or in nearly every sampled posture, and
+    pairs that come nearer than 2 `most` in none. A pair that is nearer than the margin now keeps half of
+    its present distance.
+
+    Args:
+      robot: Robot, in a posture that it may stand in.
+      margin, most, rows: see DistanceTask.
+      postures: sampled between the limits, evenly.
+      seed: of the samples.
+
+    Returns:
+      DistanceTask "self_collision"; without a pair it asks for nothing.
+
+    Raises:
+      Error: most <= margin, or postures or rows below 1."""
 
 def servo_table(robot: str) -> dict[str, Any]:
     """What the servos of a robot's joints reckon with.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/control/limit_rows.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
@@ -148,6 +149,14 @@ void AccelerationController::restore(StateReader& reader) {
   solver_.restore(reader);
 }
 
+RateLimits AccelerationController::row_limits() const {
+  return {.dt = options_.dt,
+          .horizon = options_.horizon,
+          .max_velocity = kInfinity,
+          .max_acceleration = options_.max_acceleration,
+          .return_speed = options_.return_speed};
+}
+
 void AccelerationController::fill_bounds(const Robot& robot, const Task& task, Level& level) {
   for (Index i = 0; i < level.rows(); ++i) {
     const RateState state{task.lower()[i] - task.error()[i], task.upper()[i] - task.error()[i],
@@ -171,7 +180,8 @@ void AccelerationController::fill_rates(std::size_t k) {
   bool own = false;
   for (const Task* task : source.tasks) {
     own = own || task->commands_acceleration();
-    if (!task->commands_acceleration()) most = std::max(most, haste(*task, gain));
+    if (!task->commands_acceleration() && !task->is_limit())
+      most = std::max(most, haste(*task, gain));
   }
   if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
@@ -179,7 +189,7 @@ void AccelerationController::fill_rates(std::size_t k) {
   for (const Task* task : source.tasks) {
     const Index rows = task->rows();
     level.A.middleRows(row, rows) = task->jacobian();
-    if (task->commands_acceleration()) {
+    if (task->commands_acceleration() || task->is_limit()) {
       level.lower.segment(row, rows).setZero();
       level.upper.segment(row, rows).setZero();
     } else {
@@ -188,7 +198,8 @@ void AccelerationController::fill_rates(std::size_t k) {
     }
     row += rows;
   }
-  if (options_.law == Law::Arrive && !own) level.rho = regularization_at(source.rho, weights_[k]);
+  if ((options_.law == Law::Arrive && !own) || are_limits(source))
+    level.rho = regularization_at(source.rho, weights_[k]);
 }
 
 // from velocities to the accelerations that lead to them
@@ -197,6 +208,16 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
   for (const Task* task : source.tasks) {
     auto rate = rate_.head(task->rows());
     rate.noalias() = task->jacobian() * robot.velocity();
+    if (task->is_limit()) {
+      limit_accelerations(*task, row_limits(), rate, level.lower.segment(row, task->rows()),
+                          level.upper.segment(row, task->rows()));
+      for (Index i = 0; i < task->rows(); ++i, ++row) {
+        const double held = options_.rest * rate[i] - task->drift()[i];
+        level.lower[row] += held;
+        level.upper[row] += held;
+      }
+      continue;
+    }
     const bool own = task->commands_acceleration();
     for (Index i = 0; i < task->rows(); ++i, ++row) {
       const double held = task->acceleration_des()[i] - task->drift()[i] + options_.rest * rate[i];

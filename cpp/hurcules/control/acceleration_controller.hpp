@@ -88,6 +88,7 @@ class AccelerationController {
   void fill_bounds(const Robot& robot, const Task& limits, Level& level);
   void fill_rates(std::size_t k);
   void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
+  [[nodiscard]] RateLimits row_limits() const;
 
   AccelerationControllerOptions options_;
   std::vector<RateLimits> rate_limits_;  // (n)

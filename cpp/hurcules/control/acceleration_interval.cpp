@@ -5,9 +5,6 @@
 
 namespace hurcules {
 
-namespace {
-
-// the largest w that keeps w <= V(d - (v + w) dt / 2), v and w towards the limit
 double next_speed(double distance, double velocity, const RateLimits& limits) {
   const double T = limits.horizon, a = limits.max_acceleration, half = 0.5 * limits.dt;
   const double left = distance - velocity * half;  // w half of it is still to come
@@ -19,8 +16,6 @@ double next_speed(double distance, double velocity, const RateLimits& limits) {
   if (!std::isfinite(a) || left <= a * T * (T + half)) return left / (T + half);
   return std::sqrt(a * a * half * half + 2.0 * a * left - a * a * T * T) - a * half;
 }
-
-}  // namespace
 
 AccelerationInterval acceleration_interval(const RateState& state, const RateLimits& limits) {
   const double v = state.velocity;

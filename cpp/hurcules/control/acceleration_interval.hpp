@@ -22,6 +22,9 @@ struct AccelerationInterval {
   bool upper_is_limit = false;
 };
 
+// the largest w that keeps w <= V(d - (v + w) dt / 2); distance d, v and w towards the limit
+[[nodiscard]] double next_speed(double distance, double velocity, const RateLimits& limits);
+
 // Never empty, and never beyond max_acceleration: a coordinate that cannot stop in time (its range
 // was narrowed, or somebody pushed it) brakes as hard as it may.
 [[nodiscard]] AccelerationInterval acceleration_interval(const RateState& state,

@@ -23,18 +23,20 @@ double outside(const Task& task) {
   return (e - e.cwiseMax(task.lower()).cwiseMin(task.upper())).norm();
 }
 
-// which task of a level a row belongs to
-const Task& task_of(const StackLevel& level, Index row) {
+// what a row of a level is about
+std::string row_name(const Robot& robot, const StackLevel& level, Index row) {
+  Index first = 0;
   for (const Task* task : level.tasks) {
-    if (row < task->rows()) return *task;
-    row -= task->rows();
+    if (row < first + task->rows()) return task->row_name(robot, row - first);
+    first += task->rows();
   }
-  return *level.tasks.back();
+  return level.name;
 }
 
 std::string holder(const SolvedStack& solved, const ActiveRow& active) {
   const StackLevel& level = solved.problem.stack().levels()[static_cast<std::size_t>(active.level)];
-  if (active.level != solved.problem.bounds_level()) return task_of(level, active.row).name();
+  if (active.level != solved.problem.bounds_level())
+    return row_name(solved.robot, level, active.row);
   const auto i = static_cast<std::size_t>(active.row);
   const std::string side = active.side == Side::Upper ? " upper" : " lower";
   const bool limit = solved.active_limits[active.row] != 0;

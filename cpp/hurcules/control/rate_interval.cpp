@@ -5,9 +5,6 @@
 
 namespace hurcules {
 
-namespace {
-
-// the largest velocity towards a limit at this distance; negative (away from it) when it was passed
 double approach_speed(double distance, const RateLimits& limits) {
   const double T = limits.horizon;
   if (distance < 0.0) {
@@ -19,8 +16,6 @@ double approach_speed(double distance, const RateLimits& limits) {
   if (!std::isfinite(a) || distance <= a * T * T) return distance / T;  // [T 4.3.9], T as a gain
   return std::sqrt(2.0 * a * distance - a * a * T * T);
 }
-
-}  // namespace
 
 RateInterval rate_interval(const RateState& state, const RateLimits& limits) {
   // position first: two limits so close that they exclude each other leave the upper one

@@ -33,6 +33,9 @@ struct RateInterval {
   bool upper_is_limit = false;
 };
 
+// the largest velocity towards a limit at this distance; negative (away from it) when it was passed
+[[nodiscard]] double approach_speed(double distance, const RateLimits& limits);
+
 // Never empty. Where the three cannot be met together the position limit wins, then velocity.
 [[nodiscard]] RateInterval rate_interval(const RateState& state, const RateLimits& limits);
 

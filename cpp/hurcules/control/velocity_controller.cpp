@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/control/limit_rows.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
@@ -106,6 +107,7 @@ const Vector& VelocityController::solve() {
     velocity_ = velocity_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
     if (options_.law == Law::Arrive)
       limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);
+    hold_limits();
   }
   const auto is_limit = [this](std::size_t i, bool upper) {
     if (options_.law == Law::Arrive) {
@@ -203,6 +205,14 @@ void VelocityController::restore(StateReader& reader) {
   solver_.restore(reader);
 }
 
+RateLimits VelocityController::row_limits() const {
+  return {.dt = options_.dt,
+          .horizon = options_.horizon,
+          .max_velocity = kInfinity,
+          .max_acceleration = options_.max_acceleration,
+          .return_speed = options_.return_speed};
+}
+
 void VelocityController::fill_bounds(const Task& limits, Level& level) {
   for (Index i = 0; i < velocity_.size(); ++i) {
     const RateState state{limits.lower()[i] - limits.error()[i],
@@ -223,22 +233,39 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
   }
 }
 
+// what limits the change of a velocity may have carried it over the limits of the first levels
+void VelocityController::hold_limits() {
+  for (std::size_t k = 0; k < problem_.hierarchy().size(); ++k) {
+    const Level& level = problem_.hierarchy()[k];
+    if (level.bounds) continue;
+    if (!are_limits(stack().levels()[k])) return;
+    hold_rows(level, intervals_, velocity_);
+  }
+}
+
 void VelocityController::fill_rows(std::size_t k) {
   const StackLevel& source = stack().levels()[k];
   Level& level = problem_.hierarchy()[k];
   double most = 0.0;
-  for (const Task* task : source.tasks) most = std::max(most, haste(*task, options_.gain));
+  for (const Task* task : source.tasks) {
+    if (!task->is_limit()) most = std::max(most, haste(*task, options_.gain));
+  }
   if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
   Index row = 0;
   for (const Task* task : source.tasks) {
     const Index rows = task->rows();
     level.A.middleRows(row, rows) = task->jacobian();
-    wanted_rates(*task, options_.gain, most, level.lower.segment(row, rows),
-                 level.upper.segment(row, rows));
+    auto lower = level.lower.segment(row, rows), upper = level.upper.segment(row, rows);
+    if (task->is_limit()) {
+      limit_rates(*task, row_limits(), lower, upper);
+    } else {
+      wanted_rates(*task, options_.gain, most, lower, upper);
+    }
     row += rows;
   }
-  if (options_.law == Law::Arrive) level.rho = regularization_at(source.rho, weights_[k]);
+  const bool full = options_.law == Law::Thesis && !are_limits(source);
+  level.rho = full ? source.rho : regularization_at(source.rho, weights_[k]);
 }
 
 }  // namespace hurcules

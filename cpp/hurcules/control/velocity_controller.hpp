@@ -82,6 +82,8 @@ class VelocityController {
  private:
   void fill_bounds(const Task& limits, Level& level);
   void fill_rows(std::size_t k);
+  void hold_limits();
+  [[nodiscard]] RateLimits row_limits() const;
   void begin_transition();
   void add_transition();
 

@@ -5,12 +5,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/geom_bounds.hpp"
 
 namespace hurcules {
 
 namespace {
+
+constexpr double kSkin = 0.1;      // [m] of the list
+constexpr double kTouches = 1e-9;  // [m] nearer, there is no direction
+constexpr double kStale = 0.05;    // of its distance: a pair that moved so much is measured anew
+constexpr double kNearer = 5e-3;   // [m] by which a pair must be nearer to take another's place
+constexpr double kPlane = 100.0;   // [m] of a plane that moves: how far from its origin it counts
 
 std::vector<int> geoms_of(const Robot& robot, const std::string& name) {
   const mjModel& m = *robot.model();
@@ -27,73 +35,363 @@ std::vector<int> geoms_of(const Robot& robot, const std::string& name) {
   return found;
 }
 
+Matrix3 rotation(const double* q) {
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+}
+
+void put(StateWriter& writer, const Skeleton::Pose& pose) {
+  writer.put(pose.p);
+  for (Index i = 0; i < 9; ++i) writer.put(pose.R(i));
+}
+
+void get(StateReader& reader, Skeleton::Pose& pose) {
+  reader.get(pose.p);
+  for (Index i = 0; i < 9; ++i) pose.R(i) = reader.get();
+}
+
+// [m] no point of a ball of this radius has moved further
+double travel(const Skeleton::Pose& from, const Skeleton::Pose& to, double radius) {
+  return (to.p - from.p).norm() + radius * M_SQRT1_2 * (to.R - from.R).norm();
+}
+
 }  // namespace
+
+std::vector<GeomPair> named_geom_pairs(
+    const Robot& robot, const std::vector<std::pair<std::string, std::string>>& names) {
+  std::vector<GeomPair> pairs;
+  for (const auto& [first, second] : names) {
+    for (const int a : geoms_of(robot, first)) {
+      for (const int b : geoms_of(robot, second)) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+std::string geom_name(const Robot& robot, int geom) {
+  const char* const name = mj_id2name(robot.model().get(), mjOBJ_GEOM, geom);
+  return name && *name ? name : "geom " + std::to_string(geom);
+}
+
+GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most,
+                           std::size_t count)
+    : model_(robot.model()),
+      data_(mj_makeData(model_.get()), mj_deleteData),
+      pairs_(std::move(pairs)),
+      most_(most),
+      seen_(count),
+      near_(count),
+      jacobian_(Matrix::Zero(3, robot.size())) {
+  require(data_ != nullptr, "MuJoCo has no memory for this model");
+  require(std::isfinite(most) && most > 0.0, "the largest distance wants a positive number [m]");
+  for (const GeomPair& pair : pairs_) {
+    Pair entry;
+    entry.first = add_geom(pair.first);
+    entry.second = add_geom(pair.second);
+    table_.push_back(entry);
+  }
+  list_.reserve(pairs_.size());
+}
 
 GeomDistance::GeomDistance(const GeomDistance& other)
     : model_(other.model_),
       data_(mj_makeData(model_.get()), mj_deleteData),
       pairs_(other.pairs_),
       most_(other.most_),
-      linear_(other.linear_),
-      angular_(other.angular_) {
+      bodies_(other.bodies_),
+      geoms_(other.geoms_),
+      table_(other.table_),
+      seen_(other.seen_),
+      near_(other.near_),
+      jacobian_(other.jacobian_) {
   require(data_ != nullptr, "MuJoCo has no memory for this model");
+  for (Geom& geom : geoms_) geom.tick = 0;
+  list_.reserve(pairs_.size());
 }
 
-GeomDistance::GeomDistance(const Robot& robot,
-                           const std::vector<std::pair<std::string, std::string>>& pairs,
-                           double most)
-    : model_(robot.model()),
-      data_(mj_makeData(model_.get()), mj_deleteData),
-      most_(most),
-      linear_(Matrix::Zero(3, robot.size())),
-      angular_(Matrix::Zero(3, robot.size())) {
-  require(data_ != nullptr, "MuJoCo has no memory for this model");
-  require(std::isfinite(most) && most > 0.0, "the largest distance wants a positive number [m]");
-  for (const auto& [first, second] : pairs)
-    pairs_.push_back({geoms_of(robot, first), geoms_of(robot, second)});
+std::size_t GeomDistance::add_geom(int id) {
+  const auto known = [id](const Geom& geom) { return geom.id == id; };
+  const auto found = std::find_if(geoms_.begin(), geoms_.end(), known);
+  if (found != geoms_.end()) return static_cast<std::size_t>(found - geoms_.begin());
+
+  const mjModel& m = *model_;
+  Geom geom{.id = id};
+  geom.mounted = {Eigen::Map<const Vector3>(m.geom_pos + 3 * id), rotation(m.geom_quat + 4 * id)};
+  const int carrier = m.geom_bodyid[id];
+  const auto same = [carrier](const Body& body) { return body.id == carrier; };
+  const auto body = std::find_if(bodies_.begin(), bodies_.end(), same);
+  geom.body = static_cast<std::size_t>(body - bodies_.begin());
+  if (body == bodies_.end()) bodies_.push_back({.id = carrier});
+  const bool plane = m.geom_type[id] == mjGEOM_PLANE;
+  const double reach = plane ? kPlane : geom.mounted.p.norm() + m.geom_rbound[id];
+  bodies_[geom.body].radius = std::max(bodies_[geom.body].radius, reach);
+  geoms_.push_back(geom);
+  return geoms_.size() - 1;
 }
 
-GeomDistance::Nearest GeomDistance::nearest(const Pair& pair) const {
-  Nearest found;
-  found.distance = most_;
-  for (const int first : pair.first) {
-    for (const int second : pair.second) {
-      Points points{};
-      const double distance =
-          mj_geomDistance(model_.get(), data_.get(), first, second, found.distance, points.data());
-      if (distance < found.distance) found = {distance, first, second, points};
+const std::vector<GeomDistance::Near>& GeomDistance::measure(const Robot& robot) {
+  place_bodies(robot);
+  if (list_is_old()) make_list();
+  renew_reported();
+  for (const Index index : list_) {
+    Pair& candidate = pair(index);
+    const double enough = threshold();
+    if (candidate.reported || bound(candidate, enough) >= enough) continue;
+    const Seen found = look(index);
+    candidate.bound = found.distance;
+    if (found.distance < enough) report(found);
+  }
+  return near_;
+}
+
+void GeomDistance::place_bodies(const Robot& robot) {
+  ++tick_;
+  for (Body& body : bodies_) {
+    const Skeleton::Pose before = body.pose;
+    if (!body.own) body.pose = robot.pose({mjOBJ_BODY, body.id});
+    body.moved += travel(before, body.pose, body.radius);
+  }
+}
+
+// the two bodies that moved most together by the skin
+bool GeomDistance::list_is_old() const {
+  if (!listed_) return true;
+  double most = 0.0, second = 0.0;
+  for (const Body& body : bodies_) {
+    const double way = travel(body.seen, body.pose, body.radius);
+    second = std::max(second, std::min(way, most));
+    most = std::max(most, way);
+  }
+  return most + second >= kSkin;
+}
+
+void GeomDistance::make_list() {
+  list_.clear();
+  for (Body& body : bodies_) {
+    body.seen = body.pose;
+    body.moved = 0.0;
+  }
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    table_[i].moved = -std::numeric_limits<double>::infinity();  // what it knew is old
+    if (bound(table_[i], most_ + kSkin) < most_ + kSkin) list_.push_back(static_cast<Index>(i));
+  }
+  listed_ = true;
+}
+
+bool GeomDistance::refers_to_first(const Pair& pair) const {
+  return body_of(pair.first).radius >= body_of(pair.second).radius;
+}
+
+Skeleton::Pose GeomDistance::mover(const Pair& pair) const {
+  const Skeleton::Pose &first = body_of(pair.first).pose, &second = body_of(pair.second).pose;
+  const Skeleton::Pose &from = refers_to_first(pair) ? first : second,
+                       &to = refers_to_first(pair) ? second : first;
+  return {from.R.transpose() * (to.p - from.p), from.R.transpose() * to.R};
+}
+
+// those whose bodies moved against each other are measured anew; what is not near any more goes
+void GeomDistance::renew_reported() {
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    Seen& seen = seen_[i];
+    if (seen.pair < 0) continue;
+    Pair& entry = pair(seen.pair);
+    const bool first = refers_to_first(entry);
+    const double radius = body_of(first ? entry.second : entry.first).radius;
+    near_[i] = now(seen);
+    if (travel(seen.mover, mover(entry), radius) > kStale * std::max(0.0, near_[i].distance)) {
+      seen = look(seen.pair);
+      near_[i] = now(seen);
     }
-  }
-  return found;
-}
-
-void GeomDistance::measure(const Robot& robot, VectorRef distance, MatrixRef gradient) {
-  std::copy(robot.qpos().begin(), robot.qpos().end(), data_->qpos);
-  mj_kinematics(model_.get(), data_.get());
-  gradient.setZero();
-  for (Index i = 0; i < size(); ++i) {
-    const Nearest found = nearest(pairs_[static_cast<std::size_t>(i)]);
-    distance[i] = found.distance;
-    const double* const p = found.points.data();
-    const Vector3 apart(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
-    // touching, the direction is lost: the row fades for the one configuration
-    if (found.distance >= most_ || apart.norm() < 1e-9) continue;
-    const Vector3 direction = apart / found.distance;  // also from inside: turned round
-    add(robot, found.second, p + 3, direction, gradient.row(i));
-    add(robot, found.first, p, -direction, gradient.row(i));
+    if (near_[i].distance < most_) continue;
+    entry.reported = false;
+    entry.bound = 0.0;
+    entry.moved = -std::numeric_limits<double>::infinity();
+    seen.pair = near_[i].pair = -1;
   }
 }
 
-void GeomDistance::add(const Robot& robot, int geom, const double* point, const Vector3& direction,
-                       Eigen::Ref<Eigen::RowVectorXd> gradient) {
-  const Frame body{mjOBJ_BODY, model_->geom_bodyid[geom]};
-  if (body.id == 0) return;
-  robot.position_jacobian(body, linear_);
-  robot.rotation_jacobian(body, angular_);
-  const Vector3 arm = Vector3(point[0], point[1], point[2]) - robot.position(body);
-  const Vector3 turn = arm.cross(direction);
-  for (Index k = 0; k < gradient.size(); ++k)
-    gradient[k] += direction.dot(linear_.col(k)) + turn.dot(angular_.col(k));
+GeomDistance::Seen GeomDistance::look(Index index) {
+  const Pair& entry = pair(index);
+  Geom &first = geoms_[entry.first], &second = geoms_[entry.second];
+  place(first);
+  place(second);
+  std::array<double, 6> points{};
+  const double distance =
+      mj_geomDistance(model_.get(), data_.get(), first.id, second.id, most_ + kSkin, points.data());
+  const Vector3 p(points[0], points[1], points[2]),
+      apart = Vector3(points[3], points[4], points[5]) - p;
+  const Skeleton::Pose &a = body_of(entry.first).pose, &b = body_of(entry.second).pose;
+  Seen seen{.pair = index, .distance = distance};
+  seen.first = a.R.transpose() * (p - a.p);
+  seen.second = b.R.transpose() * (p + apart - b.p);
+  const double length = apart.norm();
+  if (length >= kTouches)  // also from inside: turned round
+    seen.direction = (refers_to_first(entry) ? a : b).R.transpose() * apart /
+                     (distance < 0.0 ? -length : length);
+  seen.mover = mover(entry);
+  return seen;
+}
+
+// where the points that were nearest are now
+GeomDistance::Near GeomDistance::now(const Seen& seen) const {
+  const Pair& entry = pair(seen.pair);
+  const Skeleton::Pose &a = body_of(entry.first).pose, &b = body_of(entry.second).pose;
+  Near near{.pair = seen.pair, .distance = seen.distance};
+  near.first = a.p + a.R * seen.first;
+  near.second = b.p + b.R * seen.second;
+  near.direction = (refers_to_first(entry) ? a : b).R * seen.direction;
+  if (seen.direction != Vector3::Zero())
+    near.distance = near.direction.dot(near.second - near.first);
+  return near;
+}
+
+// [m] a pair below it has a place
+double GeomDistance::threshold() const {
+  double farthest = 0.0;
+  for (const Near& near : near_) {
+    if (near.pair < 0) return most_;
+    farthest = std::max(farthest, near.distance);
+  }
+  return farthest - kNearer;
+}
+
+// in the first free place, else in that of the farthest
+void GeomDistance::report(const Seen& seen) {
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    if (near_[i].pair < 0) {
+      place = i;
+      break;
+    }
+    if (near_[i].distance > near_[place].distance) place = i;
+  }
+  if (near_[place].pair >= 0) {
+    Pair& left = pair(near_[place].pair);
+    left.reported = false;
+    left.bound = 0.0;
+    left.moved = -std::numeric_limits<double>::infinity();
+  }
+  pair(seen.pair).reported = true;
+  seen_[place] = seen;
+  near_[place] = now(seen);
+}
+
+void GeomDistance::place(Geom& geom) {
+  if (geom.tick == tick_) return;
+  geom.tick = tick_;
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Skeleton::Pose& body = bodies_[geom.body].pose;
+  Eigen::Map<Vector3>(data_->geom_xpos + 3 * geom.id) = body.p + body.R * geom.mounted.p;
+  Eigen::Map<RowMajor>(data_->geom_xmat + 9 * geom.id) = body.R * geom.mounted.R;
+}
+
+double GeomDistance::bound(Pair& pair, double enough) {
+  const double moved = body_of(pair.first).moved + body_of(pair.second).moved;
+  const double known = pair.bound - (moved - pair.moved);
+  if (known >= enough) return known;
+  Geom &first = geoms_[pair.first], &second = geoms_[pair.second];
+  place(first);
+  place(second);
+  pair.moved = moved;
+  pair.bound = sphere_gap(model_.get(), data_.get(), first.id, second.id);
+  if (pair.bound < enough)
+    pair.bound = std::max(pair.bound, box_gap(model_.get(), data_.get(), first.id, second.id));
+  return pair.bound;
+}
+
+void GeomDistance::gradient(const Robot& robot, const Near& near,
+                            Eigen::Ref<Eigen::RowVectorXd> row) {
+  row.setZero();
+  const Pair& entry = pair(near.pair);
+  add_jacobian(robot, entry.second, near.second, near.direction, row);
+  add_jacobian(robot, entry.first, near.first, -near.direction, row);
+}
+
+void GeomDistance::add_jacobian(const Robot& robot, std::size_t geom, const Vector3& point,
+                                const Vector3& direction, Eigen::Ref<Eigen::RowVectorXd> row) {
+  const Body& body = body_of(geom);
+  if (body.own || body.id == 0) return;
+  robot.point_jacobian(point, body.id, jacobian_);
+  row.noalias() += direction.transpose() * jacobian_;
+}
+
+double GeomDistance::rate(const Near& near) const {
+  const Pair& entry = pair(near.pair);
+  return near.direction.dot(velocity(entry.second, near.second) -
+                            velocity(entry.first, near.first));
+}
+
+Vector3 GeomDistance::velocity(std::size_t geom, const Vector3& point) const {
+  const Body& body = body_of(geom);
+  if (!body.own) return Vector3::Zero();
+  return body.linear + body.angular.cross(point - body.pose.p);
+}
+
+void GeomDistance::set_motion(int id, const BodyMotion& motion) {
+  const mjModel& m = *model_;
+  bool found = false;
+  for (Body& body : bodies_) {
+    // the body, or one that hangs on it without a joint
+    int carrier = body.id;
+    while (carrier != id && carrier != 0 && m.body_jntnum[carrier] == 0)
+      carrier = m.body_parentid[carrier];
+    if (carrier != id) continue;
+    found = body.own = true;
+    const Skeleton::Pose before = body.pose;
+    body.pose = motion.pose * Skeleton::between(m, id, body.id, m.qpos0);
+    body.moved += travel(before, body.pose, body.radius);
+    body.linear = motion.linear + motion.angular.cross(body.pose.p - motion.pose.p);
+    body.angular = motion.angular;
+  }
+  require(found, "body " + std::to_string(id) + " is in no pair");
+}
+
+void GeomDistance::clear_motions() {
+  for (Body& body : bodies_) body.own = false;
+}
+
+void GeomDistance::save(StateWriter& writer) const {
+  for (const Body& body : bodies_) {
+    writer.put(body.own ? 1.0 : 0.0);
+    put(writer, body.own ? body.pose : Skeleton::Pose{});
+    writer.put(body.own ? body.linear : Vector3::Zero());
+    writer.put(body.own ? body.angular : Vector3::Zero());
+  }
+  for (const Seen& seen : seen_) {
+    writer.put(static_cast<double>(seen.pair));
+    writer.put(seen.distance);
+    writer.put(seen.first);
+    writer.put(seen.second);
+    writer.put(seen.direction);
+    put(writer, seen.mover);
+  }
+}
+
+void GeomDistance::restore(StateReader& reader) {
+  for (Body& body : bodies_) {
+    body.own = reader.get_count(1) > 0;
+    Skeleton::Pose pose;
+    get(reader, pose);
+    if (body.own) body.pose = pose;
+    reader.get(body.linear);
+    reader.get(body.angular);
+  }
+  for (Pair& entry : table_) entry.reported = false;
+  for (Seen& seen : seen_) {
+    const double index = reader.get();
+    require(
+        index >= -1.0 && index < static_cast<double>(table_.size()) && index == std::floor(index),
+        "the snapshot belongs to another model");
+    seen.pair = static_cast<Index>(index);
+    seen.distance = reader.get();
+    reader.get(seen.first);
+    reader.get(seen.second);
+    reader.get(seen.direction);
+    get(reader, seen.mover);
+    if (seen.pair >= 0) pair(seen.pair).reported = true;
+  }
+  listed_ = false;
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    near_[i] = seen_[i].pair < 0 ? Near{} : now(seen_[i]);
 }
 
 }  // namespace hurcules

@@ -1,7 +1,10 @@
-// How far two bodies of a model are apart, and how that changes with the coordinates.
+// Which pairs of geoms of a model are nearest to each other, and how their distances change.
 //
-// It keeps mjData of its own, so that asking is const for the robot; it costs one more pass of
-// kinematics and a distance for each pair of geoms that can touch anything.
+// A tick costs the poses of the bodies, and what has come near. Pairs farther apart than `most` and a
+// skin on top are not looked at before some body has moved by half of that skin (a Verlet list); of
+// the others, bounds that shrink by what bodies move rule out most, then bounding spheres and boxes.
+// The pairs that are reported are measured anew when their bodies have moved against each other by a
+// twentieth of their distance; in between, their nearest points move with the bodies.
 #pragma once
 
 #include <array>
@@ -10,45 +13,128 @@
 #include <utility>
 #include <vector>
 
+#include "hurcules/base/state.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
 
+struct GeomPair {
+  int first = 0, second = 0;  // geom ids
+  friend bool operator==(const GeomPair&, const GeomPair&) = default;
+};
+
+// The geoms of pairs of names of bodies or geoms; a body stands for all of its geoms that can touch
+// something. Throws Error for a name that does not exist and for a body without such geoms.
+[[nodiscard]] std::vector<GeomPair> named_geom_pairs(
+    const Robot& robot, const std::vector<std::pair<std::string, std::string>>& names);
+// "geom 7" for one without a name
+[[nodiscard]] std::string geom_name(const Robot& robot, int geom);
+
+// Where a body is and how it moves that the coordinates do not move.
+struct BodyMotion {
+  Skeleton::Pose pose;                // [m], in W
+  Vector3 linear = Vector3::Zero();   // [m/s] of its origin
+  Vector3 angular = Vector3::Zero();  // [rad/s]
+};
+
 class GeomDistance {
  public:
-  // pairs of names of bodies or geoms; a body stands for all of its geoms that can touch something.
-  // Distances above `most` [m] are not looked for. Throws Error for a name that does not exist and
-  // for a body without such geoms.
-  GeomDistance(const Robot& robot, const std::vector<std::pair<std::string, std::string>>& pairs,
-               double most);
+  struct Near {
+    Index pair = -1;        // -1: nothing that is near
+    double distance = 0.0;  // [m], negative in each other
+    // [m] in W, of the geoms of the pair, nearest to each other; deepest in each other
+    Vector3 first = Vector3::Zero(), second = Vector3::Zero();
+    Vector3 direction = Vector3::Zero();  // from first to second; 0 where they just touch
+  };
+
+  // reports the `count` nearest pairs below `most` [m]; throws Error unless both are positive
+  GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most, std::size_t count);
   GeomDistance(const GeomDistance& other);
 
-  [[nodiscard]] Index size() const { return static_cast<Index>(pairs_.size()); }
-  // at the robot's configuration: distances [m] (k), negative in each other, `most` where farther;
-  // gradient (k, n) [m/rad], zero there. The nearest geoms count; where they change, so does it.
-  void measure(const Robot& robot, VectorRef distance, MatrixRef gradient);
+  [[nodiscard]] const std::vector<GeomPair>& pairs() const { return pairs_; }
+  // At the robot's configuration: the nearest pairs, in no order. A pair keeps its place as long as
+  // no other is nearer by 5 mm. Until the next call.
+  const std::vector<Near>& measure(const Robot& robot);
+  [[nodiscard]] const std::vector<Near>& near() const { return near_; }
+  // row (n) [m/rad]: how the distance changes with the coordinates; 0 where the pair just touches
+  void gradient(const Robot& robot, const Near& near, Eigen::Ref<Eigen::RowVectorXd> row);
+  // [m/s] the part of its change that comes from bodies of set_motion
+  [[nodiscard]] double rate(const Near& near) const;
+
+  // from now on the body, and what is welded to it, is there, wherever the robot has it; throws
+  // Error for a body that is in no pair
+  void set_motion(int body, const BodyMotion& motion);
+  void clear_motions();
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
 
  private:
+  struct Body {
+    int id = 0;
+    double radius = 0.0;                  // [m] of a ball about its origin around its geoms
+    Skeleton::Pose pose = {}, seen = {};  // now, and when the list was made
+    double moved = 0.0;                   // [m] by which no point of it has moved more, in all
+    Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
+    bool own = false;  // of set_motion
+  };
+  struct Geom {
+    int id = 0;
+    std::size_t body = 0;         // of bodies_
+    Skeleton::Pose mounted = {};  // in the body
+    Index tick = 0;               // of the last measure that placed it
+  };
   struct Pair {
-    std::vector<int> first, second;  // geom ids
+    std::size_t first = 0, second = 0;  // of geoms_
+    bool reported = false;
+    // [m] the distance was at least `bound` when the bodies had moved by `moved`
+    double bound = 0.0, moved = 0.0;
   };
-  // nearest points of two geoms: from, to [m]
-  using Points = std::array<double, 6>;
-  struct Nearest {
+  // what was measured for a pair that is reported
+  struct Seen {
+    Index pair = -1;
     double distance = 0.0;
-    int first = 0, second = 0;  // geoms
-    Points points = {};
+    Vector3 first = Vector3::Zero(), second = Vector3::Zero();  // each in its body
+    Vector3 direction = Vector3::Zero();                        // in the body of the reference
+    Skeleton::Pose mover = {};                                  // in it
   };
-  [[nodiscard]] Nearest nearest(const Pair& pair) const;
-  // adds sign * direction' J of a point that is fixed in a geom's body
-  void add(const Robot& robot, int geom, const double* point, const Vector3& direction,
-           Eigen::Ref<Eigen::RowVectorXd> gradient);
+  std::size_t add_geom(int geom);
+  void place_bodies(const Robot& robot);
+  [[nodiscard]] bool list_is_old() const;
+  void make_list();
+  void place(Geom& geom);  // where MuJoCo looks for it
+  // [m] the distance is at least that; looks no further when that is `enough`
+  [[nodiscard]] double bound(Pair& pair, double enough);
+  [[nodiscard]] Seen look(Index index);
+  [[nodiscard]] Near now(const Seen& seen) const;
+  void renew_reported();
+  void report(const Seen& seen);
+  [[nodiscard]] double threshold() const;
+  [[nodiscard]] Body& body_of(std::size_t geom) { return bodies_[geoms_[geom].body]; }
+  [[nodiscard]] const Body& body_of(std::size_t geom) const { return bodies_[geoms_[geom].body]; }
+  // of two geoms, that whose body is larger: the motion of the other is seen from it
+  [[nodiscard]] bool refers_to_first(const Pair& pair) const;
+  [[nodiscard]] Skeleton::Pose mover(const Pair& pair) const;
+  [[nodiscard]] Pair& pair(Index index) { return table_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const Pair& pair(Index index) const {
+    return table_[static_cast<std::size_t>(index)];
+  }
+  void add_jacobian(const Robot& robot, std::size_t geom, const Vector3& point,
+                    const Vector3& direction, Eigen::Ref<Eigen::RowVectorXd> row);
+  [[nodiscard]] Vector3 velocity(std::size_t geom, const Vector3& point) const;
 
   ModelPtr model_;
-  std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
-  std::vector<Pair> pairs_;
+  std::unique_ptr<mjData_, void (*)(mjData_*)> data_;  // for the poses of geoms alone
+  std::vector<GeomPair> pairs_;
   double most_;
-  Matrix linear_, angular_;  // scratch (3, n)
+  std::vector<Body> bodies_;
+  std::vector<Geom> geoms_;
+  std::vector<Pair> table_;  // of the pairs
+  std::vector<Index> list_;  // pairs that may come near before it is made again
+  bool listed_ = false;
+  Index tick_ = 0;
+  std::vector<Seen> seen_;  // (count)
+  std::vector<Near> near_;  // (count) the same now
+  Matrix jacobian_;         // scratch (3, n)
 };
 
 }  // namespace hurcules

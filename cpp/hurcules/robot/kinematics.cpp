@@ -92,6 +92,15 @@ void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {
   screws_->rotation_jacobian(body_of(*model_, frame), J);
 }
 
+void Robot::point_jacobian(const Vector3& point, int body, MatrixRef J) const {
+  assert(J.rows() == 3 && J.cols() == size());
+  screws_->point_jacobian(point, body, J);
+}
+
+bool Robot::moves(Frame frame) const {
+  return screws_->moves(body_of(*model_, frame));
+}
+
 Vector3 Robot::position_drift(Frame frame) const {
   return screws_->point_drift(position(frame), body_of(*model_, frame));
 }

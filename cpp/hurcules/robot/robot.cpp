@@ -119,6 +119,10 @@ Frame Robot::frame(const std::string& name) const {
   throw Error(unknown_name("frame", name, existing));
 }
 
+bool Robot::is_body(Frame frame) const {
+  return frame.type == mjOBJ_BODY;
+}
+
 ModelIdentity Robot::identity() const {
   return {model_->signature, size()};
 }

@@ -93,6 +93,9 @@ class Robot {
   [[nodiscard]] Index coordinate(const std::string& name) const;
   // looks among sites, then bodies, cameras, geoms; throws Error with the names that exist
   [[nodiscard]] Frame frame(const std::string& name) const;
+  [[nodiscard]] bool is_body(Frame frame) const;
+  // whether some coordinate moves the frame in W
+  [[nodiscard]] bool moves(Frame frame) const;
   // what a task remembers to notice that it is asked about another robot
   [[nodiscard]] ModelIdentity identity() const;
 
@@ -120,11 +123,14 @@ class Robot {
   [[nodiscard]] Twist twist(Frame frame, const ConstVectorRef& qvel) const;
   [[nodiscard]] Vector3 position(Frame frame) const;     // p_WF [m]
   [[nodiscard]] Matrix3 orientation(Frame frame) const;  // R_WF; a camera looks along its -z
-  // the same, but a camera looks along its x and z is up in its image
+  [[nodiscard]] Skeleton::Pose pose(Frame frame) const;  // both
+  // orientation, but a camera looks along its x and z is up in its image
   [[nodiscard]] Matrix3 view_orientation(Frame frame) const;
   // velocity of the frame's origin and angular velocity in W, by the coordinates alone: (3, n) each
   void position_jacobian(Frame frame, MatrixRef J) const;
   void rotation_jacobian(Frame frame, MatrixRef J) const;
+  // velocity of a point (W) that is fixed in a body: (3, n)
+  void point_jacobian(const Vector3& point, int body, MatrixRef J) const;
   // Jdot v of both, (3): what the frame accelerates with when the coordinates do not
   [[nodiscard]] Vector3 position_drift(Frame frame) const;
   [[nodiscard]] Vector3 rotation_drift(Frame frame) const;
@@ -149,7 +155,6 @@ class Robot {
   // what MuJoCo keeps about the configuration: poses of all bodies; centres of mass
   void need_kinematics() const;
   void need_com() const;
-  [[nodiscard]] Skeleton::Pose pose(Frame frame) const;
   // (3, nv) of the model -> (3, n) of the coordinates
   void reduce(const Matrix& full, MatrixRef J) const;
 

@@ -2,32 +2,15 @@
 
 #include <mujoco/mujoco.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/geom_bounds.hpp"
 
 namespace hurcules {
 
 namespace {
-
-struct Box {
-  Vector3 centre, half;  // [m]
-  Matrix3 axes;          // columns
-};
-
-Box box_of(const mjModel* m, const mjData* d, int geom) {
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  Box box;
-  const mjtNum* const aabb = m->geom_aabb + 6 * geom;  // in the geom's own frame
-  box.axes = Eigen::Map<const RowMajor>(d->geom_xmat + 9 * geom);
-  box.centre = Eigen::Map<const Vector3>(d->geom_xpos + 3 * geom) +
-               box.axes * Eigen::Map<const Vector3>(aabb);
-  box.half = Eigen::Map<const Vector3>(aabb + 3);
-  return box;
-}
 
 bool collides(const mjModel* m, int a, int b) {
   const int body_a = m->geom_bodyid[a], body_b = m->geom_bodyid[b];
@@ -57,39 +40,12 @@ int joints_between(const mjModel* m, int a, int b) {
   return joints;
 }
 
-double sphere_gap(const mjModel* m, const mjData* d, int a, int b) {
-  const double between = mju_dist3(d->geom_xpos + 3 * a, d->geom_xpos + 3 * b);
-  return between - m->geom_rbound[a] - m->geom_rbound[b];
-}
-
 std::string name_of(const mjModel* m, int geom) {
   const char* const name = mj_id2name(m, mjOBJ_GEOM, geom);
   return name ? name : "geom " + std::to_string(geom);
 }
 
 }  // namespace
-
-double box_gap(const mjModel* m, const mjData* d, int first, int second) {
-  const Box a = box_of(m, d, first), b = box_of(m, d, second);
-  const Matrix3 R = a.axes.transpose() * b.axes, size = R.cwiseAbs();
-  const Vector3 t = a.axes.transpose() * (b.centre - a.centre);
-  // along the axes of a, then along those of b
-  const Vector3 along_a = t.cwiseAbs() - a.half - size * b.half;
-  const Vector3 along_b = (R.transpose() * t).cwiseAbs() - b.half - size.transpose() * a.half;
-  double gap = std::max(along_a.maxCoeff(), along_b.maxCoeff());
-  // across an edge of each
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const Vector3 axis = Vector3::Unit(i).cross(R.col(j));
-      const double length = axis.norm();
-      if (length < 1e-6) continue;  // parallel edges: the axes above tell
-      const double reach =
-          axis.cwiseAbs().dot(a.half) + (R.transpose() * axis).cwiseAbs().dot(b.half);
-      gap = std::max(gap, (std::abs(axis.dot(t)) - reach) / length);
-    }
-  }
-  return gap;
-}
 
 SelfDistance::SelfDistance(const mjModel* m, int root, const SelfDistanceOptions& options)
     : options_(options) {

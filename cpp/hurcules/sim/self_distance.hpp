@@ -50,7 +50,4 @@ class SelfDistance {
   Index nearest_ = -1;  // it is looked at first: the others then need not be measured
 };
 
-// [m] a lower bound of the distance of two geoms, by their oriented bounding boxes
-[[nodiscard]] double box_gap(const mjModel_* model, const mjData_* data, int first, int second);
-
 }  // namespace hurcules

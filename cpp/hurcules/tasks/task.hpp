@@ -61,6 +61,13 @@ class Task {
   [[nodiscard]] const Vector& upper() const { return upper_; }  // (m)
   // limits of the coordinates themselves: J is the identity, the solver takes them as simple bounds
   [[nodiscard]] virtual bool bounds_coordinates() const { return false; }
+  // its interval is a limit: controllers brake before its sides as before those of joints
+  // (limit_rows.hpp), and a level of such tasks alone is not regularised
+  [[nodiscard]] virtual bool is_limit() const { return false; }
+  // what a row is about, for diagnostics
+  [[nodiscard]] virtual std::string row_name(const Robot& /*robot*/, Index /*row*/) const {
+    return name_;
+  }
   // a law of its own for controllers of acceleration, no other takes it:
   //   lower <= J qddot + drift - acceleration_des <= upper
   [[nodiscard]] virtual bool commands_acceleration() const { return false; }

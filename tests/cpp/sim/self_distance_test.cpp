@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "hurcules/robot/geom_bounds.hpp"
 #include "hurcules/robot/robot.hpp"
 #include "hurcules/sim/random.hpp"
 #include "support/expect.hpp"

@@ -1,0 +1,30 @@
+// Rows that are limits (Task::is_limit): distances, say. They are approached as joint limits are.
+//
+//   J qdot >= velocity_des - f(d)      d: distance to the side, f: approach speed of rate_interval.hpp
+// with the acceleration a |J_i|_1 / 2: half of what all coordinates together have along the row. The
+// other half is left for what f does not know: the turning of J, other rows, tasks above.
+#pragma once
+
+#include <span>
+
+#include "hurcules/control/rate_interval.hpp"
+#include "hurcules/control/stack.hpp"
+#include "hurcules/solver/hierarchy.hpp"
+
+namespace hurcules {
+
+// every task of the level is a limit
+[[nodiscard]] bool are_limits(const StackLevel& level);
+
+// `limits` of a coordinate; fills both sides of J qdot, (m) [unit/s]
+void limit_rates(const Task& task, const RateLimits& limits, VectorRef lower, VectorRef upper);
+
+// the same for J qddot + drift, at the rates J qdot of the rows (m) [unit/s^2]
+void limit_accelerations(const Task& task, const RateLimits& limits, const ConstVectorRef& rates,
+                         VectorRef lower, VectorRef upper);
+
+// Changes a velocity (n) by little, within the intervals of the coordinates (n), so that the rows of
+// the level hold: by projection on one row after the other.
+void hold_rows(const Level& level, std::span<const RateInterval> intervals, VectorRef velocity);
+
+}  // namespace hurcules

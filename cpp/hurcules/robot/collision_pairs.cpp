@@ -1,0 +1,228 @@
+#include "hurcules/robot/collision_pairs.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kAlways = 0.9;  // in contact in so many of the postures: made so
+
+// what the model says about the geoms of a robot
+class Shapes {
+ public:
+  explicit Shapes(const Robot& robot)
+      : model_(*robot.model()), driven_(static_cast<std::size_t>(model_.nbody), false) {
+    for (const Coordinate& coordinate : robot.coordinates()) {
+      for (const DrivenJoint& joint : coordinate.joints) {
+        const int body = model_.jnt_bodyid[joint.joint];
+        driven_[static_cast<std::size_t>(body)] = true;
+        trees_.push_back(model_.body_rootid[body]);
+      }
+    }
+  }
+
+  [[nodiscard]] int body(int geom) const { return model_.geom_bodyid[geom]; }
+
+  // of a tree that the coordinates move
+  [[nodiscard]] bool is_own(int body) const {
+    return std::find(trees_.begin(), trees_.end(), model_.body_rootid[body]) != trees_.end();
+  }
+
+  [[nodiscard]] bool stands_still(int body) const {
+    for (; body != 0; body = model_.body_parentid[body])
+      if (model_.body_jntnum[body] > 0 || model_.body_mocapid[body] >= 0) return false;
+    return true;
+  }
+
+  // the model lets them touch
+  [[nodiscard]] bool may_touch(int a, int b) const {
+    const mjModel& m = model_;
+    if (m.body_weldid[body(a)] == m.body_weldid[body(b)]) return false;
+    for (int i = 0; i < m.npair; ++i) {
+      const int first = m.pair_geom1[i], second = m.pair_geom2[i];
+      if ((first == a && second == b) || (first == b && second == a)) return true;
+    }
+    const int low = std::min(body(a), body(b)), high = std::max(body(a), body(b));
+    for (int i = 0; i < m.nexclude; ++i)
+      if (m.exclude_signature[i] == (low << 16) + high) return false;
+    return (m.geom_contype[a] & m.geom_conaffinity[b]) != 0 ||
+           (m.geom_contype[b] & m.geom_conaffinity[a]) != 0;
+  }
+
+  // bodies with driven joints on the way from one to the other
+  [[nodiscard]] int links_between(int a, int b) const {
+    int links = 0;
+    while (a != b) {  // parents have smaller numbers
+      int& lower = a > b ? a : b;
+      links += driven_[static_cast<std::size_t>(lower)] ? 1 : 0;
+      lower = model_.body_parentid[lower];
+    }
+    return links;
+  }
+
+ private:
+  const mjModel& model_;
+  std::vector<bool> driven_;  // (nbody)
+  std::vector<int> trees_;
+};
+
+class Postures {
+ public:
+  Postures(const Robot& robot, std::uint32_t seed) : home_(robot.configuration()), random_(seed) {
+    for (const Coordinate& coordinate : robot.coordinates()) {
+      const bool turns = robot.model()->jnt_type[coordinate.joints[0].joint] == mjJNT_HINGE;
+      reach_.push_back(turns ? M_PI : 1.0);
+      limits_.emplace_back(coordinate.lower, coordinate.upper);
+    }
+  }
+
+  [[nodiscard]] Vector next() {
+    Vector q = home_;
+    for (Index i = 0; i < q.size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const auto [lower, upper] = limits_[k];
+      const double low = std::isfinite(lower) ? lower : home_[i] - reach_[k];
+      const double high = std::isfinite(upper) ? upper : home_[i] + reach_[k];
+      q[i] = low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
+    }
+    return q;
+  }
+
+ private:
+  Vector home_;
+  std::vector<double> reach_;  // [rad] or [m] where there is no limit
+  std::vector<std::pair<double, double>> limits_;
+  std::mt19937 random_;
+};
+
+bool same(const Skeleton::Pose& a, const Skeleton::Pose& b) {
+  return (a.p - b.p).norm() < 1e-9 && (a.R - b.R).norm() < 1e-9;
+}
+
+Skeleton::Pose seen_from(const Robot& robot, int first, int second) {
+  const Skeleton::Pose a = robot.pose({mjOBJ_BODY, first}), b = robot.pose({mjOBJ_BODY, second});
+  return {a.R.transpose() * (b.p - a.p), a.R.transpose() * b.R};
+}
+
+// the same robot in the same place
+void stand_alike(const Robot& robot, Robot& probe) {
+  probe.set_qpos(robot.qpos());
+  if (!robot.support_name().empty()) probe.stand_on(robot.support_name());
+}
+
+// those whose geoms some posture moves against each other
+std::vector<GeomPair> moving(const std::vector<GeomPair>& pairs, const Robot& robot,
+                             Postures postures) {
+  const Shapes shapes(robot);
+  Robot probe(robot.model(), robot.coordinate_names());
+  stand_alike(robot, probe);
+  std::vector<Skeleton::Pose> before;
+  for (const GeomPair& pair : pairs)
+    before.push_back(seen_from(probe, shapes.body(pair.first), shapes.body(pair.second)));
+  probe.set_configuration(postures.next());
+  std::vector<GeomPair> found;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const GeomPair& pair = pairs[i];
+    if (!same(before[i], seen_from(probe, shapes.body(pair.first), shapes.body(pair.second))))
+      found.push_back(pair);
+  }
+  return found;
+}
+
+// those that come near, and are not in contact by construction
+std::vector<CollisionPair> selected(const std::vector<GeomPair>& candidates, const Robot& robot,
+                                    const CollisionSampling& sampling) {
+  require(sampling.postures > 0, "postures wants a number > 0");
+  Robot probe(robot.model(), robot.coordinate_names());
+  stand_alike(robot, probe);
+  Postures postures(robot, sampling.seed);
+  std::vector<GeomPair> apart = moving(candidates, robot, postures);
+  const std::size_t count = apart.size();
+  GeomDistance distance(probe, std::move(apart), sampling.near, count);
+
+  std::vector<CollisionPair> found;
+  for (const GeomPair& pair : distance.pairs()) found.push_back({pair, sampling.near});
+  std::vector<int> near(found.size(), 0), touches(found.size(), 0);
+  for (const GeomDistance::Near& one : distance.measure(probe)) {
+    if (one.pair < 0) continue;
+    const auto i = static_cast<std::size_t>(one.pair);
+    found[i].distance = one.distance;
+    near[i] = 1;
+  }
+  for (int i = 0; i < sampling.postures; ++i) {
+    probe.set_configuration(postures.next());
+    for (const GeomDistance::Near& one : distance.measure(probe)) {
+      if (one.pair < 0) continue;
+      near[static_cast<std::size_t>(one.pair)] = 1;
+      touches[static_cast<std::size_t>(one.pair)] += one.distance < 0.0 ? 1 : 0;
+    }
+  }
+  std::size_t i = 0;
+  std::erase_if(found, [&](const CollisionPair& pair) {
+    const bool made_so = touches[i] > kAlways * sampling.postures;
+    const bool drop = near[i] == 0 || made_so || pair.distance <= 0.0;
+    ++i;
+    return drop;
+  });
+  return found;
+}
+
+}  // namespace
+
+std::vector<CollisionPair> self_pairs(const Robot& robot, const CollisionSampling& sampling) {
+  const Shapes shapes(robot);
+  const int geoms = static_cast<int>(robot.model()->ngeom);
+  std::vector<GeomPair> candidates;
+  for (int a = 0; a < geoms; ++a) {
+    if (!shapes.is_own(shapes.body(a))) continue;
+    for (int b = a + 1; b < geoms; ++b) {
+      if (!shapes.is_own(shapes.body(b)) || !shapes.may_touch(a, b)) continue;
+      if (shapes.links_between(shapes.body(a), shapes.body(b)) > 1) candidates.push_back({a, b});
+    }
+  }
+  return selected(candidates, robot, sampling);
+}
+
+std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
+                                          const std::vector<std::string>& bodies,
+                                          const CollisionSampling& sampling) {
+  const Shapes shapes(robot);
+  const mjModel& m = *robot.model();
+  std::vector<int> named;
+  for (const std::string& name : bodies) {
+    const int id = mj_name2id(&m, mjOBJ_BODY, name.c_str());
+    require(id >= 0, "an obstacle wants the name of a body; '" + name + "' is none");
+    require(!shapes.is_own(id), "body '" + name + "' is part of the robot, not around it");
+    named.push_back(id);
+  }
+  const auto is_named = [&](int body) {
+    for (; body != 0; body = m.body_parentid[body])
+      if (std::find(named.begin(), named.end(), body) != named.end()) return true;
+    return false;
+  };
+  std::vector<GeomPair> still, told;
+  for (int a = 0; a < m.ngeom; ++a) {
+    if (!shapes.is_own(shapes.body(a))) continue;
+    for (int b = 0; b < m.ngeom; ++b) {
+      if (shapes.is_own(shapes.body(b)) || !shapes.may_touch(a, b)) continue;
+      if (is_named(shapes.body(b))) {
+        told.push_back({a, b});
+      } else if (shapes.stands_still(shapes.body(b))) {
+        still.push_back({a, b});
+      }
+    }
+  }
+  std::vector<CollisionPair> found = selected(still, robot, sampling);
+  for (const GeomPair& pair : moving(told, robot, Postures(robot, sampling.seed)))
+    found.push_back({pair, sampling.near});
+  return found;
+}
+
+}  // namespace hurcules

@@ -1,0 +1,75 @@
+#include "hurcules/robot/geom_bounds.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hurcules/base/types.hpp"
+
+namespace hurcules {
+
+namespace {
+
+struct Box {
+  Vector3 centre, half;  // [m]
+  Matrix3 axes;          // columns
+};
+
+Box box_of(const mjModel* m, const mjData* d, int geom) {
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Box box;
+  const mjtNum* const aabb = m->geom_aabb + 6 * geom;  // in the geom's own frame
+  box.axes = Eigen::Map<const RowMajor>(d->geom_xmat + 9 * geom);
+  box.centre = Eigen::Map<const Vector3>(d->geom_xpos + 3 * geom) +
+               box.axes * Eigen::Map<const Vector3>(aabb);
+  box.half = Eigen::Map<const Vector3>(aabb + 3);
+  return box;
+}
+
+// of a ball from a plane
+double height(const mjModel* m, const mjData* d, int plane, int ball) {
+  const double* const R = d->geom_xmat + 9 * plane;
+  const Vector3 up(R[2], R[5], R[8]);
+  const Vector3 way = Eigen::Map<const Vector3>(d->geom_xpos + 3 * ball) -
+                      Eigen::Map<const Vector3>(d->geom_xpos + 3 * plane);
+  return up.dot(way) - m->geom_rbound[ball];
+}
+
+}  // namespace
+
+double sphere_gap(const mjModel* m, const mjData* d, int first, int second) {
+  if (m->geom_type[first] == mjGEOM_PLANE) return height(m, d, first, second);
+  if (m->geom_type[second] == mjGEOM_PLANE) return height(m, d, second, first);
+  const double between = mju_dist3(d->geom_xpos + 3 * first, d->geom_xpos + 3 * second);
+  return between - m->geom_rbound[first] - m->geom_rbound[second];
+}
+
+double box_gap(const mjModel* m, const mjData* d, int first, int second) {
+  if (m->geom_type[first] == mjGEOM_PLANE || m->geom_type[second] == mjGEOM_PLANE) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const Box a = box_of(m, d, first), b = box_of(m, d, second);
+  const Matrix3 R = a.axes.transpose() * b.axes, size = R.cwiseAbs();
+  const Vector3 t = a.axes.transpose() * (b.centre - a.centre);
+  // along the axes of a, then along those of b
+  const Vector3 along_a = t.cwiseAbs() - a.half - size * b.half;
+  const Vector3 along_b = (R.transpose() * t).cwiseAbs() - b.half - size.transpose() * a.half;
+  double gap = std::max(along_a.maxCoeff(), along_b.maxCoeff());
+  // across an edge of each
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Vector3 axis = Vector3::Unit(i).cross(R.col(j));
+      const double length = axis.norm();
+      if (length < 1e-6) continue;  // parallel edges: the axes above tell
+      const double reach =
+          axis.cwiseAbs().dot(a.half) + (R.transpose() * axis).cwiseAbs().dot(b.half);
+      gap = std::max(gap, (std::abs(axis.dot(t)) - reach) / length);
+    }
+  }
+  return gap;
+}
+
+}  // namespace hurcules

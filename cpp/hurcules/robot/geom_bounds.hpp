@@ -1,0 +1,14 @@
+// Lower bounds of the distance of two geoms, much cheaper than the distance itself.
+#pragma once
+
+struct mjModel_;
+struct mjData_;
+
+namespace hurcules {
+
+// [m] by their bounding spheres; a plane has none and counts as what it is
+[[nodiscard]] double sphere_gap(const mjModel_* model, const mjData_* data, int first, int second);
+// [m] by their oriented bounding boxes; -inf where one is a plane
+[[nodiscard]] double box_gap(const mjModel_* model, const mjData_* data, int first, int second);
+
+}  // namespace hurcules
