@@ -104,21 +104,31 @@ def hand_of(robot: hurcules.Robot, model: mujoco.MjModel) -> str:
     return name if best > 1 else ""
 
 
+def name_of(package: str, path: Path) -> str:
+    """A short name of a model file."""
+    stem = path.parent.name if path.stem == "robot" else path.stem
+    if path.parent.name in ("hand", "fetch"):
+        stem = f"{path.parent.name}_{stem}"
+    return f"{package}/{stem}"
+
+
+def load(name: str, path: Path) -> Arm:
+    """Reads a model; its hand is '' where no frame is moved by two coordinates."""
+    if path.suffix == ".urdf":
+        model = mujoco.MjModel.from_xml_string(bare_urdf(path))
+    else:
+        model = mujoco.MjModel.from_xml_path(str(path))
+    return Arm(name, model, hand_of(hurcules.Robot(model), model))
+
+
 def arms(wanted: str = "") -> Iterator[Arm]:
     """All that load, of which `wanted` is a part of the name."""
     for package, path in places():
-        stem = path.parent.name if path.stem == "robot" else path.stem
-        if path.parent.name in ("hand", "fetch"):
-            stem = f"{path.parent.name}_{stem}"
-        name = f"{package}/{stem}"
+        name = name_of(package, path)
         if wanted not in name:
             continue
         with contextlib.suppress(Exception), warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            if path.suffix == ".urdf":
-                model = mujoco.MjModel.from_xml_string(bare_urdf(path))
-            else:
-                model = mujoco.MjModel.from_xml_path(str(path))
-            robot = hurcules.Robot(model)
-            if hand := hand_of(robot, model):
-                yield Arm(name, model, hand)
+            arm = load(name, path)
+            if arm.hand:
+                yield arm

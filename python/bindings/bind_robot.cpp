@@ -8,6 +8,7 @@
 
 #include "annotated.hpp"
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/left_out.hpp"
 #include "hurcules/robot/plausibility.hpp"
 #include "hurcules/robot/robot.hpp"
 
@@ -22,9 +23,11 @@ constexpr const char* kRobot =
 
 The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
 names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
-joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
+joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
+that an equality constraint of the model couples linearly (mimic joints) are one. All others are held.
 It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
-Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round.
+Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round,
+and, unless `joints` are given, of joints that are held and constraints that are not kept.
 A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
 Args:
@@ -37,7 +40,7 @@ Raises:
 )";
 constexpr const char* kCoordinate = "What the controller moves: one joint, or several together.";
 constexpr const char* kDrivenJoint =
-    "One joint of a coordinate: its position = factor * coordinate.";
+    "One joint of a coordinate: its position = factor * coordinate + offset.";
 constexpr const char* kCoordinates = "list of Coordinate, n of them";
 constexpr const char* kLower = "[rad] or [m], -inf when unlimited";
 constexpr const char* kUpper = "[rad] or [m], inf when unlimited";
@@ -110,12 +113,14 @@ void warn(const std::string& text) {
     throw py::error_already_set();
 }
 
-std::unique_ptr<Robot> checked(std::unique_ptr<Robot> robot) {
+using Names = std::vector<std::string>;
+
+std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints) {
+  auto robot = std::make_unique<Robot>(std::move(model), joints.value_or(Names{}));
   warn(implausible_ranges(*robot));
+  if (!joints) warn(left_out(*robot));
   return robot;
 }
-
-using Names = std::vector<std::string>;
 
 std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
                                        const std::optional<Names>& joints) {
@@ -123,13 +128,12 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
   const auto address = model.attr("_address").cast<std::uintptr_t>();
-  return checked(std::make_unique<Robot>(borrow_model(reinterpret_cast<const mjModel_*>(address)),
-                                         joints.value_or(Names{})));
+  return checked(borrow_model(reinterpret_cast<const mjModel_*>(address)), joints);
 }
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
                                      const std::optional<Names>& joints) {
-  return checked(std::make_unique<Robot>(load_model(model.string()), joints.value_or(Names{})));
+  return checked(load_model(model.string()), joints);
 }
 
 void bind_coordinate(py::module_& module) {
@@ -138,7 +142,8 @@ void bind_coordinate(py::module_& module) {
       .def_readonly("qpos", &DrivenJoint::qpos, "address in qpos")
       .def_readonly("dof", &DrivenJoint::dof, "address in qvel")
       .def_readonly("actuator", &DrivenJoint::actuator, "actuator id, -1 for none")
-      .def_readonly("factor", &DrivenJoint::factor);
+      .def_readonly("factor", &DrivenJoint::factor)
+      .def_readonly("offset", &DrivenJoint::offset, "[rad] or [m]");
   py::class_<Coordinate>(module, "Coordinate", kCoordinate)
       .def_readonly("name", &Coordinate::name)
       .def_readonly("joints", &Coordinate::joints, "list of DrivenJoint; the first one is read")

@@ -3,15 +3,22 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <optional>
+
 #include "hurcules/base/error.hpp"
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
+#include "hurcules/tasks/custom_task.hpp"
+#include "hurcules/tasks/damping_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
+#include "arrays.hpp"
 #include "state.hpp"
 
 namespace py = pybind11;
@@ -44,6 +51,63 @@ distances) each row alone.
 
 Args:
   speed: [unit/s], positive.
+)";
+constexpr const char* kSetGain =
+    R"(Rate at which errors of this task vanish, instead of the controller's.
+
+Args:
+  gain: [1/s], positive; one number, or one a row (m,).
+)";
+constexpr const char* kSetWeights =
+    R"(What each row counts beside the others of its level where they cannot all be met.
+
+Args:
+  weights: (m,), by default 1; 0 for a row that asks for nothing.
+)";
+constexpr const char* kSetMaxVelocities =
+    "Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none.";
+constexpr const char* kDampingTask = R"(Coordinates at rest: e = 0 (m,), 0 = qdot.
+
+Takes up what other tasks leave without pulling anywhere; advance asks for another velocity.
+
+Args:
+  name, robot: see JointLimits.
+  coordinates: their names; none means all.
+)";
+constexpr const char* kCustomTask = R"(A task whose value a Python function measures.
+
+Slower than the others by what Python takes. A copy of a controller shares the function.
+
+Args:
+  name, robot: see JointLimits.
+  rows: m.
+  measure: called with the robot; returns value (m,) and Jacobian (m, n), or these and drift (m,),
+    which is Jdot qdot.
+
+Raises:
+  Error: rows below 1, or what came back has another shape.
+)";
+constexpr const char* kPoseTask = R"(The pose of a frame at a target pose: position and orientation.
+
+e = [p - p_des; log(R R_des^T)] [m], [rad] (6,) in the axes of the reference; advance takes [m/s] and
+[rad/s] (6,) in these axes. Turns are three times as fast [rad/s] as max_speed [m/s].
+
+Args:
+  name, robot, frame, reference: see PositionTask.
+)";
+constexpr const char* kRelativePoseTask =
+    R"(The pose of a frame in another frame of the robot: a PoseTask whose reference moves too.
+
+Args:
+  name, robot, frame: see PositionTask.
+  reference: frame of the robot.
+)";
+constexpr const char* kSetPose =
+    R"(Sets the target, at rest; seen at the next update.
+
+Args:
+  position: (3,) [m].
+  orientation: (3, 3) rotation; None keeps the one that it has.
 )";
 constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
@@ -123,6 +187,48 @@ Args:
   frame: a camera, or any other frame, which then looks along its x axis.
 )";
 
+// holds a Python function: copied and freed with the lock of the interpreter
+struct PythonMeasure {
+  explicit PythonMeasure(py::function function)
+      : function_(new py::function(std::move(function)), [](py::function* held) {
+          const py::gil_scoped_acquire lock;
+          delete held;
+        }) {}
+
+  void operator()(const Robot& robot, VectorRef value, MatrixRef jacobian, VectorRef drift) const {
+    const py::gil_scoped_acquire lock;
+    const py::object self = py::cast(&robot, py::return_value_policy::reference);
+    const py::object came = (*function_)(self);
+    const bool pair = py::isinstance<py::tuple>(came) && (py::len(came) == 2 || py::len(came) == 3);
+    require(pair, "a function that measures wants to return (value, jacobian) or these and drift");
+    const auto parts = py::reinterpret_borrow<py::tuple>(came);
+    const std::string m = std::to_string(value.size()), n = std::to_string(jacobian.cols());
+    fill(parts[0], value, "value", "(" + m + ",)");
+    const Matrix J = matrix_of(parts[1], "jacobian", "(" + m + ", " + n + ")");
+    require(J.rows() == jacobian.rows() && J.cols() == jacobian.cols(),
+            "jacobian wants shape (" + m + ", " + n + "), (" + std::to_string(J.rows()) + ", " +
+                std::to_string(J.cols()) + ") came");
+    jacobian = J;
+    if (parts.size() == 3) fill(parts[2], drift, "drift", "(" + m + ",)");
+  }
+
+ private:
+  static void fill(const py::object& from, VectorRef to, const char* what,
+                   const std::string& shape) {
+    const Vector values = vector_of(from, what, shape);
+    require(values.size() == to.size(), std::string(what) + " wants shape " + shape + ", (" +
+                                            std::to_string(values.size()) + ",) came");
+    to = values;
+  }
+  std::shared_ptr<py::function> function_;
+};
+
+std::unique_ptr<CustomTask> custom_task(Name name, const Robot& robot, Index rows,
+                                        py::function measure) {
+  return std::make_unique<CustomTask>(std::move(name), robot, rows,
+                                      PythonMeasure(std::move(measure)));
+}
+
 void bind_task(py::module_& module) {
   const auto copy = py::return_value_policy::copy;
   py::class_<Task>(module, "Task", kTask)
@@ -132,6 +238,13 @@ void bind_task(py::module_& module) {
       .def("set_interval", &Task::set_interval, py::arg("lower"), py::arg("upper"), kSetInterval)
       .def("set_max_speed", &Task::set_max_speed, py::arg("speed"), kSetMaxSpeed)
       .def_property_readonly("max_speed", &Task::max_speed, "[unit/s]")
+      .def("set_gain", py::overload_cast<double>(&Task::set_gain), py::arg("gain"), kSetGain)
+      .def("set_gain", py::overload_cast<const ConstVectorRef&>(&Task::set_gain), py::arg("gain"),
+           kSetGain)
+      .def("set_weights", &Task::set_weights, py::arg("weights"), kSetWeights)
+      .def_property_readonly("weights", &Task::weights, copy, "(m,)")
+      .def_property_readonly("is_limit", &Task::is_limit,
+                             "controllers brake before its interval as before joint limits")
       .def("state", &state<Task>, kState)
       .def("restore", &restore<Task>, py::arg("state"), kRestore)
       .def_property_readonly("name", &Task::name)
@@ -165,10 +278,40 @@ void bind_coordinate_tasks(py::module_& module) {
       .def("reset_ranges", &JointLimits::reset_ranges, "The ranges of the robot again.")
       .def_property_readonly("max_velocity", &JointLimits::max_velocity, copy, "(n,) [rad/s]")
       .def("set_max_velocity", &JointLimits::set_max_velocity, coordinate, py::arg("limit"),
-           kSetMaxVelocity);
+           kSetMaxVelocity)
+      .def("set_max_velocities", &JointLimits::set_max_velocities, py::arg("limits"),
+           kSetMaxVelocities);
+  py::class_<DampingTask, Task>(module, "DampingTask", kDampingTask)
+      .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
+           py::arg("coordinates") = std::vector<Name>{});
+  py::class_<CustomTask, ValueTask>(module, "CustomTask", kCustomTask)
+      .def(py::init(&custom_task), name, robot, py::arg("rows"), py::arg("measure"));
   py::class_<PostureTask, ValueTask>(module, "PostureTask", kPostureTask)
       .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
            py::arg("coordinates") = std::vector<Name>{});
+}
+
+void bind_pose_tasks(py::module_& module) {
+  const auto copy = py::return_value_policy::copy;
+  const py::arg name("name"), robot("robot"), frame("frame");
+  const auto pose = [](Name n, const Robot& r, const Name& f, Name ref) {
+    return std::make_unique<PoseTask>(std::move(n), r, f, PoseTaskOptions{std::move(ref)});
+  };
+  const auto set_target = [](PoseTask& task, const Vector3& position,
+                             const std::optional<Matrix3>& orientation) {
+    task.set_target(position, orientation.value_or(task.target_orientation()));
+  };
+  py::class_<PoseTask, Task>(module, "PoseTask", kPoseTask)
+      .def(py::init(pose), name, robot, frame, py::arg("reference") = PoseTaskOptions{}.reference)
+      .def_property_readonly("position", &PoseTask::position, copy, "p_RF (3,) [m]")
+      .def_property_readonly("orientation", &PoseTask::orientation, copy, "R_RF (3, 3)")
+      .def_property_readonly("target_position", &PoseTask::target_position, copy, "(3,) [m]")
+      .def_property_readonly("target_orientation", &PoseTask::target_orientation, copy, "(3, 3)")
+      .def("set_target", set_target, py::arg("position"), py::arg("orientation") = py::none(),
+           kSetPose);
+  py::class_<RelativePoseTask, PoseTask>(module, "RelativePoseTask", kRelativePoseTask)
+      .def(py::init<Name, const Robot&, const Name&, const Name&>(), name, robot, frame,
+           py::arg("reference"));
 }
 
 void bind_point_tasks(py::module_& module) {
@@ -250,6 +393,7 @@ void bind_tasks(py::module_& module) {
   bind_task(module);
   bind_coordinate_tasks(module);
   bind_point_tasks(module);
+  bind_pose_tasks(module);
   bind_rotation_tasks(module);
   bind_arm_and_head_tasks(module);
 }

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/limit_rows.hpp"
+#include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
@@ -44,7 +45,7 @@ AccelerationController::AccelerationController(const Robot& robot,
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
                             options_.max_acceleration, options_.return_speed});
   }
-  acceleration_ = braked_ = next_ = Vector::Zero(robot.size());
+  acceleration_ = braked_ = speed_ = next_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(rate_limits_.size());
 }
@@ -67,7 +68,8 @@ const Vector& AccelerationController::compute(const Robot& robot) {
 }
 
 void AccelerationController::measure(const Robot& robot) {
-  braked_ = options_.rest * robot.velocity();
+  speed_ = robot.velocity();
+  braked_ = options_.rest * speed_;
   Hierarchy& hierarchy = problem_.hierarchy();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     for (Task* task : stack().levels()[k].tasks) task->update(robot);
@@ -85,15 +87,21 @@ void AccelerationController::measure(const Robot& robot) {
 
 const Vector& AccelerationController::solve() {
   acceleration_ = solver_.solve(problem_.hierarchy()).x;  // [T 5.3.18]
-  // bounds hold but for rounding: hold them exactly
-  if (limits() && solver_.solution().status != SolverStatus::InvalidInput) {
-    const Level& bounds = problem_.bounds();
-    acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
+  if (solver_.solution().status == SolverStatus::InvalidInput) {
+    // numbers that say nothing: towards rest as fast as the acceleration limit allows
+    const double a = options_.max_acceleration;
+    acceleration_ = (speed_ / -options_.dt).cwiseMax(-a).cwiseMin(a);
+  } else {
+    // bounds hold but for rounding: hold them exactly
+    if (limits()) {
+      const Level& bounds = problem_.bounds();
+      acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
+    }
+    acceleration_ -= braked_;
   }
-  if (solver_.solution().status != SolverStatus::InvalidInput) acceleration_ -= braked_;
   for (Index i = 0; limits() && i < acceleration_.size(); ++i) {  // what rounding left
     const AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    if (solver_.solution().status != SolverStatus::InvalidInput)
+    if (interval.lower <= interval.upper)  // not for a limit that is no number
       acceleration_[i] = std::clamp(acceleration_[i], interval.lower, interval.upper);
   }
   const auto is_limit = [this](std::size_t i, bool upper) {
@@ -115,6 +123,17 @@ bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const 
   }
   acceleration_ = (next_ - velocity) / options_.dt;
   return true;
+}
+
+void AccelerationController::torque(const Robot& robot, VectorRef torque) const {
+  robot.inverse_dynamics(acceleration_, torque);
+  for (const StackLevel& level : stack().levels()) {
+    for (const Task* task : level.tasks) {
+      const auto* const force = dynamic_cast<const ForceTask*>(task);
+      if (force && force->state() == ContactState::Contact)
+        torque += force->force() * force->jacobian().row(0).transpose();
+    }
+  }
 }
 
 void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
@@ -196,6 +215,7 @@ void AccelerationController::fill_rates(std::size_t k) {
       wanted_rates(*task, gain, most, level.lower.segment(row, rows),
                    level.upper.segment(row, rows));
     }
+    for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);
     row += rows;
   }
   if ((options_.law == Law::Arrive && !own) || are_limits(source))
@@ -213,8 +233,9 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
                           level.upper.segment(row, task->rows()));
       for (Index i = 0; i < task->rows(); ++i, ++row) {
         const double held = options_.rest * rate[i] - task->drift()[i];
-        level.lower[row] += held;
-        level.upper[row] += held;
+        const double w = task->weights()[i];
+        level.lower[row] = w == 0.0 ? 0.0 : w * (level.lower[row] + held);
+        level.upper[row] = w == 0.0 ? 0.0 : w * (level.upper[row] + held);
       }
       continue;
     }
@@ -223,7 +244,10 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
       const double held = task->acceleration_des()[i] - task->drift()[i] + options_.rest * rate[i];
       const auto wanted = [&](double side, double velocity) {
         if (std::abs(side) >= kInfinity) return side;
-        return held + (own ? side : options_.damping * (velocity - rate[i]));  // [T 5.3.17]
+        const double w = task->weights()[i];
+        if (w == 0.0) return 0.0;
+        const double wanted_rate = velocity / w;
+        return w * (held + (own ? side : options_.damping * (wanted_rate - rate[i])));  // [T 5.3.17]
       };
       level.lower[row] = wanted(task->lower()[i], level.lower[row]);
       level.upper[row] = wanted(task->upper()[i], level.upper[row]);

@@ -60,10 +60,9 @@ class AccelerationController {
   bool scale_velocity(const VelocityBounds& bounds, const Vector& velocity);
   // one dt further, (n) [rad], (n) [rad/s]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q, VectorRef velocity) const;
-  // inverse dynamics: what the drives must give for qddot*, (n) [N m]
-  void torque(const Robot& robot, VectorRef torque) const {
-    robot.inverse_dynamics(acceleration_, torque);
-  }
+  // inverse dynamics: what the drives must give for qddot* and, in contact, against the forces that
+  // the stack's force tasks read: M qddot* + h + J' f, (n) [N m]
+  void torque(const Robot& robot, VectorRef torque) const;
 
   [[nodiscard]] const Stack& stack() const { return problem_.stack(); }
   [[nodiscard]] const Hierarchy& hierarchy() const { return problem_.hierarchy(); }
@@ -99,7 +98,7 @@ class AccelerationController {
   DeadZone dead_zone_;
   Vector acceleration_;
   Vector next_;                                  // [rad/s] scratch, one dt further
-  Vector braked_;                                // D qdot, of the last measure
+  Vector braked_, speed_;                        // D qdot and qdot, of the last measure
   Vector rate_;                                  // scratch, de/dt of a level
   std::vector<AccelerationInterval> intervals_;  // (n), of the last measure
   Eigen::VectorXi active_limits_;

@@ -5,6 +5,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/value_task.hpp"
 
 namespace hurcules {
@@ -31,7 +32,8 @@ void require_target(const std::string& name, ChannelKind kind, const Task& task)
             "channel '" + name + "' wants a ForceTask, '" + task.name() + "' is none");
   }
   if (kind == ChannelKind::Target) {
-    require(dynamic_cast<const ValueTask*>(&task) || dynamic_cast<const OrientationTask*>(&task),
+    require(dynamic_cast<const ValueTask*>(&task) || dynamic_cast<const OrientationTask*>(&task) ||
+                dynamic_cast<const PoseTask*>(&task),
             "channel '" + name + "' sets a target as numbers, which '" + task.name() +
                 "' does not take: a Twist moves it");
   }

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "hurcules/tasks/balance_task.hpp"
+#include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/point_task.hpp"
+#include "hurcules/tasks/pose_task.hpp"
 
 namespace hurcules {
 
@@ -15,7 +18,11 @@ constexpr double kSmall = 1e-3;  // [m] or [rad] errors below it are nobody's co
 constexpr double kShare = 0.1;   // of what a task asks for; regularisation leaves less than that
 
 const char* unit_of(const Task& task) {
-  return dynamic_cast<const PointTask*>(&task) ? "m" : "rad";
+  if (dynamic_cast<const PoseTask*>(&task)) return "m and rad";
+  const bool length = dynamic_cast<const PointTask*>(&task) ||
+                      dynamic_cast<const DistanceTask*>(&task) ||
+                      dynamic_cast<const BalanceTask*>(&task);
+  return length ? "m" : "rad";
 }
 
 double outside(const Task& task) {
@@ -51,6 +58,17 @@ Index own_rank(const Level& level) {
   return qr.rank();
 }
 
+// the levels above k with equality rows, which took the directions that it lacks
+std::string above(const SolvedStack& solved, int k) {
+  std::string names;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(k); ++i) {
+    const Level& level = solved.problem.hierarchy()[i];
+    if (level.bounds || !(level.lower.array() == level.upper.array()).any()) continue;
+    names += (names.empty() ? "" : ", ") + solved.problem.stack().levels()[i].name;
+  }
+  return names.empty() ? "tasks above" : "tasks above (" + names + ")";
+}
+
 // what pushes back on level k
 std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelReport* report) {
   std::vector<std::string> names;
@@ -71,7 +89,7 @@ std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelRe
   const bool weak = report->singular_values.size() > 0 &&
                     report->singular_values.minCoeff() < std::max(report->rho, 1e-6);
   if (report->rank < own_rank(level)) {
-    names.emplace_back("tasks above");
+    names.push_back(above(solved, k));
   } else if (weak || report->rank < level.rows()) {
     names.emplace_back("a singular posture");
   }
@@ -88,6 +106,12 @@ bool is_kept_from(const Level& level, const Vector& violation, Index row, Index 
   return violation.segment(row, rows).cwiseAbs().maxCoeff() > kShare * asked && asked > 0.0;
 }
 
+bool says_something(const Task& task) {
+  return task.error().allFinite() && task.jacobian().allFinite() && task.drift().allFinite() &&
+         task.velocity_des().allFinite() && task.acceleration_des().allFinite() &&
+         !task.lower().hasNaN() && !task.upper().hasNaN();
+}
+
 LevelNote note(const SolvedStack& solved, std::size_t k) {
   const StackLevel& source = solved.problem.stack().levels()[k];
   LevelNote made;
@@ -96,6 +120,11 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
   if (report && report->singular_values.size() > 0) {
     made.smallest_singular_value = report->singular_values.minCoeff();
     made.manipulability = report->singular_values.prod();
+  }
+  if (solved.solution.status == SolverStatus::InvalidInput) {
+    for (const Task* task : source.tasks)
+      if (!says_something(*task)) made.shorts.push_back({task->name(), 0.0, "", {}, true});
+    return made;
   }
   Index row = 0;
   for (const Task* task : source.tasks) {
@@ -110,7 +139,8 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
       continue;
     }
     made.shorts.push_back(
-        {task->name(), short_by, unit_of(*task), holders(solved, static_cast<int>(k), report)});
+        {task->name(), short_by, unit_of(*task), holders(solved, static_cast<int>(k), report),
+         false});
   }
   return made;
 }
@@ -118,6 +148,7 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
 }  // namespace
 
 std::string ShortTask::text() const {
+  if (invalid) return task + ": its numbers are not finite, the controller brakes";
   char number[32];
   std::snprintf(number, sizeof number, "%.3g", short_by);
   std::string line = task + ": " + number + " " + unit + " short";

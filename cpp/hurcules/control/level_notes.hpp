@@ -20,6 +20,7 @@ struct ShortTask {
   double short_by = 0.0;             // [unit] length of the error outside its interval
   std::string unit;                  // "m" or "rad"
   std::vector<std::string> held_by;  // limits, other tasks, or a direction that is missing
+  bool invalid = false;              // its numbers are not finite: nothing was solved
   [[nodiscard]] std::string text() const;
 };
 

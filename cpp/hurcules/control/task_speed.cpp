@@ -33,27 +33,42 @@ Law law_named(const std::string& name) {
 double haste(const Task& task, double gain) {
   double together = 0.0, largest = 0.0;
   for (Index row = 0; row < task.rows(); ++row) {
-    const double g = std::abs(way(task, row));
-    together += g * g;
-    largest = std::max(largest, g);
+    if (task.weights()[row] == 0.0) continue;
+    const double f = task.gain(row, gain) * std::abs(way(task, row)) / task.speed_share(row);
+    together += f * f;
+    largest = std::max(largest, f);
   }
-  return gain * (task.rows_apart() ? largest : std::sqrt(together)) / task.max_speed();
+  return (task.rows_apart() ? largest : std::sqrt(together)) / task.max_speed();
 }
 
 void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper) {
   for (Index row = 0; row < task.rows(); ++row) {
     const double g = way(task, row);
     const bool own = most > 1.0 && task.rows_apart();
-    const double f = own ? gain * std::abs(g) / task.max_speed() : most;
+    const double K = task.gain(row, gain);
+    const double f = own ? K * std::abs(g) / task.max_speed() : most;
     const double share = f > 1.0 ? 1.0 / f : 1.0;
     // the side that pushes is bounded, the other one holds back as it is
     const auto rate = [&](double side) {
       if (std::abs(side) >= kInfinity) return side;
       const double way = side - task.error()[row];
-      return task.velocity_des()[row] + gain * (way == g ? share * way : way);
+      return task.velocity_des()[row] + K * (way == g ? share * way : way);
     };
     lower[row] = rate(task.lower()[row]);
     upper[row] = rate(task.upper()[row]);
+  }
+}
+
+void weigh_row(const Task& task, Index row, Level& level, Index level_row) {
+  const double w = task.weights()[row];
+  if (w == 1.0) return;
+  level.A.row(level_row) *= w;
+  for (double* const side : {&level.lower[level_row], &level.upper[level_row]}) {
+    if (w == 0.0) {
+      *side = 0.0;
+    } else if (std::abs(*side) < kInfinity) {
+      *side *= w;
+    }
   }
 }
 

@@ -21,6 +21,10 @@ constexpr double kForesight = 0.05;
 void check(const VelocityControllerOptions& options) {
   require(std::isfinite(options.dt) && options.dt > 0.0, "dt wants a positive time [s]");
   require(std::isfinite(options.gain) && options.gain >= 0.0, "gain wants a number >= 0 [1/s]");
+  // an error that is corrected by more than itself in a period grows
+  require(options.gain * options.dt <= 1.0, "gain * dt wants to be 1 at most, got " +
+                                                std::to_string(options.gain) + " 1/s at " +
+                                                std::to_string(options.dt) + " s");
   require(std::isfinite(options.horizon) && options.horizon >= options.dt,
           "horizon wants a time of at least one control period, else a limit is passed; got " +
               std::to_string(options.horizon) + " s");
@@ -100,6 +104,7 @@ const Vector& VelocityController::solve() {
   next_ = velocity_;  // scratch until the end of the period: the velocity before
   velocity_ = solver_.solve(problem_.hierarchy()).x;  // [T 4.3.3]
   const bool solved = solver_.solution().status != SolverStatus::InvalidInput;
+  if (!solved) brake();
   if (fading_ && solved) add_transition();
   // bounds hold but for rounding: hold them exactly
   if (limits() && solved) {
@@ -233,6 +238,18 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
   }
 }
 
+// towards rest as fast as the acceleration limit allows: for numbers that say nothing
+void VelocityController::brake() {
+  const double change = options_.max_acceleration * options_.dt;
+  for (Index i = 0; i < velocity_.size(); ++i)
+    velocity_[i] = next_[i] - std::clamp(next_[i], -change, change);
+  for (Index i = 0; limits() && i < velocity_.size(); ++i) {
+    const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
+    if (interval.lower <= interval.upper)  // not for a limit that is no number
+      velocity_[i] = std::clamp(velocity_[i], interval.lower, interval.upper);
+  }
+}
+
 // what limits the change of a velocity may have carried it over the limits of the first levels
 void VelocityController::hold_limits() {
   for (std::size_t k = 0; k < problem_.hierarchy().size(); ++k) {
@@ -262,6 +279,7 @@ void VelocityController::fill_rows(std::size_t k) {
     } else {
       wanted_rates(*task, options_.gain, most, lower, upper);
     }
+    for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);
     row += rows;
   }
   const bool full = options_.law == Law::Thesis && !are_limits(source);

@@ -83,6 +83,7 @@ class VelocityController {
   void fill_bounds(const Task& limits, Level& level);
   void fill_rows(std::size_t k);
   void hold_limits();
+  void brake();
   [[nodiscard]] RateLimits row_limits() const;
   void begin_transition();
   void add_transition();

@@ -8,6 +8,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/pose_task.hpp"
 
 namespace hurcules {
 
@@ -54,6 +55,8 @@ std::vector<Task*> tasks_of(const Stack& stack) {
 
 void set_target(Task& task, const ConstVectorRef& target) {
   if (auto* const value = dynamic_cast<ValueTask*>(&task)) return value->set_target(target);
+  if (auto* const pose = dynamic_cast<PoseTask*>(&task))
+    return pose->set_target(target.head<3>(), rotation_exp(Vector3(target.tail<3>())));
   dynamic_cast<OrientationTask&>(task).set_target(rotation_exp(Vector3(target)));
 }
 

@@ -46,7 +46,7 @@ int actuator_of(const mjModel& m, int joint) {
 }
 
 DrivenJoint driven(const mjModel& m, int joint, double factor) {
-  return {joint, m.jnt_qposadr[joint], m.jnt_dofadr[joint], actuator_of(m, joint), factor};
+  return {joint, m.jnt_qposadr[joint], m.jnt_dofadr[joint], actuator_of(m, joint), factor, 0.0};
 }
 
 Coordinate from_tuple(const mjModel& m, int tuple, const std::string& name) {
@@ -105,6 +105,72 @@ std::vector<Coordinate> chosen(const mjModel& m, std::vector<Coordinate> all,
   return found;
 }
 
+// first joint = slope * second joint + shift
+struct Coupling {
+  int first = 0, second = 0;
+  double slope = 1.0, shift = 0.0;
+};
+
+Coupling turned_round(const Coupling& coupling) {
+  return {coupling.second, coupling.first, 1.0 / coupling.slope, -coupling.shift / coupling.slope};
+}
+
+std::optional<Coupling> coupling_of(const mjModel& m, int equality) {
+  const int first = m.eq_obj1id[equality], second = m.eq_obj2id[equality];
+  if (m.eq_type[equality] != mjEQ_JOINT || !m.eq_active0[equality] || second < 0) return std::nullopt;
+  const mjtNum* const c = m.eq_data + mjNEQDATA * equality;
+  const bool linear = c[1] != 0.0 && c[2] == 0.0 && c[3] == 0.0 && c[4] == 0.0;
+  if (!linear || !is_single(m, first) || !is_single(m, second)) return std::nullopt;
+  const double shift =
+      m.qpos0[m.jnt_qposadr[first]] + c[0] - c[1] * m.qpos0[m.jnt_qposadr[second]];
+  return Coupling{first, second, c[1], shift};
+}
+
+using Place = std::pair<std::size_t, std::size_t>;  // coordinate, joint of it
+
+std::optional<Place> find_joint(const std::vector<Coordinate>& all, int joint) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < all[i].joints.size(); ++k)
+      if (all[i].joints[k].joint == joint) return Place{i, k};
+  return std::nullopt;
+}
+
+// the first joint of a coupling follows the coordinate of the second; true when that is new
+bool follow(const mjModel& m, const Coupling& coupling, std::vector<Coordinate>& all) {
+  const std::optional<Place> leader = find_joint(all, coupling.second);
+  std::optional<Place> own = find_joint(all, coupling.first);
+  if (!leader || (own && own->first == leader->first)) return false;
+  const DrivenJoint by = all[leader->first].joints[leader->second];
+  std::vector<DrivenJoint>& joints = all[leader->first].joints;
+  // the first joint, and what followed it, follow the leader now
+  std::vector<DrivenJoint> moved = {driven(m, coupling.first, 1.0)};
+  if (own) moved = all[own->first].joints;
+  const DrivenJoint first = moved[own ? own->second : 0];
+  for (DrivenJoint joint : moved) {
+    const double slope = joint.factor / first.factor;
+    joint.offset += slope * (coupling.shift + coupling.slope * by.offset - first.offset);
+    joint.factor = slope * coupling.slope * by.factor;
+    joints.push_back(joint);
+  }
+  if (own) all.erase(all.begin() + static_cast<std::ptrdiff_t>(own->first));
+  return true;
+}
+
+// couples what equality constraints couple: several joints become one coordinate
+void couple(const mjModel& m, std::vector<Coordinate>& all) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (int i = 0; i < m.neq; ++i) {
+      const std::optional<Coupling> coupling = coupling_of(m, i);
+      if (!coupling) continue;
+      changed = follow(m, *coupling, all) || changed;
+      if (!find_joint(all, coupling->second))
+        changed = follow(m, turned_round(*coupling), all) || changed;
+    }
+  }
+}
+
 // [rad/s] or [m/s] of the joint
 double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
   const std::string joint = name_of(m, mjOBJ_JOINT, driven_joint.joint);
@@ -141,8 +207,8 @@ void set_limits(const mjModel& m, Coordinate& coordinate) {
     const int joint = driven_joint.joint;
     const double factor = driven_joint.factor;
     if (m.jnt_limited[joint]) {
-      const double a = m.jnt_range[2 * joint] / factor;
-      const double b = m.jnt_range[2 * joint + 1] / factor;
+      const double a = (m.jnt_range[2 * joint] - driven_joint.offset) / factor;
+      const double b = (m.jnt_range[2 * joint + 1] - driven_joint.offset) / factor;
       coordinate.lower = std::max(coordinate.lower, std::min(a, b));
       coordinate.upper = std::min(coordinate.upper, std::max(a, b));
     }
@@ -170,6 +236,12 @@ void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinat
 
 }  // namespace
 
+bool names_coordinates(const mjModel& m) {
+  for (int t = 0; t < m.ntuple; ++t)
+    if (without(mj_id2name(&m, mjOBJ_TUPLE, t), "coordinate_")) return true;
+  return false;
+}
+
 std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std::string>& names) {
   std::vector<Coordinate> found = from_tuples(m);
   if (!names.empty()) {
@@ -178,6 +250,7 @@ std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std
     if (found.empty()) found = from_joints(m, true);
     if (found.empty()) found = from_joints(m, false);
   }
+  if (!names_coordinates(m)) couple(m, found);
   for (Coordinate& coordinate : found) set_limits(m, coordinate);
   require_distinct(m, found);
   return found;

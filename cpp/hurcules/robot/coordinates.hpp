@@ -14,6 +14,9 @@
 
 namespace hurcules {
 
+// Where no tuples say it, joints that equality constraints couple linearly are one coordinate, named
+// after the joint that leads.
+//
 // The coordinates in the order of their tuples, else of their joints. Throws Error for a tuple of
 // something else than hinge and slide joints, a factor 0, a joint of two coordinates, ranges of
 // coupled joints that do not meet, and two coordinates of one name.
@@ -21,5 +24,8 @@ namespace hurcules {
 // Error for a name that does not exist.
 [[nodiscard]] std::vector<Coordinate> find_coordinates(const mjModel_& model,
                                                        const std::vector<std::string>& names = {});
+
+// the model has tuples that say what its coordinates are
+[[nodiscard]] bool names_coordinates(const mjModel_& model);
 
 }  // namespace hurcules

@@ -136,7 +136,8 @@ void Robot::set_qpos(const ConstVectorRef& qpos) {
 void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
   for (Index i = 0; i < size(); ++i)
-    for (const DrivenJoint& joint : coordinates_[i].joints) qpos_[joint.qpos] = joint.factor * q[i];
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
   keep_support();
   screws_->place(qpos_.data());
   note_motion();
@@ -166,7 +167,7 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
                 std::to_string(q.size()) + " came");
   for (Index i = 0; i < size(); ++i) {
     const DrivenJoint& first = coordinates_[i].joints.front();
-    q[i] = qpos[first.qpos] / first.factor;
+    q[i] = (qpos[first.qpos] - first.offset) / first.factor;
   }
 }
 

@@ -3,7 +3,9 @@
 // The controller moves n coordinates. A coordinate drives one joint or several together (both knees
 // of Hurcules are one); the MJCF names them by tuples `coordinate_NAME` of (joint, factor). Without
 // such tuples every hinge or slide joint that has an actuator is a coordinate, and without
-// actuators every hinge or slide joint. All other joints are held: free, ball, belts, other bodies.
+// actuators every hinge or slide joint; joints that an equality constraint of the model couples
+// linearly (the mimic joints of a URDF) are one. All other joints are held: free, ball, belts, other
+// bodies (left_out.hpp).
 // A Robot has its own mjData: asking it never disturbs a simulation. It keeps scratch memory
 // between questions, so one thread asks one Robot.
 #pragma once
@@ -31,13 +33,14 @@ using ModelPtr = std::shared_ptr<const mjModel_>;
 // throws Error unless the MuJoCo in this process is the one that we were built with
 void check_mujoco_version();
 
-// One joint of a coordinate: joint position = factor * coordinate.
+// One joint of a coordinate: joint position = factor * coordinate + offset.
 struct DrivenJoint {
   int joint = 0;      // mjModel joint id
   int qpos = 0;       // address in qpos
   int dof = 0;        // address in qvel
   int actuator = -1;  // actuator id, -1 for none
   double factor = 1.0;
+  double offset = 0.0;  // [rad] or [m]; 0 for the first joint of a coordinate
 };
 
 struct Coordinate {

@@ -1,10 +1,18 @@
 #include "hurcules/tasks/contact_watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
+
+namespace {
+
+constexpr double kCoarse = 1e-3;   // of f_min: steps of a sensor, not of its noise
+constexpr double kChanges = 20.0;  // before that its steps are not known
+
+}  // namespace
 
 std::string to_string(ContactState state) {
   switch (state) {
@@ -29,6 +37,21 @@ ContactWatch::ContactWatch(const ContactOptions& options, const std::string& tas
   require(options.release_time >= 0.0 && options.patience >= 0.0 && options.frozen_move >= 0.0,
           "release_time, patience and frozen_move" + of + "want numbers >= 0");
   require(std::isfinite(options.dt) && options.dt > 0.0, "dt" + of + "wants a positive time [s]");
+  release_ = 0.5 * options.f_min;
+}
+
+void ContactWatch::expect(double force_des) {
+  const double size = std::abs(force_des);
+  release_ = 0.5 * (size > 0.0 ? std::min(size, options_.f_min) : options_.f_min);
+}
+
+void ContactWatch::learn_step(double reading) {
+  const double change = std::abs(reading - force_);
+  if (change == 0.0) return;
+  if (step_ == 0.0 || change < step_) step_ = change;
+  changes_ += 1.0;
+  const double steps = reading / step_;
+  coarse_ = changes_ >= kChanges && step_ > kCoarse * options_.f_min && std::abs(steps - std::round(steps)) < 1e-6;
 }
 
 ContactState ContactWatch::look(double reading, double position) {
@@ -41,6 +64,7 @@ ContactState ContactWatch::look(double reading, double position) {
   }
   missing_ = 0.0;
   if (reading != force_) changed_at_ = position;
+  learn_step(reading);
   force_ = reading;
   const double size = std::abs(reading);
   if (size > options_.f_max) return state_ = ContactState::Stopped;
@@ -50,10 +74,10 @@ ContactState ContactWatch::look(double reading, double position) {
     return state_;
   }
   const double moved = std::abs(position - changed_at_);
-  const bool pressed = size >= 0.5 * options_.f_min;
-  if (pressed && options_.frozen_move > 0.0 && moved > options_.frozen_move)
+  const bool pressed = size >= release_;
+  if (pressed && !coarse_ && options_.frozen_move > 0.0 && moved > options_.frozen_move)
     return state_ = ContactState::SensorLost;
-  quiet_ = size < 0.5 * options_.f_min ? quiet_ + dt : 0.0;
+  quiet_ = size < release_ ? quiet_ + dt : 0.0;
   if (quiet_ > options_.release_time) state_ = ContactState::Free;
   return state_;
 }
@@ -65,14 +89,18 @@ void ContactWatch::reset() {
 
 void ContactWatch::save(StateWriter& writer) const {
   for (const double value :
-       {static_cast<double>(static_cast<int>(state_)), force_, quiet_, missing_, changed_at_}) {
+       {static_cast<double>(static_cast<int>(state_)), force_, quiet_, missing_, changed_at_,
+        release_, step_, changes_, coarse_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
 
 void ContactWatch::restore(StateReader& reader) {
   state_ = static_cast<ContactState>(reader.get_count(3));
-  for (double* value : {&force_, &quiet_, &missing_, &changed_at_}) *value = reader.get();
+  for (double* value : {&force_, &quiet_, &missing_, &changed_at_, &release_, &step_,
+                        &changes_})
+    *value = reader.get();
+  coarse_ = reader.get_count(1) > 0;
 }
 
 }  // namespace hurcules

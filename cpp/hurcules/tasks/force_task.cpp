@@ -54,6 +54,7 @@ void ForceTask::set_force(double force_des) {
   require(std::abs(force_des) < options_.contact.f_max,  // also for a number that is none
           "force of task '" + name_ + "' wants to be below f_max");
   force_des_ = force_des;
+  watch_.expect(force_des);
 }
 
 double ForceTask::stiffness() const {

@@ -73,7 +73,7 @@ void GazeTask::turn(double by_yaw, double by_pitch) {
 }
 
 void GazeTask::set_target(const Vector3& target) {
-  require(target.allFinite(), "target of a GazeTask wants to be finite");
+  require_values(target, "target");
   target_ = target;
   velocity_des_.setZero();
 }

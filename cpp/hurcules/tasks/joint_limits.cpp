@@ -57,6 +57,14 @@ void JointLimits::set_max_velocity(const std::string& coordinate, double limit) 
   max_velocity_[i] = limit;
 }
 
+void JointLimits::set_max_velocities(const ConstVectorRef& limits) {
+  if (limits.size() != rows())
+    throw Error("velocity limits of '" + name_ + "' want " + std::to_string(rows()) + " values, " +
+                std::to_string(limits.size()) + " came");
+  for (Index i = 0; i < rows(); ++i)
+    set_max_velocity(coordinates_[static_cast<std::size_t>(i)], limits[i]);
+}
+
 Index JointLimits::index(const std::string& coordinate) const {
   const auto found = std::find(coordinates_.begin(), coordinates_.end(), coordinate);
   if (found == coordinates_.end())

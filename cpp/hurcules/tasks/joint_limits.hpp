@@ -33,6 +33,7 @@ class JointLimits : public Task {
 
   [[nodiscard]] const Vector& max_velocity() const { return max_velocity_; }  // [rad/s], (n)
   void set_max_velocity(const std::string& coordinate, double limit);         // [rad/s] or [m/s]
+  void set_max_velocities(const ConstVectorRef& limits);  // of all, (n); inf for none
 
  private:
   [[nodiscard]] Index index(const std::string& coordinate) const;

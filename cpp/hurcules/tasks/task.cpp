@@ -6,6 +6,13 @@
 
 namespace hurcules {
 
+namespace {
+
+constexpr double kLargest = 1e6;    // of a target, a speed, a weight
+constexpr double kNoNumber = 1e20;  // from here on a side is infinite
+
+}  // namespace
+
 Task::Task(std::string name, Index rows, Index coordinates)
     : name_(std::move(name)),
       error_(Vector::Zero(rows)),
@@ -15,6 +22,8 @@ Task::Task(std::string name, Index rows, Index coordinates)
       lower_(Vector::Zero(rows)),
       upper_(Vector::Zero(rows)),
       jacobian_(Matrix::Zero(rows, coordinates)),
+      weights_(Vector::Ones(rows)),
+      speed_shares_(Vector::Ones(rows)),
       identity_{0, coordinates} {}
 
 Task::Task(std::string name, Index rows, const Robot& robot)
@@ -27,6 +36,24 @@ void Task::set_max_speed(double speed) {
       speed > 0.0 && std::isfinite(speed),
       "max_speed of task '" + name_ + "' wants a positive number, got " + std::to_string(speed));
   max_speed_ = speed;
+}
+
+void Task::set_gain(double gain) {
+  set_gain(Vector::Constant(rows(), gain));
+}
+
+void Task::set_gain(const ConstVectorRef& gains) {
+  require_rows(gains, "gain");
+  require(gains.minCoeff() > 0.0, "gain of task '" + name_ + "' wants positive numbers [1/s], got " +
+                                      std::to_string(gains.minCoeff()));
+  gains_ = gains;
+}
+
+void Task::set_weights(const ConstVectorRef& weights) {
+  require_rows(weights, "weights");
+  require(weights.minCoeff() >= 0.0, "weights of task '" + name_ + "' want numbers >= 0, got " +
+                                         std::to_string(weights.minCoeff()));
+  weights_ = weights;
 }
 
 void Task::relax(double /*share*/) {}
@@ -54,6 +81,11 @@ void Task::set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper
       throw Error("interval of task '" + name_ + "', row " + std::to_string(row) +
                   ": lower <= upper is wanted, " + std::to_string(lower[row]) + " and " +
                   std::to_string(upper[row]) + " came");
+  for (Index row = 0; row < rows(); ++row)
+    if (lower[row] >= kNoNumber || upper[row] <= -kNoNumber)
+      throw Error("interval of task '" + name_ + "', row " + std::to_string(row) +
+                  ": an interval that holds a number is wanted, " + std::to_string(lower[row]) +
+                  " to " + std::to_string(upper[row]) + " came");
   lower_ = lower;
   upper_ = upper;
 }
@@ -74,8 +106,15 @@ void Task::require_rows(const ConstVectorRef& values, const char* what) const {
   if (values.size() != rows())
     throw Error(std::string(what) + " of task '" + name_ + "' wants " + std::to_string(rows()) +
                 " values, " + std::to_string(values.size()) + " came");
+  require_values(values, what);
+}
+
+void Task::require_values(const ConstVectorRef& values, const char* what) const {
   if (!values.allFinite())
     throw Error(std::string(what) + " of task '" + name_ + "' wants finite values");
+  if (values.size() > 0 && values.cwiseAbs().maxCoeff() > kLargest)
+    throw Error(std::string(what) + " of task '" + name_ + "' wants numbers up to 1e6, " +
+                std::to_string(values.cwiseAbs().maxCoeff()) + " came");
 }
 
 void copy_memory(const Task& from, Task& to, std::vector<double>& scratch) {

@@ -47,6 +47,20 @@ class Task {
   // each row where they stand apart); what is fed forward comes on top
   [[nodiscard]] double max_speed() const { return max_speed_; }
   void set_max_speed(double speed);  // throws Error unless positive and finite
+  // [1/s] of this task instead of the controller's, for all rows or each (m); throws Error unless
+  // positive and finite. Critically damped by accelerations up to damping / 4.
+  void set_gain(double gain);
+  void set_gain(const ConstVectorRef& gains);
+  [[nodiscard]] double gain(Index row, double usual) const {
+    return gains_.size() == 0 ? usual : gains_[row];
+  }
+  // What a row counts beside the others of its level, where they cannot all be met: (m), 0 for a row
+  // that asks for nothing. Throws Error unless finite and >= 0. By default 1.
+  void set_weights(const ConstVectorRef& weights);
+  [[nodiscard]] const Vector& weights() const { return weights_; }
+  // max_speed of a row is this share of the task's: 1 but for tasks of several units
+  [[nodiscard]] double speed_share(Index row) const { return speed_shares_[row]; }
+
   // each row is a coordinate's own matter: one that cannot arrive does not slow down the others
   [[nodiscard]] virtual bool rows_apart() const { return false; }
 
@@ -79,17 +93,21 @@ class Task {
   Task(std::string name, Index rows, const Robot& robot);
 
   void require_robot(const Robot& robot) const;
-  // throws Error unless `values` are one finite number a row
+  // throws Error unless `values` are one number a row, none larger than 1e6: what is no length and no
+  // angle of a robot
   void require_rows(const ConstVectorRef& values, const char* what) const;
+  void require_values(const ConstVectorRef& values, const char* what) const;  // however many
   void require_time(double dt) const;  // Error unless finite
 
   std::string name_;
   Vector error_, drift_, velocity_des_, acceleration_des_, lower_, upper_;
   Matrix jacobian_;
   double max_speed_ = 1.5;  // of angles [rad/s]
+  Vector weights_, speed_shares_;  // (m)
 
  private:
   ModelIdentity identity_;
+  Vector gains_;  // (m), none: the controller's
 };
 
 // `to`, a copy of `from` on another robot of its model, gets what `from` keeps between ticks: target,

@@ -173,6 +173,36 @@ TEST(ForceTask, HoldsItsPlaceWhenTheSensorIsLost) {
   EXPECT_EQ(press.force.state(), ContactState::SensorLost);  // until reset
 }
 
+TEST(ForceTask, KeepsAForceBelowTheOneThatMakesContact) {
+  Press press(first_order(1e-3, 1e4));
+  press.force.set_force(-0.8);
+  press.run(2000);
+  EXPECT_NEAR(press.reading(), -0.8, 0.01);
+  for (int i = 0; i < 2000; ++i) {
+    press.tick(-0.02);
+    ASSERT_EQ(press.force.state(), ContactState::Contact) << "tick " << i;
+  }
+  EXPECT_NEAR(press.reading(), -0.8, 0.01);
+}
+
+// readings that change 40 times and then keep their bits while the frame moves by 5 mm
+ContactState kept_after(double step) {
+  ContactWatch watch({}, "watch");
+  for (int i = 0; i < 40; ++i) watch.look(-5.0 - step * (i % 7), 0.0);
+  ContactState state = ContactState::Free;
+  for (int i = 0; i < 50; ++i) state = watch.look(-5.0, 1e-4 * i);
+  return state;
+}
+
+TEST(ForceTask, AReadingInStepsIsNoLostSensor) {
+  EXPECT_EQ(kept_after(0.05), ContactState::Contact);
+  EXPECT_EQ(kept_after(0.0317e-3), ContactState::SensorLost);  // noise, then the same bits
+  ContactWatch stuck({}, "stuck");
+  ContactState state = ContactState::Free;
+  for (int i = 0; i < 50; ++i) state = stuck.look(-5.0, 1e-4 * i);
+  EXPECT_EQ(state, ContactState::SensorLost);
+}
+
 TEST(ForceTask, LeavesTheGroundByMotionAlone) {
   // [T Fig. 5.6 (i)]
   Press press(first_order(1e-3, 1e4));
@@ -245,6 +275,25 @@ TEST(ForceTask, ThePositionLoopStaysOffAndItsIntegralDoesNot) {
   // f = (C G f_d - G r) / (1 + C G), r = 1 mm above the reference
   EXPECT_NEAR(proportional.reading(), (-5.0 - 10.0) / 2.0, 0.05);
   EXPECT_NEAR(integral.reading(), -5.0, 0.05);
+}
+
+TEST(ForceTask, TorquesCarryWhatIsRead) {
+  Robot robot(load_model_text(kArm));
+  robot.set_keyframe("home");
+  ForceTask force("force", robot, "tip");
+  AccelerationController controller(robot);
+  controller.set_stack(Stack({force}));
+  force.sense(robot, 0.0);
+  controller.compute(robot);
+  Vector without(robot.size()), with(robot.size());
+  controller.torque(robot, without);
+  force.sense(robot, -7.0);
+  ASSERT_EQ(force.state(), ContactState::Contact);
+  controller.torque(robot, with);
+  // the tip presses down with 7 N
+  Matrix J(3, robot.size());
+  robot.position_jacobian(robot.frame("tip"), J);
+  EXPECT_TRUE(near(with - without, -7.0 * J.row(2).transpose(), 1e-12));
 }
 
 TEST(ForceTask, AccelerationLawsAreNothingForAVelocityController) {

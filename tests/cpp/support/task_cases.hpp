@@ -11,6 +11,7 @@
 #include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
+#include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
@@ -44,6 +45,7 @@ inline std::vector<TaskCase> arm_cases() {
       task_case<PositionTask>("arm_two_directions", kArm, std::string("forearm"),
                               PositionTaskOptions{.axes = two}),
       task_case<OrientationTask>("arm_orientation", kArm, std::string("tip")),
+      task_case<PoseTask>("arm_pose_orientation", kArm, std::string("tip")),
       task_case<AngleTask>("arm_elevation", kArm, std::string("hand")),
       task_case<AngleTask>("arm_heading", kArm, std::string("elbow"),
                            AngleTaskOptions{AngleKind::Heading, {1, 1, 0}, ""}),
@@ -70,6 +72,10 @@ inline std::vector<TaskCase> twin_cases() {
       task_case<OrientationTask>("twin_orientation", kTwin, std::string("hand_r")),
       task_case<OrientationTask>("twin_hand_in_hand", kTwin, std::string("hand_l"),
                                  OrientationTaskOptions{"hand_r"}),
+      task_case<PoseTask>("twin_pose_orientation", kTwin, std::string("hand_r"),
+                          PoseTaskOptions{"base_site"}),
+      task_case<RelativePoseTask>("twin_pose_hand_in_hand", kTwin, std::string("hand_l"),
+                                  std::string("hand_r")),
       task_case<AngleTask>("twin_elevation", kTwin, std::string("fa_l"),
                            AngleTaskOptions{AngleKind::Elevation, {0, 0.1, -1}, ""}),
       task_case<AngleTask>("twin_heading_in_base", kTwin, std::string("chest"),

@@ -1,0 +1,107 @@
+#include "hurcules/robot/left_out.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "hurcules/robot/coordinates.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr std::size_t kShown = 8;  // names, then how many more
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+  return text;
+}
+
+std::string name_of(const mjModel& m, int type, int id) {
+  const char* const name = mj_id2name(&m, type, id);
+  return name && *name ? name : "number " + std::to_string(id);
+}
+
+class Kept {
+ public:
+  explicit Kept(const Robot& robot)
+      : m_(*robot.model()), joints_(static_cast<std::size_t>(m_.njnt), false) {
+    for (const Coordinate& coordinate : robot.coordinates()) {
+      for (const DrivenJoint& joint : coordinate.joints) {
+        joints_[static_cast<std::size_t>(joint.joint)] = true;
+        trees_.push_back(m_.body_rootid[m_.jnt_bodyid[joint.joint]]);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> joints() const {
+    std::vector<std::string> names;
+    for (int j = 0; j < m_.njnt; ++j) {
+      const bool root = m_.jnt_type[j] == mjJNT_FREE;
+      if (!root && !has(j) && moves(m_.jnt_bodyid[j])) names.push_back(name_of(m_, mjOBJ_JOINT, j));
+    }
+    return names;
+  }
+
+  [[nodiscard]] std::vector<std::string> constraints() const {
+    std::vector<std::string> names;
+    for (int i = 0; i < m_.neq; ++i)
+      if (m_.eq_active0[i] && !keeps(i)) names.push_back(name_of(m_, mjOBJ_EQUALITY, i));
+    return names;
+  }
+
+ private:
+  [[nodiscard]] bool has(int joint) const { return joints_[static_cast<std::size_t>(joint)]; }
+  [[nodiscard]] bool moves(int body) const {
+    return std::find(trees_.begin(), trees_.end(), m_.body_rootid[body]) != trees_.end();
+  }
+  // or it has nothing to do with the coordinates
+  [[nodiscard]] bool keeps(int equality) const {
+    const int first = m_.eq_obj1id[equality], second = m_.eq_obj2id[equality];
+    switch (m_.eq_type[equality]) {
+      case mjEQ_JOINT: {
+        if (!has(first) && (second < 0 || !has(second))) return true;  // both are held
+        const mjtNum* const c = m_.eq_data + mjNEQDATA * equality;
+        return second >= 0 && has(first) && has(second) && c[2] == 0.0 && c[3] == 0.0 &&
+               c[4] == 0.0;
+      }
+      case mjEQ_CONNECT:
+      case mjEQ_WELD: {
+        const bool sites = m_.eq_objtype[equality] == mjOBJ_SITE;
+        const int a = sites ? m_.site_bodyid[first] : first;
+        const int b = sites ? m_.site_bodyid[second] : second;
+        return !moves(a) && !moves(b);
+      }
+      default:
+        return m_.eq_type[equality] != mjEQ_TENDON;
+    }
+  }
+
+  const mjModel& m_;
+  std::vector<bool> joints_;
+  std::vector<int> trees_;
+};
+
+}  // namespace
+
+std::string left_out(const Robot& robot) {
+  if (names_coordinates(*robot.model())) return "";
+  const Kept kept(robot);
+  const std::vector<std::string> joints = kept.joints(), constraints = kept.constraints();
+  std::string text;
+  if (!joints.empty()) {
+    text = std::to_string(joints.size()) + " joints of the robot are held, they belong to no " +
+           "coordinate: " + listed(joints) + "; Robot(model, joints=[...]) says which move";
+  }
+  if (!constraints.empty()) {
+    text += std::string(text.empty() ? "" : ". ") +
+            "Constraints of the model that the coordinates do not keep: " + listed(constraints);
+  }
+  return text;
+}
+
+}  // namespace hurcules

@@ -1,0 +1,98 @@
+#include "hurcules/tasks/pose_task.hpp"
+
+#include <Eigen/Geometry>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kTurnShare = 3.0;  // 1.5 rad/s beside 0.5 m/s
+
+}  // namespace
+
+PoseTask::PoseTask(std::string name, const Robot& robot, const std::string& frame,
+                   const PoseTaskOptions& options)
+    : Task(std::move(name), 6, robot),
+      frame_(robot.frame(frame)),
+      reference_(robot, options.reference),
+      point_(robot),
+      rotation_(robot) {
+  max_speed_ = 0.5;
+  speed_shares_.tail<3>().setConstant(kTurnShare);
+  PoseTask::hold(robot);
+}
+
+void PoseTask::update(const Robot& robot) {
+  require_robot(robot);
+  reference_.measure(robot);
+  point_.measure(robot, frame_);
+  rotation_.measure(robot, frame_);
+  reference_.express(point_);
+  reference_.express(rotation_);
+
+  error_.head<3>() = point_.position - p_des_;
+  jacobian_.topRows<3>() = point_.jacobian;
+  drift_.head<3>() = point_.drift;
+
+  const Vector3 e = rotation_log(rotation_.orientation * R_des_.transpose());
+  const Matrix3 gain = left_jacobian_inverse(e);
+  const Vector3 rate = gain * rotation_.velocity;
+  error_.tail<3>() = e;
+  jacobian_.bottomRows<3>().noalias() = gain.lazyProduct(rotation_.jacobian);
+  drift_.tail<3>() = gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
+  velocity_des_.tail<3>() = right_jacobian_inverse(e) * turn_;
+}
+
+void PoseTask::hold(const Robot& robot) {
+  turn_.setZero();
+  velocity_des_.setZero();
+  update(robot);
+  p_des_ = point_.position;
+  R_des_ = rotation_.orientation;
+  update(robot);
+}
+
+void PoseTask::advance(const ConstVectorRef& velocity, double dt) {
+  require_rows(velocity, "velocity");
+  require_time(dt);
+  turn_ = velocity.tail<3>();
+  velocity_des_.head<3>() = velocity.head<3>();
+  velocity_des_.tail<3>() = right_jacobian_inverse(error_.tail<3>()) * turn_;
+  p_des_ += velocity.head<3>() * dt;
+  // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
+  if (turn_.squaredNorm() == 0) return;
+  R_des_ = Eigen::Quaterniond(rotation_exp(turn_ * dt) * R_des_).normalized().toRotationMatrix();
+}
+
+void PoseTask::relax(double share) {
+  p_des_ += share * error_.head<3>();
+}
+
+void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
+  require_values(position, "target");
+  if (!is_rotation(orientation))
+    throw Error("target of task '" + name_ + "' wants a rotation matrix");
+  p_des_ = position;
+  R_des_ = orientation;
+  turn_.setZero();
+  velocity_des_.setZero();
+}
+
+void PoseTask::save(StateWriter& writer) const {
+  Task::save(writer);
+  writer.put(p_des_);
+  for (Index i = 0; i < 9; ++i) writer.put(R_des_(i));
+  writer.put(turn_);
+}
+
+void PoseTask::restore(StateReader& reader) {
+  Task::restore(reader);
+  reader.get(p_des_);
+  for (Index i = 0; i < 9; ++i) R_des_(i) = reader.get();
+  reader.get(turn_);
+}
+
+}  // namespace hurcules

@@ -1,0 +1,65 @@
+// The pose of a frame at a target pose: position and orientation in one.
+//
+//   e = [p_RF - p_des; log(R_RF R_des^T)]  [m], [rad] (6)
+//   J = [J_RF; Jl^-1(e_r) J_w,RF] (6, n)                                 [T 4.3.2], [T §4.3.2]
+// R is the reference: the world, or a frame of the robot, which may move too: a hand in the other
+// hand, say (RelativePoseTask). Rows and signs are those of PositionTask and OrientationTask; turns
+// are three times as fast [rad/s] as max_speed [m/s].
+#pragma once
+
+#include "hurcules/tasks/reference.hpp"
+#include "hurcules/tasks/task.hpp"
+
+namespace hurcules {
+
+struct PoseTaskOptions {
+  std::string reference = "";  // frame in which the pose is measured, "" = the world
+};
+
+class PoseTask : public Task {
+ public:
+  PoseTask(std::string name, const Robot& robot, const std::string& frame,
+           const PoseTaskOptions& options = {});
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<PoseTask>(*this);
+  }
+
+  void update(const Robot& robot) override;
+  void hold(const Robot& robot) override;
+  // moves the target by velocity dt: [m/s] (3), then [rad/s] (3), in the axes of R
+  void advance(const ConstVectorRef& velocity, double dt) override;
+  // of the way of the position; the target's orientation stays
+  void relax(double share) override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+
+  [[nodiscard]] const Vector3& target_position() const { return p_des_; }     // [m] in R
+  [[nodiscard]] const Matrix3& target_orientation() const { return R_des_; }  // in R
+  // at rest; seen at the next update; throws Error unless finite, and a rotation
+  void set_target(const Vector3& position, const Matrix3& orientation);
+  // p_RF [m], R_RF at the last update
+  [[nodiscard]] const Vector3& position() const { return point_.position; }
+  [[nodiscard]] const Matrix3& orientation() const { return rotation_.orientation; }
+
+ private:
+  Frame frame_;
+  Reference reference_;
+  PointMotion point_;
+  RotationMotion rotation_;
+  Vector3 p_des_ = Vector3::Zero();
+  Matrix3 R_des_ = Matrix3::Identity();
+  Vector3 turn_ = Vector3::Zero();  // w_des [rad/s], in the axes of R
+};
+
+// the pose of a frame in another frame of the robot
+class RelativePoseTask : public PoseTask {
+ public:
+  RelativePoseTask(std::string name, const Robot& robot, const std::string& frame,
+                   const std::string& reference)
+      : PoseTask(std::move(name), robot, frame, {reference}) {}
+  [[nodiscard]] std::unique_ptr<Task> clone() const override {
+    return std::make_unique<RelativePoseTask>(*this);
+  }
+};
+
+}  // namespace hurcules

@@ -1,0 +1,274 @@
+"""Tasks and answers that users of other packages look for, on arms written here.
+
+Strategy: the short programs that the documentation promises, counted in lines; weights, gains,
+damping and tasks in Python against what a hand can reckon; numbers that say nothing are refused, or
+the controller brakes within its limit and names them. Not tested here: derivatives of the tasks
+(tests/cpp/tasks/every_task_test.cpp).
+"""
+
+from __future__ import annotations
+
+import inspect
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import rhqp
+
+ARM = """
+<mujoco>
+  <compiler angle="radian"/>
+  <default><joint range="-2.6 2.6" limited="true"/><geom size="0.03"/></default>
+  <worldbody>
+    {arms}
+  </worldbody>
+</mujoco>
+"""
+
+
+def arm(side: str, y: float) -> str:
+    """Six joints and a hand."""
+    return f"""<body pos="0 {y} 0.8"><joint name="{side}1" axis="0 0 1"/><geom/>
+      <body><joint name="{side}2" axis="0 1 0"/>
+        <body pos="0.35 0 0"><joint name="{side}3" axis="0 1 0"/><geom/>
+          <body pos="0.3 0 0"><joint name="{side}4" axis="1 0 0"/>
+            <body><joint name="{side}5" axis="0 1 0"/>
+              <body><joint name="{side}6" axis="1 0 0"/><geom pos="0.1 0 0"/>
+                <site name="{side}_hand" pos="0.1 0 0"/></body></body></body></body></body></body>"""
+
+
+@pytest.fixture
+def model() -> mujoco.MjModel:
+    return mujoco.MjModel.from_xml_string(ARM.format(arms=arm("l", 0.2) + arm("r", -0.2)))
+
+
+def lines(function: object) -> int:
+    """Statements of a function, a line each."""
+    body = inspect.getsource(function).splitlines()[1:]
+    return sum(bool(line.strip()) and not line.strip().startswith(('"""', "#")) for line in body)
+
+
+def lead_a_pose(model: mujoco.MjModel, position: np.ndarray, turn: np.ndarray) -> hurcules.Robot:
+    robot = hurcules.Robot(model)
+    hand = hurcules.PoseTask("hand", robot, "l_hand")
+    hand.set_target(position, turn)
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([hand, hurcules.PostureTask("posture", robot)]))
+    for _ in range(8000):
+        controller.step(robot)
+    return robot
+
+
+def lead_two_hands(model: mujoco.MjModel, targets: dict[str, np.ndarray]) -> hurcules.Robot:
+    robot = hurcules.Robot(model)
+    hands = [hurcules.PositionTask(name, robot, name) for name in targets]
+    for hand in hands:
+        hand.set_target(targets[hand.name])
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([*hands, posture]))
+    for _ in range(5000):
+        controller.step(robot)
+    return robot
+
+
+def reachable(model: mujoco.MjModel, frame: str, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    robot = hurcules.Robot(model)
+    robot.set_configuration(np.random.default_rng(seed).uniform(-0.8, 0.8, robot.size))
+    return robot.position(frame), robot.orientation(frame)
+
+
+def test_a_pose_takes_eight_lines(model: mujoco.MjModel) -> None:
+    assert lines(lead_a_pose) <= 8
+    for seed in range(3):
+        position, turn = reachable(model, "l_hand", seed)
+        robot = lead_a_pose(model, position, turn)
+        assert np.linalg.norm(robot.position("l_hand") - position) < 1e-5
+        assert np.abs(robot.orientation("l_hand") - turn).max() < 1e-4
+
+
+def test_two_hands_take_twelve_lines(model: mujoco.MjModel) -> None:
+    assert lines(lead_two_hands) <= 12
+    names = ["l_hand", "r_hand"]
+    targets = {name: reachable(model, name, 5)[0] for name in names}
+    robot = lead_two_hands(model, targets)
+    for name in names:
+        assert np.linalg.norm(robot.position(name) - targets[name]) < 1e-4
+
+
+def test_a_hand_keeps_its_pose_in_the_other_hand(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.3, 0.4, -0.9, 0.1, 0.6, 0.0, -0.3, 0.4, -0.9, -0.1, 0.6, 0.0])
+    held = hurcules.RelativePoseTask("held", robot, "l_hand", "r_hand")
+    carry = hurcules.PositionTask("carry", robot, "r_hand")
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([held, carry]))
+    before = robot.position("r_hand")
+    for _ in range(2000):
+        carry.advance([0.0, 0.0, 0.05], 1e-3)
+        controller.step(robot)
+        held.update(robot)
+        assert np.abs(held.error).max() < 1e-4
+    np.testing.assert_allclose(robot.position("r_hand") - before, [0.0, 0.0, 0.1], atol=1e-3)
+
+
+def settle(robot: hurcules.Robot, stack: list[object], ticks: int = 6000) -> None:
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack(stack))
+    for _ in range(ticks):
+        controller.step(robot)
+
+
+@pytest.mark.parametrize("by", ["velocities", "accelerations"])
+def test_weights_share_what_cannot_be_met(model: mujoco.MjModel, by: str) -> None:
+    # two wishes for one coordinate: the squares of w_i (q - q_i) are least at their weighted mean
+    robot = hurcules.Robot(model, joints=["l1"])
+    near, far = (hurcules.PostureTask(name, robot) for name in ("near", "far"))
+    near.set_target([0.0])
+    far.set_target([0.3])
+    near.set_weights([1.0])
+    far.set_weights([2.0])
+    make = hurcules.VelocityController if by == "velocities" else hurcules.AccelerationController
+    controller = make(robot)
+    controller.set_stack(hurcules.Stack([hurcules.StackLevel("both", [near, far], rho=0.0)]))
+    for _ in range(6000):
+        controller.step(robot)
+    assert robot.configuration[0] == pytest.approx(0.3 * 4 / 5, abs=1e-3)
+    far.set_weights([0.0])
+    for _ in range(6000):
+        controller.step(robot)
+    assert robot.configuration[0] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_gain_is_the_rate_of_its_row(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model, joints=["l1", "r1"])
+    posture = hurcules.PostureTask("posture", robot)
+    posture.set_target([0.01, 0.01])
+    posture.set_gain([2.0, 10.0])
+    settle(robot, [posture], 300)
+    left = 0.01 - robot.configuration
+    # the acceleration limit of the first ticks costs a little
+    assert left[0] / 0.01 == pytest.approx(np.exp(-2.0 * 0.3), abs=0.02)
+    assert left[1] / 0.01 == pytest.approx(np.exp(-10.0 * 0.3), abs=0.02)
+
+
+def test_damping_brings_the_rest_to_rest(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+    hand = hurcules.PositionTask("hand", robot, "l_hand")
+    hand.set_target(reachable(model, "l_hand", 2)[0])
+    damping = hurcules.DampingTask("damping", robot)
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([hand, damping]))
+    for _ in range(5000):
+        controller.step(robot)
+    assert np.linalg.norm(hand.error) < 1e-4
+    assert np.abs(controller.velocity).max() < 1e-3
+    assert robot.configuration[6:] == pytest.approx(0.0, abs=1e-12), "the other arm moved"
+
+
+def test_a_task_in_python_is_a_task(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+
+    def height(robot: hurcules.Robot) -> tuple[list[float], np.ndarray]:
+        return [robot.position("l_hand")[2]], robot.position_jacobian("l_hand")[2:]
+
+    task = hurcules.CustomTask("height", robot, 1, height)
+    task.set_target([0.6])
+    settle(robot, [task, hurcules.PostureTask("posture", robot)])
+    assert robot.position("l_hand")[2] == pytest.approx(0.6, abs=1e-4)
+    with pytest.raises(hurcules.Error, match=r"jacobian wants shape \(1, 12\), \(1, 3\) came"):
+        hurcules.CustomTask("wrong", robot, 1, lambda robot: ([0.0], np.zeros((1, 3))))
+    with pytest.raises(hurcules.Error, match="value, jacobian"):
+        hurcules.CustomTask("wrong", robot, 1, lambda robot: 1.0)
+    with pytest.raises(ZeroDivisionError):
+        hurcules.CustomTask("wrong", robot, 1, lambda robot: 1 / 0)
+
+
+def test_speed_limits_come_as_a_vector(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+    limits = hurcules.JointLimits("limits", robot)
+    most = np.linspace(0.1, 1.2, robot.size)
+    limits.set_max_velocities(most)
+    np.testing.assert_array_equal(limits.max_velocity, most)
+    posture = hurcules.PostureTask("posture", robot)
+    posture.set_target(np.full(robot.size, 2.0))
+    posture.set_max_speed(5.0)
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([limits, posture]))
+    for _ in range(300):
+        controller.step(robot)
+    np.testing.assert_allclose(controller.velocity, most, atol=1e-9)
+    with pytest.raises(hurcules.Error, match="want 12 values, 2 came"):
+        limits.set_max_velocities([1.0, 1.0])
+
+
+@pytest.mark.parametrize("value", [1e20, np.nan, np.inf, -1e7])
+def test_absurd_targets_are_refused_where_they_are_set(model: mujoco.MjModel, value: float) -> None:
+    robot = hurcules.Robot(model)
+    position = hurcules.PositionTask("hand", robot, "l_hand")
+    with pytest.raises(hurcules.Error, match="target of task 'hand'"):
+        position.set_target([value, 0.0, 0.0])
+    with pytest.raises(hurcules.Error, match="target of task 'pose'"):
+        hurcules.PoseTask("pose", robot, "l_hand").set_target([value, 0.0, 0.0])
+    with pytest.raises(hurcules.Error, match="velocity of task 'hand'"):
+        position.advance([value, 0.0, 0.0], 1e-3)
+
+
+@pytest.mark.parametrize("side", [np.inf, -np.inf, 1e20])
+def test_intervals_without_a_number_are_refused(model: mujoco.MjModel, side: float) -> None:
+    robot = hurcules.Robot(model, joints=["l1"])
+    posture = hurcules.PostureTask("posture", robot)
+    with pytest.raises(hurcules.Error, match="an interval that holds a number"):
+        posture.set_interval([side], [side])
+
+
+def test_a_gain_that_is_too_high_for_the_period_is_refused(model: mujoco.MjModel) -> None:
+    options = hurcules.VelocityControllerOptions(dt=0.025, gain=50.0)
+    with pytest.raises(hurcules.Error, match=r"gain \* dt wants to be 1 at most"):
+        hurcules.VelocityController(hurcules.Robot(model), options)
+
+
+@pytest.mark.parametrize("by", ["velocities", "accelerations"])
+def test_on_numbers_that_say_nothing_the_controller_brakes(model: mujoco.MjModel, by: str) -> None:
+    robot = hurcules.Robot(model)
+    broken = [False]
+
+    def measure(robot: hurcules.Robot) -> tuple[np.ndarray, np.ndarray]:
+        value = robot.position("l_hand") * (np.nan if broken[0] else 1.0)
+        return value, robot.position_jacobian("l_hand")
+
+    task = hurcules.CustomTask("hand", robot, 3, measure)
+    make = hurcules.VelocityController if by == "velocities" else hurcules.AccelerationController
+    controller = make(robot)
+    controller.set_stack(hurcules.Stack([task]))
+    before, q = np.zeros(robot.size), robot.configuration
+    fastest = 0.0
+    for tick in range(1000):
+        broken[0] = tick >= 500
+        if not broken[0]:
+            task.advance([0.0, 0.3, -0.3], 1e-3)
+        controller.step(robot)
+        now = (robot.configuration - q) / 1e-3
+        q = robot.configuration
+        assert np.isfinite(now).all()
+        assert np.abs(now - before).max() <= 20.0 * 1e-3 * (1 + 1e-6)
+        before = now
+        fastest = max(fastest, float(np.abs(now).max()))
+        status = controller.solution.status
+        assert (status == rhqp.Status.InvalidInput) == broken[0]
+    assert fastest > 0.3
+    assert np.abs(before).max() < 1e-9
+    (short,) = controller.notes(robot)[-1].shorts
+    assert str(short) == "hand: its numbers are not finite, the controller brakes"
+
+
+def test_what_is_held_is_named_in_a_warning() -> None:
+    text = ARM.format(arms=arm("l", 0.2)).replace(
+        "</mujoco>", '<actuator><motor joint="l1"/><motor joint="l2"/></actuator></mujoco>'
+    )
+    model = mujoco.MjModel.from_xml_string(text)
+    with pytest.warns(UserWarning, match="4 joints of the robot are held.*l3, l4, l5, l6"):
+        hurcules.Robot(model)
+    assert hurcules.Robot(model, joints=["l1", "l2"]).size == 2  # without a word
