@@ -3,11 +3,11 @@
 Run:  python benchmarks/robots.py [--way 0.3] [--seeds 2] [--dt 0.005] [--only panda] [--out table.md]
 
 For each model: does it load; its coordinates, and the joints that are left out; then the stack
-`limits < hand < posture` for 5 s, all else by default, from the first posture to the hand of a random
-posture inside the limits (`--way`: that share of the way to it). With six coordinates or more the hand
-is led in 6-D, else its position. Worst of the seeds: the error, the speed at the end, how far any limit
-of position, speed or acceleration was passed; the least time of a tick, of this thread. Packages: see
-arms.py, none of them needed; none is installed.
+`limits < hand < posture` for 5 s, all else by default, from the first posture to the hand of a
+random posture inside the limits (`--way`: that share of the way to it). With six coordinates or
+more the hand is led in 6-D, else its position. Worst of the seeds: the error, the speed at the end,
+how far any limit of position, speed or acceleration was passed; the least time of a tick, of this
+thread. Packages: see arms.py, none of them needed; none is installed.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from arms import hand_of, load, name_of, places
+from arms import Arm, load, name_of, places
 from arrival import posture
 
 import hurcules
@@ -53,9 +53,10 @@ class Row:
         """A line of Markdown."""
         if self.state != "loads":
             return f"| {self.name} | {self.state} | | | | | | |"
-        turn = f"{self.degrees:.2f}" if self.spatial else "–"
+        turn = f"{self.degrees:.2f}" if self.spatial else ""
+        joints = f"{self.kept} / {self.left_out}"
         return (
-            f"| {self.name} | yes | {self.kept} / {self.left_out} | {self.millimetres:.2f} | {turn} "
+            f"| {self.name} | yes | {joints} | {self.millimetres:.2f} | {turn} "
             f"| {self.speed:.3f} | {self.excess:.0e} | {1e6 * self.tick:.0f} |"
         )
 
@@ -94,12 +95,14 @@ def reach(row: Row, robot: hurcules.Robot, hand: str, target: np.ndarray, dt: fl
         if tick >= ticks - round(0.1 / dt):
             row.speed = max(row.speed, float(np.abs(now).max()))
         before = now
-    row.millimetres = max(row.millimetres, 1e3 * float(np.linalg.norm(robot.position(hand) - place)))
+    row.millimetres = max(
+        row.millimetres, 1e3 * float(np.linalg.norm(robot.position(hand) - place))
+    )
     if row.spatial:
         row.degrees = max(row.degrees, angle(robot.orientation(hand), turn))
 
 
-def examine(name: str, package: str, path: Path, options: argparse.Namespace) -> Row:
+def examine(name: str, path: Path, options: argparse.Namespace) -> Row:
     """The row of one model."""
     row = Row(name)
     with warnings.catch_warnings():
@@ -109,8 +112,15 @@ def examine(name: str, package: str, path: Path, options: argparse.Namespace) ->
         except Exception as error:
             row.state = str(error).splitlines()[0][:60].replace("|", " ")
             return row
-    robot = arm.robot()
-    hand = hand_of(robot, arm.model)
+        if hurcules.Robot(arm.model).size == 0:
+            row.state = "has no hinge or slide joint"
+            return row
+        return lead(row, arm, options)
+
+
+def lead(row: Row, arm: Arm, options: argparse.Namespace) -> Row:
+    """All seeds of one model."""
+    robot, hand = arm.robot(), arm.hand
     row.kept = robot.size
     moved = {joint.joint for c in robot.coordinates for joint in c.joints}
     row.left_out = arm.model.njnt - len(moved)
@@ -137,10 +147,19 @@ def main() -> None:
     for package, path in places():
         name = name_of(package, path)
         if options.only in name:
-            rows.append(examine(name, package, path, options))
+            rows.append(examine(name, path, options))
             print(rows[-1].text(), flush=True)
-    head = "| robot | loads | joints kept / left out | error [mm] | [°] | speed at the end | over a limit | tick [µs] |"
-    lines = [head, "|---" * 8 + "|", *(row.text() for row in rows)]
+    titles = (
+        "robot",
+        "loads",
+        "joints kept / left out",
+        "error [mm]",
+        "[degrees]",
+        "speed at the end",
+        "over a limit",
+        "tick [us]",
+    )
+    lines = ["| " + " | ".join(titles) + " |", "|---" * 8 + "|", *(row.text() for row in rows)]
     if options.out:
         options.out.write_text("\n".join(lines) + "\n")
     led = [row for row in rows if row.state == "loads"]

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "arrays.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
@@ -18,7 +19,6 @@
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
-#include "arrays.hpp"
 #include "state.hpp"
 
 namespace py = pybind11;

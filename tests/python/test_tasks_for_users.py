@@ -36,7 +36,8 @@ def arm(side: str, y: float) -> str:
           <body pos="0.3 0 0"><joint name="{side}4" axis="1 0 0"/>
             <body><joint name="{side}5" axis="0 1 0"/>
               <body><joint name="{side}6" axis="1 0 0"/><geom pos="0.1 0 0"/>
-                <site name="{side}_hand" pos="0.1 0 0"/></body></body></body></body></body></body>"""
+                <site name="{side}_hand" pos="0.1 0 0"/></body></body></body></body></body>
+      </body>"""
 
 
 @pytest.fixture

@@ -247,7 +247,8 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
         const double w = task->weights()[i];
         if (w == 0.0) return 0.0;
         const double wanted_rate = velocity / w;
-        return w * (held + (own ? side : options_.damping * (wanted_rate - rate[i])));  // [T 5.3.17]
+        return w *
+               (held + (own ? side : options_.damping * (wanted_rate - rate[i])));  // [T 5.3.17]
       };
       level.lower[row] = wanted(task->lower()[i], level.lower[row]);
       level.upper[row] = wanted(task->upper()[i], level.upper[row]);

@@ -138,9 +138,8 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
                                     first, task->rows())) {
       continue;
     }
-    made.shorts.push_back(
-        {task->name(), short_by, unit_of(*task), holders(solved, static_cast<int>(k), report),
-         false});
+    made.shorts.push_back({task->name(), short_by, unit_of(*task),
+                           holders(solved, static_cast<int>(k), report), false});
   }
   return made;
 }

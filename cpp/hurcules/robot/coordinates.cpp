@@ -117,12 +117,12 @@ Coupling turned_round(const Coupling& coupling) {
 
 std::optional<Coupling> coupling_of(const mjModel& m, int equality) {
   const int first = m.eq_obj1id[equality], second = m.eq_obj2id[equality];
-  if (m.eq_type[equality] != mjEQ_JOINT || !m.eq_active0[equality] || second < 0) return std::nullopt;
+  if (m.eq_type[equality] != mjEQ_JOINT || !m.eq_active0[equality] || second < 0)
+    return std::nullopt;
   const mjtNum* const c = m.eq_data + mjNEQDATA * equality;
   const bool linear = c[1] != 0.0 && c[2] == 0.0 && c[3] == 0.0 && c[4] == 0.0;
   if (!linear || !is_single(m, first) || !is_single(m, second)) return std::nullopt;
-  const double shift =
-      m.qpos0[m.jnt_qposadr[first]] + c[0] - c[1] * m.qpos0[m.jnt_qposadr[second]];
+  const double shift = m.qpos0[m.jnt_qposadr[first]] + c[0] - c[1] * m.qpos0[m.jnt_qposadr[second]];
   return Coupling{first, second, c[1], shift};
 }
 

@@ -51,7 +51,8 @@ void ContactWatch::learn_step(double reading) {
   if (step_ == 0.0 || change < step_) step_ = change;
   changes_ += 1.0;
   const double steps = reading / step_;
-  coarse_ = changes_ >= kChanges && step_ > kCoarse * options_.f_min && std::abs(steps - std::round(steps)) < 1e-6;
+  coarse_ = changes_ >= kChanges && step_ > kCoarse * options_.f_min &&
+            std::abs(steps - std::round(steps)) < 1e-6;
 }
 
 ContactState ContactWatch::look(double reading, double position) {
@@ -97,8 +98,7 @@ void ContactWatch::save(StateWriter& writer) const {
 
 void ContactWatch::restore(StateReader& reader) {
   state_ = static_cast<ContactState>(reader.get_count(3));
-  for (double* value : {&force_, &quiet_, &missing_, &changed_at_, &release_, &step_,
-                        &changes_})
+  for (double* value : {&force_, &quiet_, &missing_, &changed_at_, &release_, &step_, &changes_})
     *value = reader.get();
   coarse_ = reader.get_count(1) > 0;
 }

@@ -42,7 +42,8 @@ void PoseTask::update(const Robot& robot) {
   const Vector3 rate = gain * rotation_.velocity;
   error_.tail<3>() = e;
   jacobian_.bottomRows<3>().noalias() = gain.lazyProduct(rotation_.jacobian);
-  drift_.tail<3>() = gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
+  drift_.tail<3>() =
+      gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
   velocity_des_.tail<3>() = right_jacobian_inverse(e) * turn_;
 }
 

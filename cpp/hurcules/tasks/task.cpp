@@ -44,7 +44,8 @@ void Task::set_gain(double gain) {
 
 void Task::set_gain(const ConstVectorRef& gains) {
   require_rows(gains, "gain");
-  require(gains.minCoeff() > 0.0, "gain of task '" + name_ + "' wants positive numbers [1/s], got " +
+  require(gains.minCoeff() > 0.0, "gain of task '" + name_ +
+                                      "' wants positive numbers [1/s], got " +
                                       std::to_string(gains.minCoeff()));
   gains_ = gains;
 }

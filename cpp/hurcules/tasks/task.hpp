@@ -97,12 +97,12 @@ class Task {
   // angle of a robot
   void require_rows(const ConstVectorRef& values, const char* what) const;
   void require_values(const ConstVectorRef& values, const char* what) const;  // however many
-  void require_time(double dt) const;  // Error unless finite
+  void require_time(double dt) const;                                         // Error unless finite
 
   std::string name_;
   Vector error_, drift_, velocity_des_, acceleration_des_, lower_, upper_;
   Matrix jacobian_;
-  double max_speed_ = 1.5;  // of angles [rad/s]
+  double max_speed_ = 1.5;         // of angles [rad/s]
   Vector weights_, speed_shares_;  // (m)
 
  private:

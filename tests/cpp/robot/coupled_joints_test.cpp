@@ -25,10 +25,9 @@ std::string chain(const std::string& equality, const std::string& actuators) {
 }
 
 TEST(CoupledJoints, AMimicJointMovesWithItsLeader) {
-  Robot robot(load_model_text(
-      chain(R"(<joint joint1="b" joint2="a" polycoef="0.1 -0.5 0 0 0"/>
+  Robot robot(load_model_text(chain(R"(<joint joint1="b" joint2="a" polycoef="0.1 -0.5 0 0 0"/>
                <joint joint1="c" joint2="b" polycoef="0 2 0 0 0"/>)",
-            R"(<motor joint="a"/><motor joint="c"/><motor joint="d"/>)")));
+                                    R"(<motor joint="a"/><motor joint="c"/><motor joint="d"/>)")));
   ASSERT_EQ(robot.coordinate_names(), (std::vector<std::string>{"a", "d"}));
   robot.set_configuration(Vector{{0.4, 0.3}});
   EXPECT_TRUE(near(robot.qpos(), Vector{{0.4, 0.1 - 0.2, 2.0 * (0.1 - 0.2), 0.3}}, 1e-15));
@@ -48,18 +47,18 @@ TEST(CoupledJoints, AMimicJointMovesWithItsLeader) {
 }
 
 TEST(CoupledJoints, AnActuatorOnTheJointThatFollowsLeads) {
-  Robot robot(load_model_text(
-      chain(R"(<joint joint1="b" joint2="a" polycoef="0.1 -0.5 0 0 0"/>)", R"(<motor joint="b"/>)")));
+  Robot robot(load_model_text(chain(R"(<joint joint1="b" joint2="a" polycoef="0.1 -0.5 0 0 0"/>)",
+                                    R"(<motor joint="b"/>)")));
   ASSERT_EQ(robot.coordinate_names(), std::vector<std::string>{"b"});
   robot.set_configuration(Vector{{-0.3}});
   EXPECT_NEAR(robot.qpos()[0], 0.8, 1e-15);  // b = 0.1 - 0.5 a
 }
 
 TEST(CoupledJoints, WhatIsHeldAndWhatIsNotKeptIsNamed) {
-  const Robot robot(load_model_text(
-      chain(R"(<joint name="curve" joint1="b" joint2="a" polycoef="0 1 0.3 0 0"/>
+  const Robot robot(
+      load_model_text(chain(R"(<joint name="curve" joint1="b" joint2="a" polycoef="0 1 0.3 0 0"/>
                <connect name="loop" body1="l4" body2="l1" anchor="0 0 0"/>)",
-            R"(<motor joint="a"/><motor joint="b"/>)")));
+                            R"(<motor joint="a"/><motor joint="b"/>)")));
   const std::string text = left_out(robot);
   EXPECT_TRUE(contains(text, "2 joints")) << text;
   EXPECT_TRUE(contains(text, "c, d")) << text;
