@@ -1,6 +1,6 @@
 """Any robot, all by default: a table of the robots that installed packages ship.
 
-Run:  python benchmarks/robots.py [--way 0.3] [--seeds 2] [--dt 0.005] [--only panda] [--out table.md]
+Run:  python benchmarks/robots.py [--way 0.3] [--seeds 2] [--dt 0.005] [--only panda] [--out FILE]
 
 For each model: does it load; its coordinates, and the joints that are left out; then the stack
 `limits < hand < posture` for 5 s, all else by default, from the first posture to the hand of a

@@ -84,6 +84,7 @@ def controller_of(
         )
         return hurcules.AccelerationController(robot, options)
     law = "thesis" if by == "thesis" else "arrive"
+    gain = min(gain, 1.0 / dt)  # more is refused
     options = hurcules.VelocityControllerOptions(dt=dt, gain=gain, law=law)
     return hurcules.VelocityController(robot, options)
 
