@@ -26,8 +26,8 @@ names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples e
 joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
 that an equality constraint of the model couples linearly (mimic joints) are one. All others are held.
 It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
-Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round,
-and, unless `joints` are given, of joints that are held and constraints that are not kept.
+Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
+which joints are held and which constraints are not kept.
 A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
 Args:
@@ -90,6 +90,13 @@ Args:
 constexpr const char* kMassMatrix =
     "(n, n) [kg m^2]: joint-space inertia of the coordinates with armature, base held.";
 
+constexpr const char* kLeftOut =
+    R"(str: joints of the robot that are held, and constraints that the coordinates do not keep.
+
+Constraints are connect, weld, tendon, and joints coupled by a curve. '' where there is neither, or
+where the model says by tuples what its coordinates are.
+)";
+
 using FrameJacobian = void (Robot::*)(Frame, MatrixRef) const;
 
 template <FrameJacobian jacobian>
@@ -118,7 +125,6 @@ using Names = std::vector<std::string>;
 std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints) {
   auto robot = std::make_unique<Robot>(std::move(model), joints.value_or(Names{}));
   warn(implausible_ranges(*robot));
-  if (!joints) warn(left_out(*robot));
   return robot;
 }
 
@@ -192,6 +198,7 @@ void bind_state(py::class_<Robot>& robot) {
 
 void bind_kinematics(py::class_<Robot>& robot) {
   const py::arg frame("frame");
+  robot.def_property_readonly("left_out", &left_out, kLeftOut);
   robot.def("position", by_name(&Robot::position), frame, kPosition)
       .def("orientation", by_name(&Robot::orientation), frame, kOrientation)
       .def("view_orientation", by_name(&Robot::view_orientation), frame, kViewOrientation)

@@ -1,4 +1,4 @@
-// What a robot leaves as it is although it could move: for a warning.
+// What a robot leaves as it is although it could move.
 #pragma once
 
 #include <string>
