@@ -70,6 +70,7 @@ NO_INIT = "def __init__(self, *args: object, **kwargs: object) -> None: ..."
 # what a bare container holds
 BARE = {
     "dict": "dict[str, Any]",
+    "collections.abc.Callable": "collections.abc.Callable[..., Any]",
     "list": "list[Any]",
     "tuple": "tuple[Any, ...]",
     "os.PathLike": "os.PathLike[str]",

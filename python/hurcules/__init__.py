@@ -189,6 +189,7 @@ __all__ = [
     "PositionTask",
     "PostureKey",
     "PoseTask",
+    "PositionTask",
     "PostureTask",
     "PowerMeter",
     "Quantities",

@@ -364,7 +364,7 @@ class Solver:
         """number of unknowns"""
 
 class DrivenJoint:
-    """One joint of a coordinate: its position = factor * coordinate."""
+    """One joint of a coordinate: its position = factor * coordinate + offset."""
 
     @property
     def actuator(self) -> int:
@@ -379,6 +379,10 @@ class DrivenJoint:
     @property
     def joint(self) -> int:
         """joint id of the model"""
+
+    @property
+    def offset(self) -> float:
+        """[rad] or [m]"""
 
     @property
     def qpos(self) -> int:
@@ -419,9 +423,11 @@ class Robot:
 
     The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
     names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
-    joint that has an actuator is a coordinate, and without actuators every hinge or slide joint.
+    joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
+    that an equality constraint of the model couples linearly (mimic joints) are one. All others are held.
     It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
-    Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round.
+    Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
+    which joints are held and which constraints are not kept.
     A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
     Args:
@@ -523,6 +529,13 @@ class Robot:
         """list of Coordinate, n of them"""
 
     @property
+    def left_out(self) -> str:
+        """str: joints of the robot that are held, and constraints that the coordinates do not keep.
+
+        Constraints are connect, weld, tendon, and joints coupled by a curve. '' where there is neither, or
+        where the model says by tuples what its coordinates are."""
+
+    @property
     def qpos(self) -> NDArray[np.float64]:
         """(nq,)"""
 
@@ -598,6 +611,20 @@ class Task:
     def restore(self, state: collections.abc.Sequence[float]) -> None:
         """Goes on from what state() gave."""
 
+    @overload
+    def set_gain(self, gain: float) -> None:
+        """Rate at which errors of this task vanish, instead of the controller's.
+
+        Args:
+          gain: [1/s], positive; one number, or one a row (m,)."""
+
+    @overload
+    def set_gain(self, gain: ArrayLike) -> None:
+        """Rate at which errors of this task vanish, instead of the controller's.
+
+        Args:
+          gain: [1/s], positive; one number, or one a row (m,)."""
+
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
         """The interval that the error shall be in: (m,) each, -inf or inf for no side."""
 
@@ -610,6 +637,12 @@ class Task:
 
         Args:
           speed: [unit/s], positive."""
+
+    def set_weights(self, weights: ArrayLike) -> None:
+        """What each row counts beside the others of its level where they cannot all be met.
+
+        Args:
+          weights: (m,), by default 1; 0 for a row that asks for nothing."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -626,6 +659,10 @@ class Task:
     @property
     def error(self) -> NDArray[np.float64]:
         """e (m,)"""
+
+    @property
+    def is_limit(self) -> bool:
+        """controllers brake before its interval as before joint limits"""
 
     @property
     def jacobian(self) -> NDArray[np.float64]:
@@ -651,6 +688,10 @@ class Task:
 
     @property
     def velocity_des(self) -> NDArray[np.float64]:
+        """(m,)"""
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
         """(m,)"""
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
@@ -690,6 +731,9 @@ class JointLimits(Task):
     def reset_ranges(self) -> None:
         """The ranges of the robot again."""
 
+    def set_max_velocities(self, limits: ArrayLike) -> None:
+        """Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none."""
+
     def set_max_velocity(self, coordinate: str, limit: float) -> None:
         """Speed limit of one coordinate [rad/s] or [m/s], above 0."""
 
@@ -699,6 +743,37 @@ class JointLimits(Task):
     @property
     def max_velocity(self) -> NDArray[np.float64]:
         """(n,) [rad/s]"""
+
+class DampingTask(Task):
+    """Coordinates at rest: e = 0 (m,), 0 = qdot.
+
+    Takes up what other tasks leave without pulling anywhere; advance asks for another velocity.
+
+    Args:
+      name, robot: see JointLimits.
+      coordinates: their names; none means all."""
+
+    def __init__(
+        self, name: str, robot: Robot, coordinates: collections.abc.Sequence[str] = []
+    ) -> None: ...
+
+class CustomTask(ValueTask):
+    """A task whose value a Python function measures.
+
+    Slower than the others by what Python takes. A copy of a controller shares the function.
+
+    Args:
+      name, robot: see JointLimits.
+      rows: m.
+      measure: called with the robot; returns value (m,) and Jacobian (m, n), or these and drift (m,),
+        which is Jdot qdot.
+
+    Raises:
+      Error: rows below 1, or what came back has another shape."""
+
+    def __init__(
+        self, name: str, robot: Robot, rows: int, measure: collections.abc.Callable[..., Any]
+    ) -> None: ...
 
 class PostureTask(ValueTask):
     """Coordinates at chosen positions [rad] or [m] (m,).
@@ -742,6 +817,48 @@ class CenterOfMassTask(PointTask):
     def __init__(
         self, name: str, robot: Robot, reference: str = "", axes: ArrayLike = ...
     ) -> None: ...
+
+class PoseTask(Task):
+    """The pose of a frame at a target pose: position and orientation.
+
+    e = [p - p_des; log(R R_des^T)] [m], [rad] (6,) in the axes of the reference; advance takes [m/s] and
+    [rad/s] (6,) in these axes. Turns are three times as fast [rad/s] as max_speed [m/s].
+
+    Args:
+      name, robot, frame, reference: see PositionTask."""
+
+    def __init__(self, name: str, robot: Robot, frame: str, reference: str = "") -> None: ...
+    def set_target(self, position: ArrayLike, orientation: ArrayLike | None = None) -> None:
+        """Sets the target, at rest; seen at the next update.
+
+        Args:
+          position: (3,) [m].
+          orientation: (3, 3) rotation; None keeps the one that it has."""
+
+    @property
+    def orientation(self) -> NDArray[np.float64]:
+        """R_RF (3, 3)"""
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """p_RF (3,) [m]"""
+
+    @property
+    def target_orientation(self) -> NDArray[np.float64]:
+        """(3, 3)"""
+
+    @property
+    def target_position(self) -> NDArray[np.float64]:
+        """(3,) [m]"""
+
+class RelativePoseTask(PoseTask):
+    """The pose of a frame in another frame of the robot: a PoseTask whose reference moves too.
+
+    Args:
+      name, robot, frame: see PositionTask.
+      reference: frame of the robot."""
+
+    def __init__(self, name: str, robot: Robot, frame: str, reference: str) -> None: ...
 
 class OrientationTask(Task):
     """The orientation of a frame at a target orientation.

@@ -86,8 +86,8 @@ TEST_F(Notes, NameTheTaskAboveThatTakesTheDirections) {
   hand_.set_target(Vector{{0.5, 0.5}});
   const std::vector<LevelNote> notes = settle(limits_ < hand_ < posture_);
   ASSERT_EQ(notes[2].shorts.size(), 1U);
-  EXPECT_EQ(notes[2].shorts[0].held_by, std::vector<std::string>{"tasks above (hand)"});
-  EXPECT_TRUE(contains(notes[2].shorts[0].text(), " rad short, held by tasks above (hand)"));
+  EXPECT_EQ(notes[2].shorts[0].held_by, std::vector<std::string>{"tasks above (left hand)"});
+  EXPECT_TRUE(contains(notes[2].shorts[0].text(), " rad short, held by tasks above (left hand)"));
 }
 
 TEST_F(Notes, TellHowNearTheStretchedArmIsToSingularity) {
