@@ -66,6 +66,7 @@ class Reach(Environment):
         angle: float | None = None,
         sparse: bool = False,
         rate: float = 20.0,
+        safe: bool = True,
     ) -> None:
         """Builds robot, controller and loop.
 
@@ -79,6 +80,8 @@ class Reach(Environment):
             angle: [rad] of each hand; None: hands may turn as they like.
             sparse: reward without the distance.
             rate: steps a second [Hz].
+            safe: before the hands come distances of the robot from itself and the ground, and its
+                balance; False leaves only the limits.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
@@ -90,7 +93,7 @@ class Reach(Environment):
         self.postures = sample_postures(robot, frames, joints)
         self.tolerance, self.angle, self.sparse, self.rate = tolerance, angle, sparse, rate
         self._names = [f"hand_{i}" for i in range(len(self.setup.hands))]
-        self._build(fidelity, action, tick_of(fidelity, rate))
+        self._build(fidelity, action, tick_of(fidelity, rate), safe)
         h = len(self._names)
         self._size = 3 if angle is None else 7  # of a hand in the goal
         self.goal = self._size * h
@@ -178,7 +181,7 @@ class Reach(Environment):
         for goal in episodes.memory["goal"][i].reshape(-1, self._size):
             add_ball(scene, goal[:3], max(self.tolerance, 0.02), (0.1, 0.8, 0.2, 0.7))
 
-    def _build(self, fidelity: str, action: str, tick: float) -> None:
+    def _build(self, fidelity: str, action: str, tick: float, safe: bool) -> None:
         setup, plan = self.setup, self.setup.robot()
         plan.set_qpos(self.postures.qpos[0])
         hands = [
@@ -186,19 +189,20 @@ class Reach(Environment):
             for name, frame in zip(self._names, setup.hands, strict=True)
         ]
         posture = hurcules.PostureTask("posture", plan)
+        first: list[Any] = [setup.limits(plan), *(setup.safety(plan) if safe else [])]
         if action == "joint":
             channels = {"joints": joint_channel(posture, plan)}
-            levels: list[Any] = [setup.limits(plan), posture, hands]
+            levels = [*first, posture, hands]
         else:
             channels = {hand.name: channel_of(action, hand) for hand in hands}
-            levels = [setup.limits(plan), hands, posture]
+            levels = [*first, hands, posture]
             if self.angle is not None:
                 turns = [
                     hurcules.OrientationTask(f"{name}_turn", plan, frame)
                     for name, frame in zip(self._names, setup.hands, strict=True)
                 ]
                 channels |= {turn.name: channel_of(action, turn, turns=True) for turn in turns}
-                levels.insert(2, turns)
+                levels.insert(-1, turns)
         self.actions = {name: scale for name, (_, scale) in channels.items()}
         controller = hurcules.WholeBodyController(
             plan,
@@ -260,6 +264,9 @@ class ReachPrecise(Reach):
         angle: float = 0.1,
         sparse: bool = False,
         rate: float = 20.0,
+        safe: bool = True,
     ) -> None:
         """See `Reach`."""
-        super().__init__(fidelity, action, robot, frames, joints, tolerance, angle, sparse, rate)
+        super().__init__(
+            fidelity, action, robot, frames, joints, tolerance, angle, sparse, rate, safe
+        )

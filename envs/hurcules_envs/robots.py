@@ -63,6 +63,16 @@ class RobotSetup:
             robot.stand_on(self.support)
         return robot
 
+    def safety(self, robot: hurcules.Robot) -> list[Any]:
+        """The levels after the limits: away from itself and the ground, then within its support."""
+        levels: list[Any] = [[hurcules.self_collision(robot), hurcules.obstacles(robot)]]
+        if self.support:
+            polygon = _support_polygon(self, robot)
+            levels.append(
+                hurcules.BalanceTask("balance", robot, polygon, STANDS, reference=self.support)
+            )
+        return levels
+
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""
         limits = hurcules.JointLimits("limits", robot)
@@ -208,6 +218,18 @@ def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Arr
         lower.append(low)
         upper.append(max(low, high))
     return np.array(lower), np.array(upper)
+
+
+def _support_polygon(setup: RobotSetup, robot: hurcules.Robot) -> Array:
+    """(4, 2) [m] around the contacts of its tracks at its keyframe, in the axes of its support."""
+    still, data = setup.robot(), mujoco.MjData(setup.model)
+    data.qpos[:] = still.qpos
+    mujoco.mj_kinematics(setup.model, data)
+    mujoco.mj_collision(setup.model, data)
+    R, p = still.orientation(setup.support), still.position(setup.support)
+    feet = np.array([R.T @ (contact.pos - p) for contact in data.contact])
+    (x, y, _), (far_x, far_y, _) = feet.min(axis=0), feet.max(axis=0)
+    return np.array([[x, y], [far_x, y], [far_x, far_y], [x, far_y]])
 
 
 def _stands_free(model: mujoco.MjModel, data: mujoco.MjData, robot: hurcules.Robot) -> bool:
