@@ -183,13 +183,14 @@ class Reach(Environment):
 
     def _build(self, fidelity: str, action: str, tick: float, safe: bool) -> None:
         setup, plan = self.setup, self.setup.robot()
+        # what is near by construction is seen where it stands at first
+        first: list[Any] = [setup.limits(plan), *(setup.safety(plan) if safe else [])]
         plan.set_qpos(self.postures.qpos[0])
         hands = [
             hurcules.PositionTask(name, plan, frame)
             for name, frame in zip(self._names, setup.hands, strict=True)
         ]
         posture = hurcules.PostureTask("posture", plan)
-        first: list[Any] = [setup.limits(plan), *(setup.safety(plan) if safe else [])]
         if action == "joint":
             channels = {"joints": joint_channel(posture, plan)}
             levels = [*first, posture, hands]
@@ -211,6 +212,7 @@ class Reach(Environment):
             dt=tick,
             support=setup.support,
             servo=setup.servo,
+            velocity=hurcules.VelocityControllerOptions(max_acceleration=setup.max_acceleration),
             torque_scaling=fidelity != "kinematic",
         )
         physics = fidelity != "kinematic"

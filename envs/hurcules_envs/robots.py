@@ -27,6 +27,12 @@ POOL_SEED = 20261123
 # [rad] how far Hurcules' postures are from its keyframe at most
 NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
 ARM = 1.0
+STANDS = 0.10  # [m] of the centre of mass within the contacts
+# [m] kept between parts: the lower arms of the rescue robot hang in springs that give by 0.08 rad,
+# which no encoder of a motor sees
+APART = {"rescue": 0.10, "manipulation": 0.03}
+LOOK = 0.10  # [m] beyond that, pairs do not count
+SMOOTH = 5.0  # [rad/s^2] which keeps these springs from swinging
 
 
 @dataclass(frozen=True)
@@ -42,6 +48,7 @@ class RobotSetup:
         support: body that it stands on, "" for a fixed base.
         servo: see hurcules.servo_table; {}: reckoned from the model.
         ranges: by coordinate, narrower than the model's.
+        max_acceleration: of its coordinates [rad/s^2].
         drives: its tracks drive it.
     """
 
@@ -53,6 +60,7 @@ class RobotSetup:
     support: str = ""
     servo: dict[str, tuple[float, float]] = field(default_factory=dict)
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
+    max_acceleration: float = 20.0
     drives: bool = False
 
     def robot(self) -> hurcules.Robot:
@@ -65,13 +73,18 @@ class RobotSetup:
 
     def safety(self, robot: hurcules.Robot) -> list[Any]:
         """The levels after the limits: away from itself and the ground, then within its support."""
-        levels: list[Any] = [[hurcules.self_collision(robot), hurcules.obstacles(robot)]]
+        levels: list[Any] = [[self.apart(robot), hurcules.obstacles(robot)]]
         if self.support:
             polygon = _support_polygon(self, robot)
             levels.append(
                 hurcules.BalanceTask("balance", robot, polygon, STANDS, reference=self.support)
             )
         return levels
+
+    def apart(self, robot: hurcules.Robot) -> hurcules.DistanceTask:
+        """Parts of the robot keep away from each other; `robot` stands at the keyframe."""
+        margin = APART.get(self.name, 0.02)
+        return hurcules.self_collision(robot, margin=margin, most=margin + LOOK)
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""
@@ -148,6 +161,7 @@ def _hurcules(name: str) -> RobotSetup:
         support="lower_leg_L",
         servo=hurcules.servo_table(name),
         ranges=ranges if name == "rescue" else {},
+        max_acceleration=SMOOTH,
         drives=True,
     )
 
@@ -183,6 +197,7 @@ def sample_postures(
 def _sample(setup: RobotSetup, least: float) -> Postures:
     generator = np.random.default_rng(POOL_SEED)
     robot, data = setup.robot(), mujoco.MjData(setup.model)
+    apart = setup.apart(robot)
     first = robot.configuration.copy()
     lower, upper = _ranges(setup, robot, first)
     qpos, hands, turns = [], [], []
@@ -193,6 +208,9 @@ def _sample(setup: RobotSetup, least: float) -> Postures:
             continue
         data.qpos[:] = robot.qpos
         if not _stands_free(setup.model, data, robot):
+            continue
+        apart.update(robot)
+        if (apart.error < apart.lower).any():
             continue
         qpos.append(robot.qpos.copy())
         hands.append(places)
@@ -252,7 +270,6 @@ def _stands_free(model: mujoco.MjModel, data: mujoco.MjData, robot: hurcules.Rob
     return bool((com > low).all() and (com < high).all())
 
 
-STANDS = 0.10  # [m] of the centre of mass within the contacts
 
 
 def _rotation_vector(R: Array) -> Array:

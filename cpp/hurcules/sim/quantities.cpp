@@ -153,6 +153,7 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     const Recorder& recorder =
         kind == Kind::Observation ? simulation.observation() : simulation.log();
     found.kind = kind;
+    found.measured = group == "task_error";
     found.places = channels_of(recorder, name);
     found.size = static_cast<Index>(found.places.size());
     if (found.size > 0) return found;
@@ -219,8 +220,9 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
     }
     case Kind::Observation:
     case Kind::Log: {
-      const Recorder& recorder =
-          quantity.kind == Kind::Observation ? simulation.observation() : simulation.log();
+      const Recorder& recorder = quantity.kind == Kind::Observation
+                                     ? simulation.observation(quantity.measured)
+                                     : simulation.log();
       for (Index i = 0; i < quantity.size; ++i) {
         out[i] =
             recorder.now(static_cast<std::size_t>(quantity.places[static_cast<std::size_t>(i)]));

@@ -58,6 +58,7 @@ class Quantities {
     Frame frame;
     std::vector<Index> places;  // channels, addresses or number of the task
     int source = 0;             // of Data: 0 qpos, 1 qvel, 2 sensordata
+    bool measured = false;      // of Observation: an error of a task
   };
   [[nodiscard]] static Quantity find(const Simulation& simulation, const std::string& name);
   static void read(const Quantity& quantity, const Simulation& simulation, VectorRef out);

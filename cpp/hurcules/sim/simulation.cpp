@@ -114,6 +114,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
     planned_tasks_.push_back(task);
     measured_.push_back(task->clone());
     measured_tasks_.push_back(measured_.back().get());
+    fresh_.push_back(false);
   }
   monitors_.add_log_channels(record_.log);
   sensors_.add_log_channels(record_.log);
@@ -212,6 +213,7 @@ void Simulation::sense() {
   seen_qpos_ = std::as_const(plant_).qpos();
   seen_qvel_ = std::as_const(plant_).qvel();
   world_.set_qpos(seen_qpos_);
+  std::fill(fresh_.begin(), fresh_.end(), false);
   if (seen_) {
     sensors_.overwrite(seen_qpos_, seen_qvel_);
     seen_->set_qpos(seen_qpos_);
@@ -327,16 +329,32 @@ void Simulation::observe() {
   if (!plant_.is_sound()) return;
   if (!options_.physics) mj_kinematics(plant_.model(), plant_.data());
   sense();
-  measure_world();
 }
 
 // the tasks at the real robot, with the targets that they have now
-void Simulation::measure_world() {
-  for (std::size_t i = 0; i < measured_.size(); ++i) {
-    copy_memory(*planned_tasks_[i], *measured_[i], task_state_);
-    measured_[i]->update(world_);
-  }
+void Simulation::measure_world() const {
+  for (std::size_t i = 0; i < measured_.size(); ++i) (void)measured_task(i);
   record_.note_measured(*controller_, measured_tasks_);
+}
+
+const Task& Simulation::measured_task(std::size_t number) const {
+  Task& task = *measured_[number];
+  if (!fresh_[number]) {
+    copy_memory(*planned_tasks_[number], task, task_state_);
+    task.update(world_);
+    fresh_[number] = true;
+  }
+  return task;
+}
+
+const Telemetry& Simulation::telemetry() const {
+  if (plant_.is_sound()) measure_world();
+  return record_.telemetry;
+}
+
+const Recorder& Simulation::observation(bool measured) const {
+  if (measured && plant_.is_sound()) measure_world();
+  return record_.observation;
 }
 
 void Simulation::end(Ending ending, double time) {

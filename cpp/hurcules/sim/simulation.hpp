@@ -89,11 +89,12 @@ class Simulation {
   void restore(const std::vector<double>& values);
 
   [[nodiscard]] const std::vector<std::string>& levels() const { return record_.names().levels; }
-  [[nodiscard]] const Telemetry& telemetry() const { return record_.telemetry; }
+  [[nodiscard]] const Telemetry& telemetry() const;
   [[nodiscard]] const Recorder& log() const { return record_.log; }
   [[nodiscard]] const Recorder& timings() const { return record_.timings; }  // [s] a stage and tick
   // what a policy sees now: its channels and snapshot()
-  [[nodiscard]] const Recorder& observation() const { return record_.observation; }
+  // (measured: the errors of the tasks too)
+  [[nodiscard]] const Recorder& observation(bool measured = true) const;
   [[nodiscard]] const LimitWatch& limits() const { return limit_watch_; }
   [[nodiscard]] const EventList& events() const { return record_.events; }
   [[nodiscard]] std::string text(const Event& event) const {
@@ -103,7 +104,7 @@ class Simulation {
   [[nodiscard]] const Plant& plant() const { return plant_; }
   [[nodiscard]] const Robot& world() const { return world_; }  // the robot as it is
   // a task of the controller, by its number, measured at the robot as it is
-  [[nodiscard]] const Task& measured_task(std::size_t number) const { return *measured_[number]; }
+  [[nodiscard]] const Task& measured_task(std::size_t number) const;
   [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] WholeBodyController& controller() { return *controller_; }
   [[nodiscard]] const WholeBodyController& controller() const { return *controller_; }
@@ -129,7 +130,7 @@ class Simulation {
   void read(const std::vector<double>& values);
   [[nodiscard]] RobotState sensed();
   [[nodiscard]] const Robot& seen() const { return seen_ ? *seen_ : world_; }
-  void measure_world();
+  void measure_world() const;
   void observe();
   void end(Ending ending, double time);
 
@@ -146,14 +147,16 @@ class Simulation {
   Monitors monitors_;
   LimitWatch limit_watch_;
   FallWatch fall_watch_;
-  RunRecord record_;
-  std::vector<std::unique_ptr<Task>> measured_;  // the controller's tasks, at the real robot
+  // What is measured at the real robot is measured when somebody looks: the next three change then.
+  mutable RunRecord record_;
+  mutable std::vector<std::unique_ptr<Task>> measured_;  // the controller's tasks, there
+  mutable std::vector<bool> fresh_;                      // of them: as it stands now
   std::vector<const Task*> planned_tasks_, measured_tasks_;
-  std::vector<double> task_state_;  // scratch
-  Vector initial_qpos_;             // (nq)
-  Vector seen_qpos_, seen_qvel_;    // (nq), (nv) as sensed
-  Vector wished_;                   // [rad] (n) q* if the motors had held it
-  SensorWatch::Finding finding_;    // why it is held
+  mutable std::vector<double> task_state_;  // scratch
+  Vector initial_qpos_;                     // (nq)
+  Vector seen_qpos_, seen_qvel_;            // (nq), (nv) as sensed
+  Vector wished_;                           // [rad] (n) q* if the motors had held it
+  SensorWatch::Finding finding_;            // why it is held
   std::int64_t held_ticks_ = 0;
   Frame support_;
   std::optional<Frame> fall_frame_, target_;
