@@ -84,7 +84,7 @@ class RobotSetup:
     def apart(self, robot: hurcules.Robot) -> hurcules.DistanceTask:
         """Parts of the robot keep away from each other; `robot` stands at the keyframe."""
         margin = APART.get(self.name, 0.02)
-        return hurcules.self_collision(robot, margin=margin, most=margin + LOOK)
+        return hurcules.self_collision(robot, margin=margin, most=margin + LOOK, postures=2000)
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""
