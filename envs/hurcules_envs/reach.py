@@ -39,13 +39,12 @@ class Reach(Environment):
     | "pose"  | 2.0   | reference in the world [m]                            |
     | "joint" |       | velocity of each coordinate's reference [rad/s], (n,) |
 
-    Observation: Dict. `observation` of shape (9 h,), and `achieved_goal`, `desired_goal` (3 h,).
+    Observation: Dict. `observation` of shape (6 h,), and `achieved_goal`, `desired_goal` (3 h,).
 
     | group    | size | unit | bound | what it is               |
     |----------|------|------|-------|--------------------------|
     | hand     | 3 h  | m    | 5     | hands in the world       |
     | velocity | 3 h  | m/s  | 5     | their velocities         |
-    | lead     | 3 h  | m    | 1     | references minus hands   |
 
     Reward: `distance`, minus the mean distance d of the hands [m]; `nearness`, the mean of
     1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance. Success: they were
@@ -99,14 +98,13 @@ class Reach(Environment):
         self.goal = self._size * h
         self.memory = {"goal": self.goal, "held": 1, "done": 1}
         self.quantities = tuple(
-            [f"{what}/{name}" for what in ("value", "target") for name in self._names]
+            [f"value/{name}" for name in self._names]
             + [f"velocity/{frame}" for frame in self.setup.hands]
             + [f"rotation/{frame}" for frame in self.setup.hands]
         )
         self.observation = (
             Group("hand", 3 * h, "m", 5.0, "hands in the world"),
             Group("velocity", 3 * h, "m/s", 5.0, "their velocities"),
-            Group("lead", 3 * h, "m", 1.0, "references minus hands"),
         )
 
     def start(self, generator: np.random.Generator) -> Start:
@@ -126,11 +124,10 @@ class Reach(Environment):
         numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
-        """Hands, velocities, leads; the goals stand beside them."""
+        """Hands and velocities; the goals stand beside them."""
         hand = numbers.row(*(f"value/{name}" for name in self._names))
-        target = numbers.row(*(f"target/{name}" for name in self._names))
         velocity = numbers.row(*(f"velocity/{frame}" for frame in self.setup.hands))
-        return {"hand": hand, "velocity": velocity, "lead": target - hand}
+        return {"hand": hand, "velocity": velocity}
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""
