@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mujoco
@@ -20,6 +20,7 @@ __all__ = ["Reach", "ReachPrecise"]
 
 HOLD = 0.5  # [s] at the goal
 NEAR = 0.1  # [m] over which nearness grows
+EFFORT = 0.1
 TURN = 0.3  # [m/rad] what an angle counts in the reward
 
 
@@ -39,20 +40,20 @@ class Reach(Environment):
     | "pose"  | 2.0   | reference in the world [m]                            |
     | "joint" |       | velocity of each coordinate's reference [rad/s], (n,) |
 
-    Observation: Dict. `observation` of shape (6 h,), and `achieved_goal`, `desired_goal` (3 h,).
+    Observation: Dict. `observation` of shape (3 h,), and `achieved_goal`, `desired_goal` (3 h,).
 
     | group    | size | unit | bound | what it is               |
     |----------|------|------|-------|--------------------------|
     | hand     | 3 h  | m    | 5     | hands in the world       |
-    | velocity | 3 h  | m/s  | 5     | their velocities         |
 
     Reward: `distance`, minus the mean distance d of the hands [m]; `nearness`, the mean of
-    1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance. Success: they were
-    so for half a second. Nothing ends the episode but a fall.
+    1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance; `effort`, minus
+    0.1 times the mean square of the action. Success: they were at their goals for half a second.
+    Nothing ends the episode but a fall.
     """
 
     task_description = "Bring each hand to its goal and hold it there."
-    terms = ("distance", "nearness", "success")
+    terms = ("distance", "nearness", "success", "effort")
 
     def __init__(
         self,
@@ -99,13 +100,9 @@ class Reach(Environment):
         self.memory = {"goal": self.goal, "held": 1, "done": 1}
         self.quantities = tuple(
             [f"value/{name}" for name in self._names]
-            + [f"velocity/{frame}" for frame in self.setup.hands]
             + [f"rotation/{frame}" for frame in self.setup.hands]
         )
-        self.observation = (
-            Group("hand", 3 * h, "m", 5.0, "hands in the world"),
-            Group("velocity", 3 * h, "m/s", 5.0, "their velocities"),
-        )
+        self.observation = (Group("hand", 3 * h, "m", 5.0, "hands in the world"),)
 
     def start(self, generator: np.random.Generator) -> Start:
         """A posture to start from, another one whose hands are the goals."""
@@ -124,10 +121,8 @@ class Reach(Environment):
         numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
-        """Hands and velocities; the goals stand beside them."""
-        hand = numbers.row(*(f"value/{name}" for name in self._names))
-        velocity = numbers.row(*(f"velocity/{frame}" for frame in self.setup.hands))
-        return {"hand": hand, "velocity": velocity}
+        """The hands; the goals stand beside them."""
+        return {"hand": numbers.row(*(f"value/{name}" for name in self._names))}
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""
@@ -139,13 +134,16 @@ class Reach(Environment):
         return np.concatenate(parts, axis=1), numbers["goal"]
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
-        """Distance, nearness, and 1 for all hands within the tolerance."""
-        return self._terms(*self.goals(numbers))
+        """Distance, nearness, 1 for all hands within the tolerance, effort."""
+        effort = -EFFORT * np.einsum("ni,ni->n", numbers.action, numbers.action)
+        terms = self._terms(*self.goals(numbers))
+        return terms | {"effort": effort / numbers.action.shape[1]}
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
-        """The reward of other goals, any leading axes."""
+        """The reward of other goals, any leading axes; the effort is that of `info`."""
         terms = self._terms(np.asarray(achieved, float), np.asarray(desired, float))
-        reward = sum(terms.values())
+        known = info.get("reward_effort", 0.0) if isinstance(info, Mapping) else 0.0
+        reward = sum(terms.values()) + known
         return float(reward) if np.ndim(reward) == 0 else reward
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:

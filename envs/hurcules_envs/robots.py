@@ -270,8 +270,6 @@ def _stands_free(model: mujoco.MjModel, data: mujoco.MjData, robot: hurcules.Rob
     return bool((com > low).all() and (com < high).all())
 
 
-
-
 def _rotation_vector(R: Array) -> Array:
     quaternion, vector = np.zeros(4), np.zeros(3)
     mujoco.mju_mat2Quat(quaternion, R.reshape(9))

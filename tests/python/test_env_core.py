@@ -162,8 +162,9 @@ def test_the_reward_of_another_goal_agrees_with_that_of_the_step(name, options):
         observation, reward, _, _, info = vector.step(vector.action_space.sample())
     env = vector.environment
     goals = observation["achieved_goal"], observation["desired_goal"]
-    assert env.compute_reward(*goals, None) == pytest.approx(reward, abs=1e-6)
-    assert env.compute_reward(goals[0][1], goals[1][1], None) == pytest.approx(reward[1], abs=1e-6)
+    assert env.compute_reward(*goals, info) == pytest.approx(reward, abs=1e-6)
+    one = {"reward_effort": info["reward_effort"][1]}
+    assert env.compute_reward(goals[0][1], goals[1][1], one) == pytest.approx(reward[1], abs=1e-6)
     assert reward == pytest.approx(sum(info[f"reward_{term}"] for term in env.terms))
 
 
