@@ -299,3 +299,17 @@ def test_a_training_that_was_stopped_goes_on(tmp_path):
     )
     assert result.episodes == 4
     assert result.low <= result.success <= result.high
+
+
+def test_full_swings_of_both_hands_touch_nothing_and_pass_no_limit():
+    vector = gym.make_vec("Hurcules/Reach-v0", num_envs=4, fidelity="fast")
+    vector.reset(seed=3)
+    generator = np.random.default_rng(0)
+    for step in range(60):
+        if step % 10 == 0:
+            actions = generator.choice([-1.0, 1.0], vector.action_space.shape)
+        *_, info = vector.step(actions)
+        assert (info["self_contacts"] == 0).all()
+        assert (info["self_distance"] > 0.02).all()
+    assert info["commanded_excess"].max() == 0.0
+    assert info["limit_excess"].max() < 5e-3  # [rad], measured
