@@ -313,3 +313,20 @@ def test_full_swings_of_both_hands_touch_nothing_and_pass_no_limit():
         assert (info["self_distance"] > 0.02).all()
     assert info["commanded_excess"].max() == 0.0
     assert info["limit_excess"].max() < 5e-3  # [rad], measured
+
+
+@pytest.mark.parametrize("path", ["hurcules_envs.reach:Reach", "hurcules_envs.drive:Drive"])
+def test_the_table_of_the_observation_is_that_of_the_space(path):
+    environment = make_environment(path, FAST)
+    table = type(environment).__doc__.split("| group")[1].split("\n\n")[0].splitlines()[2:]
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in table]
+    hands = 2  # of Hurcules, `h` in the table
+    for row, group in zip(rows, environment.observation, strict=True):
+        size = int(row[1].removesuffix(" h")) * (hands if row[1].endswith(" h") else 1)
+        assert (row[0], size, row[2], float(row[3])) == (
+            group.name,
+            group.size,
+            group.unit,
+            group.bound,
+        )
+        assert row[4].strip() == group.text
