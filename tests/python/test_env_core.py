@@ -1,5 +1,7 @@
-"""Strategy: each registered environment that is written over arrays, in its fastest fidelity: what
-Gymnasium's checker wants, sameness of bits alone and side by side, resets, states, bad input."""
+"""Strategy: each registered environment that is written over arrays, in its fastest fidelity.
+
+What Gymnasium's checker wants, sameness of bits alone and side by side, resets, states, bad input.
+"""
 
 import json
 import pickle
