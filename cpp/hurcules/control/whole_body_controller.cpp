@@ -193,6 +193,12 @@ void WholeBodyController::reset(const Vector& qpos) {
   active_ = 0;
   moves_joints_ = scaled_ = false;
   hold_targets();
+  for (Task* const task : tasks_) {
+    auto* const force = dynamic_cast<ForceTask*>(task);
+    if (!force) continue;
+    force->reset(plan_);
+    force->set_force(force->options().force_des);
+  }
   for (const auto& law : laws_) law->reset();
   if (drive_) drive_->reset();
   last_qd_.setZero();

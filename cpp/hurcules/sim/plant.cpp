@@ -145,6 +145,8 @@ Eigen::Map<const Vector> Plant::qvel() const {
 void Plant::save(StateWriter& writer) const {
   mj_getState(model_.get(), data_.get(), state_.data(), kState);
   writer.put(state_);
+  // what force tasks read in the next tick
+  writer.put(Vector(Eigen::Map<const Vector>(data_->sensordata, model_->nsensordata)));
   writer.put(sound_ ? 1.0 : 0.0);
   brakes_.save(writer);
   drive_train_.save(writer);
@@ -153,6 +155,9 @@ void Plant::save(StateWriter& writer) const {
 void Plant::restore(StateReader& reader) {
   reader.get(state_);
   mj_setState(model_.get(), data_.get(), state_.data(), kState);
+  Vector sensors = Vector::Zero(model_->nsensordata);
+  reader.get(sensors);
+  std::copy(sensors.begin(), sensors.end(), data_->sensordata);
   sound_ = reader.get() > 0.0;
   brakes_.restore(reader);
   drive_train_.restore(reader);

@@ -115,6 +115,15 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.places = {std::find(tasks.begin(), tasks.end(), task) - tasks.begin()};
     return found;
   }
+  if (group == "force") {
+    const std::vector<Task*>& tasks = simulation.controller().tasks();
+    const Task* const task = &simulation.controller().task(rest);
+    require(dynamic_cast<const ForceTask*>(task) != nullptr,
+            "quantity '" + name + "': this task reads no force");
+    found.kind = Kind::Force;
+    found.places = {std::find(tasks.begin(), tasks.end(), task) - tasks.begin()};
+    return found;
+  }
   if (group == "joint" || group == "joint_velocity") {
     const int joint = find_object(m, mjOBJ_JOINT, m->njnt, "joint", rest);
     require(m->jnt_type[joint] == mjJNT_HINGE || m->jnt_type[joint] == mjJNT_SLIDE,
@@ -158,11 +167,12 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.size = static_cast<Index>(found.places.size());
     if (found.size > 0) return found;
   }
-  std::vector<std::string> known = {"position/FRAME", "rotation/FRAME", "matrix/FRAME",
-                                    "velocity/FRAME", "spin/FRAME",     "value/TASK",
-                                    "target/TASK",    "joint/JOINT",    "joint_velocity/JOINT",
-                                    "sensor/SENSOR",  "excess/KIND",    "commanded_excess/KIND",
-                                    "self_contacts",  "scaled",         "contact_force/BODY"};
+  std::vector<std::string> known = {"position/FRAME",        "rotation/FRAME", "matrix/FRAME",
+                                    "velocity/FRAME",        "spin/FRAME",     "value/TASK",
+                                    "target/TASK",           "force/TASK",     "joint/JOINT",
+                                    "joint_velocity/JOINT",  "sensor/SENSOR",  "excess/KIND",
+                                    "commanded_excess/KIND", "self_contacts",  "scaled",
+                                    "contact_force/BODY"};
   for (const Recorder* recorder : {&simulation.observation(), &simulation.log()}) {
     for (const std::string& channel : recorder->channels()) {
       const std::string word = channel.substr(0, channel.find('/'));
@@ -209,6 +219,11 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       const auto number = static_cast<std::size_t>(quantity.places.front());
       const auto& task = static_cast<const ValueTask&>(simulation.measured_task(number));
       out = quantity.kind == Kind::Value ? task.value() : task.target();
+      return;
+    }
+    case Kind::Force: {
+      const auto number = static_cast<std::size_t>(quantity.places.front());
+      out[0] = static_cast<const ForceTask&>(*simulation.controller().tasks()[number]).force();
       return;
     }
     case Kind::Data: {

@@ -85,7 +85,7 @@ ContactState ContactWatch::look(double reading, double position) {
 
 void ContactWatch::reset() {
   state_ = ContactState::Free;
-  force_ = quiet_ = missing_ = 0.0;
+  force_ = quiet_ = missing_ = changed_at_ = 0.0;
 }
 
 void ContactWatch::save(StateWriter& writer) const {

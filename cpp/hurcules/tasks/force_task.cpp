@@ -138,7 +138,7 @@ void ForceTask::update(const Robot& robot) {
 
 void ForceTask::hold(const Robot& robot) {
   ValueTask::hold(robot);
-  motion_ = wish_ = offset_ = rate_ = 0.0;
+  motion_ = wish_ = offset_ = rate_ = last_ = 0.0;
   age_ = options_.blend;
   sensed_ = false;
 }
