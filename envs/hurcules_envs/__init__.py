@@ -14,6 +14,10 @@ _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
     "Hurcules/ReachJoint-v0": ("hurcules_envs.reach:Reach", 100, {"action": "joint"}),
     "Hurcules/ReachPrecise-v0": ("hurcules_envs.reach:ReachPrecise", 150, {}),
     "Hurcules/Drive-v0": ("hurcules_envs.drive:Drive", 300, {}),
+    "Hurcules/Press-v0": ("hurcules_envs.press:Press", 300, {}),
+    "Hurcules/Valve-v0": ("hurcules_envs.valve:Valve", 200, {}),
+    "Hurcules/Door-v0": ("hurcules_envs.door:Door", 240, {}),
+    "Hurcules/Carry-v0": ("hurcules_envs.carry:Carry", 300, {}),
 }
 
 ENVIRONMENTS = ("Hurcules/Stretch-v0", *_ENVIRONMENTS)

@@ -1,0 +1,130 @@
+"""What the environments of contact share: fidelity, models that differ between episodes, marks."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules import mjcf
+from hurcules_envs.environment import Array, Environment, Numbers, tick_of
+
+__all__ = [
+    "ContactEnvironment",
+    "add_force_sensor",
+    "box_mark",
+    "contact_tick",
+    "euler_quat",
+    "view",
+]
+
+
+def contact_tick(fidelity: str, rate: float) -> float:
+    """Control tick [s] of an environment that lives from forces.
+
+    Args:
+        fidelity: "exact" (1 ms) or "fast" (about 4 ms).
+        rate: steps of the policy a second [Hz].
+
+    Raises:
+        hurcules.Error: "kinematic", which has no forces; an unknown fidelity; a bad rate.
+    """
+    if fidelity == "kinematic":
+        raise hurcules.Error(
+            "fidelity 'kinematic' has no physics, so nothing would be touched here: "
+            "wanted 'exact' or 'fast'"
+        )
+    return tick_of(fidelity, rate, ("exact", "fast"))
+
+
+class ContactEnvironment(Environment):
+    """An environment whose scene is built from parts and differs between episodes."""
+
+    @abstractmethod
+    def scene(self) -> mujoco.MjSpec:
+        """Robot and things, with all that is only seen."""
+
+    def compiled(self, tick: float) -> mujoco.MjModel:
+        """The scene as it is simulated: without visuals, steps of the physics of `tick` [s]."""
+        model = mjcf.compile(mjcf.without_visuals(self.scene()))
+        model.opt.timestep = tick
+        return model
+
+    def visual_model(self) -> mujoco.MjModel:
+        """The scene as it is drawn."""
+        return mjcf.compile(self.scene())
+
+    def pictured(self, episodes: Any, i: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """The scene with the parameters of episode i."""
+        if self._drawn is None:
+            model = self.visual_model()
+            self._drawn = model, mujoco.MjData(model)
+        memory = episodes.memory
+        self.configure(self._drawn[0], {name: memory[name][i] for name in self.parameters})
+        return super().pictured(episodes, i)
+
+    def ended(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Success ends an episode."""
+        return self.succeeded(numbers)
+
+    @abstractmethod
+    def expert(self, numbers: Numbers) -> Array:
+        """The action (n, k) of a script that knows what the observation says, and no more."""
+
+
+def add_force_sensor(spec: mujoco.MjSpec, name: str, body: str) -> None:
+    """Feels all contacts of a body and of what hangs on it.
+
+    Its rows: how many, then the force (3) [N] on what is touched, world axes.
+    """
+    sensor = spec.add_sensor(
+        name=name,
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        objtype=mujoco.mjtObj.mjOBJ_XBODY,
+        objname=body,
+    )
+    found, force = mujoco.mjtConDataField.mjCONDATA_FOUND, mujoco.mjtConDataField.mjCONDATA_FORCE
+    sensor.intprm[:3] = [(1 << int(found)) | (1 << int(force)), 3, 1]  # data, net force, one of it
+
+
+def euler_quat(roll: float, pitch: float, yaw: float) -> Array:
+    """(4) of turns about the fixed axes x, then y, then z [rad]."""
+    quat = np.zeros(4)
+    mujoco.mju_euler2Quat(quat, np.array([roll, pitch, yaw]), "XYZ")
+    return quat
+
+
+def view(
+    lookat: tuple[float, float, float], distance: float, azimuth: float, elevation: float
+) -> mujoco.MjvCamera:
+    """A free camera: [m], [m], [degrees], [degrees]."""
+    camera = mujoco.MjvCamera()
+    camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+    camera.lookat[:] = lookat
+    camera.distance, camera.azimuth, camera.elevation = distance, azimuth, elevation
+    return camera
+
+
+def box_mark(
+    scene: mujoco.MjvScene,
+    place: Array,
+    half: Array,
+    rotation: Array,
+    color: tuple[float, float, float, float],
+) -> None:
+    """Draws a box: centre [m], half sizes [m], rotation (3, 3); nothing where the scene is full."""
+    if scene.ngeom >= scene.maxgeom:
+        return
+    mujoco.mjv_initGeom(
+        scene.geoms[scene.ngeom],
+        mujoco.mjtGeom.mjGEOM_BOX,
+        np.asarray(half, float),
+        np.asarray(place, float),
+        np.asarray(rotation, float).ravel(),
+        np.array(color, np.float32),
+    )
+    scene.ngeom += 1

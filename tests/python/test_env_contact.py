@@ -1,0 +1,177 @@
+"""The environments of contact, in "fast" where that is enough.
+
+Gymnasium's checker, bits alone, side by side and after a state, tables against spaces, experts, bad
+input. That hold, constant and random actions do not solve them, and the experts over 40 seeds, is
+measured by benchmarks/contact_environments.py.
+"""
+
+import re
+import warnings
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from numpy.typing import NDArray
+
+import hurcules
+import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.registry import make_environment
+from hurcules_envs.single import SingleEnv
+
+CLASSES = {
+    name: f"hurcules_envs.{name.lower()}:{name}" for name in ("Press", "Valve", "Door", "Carry")
+}
+IDS = [f"Hurcules/{name}-v0" for name in CLASSES]
+FAST = {"fidelity": "fast"}
+
+
+def single(name: str, **options: Any) -> SingleEnv:
+    env = gym.make(name, **(FAST | options)).unwrapped
+    assert isinstance(env, SingleEnv)
+    return env
+
+
+def expert(env: SingleEnv) -> NDArray[np.float32]:
+    return env.environment.expert(env.numbers)[0].astype(np.float32)
+
+
+def rows(text: str) -> list[list[list[str]]]:
+    """The tables of a docstring, without their headings."""
+    tables: list[list[list[str]]] = []
+    inside = False
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not line.strip().startswith("|"):
+            inside = False
+        elif not inside:
+            inside = True
+            tables.append([])
+        elif not set(cells[0]) <= {"-"}:
+            tables[-1].append(cells)
+    return tables
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = gym.make(name, **FAST)
+        check_env(env.unwrapped, skip_render_check=True)
+        env.close()
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_the_tables_in_the_text_are_true(name: str) -> None:
+    env = single(name)
+    actions, observations, reward = rows(type(env.environment).__doc__ or "")
+    assert [row[1] for row in actions] == env.action_names
+    assert [float(row[2]) for row in actions] == env.action_scale.tolist()
+    place = 0
+    for row, group in zip(observations, env.environment.observation, strict=True):
+        first, _, last = row[0].partition("-")
+        assert (int(first), int(last or first) + 1) == (place, place + group.size)
+        assert (row[1], float(row[2]), row[3]) == (group.name, group.bound, group.unit)
+        place += group.size
+    assert env.observation_space.shape == (place,)
+    assert [row[0] for row in reward] == list(env.environment.terms)
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_the_expert_succeeds_and_the_terms_sum_to_the_reward(name: str) -> None:
+    env = single(name, fidelity="exact")
+    wanted = gym.spec(name).max_episode_steps or 0
+    env.reset(seed=100)
+    for _ in range(wanted):
+        _, reward, terminated, _, info = env.step(expert(env))
+        assert reward == sum(info[f"reward_{term}"] for term in env.environment.terms)
+        if terminated:
+            break
+    assert info["is_success"]
+    assert not info["failed"]
+    assert info["limit_excess"] < 0.01
+    assert info["reward_success"] == 10.0
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_three_side_by_side_have_the_bits_that_they_have_alone(name: str) -> None:
+    vector = gym.make_vec(name, num_envs=3, threads=2, **FAST)
+    singles = [single(name) for _ in range(3)]
+    together = vector.reset(seed=7)[0]
+    assert all(np.array_equal(e.reset(seed=7 + i)[0], together[i]) for i, e in enumerate(singles))
+    generator = np.random.default_rng(0)
+    for _ in range(15):
+        actions = generator.uniform(-1, 1, vector.action_space.shape).astype(np.float32)
+        seen, reward, *_ = vector.step(actions)
+        for i, env in enumerate(singles):
+            alone = env.step(actions[i])
+            assert np.array_equal(alone[0], seen[i])
+            assert alone[1] == reward[i]
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_a_state_goes_on_with_the_same_bits_in_another_environment(name: str) -> None:
+    one, other = single(name), single(name)
+    one.reset(seed=3)
+    other.reset(seed=4)
+    for _ in range(40):  # until it touches
+        one.step(expert(one))
+    other.set_state(one.get_state())
+    for _ in range(20):
+        action = expert(one)
+        first, second = one.step(action), other.step(action)
+        assert np.array_equal(first[0], second[0])
+        assert first[1:4] == second[1:4]
+        assert first[4] == second[4]
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_a_reset_leaves_nothing_of_the_episode_before(name: str) -> None:
+    env = single(name)
+    runs = []
+    for _ in range(2):
+        env.reset(seed=5)
+        runs.append([env.step(expert(env))[0] for _ in range(40)])
+    assert all(np.array_equal(one, other) for one, other in zip(*runs, strict=True))
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_what_is_drawn_is_told_and_differs(name: str) -> None:
+    env = single(name)
+    first, second = env.reset(seed=0)[1], env.reset(seed=1)[1]
+    drawn = {key for key in first if key in env.environment.memory and key != "angle"}
+    assert len(drawn) >= 2
+    assert all(first[key] != second[key] for key in drawn)
+
+
+@pytest.mark.parametrize("path", CLASSES.values())
+def test_bad_options_are_refused_with_what_was_wanted(path: str) -> None:
+    with pytest.raises(hurcules.Error, match=re.escape("has no physics")):
+        make_environment(path, {"fidelity": "kinematic"})
+    with pytest.raises(hurcules.Error, match="fidelity"):
+        make_environment(path, {"fidelity": "slow"})
+    with pytest.raises(hurcules.Error, match="10 to 100 Hz"):
+        make_environment(path, {"rate": 5.0})
+    with pytest.raises(hurcules.Error, match="option"):
+        make_environment(path, {"colour": "red"})
+
+
+@pytest.mark.parametrize("path", CLASSES.values())
+def test_sparse_rewards_say_nothing_on_the_way(path: str) -> None:
+    env = SingleEnv(path, sparse=True, **FAST)
+    env.reset(seed=0)
+    assert [env.step(np.zeros(env.action_space.shape, np.float32))[1] for _ in range(5)] == [0] * 5
+
+
+def test_the_reading_of_a_force_task_is_a_quantity() -> None:
+    env = single("Hurcules/Press-v0")
+    env.reset(seed=0)
+    quantity = hurcules.Quantities(env.simulation, ["force/down"])
+    before = env.simulation.read(quantity)[0]
+    for _ in range(60):
+        env.step(expert(env))
+    assert abs(before) < 2.5  # in the air: below what counts as contact
+    assert 5.0 < env.simulation.read(quantity)[0] < 60.0
+    with pytest.raises(hurcules.Error, match="this task reads no force"):
+        hurcules.Quantities(env.simulation, ["force/slide"])
