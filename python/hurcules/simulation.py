@@ -123,7 +123,8 @@ class Simulation(_core.Simulation):
         if controller is not None:
             self.mission = table.setup.name if table else None
             self.model = _model(model)
-            _warn_of_settings(self.model)
+            if physics:
+                _warn_of_settings(self.model)
             self.data = mujoco.MjData(self.model)
             if table is None:
                 super().__init__(self.model, self.data, controller, options)
