@@ -83,7 +83,8 @@ int main(int argc, char** argv) {
   MissionOptions options;
   options.clock = &wall;
   options.record = false;
-  MissionSimulation simulation(load_model(HURCULES_MODELS "/scenes/stretch.xml"), "stretch", options);
+  MissionSimulation simulation(load_model(HURCULES_MODELS "/scenes/stretch.xml"), "stretch",
+                               options);
   const Samples samples = run(simulation, seconds);
   std::vector<double> solve, chain;
   compare_with_chain(samples.hierarchies, simulation.controller().law().solution().x.size(), solve,
