@@ -220,5 +220,5 @@ def test_pairs_that_are_far_cost_little() -> None:
     apart = hurcules.self_collision(robot, margin=0.01, most=0.028)
     assert len(apart.pairs(robot)) > 100
     assert apart.near(robot) == []
-    # measured 1.3; what else runs here adds to both
+    # what else runs here adds to both
     assert tick(robot, [apart, *usual]) < 1.5 * tick(robot, usual)
