@@ -32,6 +32,7 @@ CHANNELS = (
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
     ("yielding", "1 while the reference yields to more than the motors can hold, else 0"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
+    ("mission/Q", "quantity Q that the conditions of the mission's phases read, unit in its name"),
     ("monitor/M", "what monitor M saw, its unit in its name: self_collision_distance_m, ..."),
     ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
 )

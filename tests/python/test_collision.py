@@ -8,8 +8,6 @@ Not tested here: which pairs are found, and the rows (tests/cpp/tasks/distance_t
 
 from __future__ import annotations
 
-import time
-
 import mujoco
 import numpy as np
 import pytest
@@ -192,33 +190,10 @@ def test_hurcules_does_not_clap_its_hands() -> None:
     assert 0.02 - 1e-3 < least < 0.03
 
 
-def tick(robot: hurcules.Robot, tasks: list[hurcules.Task | hurcules.StackLevel]) -> float:
-    """[s] of one tick, of this thread, the least of several rounds."""
-    controller = hurcules.VelocityController(robot)
-    controller.set_stack(hurcules.Stack(tasks))
-    best = np.inf
-    for _ in range(12):
-        start = time.thread_time()
-        for _ in range(300):
-            controller.compute(robot)
-        best = min(best, (time.thread_time() - start) / 300)
-    return best
-
-
-def test_pairs_that_are_far_cost_little() -> None:
+def test_pairs_that_are_far_are_no_rows() -> None:
     robot = hurcules.Robot(hurcules.models.load("manipulation"))
     robot.set_keyframe("ready")
     robot.stand_on("lower_leg_L")
-    hands = [hurcules.PositionTask(side, robot, f"{side}_tcp") for side in "LR"]
-    turns = [hurcules.OrientationTask(f"{side} turn", robot, f"{side}_tcp") for side in "LR"]
-    usual = [
-        hurcules.StackLevel("hands", hands),
-        hurcules.StackLevel("turns", turns),
-        hurcules.GazeTask("gaze", robot, "gaze"),
-        hurcules.PostureTask("posture", robot),
-    ]
     apart = hurcules.self_collision(robot, margin=0.01, most=0.028)
     assert len(apart.pairs(robot)) > 100
     assert apart.near(robot) == []
-    # what else runs here adds to both
-    assert tick(robot, [apart, *usual]) < 1.5 * tick(robot, usual)

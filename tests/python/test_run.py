@@ -81,11 +81,12 @@ def test_the_summary_has_the_thesis_beside_the_figures(summary: dict[str, Any]) 
     assert summary["figures"]["hip_locked_s"] is None  # not in so short a run
 
 
-def test_every_figure_of_the_mission_is_described() -> None:
+def test_every_figure_of_the_missions_is_described() -> None:
     from hurcules.figures import FIGURES
 
     battery = {"energy_J", "battery_share"}  # of every mission, added by the summary
-    assert set(hurcules.Simulation("stretch").figures()) == set(FIGURES) - battery
+    given = [hurcules.Simulation(mission).figures() for mission in ("stretch", "lift")]
+    assert set().union(*given) == set(FIGURES) - battery
 
 
 def test_the_log_holds_every_tick_of_every_documented_channel(result: tuple[Path, str]) -> None:
