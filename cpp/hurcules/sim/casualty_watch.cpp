@@ -15,7 +15,7 @@ namespace hurcules {
 namespace {
 
 // [N] largest quasi-static force of a contact, ISO/TS 15066 Annex A as widely reproduced
-// [test-methods#contact]
+// [test-methods#contact-limits]
 double limit_of(const std::string& region) {
   static const std::vector<std::pair<std::string, double>> table = {
       {"skull", 130.0},      {"face", 65.0},     {"neck", 150.0},  {"upper_back", 210.0},

@@ -3,7 +3,7 @@
 //
 // Taken from the physics itself; on a robot, load cells of the arms and a camera would tell it. An
 // arm that pushes somebody who lies is a contact, judged by its force; one that carries is a
-// support, judged by its pressure [test-methods#contact]: at more than kLying of the weight on the
+// support, judged by its pressure [test-methods#contact-limits]: at more than kLying of the weight on the
 // ground it counts as a contact.
 #pragma once
 
