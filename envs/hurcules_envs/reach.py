@@ -15,12 +15,14 @@ from hurcules_envs.drawing import add_ball
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of
 from hurcules_envs.robots import load_robot, sample_postures
 from hurcules_envs.rotations import angle_between, quaternion
+from hurcules_envs.springs import softest_spring
 
 __all__ = ["Reach", "ReachPrecise"]
 
 HOLD = 0.5  # [s] at the goal
 NEAR = 0.1  # [m] over which nearness grows
 EFFORT = 0.1
+STIFF = 60.0  # [rad/s] a spring of a higher frequency is not felt at the policy's rate
 TURN = 0.3  # [m/rad] what an angle counts in the reward
 
 
@@ -98,6 +100,9 @@ class Reach(Environment):
         self._size = 3 if angle is None else 7  # of a hand in the goal
         self.goal = self._size * h
         self.memory = {"goal": self.goal, "held": 1, "done": 1}
+        self._swings = self._free_swing(1.0 / rate) if fidelity == "kinematic" else None
+        if self._swings is not None:
+            self.memory |= dict.fromkeys(("plan", "plan_rate", "sway", "sway_rate"), 3 * h)
         self.quantities = tuple(
             [f"value/{name}" for name in self._names]
             + [f"rotation/{frame}" for frame in self.setup.hands]
@@ -111,10 +116,15 @@ class Reach(Environment):
         goal = postures.hands[second]
         if self.angle is not None:
             goal = np.concatenate([goal, quaternion(postures.turns[second])], axis=-1)
-        return Start(postures.qpos[first], {"goal": goal.ravel()})
+        memory = {"goal": goal.ravel()}
+        if self._swings is not None:
+            memory["plan"] = postures.hands[first].ravel()
+        return Start(postures.qpos[first], memory)
 
     def remember(self, numbers: Numbers) -> None:
-        """How long the hands have been at their goals."""
+        """How the hands swing, and how long they have been at their goals."""
+        if self._swings is not None:
+            self._swing(numbers, self._swings)
         distance, angle = self._errors(*self.goals(numbers))
         held = numbers.memory["held"]
         held[:, 0] = np.where(self._at_goal(distance, angle), held[:, 0] + numbers.dt, 0.0)
@@ -122,15 +132,16 @@ class Reach(Environment):
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """The hands; the goals stand beside them."""
-        return {"hand": numbers.row(*(f"value/{name}" for name in self._names))}
+        return {"hand": self._hands(numbers)}
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""
+        hands = self._hands(numbers)
+        if self.angle is None:
+            return hands, numbers["goal"]
         parts = []
-        for name, frame in zip(self._names, self.setup.hands, strict=True):
-            parts.append(numbers[f"value/{name}"])
-            if self.angle is not None:
-                parts.append(quaternion(numbers[f"rotation/{frame}"]))
+        for i, frame in enumerate(self.setup.hands):
+            parts += [hands[:, 3 * i : 3 * i + 3], quaternion(numbers[f"rotation/{frame}"])]
         return np.concatenate(parts, axis=1), numbers["goal"]
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
@@ -215,6 +226,34 @@ class Reach(Environment):
         self.simulation = hurcules.Simulation(
             model=model, controller=controller, record=False, physics=physics
         )
+
+    def _free_swing(self, dt: float) -> Array | None:
+        """Of the spring that hands hang in, see `springs`; None: there is none to be felt."""
+        model, data = self.setup.model, mujoco.MjData(self.setup.model)
+        data.qpos[:] = self.setup.robot().qpos
+        mujoco.mj_forward(model, data)
+        spring = softest_spring(model, data)
+        return None if spring is None or spring.frequency > STIFF else spring.free(dt)
+
+    def _swing(self, numbers: Numbers, free: Array) -> None:
+        """Carries the deflections on by a step, at whose start the plan changed its velocity."""
+        memory = numbers.memory
+        plan = self._planned(numbers)
+        rate = (plan - memory["plan"]) / numbers.dt
+        sway, sway_rate = memory["sway"], memory["sway_rate"] - (rate - memory["plan_rate"])
+        memory["sway"][:], memory["sway_rate"][:] = (
+            free[0, 0] * sway + free[0, 1] * sway_rate,
+            free[1, 0] * sway + free[1, 1] * sway_rate,
+        )
+        memory["plan"][:], memory["plan_rate"][:] = plan, rate
+
+    def _planned(self, numbers: Numbers) -> Array:
+        return numbers.row(*(f"value/{name}" for name in self._names))
+
+    def _hands(self, numbers: Numbers) -> Array:
+        """(n, 3 h) [m] where the hands are; without physics, where springs let them be."""
+        planned = self._planned(numbers)
+        return planned if self._swings is None else planned + numbers["sway"]
 
     def _terms(self, achieved: Array, desired: Array) -> dict[str, Array]:
         distance, angle = self._errors(achieved, desired)

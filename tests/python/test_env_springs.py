@@ -1,0 +1,60 @@
+"""Hands that hang in springs swing without physics as they do in it.
+
+Strategy: the oscillator against small steps of its equation; hands that are fed back at a gain
+below and above the one where the springs of the rescue robot begin to swing for ever, measured in
+the physics and without it. Strong motors on stiff springs do not swing.
+"""
+
+import gymnasium as gym
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.robots import load_robot
+from hurcules_envs.springs import Spring, softest_spring
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.27, 3.0])
+def test_a_deflection_decays_as_its_equation_says(damping):
+    spring = Spring(18.0, damping)
+    free, steps = spring.free(0.05), 20_000
+    for start in ([1.0, 0.0], [0.0, 1.0]):
+        e, rate = start
+        for _ in range(steps):
+            rate -= 0.05 / steps * (2 * damping * 18.0 * rate + 18.0**2 * e)
+            e += 0.05 / steps * rate
+        np.testing.assert_allclose(free @ start, [e, rate], rtol=1e-3, atol=1e-3)
+
+
+def test_the_spring_is_that_of_the_model():
+    found = {}
+    for name in ("rescue", "manipulation"):
+        setup = load_robot(name)
+        data = mujoco.MjData(setup.model)
+        data.qpos[:] = setup.robot().qpos
+        mujoco.mj_forward(setup.model, data)
+        found[name] = softest_spring(setup.model, data)
+    # lower arm and scoop about the elbow: 11.5 kg at 0.30 m, 0.5 kg m^2 about its centre
+    assert found["rescue"].frequency == pytest.approx(
+        np.sqrt(500 / (11.5 * 0.3**2 + 0.5)), rel=0.02
+    )
+    assert found["manipulation"].frequency > 100.0
+
+
+@pytest.mark.parametrize("fidelity", ["kinematic", "fast"])
+def test_hands_settle_at_a_moderate_gain_and_swing_at_a_high_one(fidelity):
+    errors = {}
+    for gain in (4.0, 12.0):
+        env = gym.make_vec("Hurcules/Reach-v0", num_envs=8, fidelity=fidelity)
+        observation, _ = env.reset(seed=5)
+        late = []
+        for step in range(80):
+            way = observation["desired_goal"] - observation["achieved_goal"]
+            observation, *_ = env.step(np.clip(gain * way / 0.3, -1, 1).astype(np.float32))
+            if step >= 60:
+                late.append(np.abs(way).max(axis=1))
+        errors[gain] = np.median(late)
+        env.close()
+    assert errors[4.0] < 0.01
+    assert errors[12.0] > 0.03
