@@ -1,4 +1,6 @@
-"""Draws docs/gallery/*.jpg: both robots from four sides in each keyframe, bed, tracks, contacts.
+"""Draws docs/gallery/*.jpg, both robots from four sides, and models/assets/*.png.
+
+The gallery: each keyframe, bed, tracks, contacts. The other four stand in models/README.md.
 
 Run:  python benchmarks/figures/gallery.py [NAME ...]    a minute; needs an OpenGL without a window
 """
@@ -10,6 +12,7 @@ import mujoco
 import numpy as np
 from PIL import Image, ImageDraw
 
+import hurcules
 from hurcules import models, transfer_bed
 from hurcules.rendering import open_renderer
 
@@ -21,6 +24,8 @@ SIZE = (400, 400)
 SIDES = {"front": 180, "left": -90, "rear": 0, "right": 90}  # azimuth of the view [degrees]
 HEIGHT = {"drive": 0.80, "ready": 0.92, "carry": 0.92}  # [m] that the cameras look at
 CONTACTS = 3  # geom group
+ASSETS = Path(__file__).parents[2] / "models" / "assets"
+ONE = (800, 500)  # [pixels] of a picture of models/README.md
 
 HEAD = """# The robots in pictures
 
@@ -120,6 +125,32 @@ def tracks():
     return np.concatenate(tiles, axis=1)
 
 
+def single(model, data, at, distance):
+    """One picture, from ahead and the robot's left."""
+    with open_renderer(model, *ONE) as renderer:
+        renderer.update_scene(data, look(at, distance, 222, -12))
+        return renderer.render()
+
+
+def casualty_ahead():
+    """The start of the mission stretch."""
+    simulation = hurcules.Simulation("stretch", 0, record=False)
+    simulation.step(1)  # lights are where they are after a step
+    return single(simulation.model, simulation.data, (0.95, 0.25, 0.4), 4.3)
+
+
+def models_page():
+    """Name -> the function that draws a picture of models/README.md."""
+    return {
+        "rescue_drive": lambda: single(*posed("rescue", "drive"), (0.0, 0, 0.85), 2.7),
+        "rescue_ready": lambda: single(*posed("rescue", "ready"), (0.1, 0, 0.88), 3.3),
+        "manipulation_acquisition": lambda: single(
+            *posed("manipulation", "acquisition"), (0.3, 0, 0.6), 3.0
+        ),
+        "stretch": casualty_ahead,
+    }
+
+
 def keyframes(robot):
     """Names of the keyframes, each posture once."""
     model = models.load(robot)
@@ -144,7 +175,13 @@ def main(names):
     """Draws the pictures of these names, all without one, and writes the page."""
     FOLDER.mkdir(exist_ok=True)
     found = pictures()
+    for name, draw in models_page().items():
+        if not names or name in names:
+            Image.fromarray(draw()).save(ASSETS / f"{name}.png", optimize=True)
+            print(ASSETS / f"{name}.png")
     for name in names or found:
+        if name not in found:
+            continue
         image = Image.fromarray(found[name][1]())
         image.save(FOLDER / f"{name}.jpg", quality=80, optimize=True)
         print(FOLDER / f"{name}.jpg", f"{(FOLDER / f'{name}.jpg').stat().st_size / 1e3:.0f} kB")
