@@ -78,6 +78,8 @@ def test_every_link_and_command_in_a_page_leads_to_a_file(root: Path) -> None:
 
 
 def test_the_pictures_are_small(root: Path) -> None:
-    pictures = [path for path in (root / "docs").iterdir() if path.suffix in {".png", ".gif"}]
+    kinds = {".png", ".jpg", ".gif"}
+    folders = (root / "docs", root / "models" / "assets")
+    pictures = [path for one in folders for path in one.rglob("*") if path.suffix in kinds]
     assert pictures
     assert [path.name for path in pictures if path.stat().st_size > 300_000] == []

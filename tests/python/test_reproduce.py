@@ -367,3 +367,50 @@ def test_the_page_of_claims_counts_what_it_shows(root: Path) -> None:
     assert f"112 claims: {told}.\n" in text
     fitted = [name for name, row in shown if "*fitted" in row]
     assert fitted == [name for name, claim in CLAIMS.items() if claim.fitted]
+
+
+def shown_as(one: Expected) -> str:
+    return re.escape(f"{one.what} ") + "[^;]*" + re.escape(f" ({claims_table.wanted(one)})")
+
+
+def test_the_page_of_claims_shows_the_criteria_of_the_list(root: Path) -> None:
+    text = (root / "docs" / "claims.md").read_text(encoding="utf-8").replace("\\|", "|")
+    lost = []
+    for name, claim in CLAIMS.items():
+        says = (
+            f"| {name} | {claim.statement} | {claim.source} | {', '.join(claim.solvers) or '-'} |"
+        )
+        row = next((line for line in text.splitlines() if line.startswith(says)), None)
+        if row is None:
+            lost.append(f"{name}: {says}")
+        elif name in measured():
+            lost += [
+                f"{name}: {one.what}"
+                for one in claim.expected.values()
+                if not re.search(shown_as(one), row)
+            ]
+    assert lost == []
+
+
+def test_every_page_that_counts_claims_agrees_with_the_table(root: Path) -> None:
+    table = (root / "docs" / "claims.md").read_text(encoding="utf-8")
+    head = re.search(r"^112 claims: (.*)\.$", table, re.MULTILINE)
+    assert head
+    counts = {str(verdict): 0 for verdict in Verdict}
+    for count, verdict in re.findall(r"(\d+) ([a-z ]+)", head[1]):
+        counts[verdict] = int(count)
+    wanted = (
+        f"{len(CLAIMS)} claims: {counts['holds']} hold, {counts['holds in part']} in part, "
+        f"{counts['holds with another number']} with another number, "
+        f"{counts['does not hold']} do not, {counts['pending']} are not measured yet"
+    )
+    told = {}
+    for page_of in (root / "README.md", *sorted((root / "docs").rglob("*.md"))):
+        text = re.sub(r"\s+", " ", page_of.read_text(encoding="utf-8"))
+        if found := re.findall(r"\d+ claims: \d+ hold, .*? not measured yet", text):
+            told[page_of.name] = found
+    assert "README.md" in told
+    assert {name: set(found) for name, found in told.items()} == {name: {wanted} for name in told}
+    korean = (root / "README.ko.md").read_text(encoding="utf-8")
+    found = re.search(r"주장 (\d+)개 가운데 (\d+)개", korean)
+    assert found and [int(one) for one in found.groups()] == [len(CLAIMS), counts["holds"]]

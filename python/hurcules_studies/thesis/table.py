@@ -14,7 +14,7 @@ from hurcules_studies.thesis.claims import CLAIMS, LETTERS
 from hurcules_studies.thesis.judge import interval, shown
 from hurcules_studies.thesis.result import Result
 
-__all__ = ["write"]
+__all__ = ["wanted", "write"]
 
 HEAD = """# The claims of the thesis, measured
 
@@ -67,7 +67,7 @@ def write(path: Path, results: Mapping[str, Result]) -> None:
 
 def _row(claim: Claim, result: Result) -> str:
     numbers = "; ".join(
-        f"{one.what} {shown(result.finding.values[name], one.unit)} ({_wanted(one)})"
+        f"{one.what} {shown(result.finding.values[name], one.unit)} ({wanted(one)})"
         for name, one in claim.expected.items()
         if name in result.finding.values
     )
@@ -79,5 +79,6 @@ def _row(claim: Claim, result: Result) -> str:
     return " | ".join(cell.replace("|", "\\|") for cell in cells)
 
 
-def _wanted(one: Expected) -> str:
+def wanted(one: Expected) -> str:
+    """Where a number must lie, and what was fitted to bring it there."""
     return interval(one) + (f", *fitted: {one.fitted}*" if one.fitted else "")

@@ -306,10 +306,6 @@ FORCE = (
             "above": least(
                 "edges of the tips 27 mm above the ground (45 mm at the middle of the blade)",
                 0.8,
-                ours=(0.5, 0.8),
-                why="the wedges pass under the round of the trunk before they push; higher they "
-                "push more, 50 mm above the ground 0.94, lower less: 10 mm above it, "
-                "without any contact, 0.25",
             ),
             "pressing": most("tips pressing with 5 N", 0.25),
             "deeper": least("what is left for going under, with over without", 1.5),

@@ -233,7 +233,14 @@ HARDWARE = (
         "Look and move: from an object's pose to a grasp by itself. A case of 30 kg at six places; "
         "RHQP plans, the physics follows, the fingers close, friction holds.",
         {
-            "lifted": exactly("cases grasped and lifted, of 6", 6),
+            "lifted": exactly(
+                "cases grasped and lifted, of 6",
+                6,
+                ours=(5, 5),
+                why="at the third place the fingertips press on the lid of the case while they "
+                "close, and its friction holds them: with `impratio` 1 or 10 they crept along it "
+                "to the handle and the case was lifted, with 100 nothing creeps",
+            ),
             # half the stroke of a finger
             "missed": most("largest distance of hand and handle before it closes", 0.025, "m"),
             "collisions": exactly("geoms of the robot that met", 0),
