@@ -52,11 +52,11 @@ class Machine:
         names = {"log": self.folder / "calls", "locks": self.folder / "locks"}
         self.program("apt-get", APT.format(outcome=outcome, **names))
 
-    def check(self, **environment: str) -> tuple[int, str]:
+    def check(self, python: str = sys.executable, **environment: str) -> tuple[int, str]:
         """Exit code of `.ci/machine check`, and what it said."""
         clean = {k: v for k, v in os.environ.items() if k not in ("CI", "YES", "CXX")}
         done = subprocess.run(
-            [self.folder / ".ci" / "machine", "check", sys.executable],
+            [self.folder / ".ci" / "machine", "check", python],
             env=clean | {"PATH": f"{self.bin}:{os.environ['PATH']}", **environment},
             cwd=self.folder,
             stdin=subprocess.DEVNULL,
@@ -88,6 +88,16 @@ def test_ci_and_yes_install_what_is_missing(machine: Machine, yes: dict[str, str
     code, said = machine.check(**yes)
     assert code == 0, said
     assert any("install" in call and "g++" in call for call in machine.calls())
+
+
+def test_a_machine_without_python_gets_all_at_once(machine: Machine) -> None:
+    machine.program("ldconfig", "#!/bin/bash\n")  # no library either
+    machine.apt(f"touch compiler; ln -sf {sys.executable} {machine.bin}/python3.99")
+    code, said = machine.check("python3.99", CI="true")
+    assert code == 0, said
+    (call,) = [call for call in machine.calls() if "install" in call]
+    for package in ("g++", "python3", "python3-venv", "python3-dev", "libegl1"):
+        assert package in call.split()
 
 
 def test_a_locked_package_manager_is_waited_for(machine: Machine) -> None:
