@@ -1,6 +1,6 @@
 """Lifts many persons: masses, places, headings, frictions; one line of JSON a run.
 
-    python benchmarks/lift_sweep.py OUT.jsonl [--cells nominal,place,mass,friction] [--seeds 1]
+    python benchmarks/lift_sweep.py OUT.jsonl [--cells nominal,place,turned,mass,friction] [--seeds 1]
                                     [--workers 2]
 
 Each run is the mission `lift` in the physics, friction alone. A seed moves the person by up to 1 cm
@@ -45,6 +45,7 @@ def cells(kind: str) -> Iterator[Cell]:
                 (0.0, 0.0, -0.26),
             )
         ],
+        "turned": [{"yaw": 0.30}, {"yaw": -0.30}],
         "corner": [
             {"offset": (dx, dy), "yaw": yaw}
             for dx in (-0.10, 0.10)

@@ -100,6 +100,7 @@ Args:
   min_height: [m] of the pelvis above the support; below, the robot fell.
   max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
   casualty: what stands before the names of the person to watch, "" for nobody.
+  stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body.
 )";
 
 const std::vector<std::pair<std::string, ReactionKind>>& kinds() {
@@ -194,5 +195,5 @@ void bind_mission(py::module_& module) {
       {required("name", &MissionSetup::name), field("support", &MissionSetup::support),
        field("max_seconds", &MissionSetup::max_seconds),
        field("min_height", &MissionSetup::min_height), field("max_tilt", &MissionSetup::max_tilt),
-       field("casualty", &MissionSetup::casualty)});
+       field("casualty", &MissionSetup::casualty), field("stand_off", &MissionSetup::stand_off)});
 }

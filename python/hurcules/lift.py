@@ -39,7 +39,7 @@ SUPPORT = "lower_leg_L"
 # tips 5 cm above the ground, 1.80 m ahead of the knee axis, lower arms 0.12 rad below the level;
 # the head looks up, or it would meet the person where the trunk leans by more than 1.2 rad
 START = {"KN": 1.763, "HIP": 0.36, "NKP": -1.19, "SP": 1.9645, "EB": 1.2251}
-DISTANCE = 2.30  # [m] of the person's middle from the knee axis: tips clear of the nearer hand
+DISTANCE = 3.30  # [m] of the person's middle from the knee axis: 1 m for the approach
 SPRING = 1100.0  # [N/m] of the elbows' springs at the tips
 
 

@@ -120,7 +120,7 @@ class Mission:
         return "\n".join(lines) + "\n"
 
 
-_SETUP = ("name", "support", "max_seconds", "min_height", "max_tilt", "casualty")
+_SETUP = ("name", "support", "max_seconds", "min_height", "max_tilt", "casualty", "stand_off")
 _MEASURE = ("name", "quantity", "take", "phases", "least", "most")
 _PHASE = ("name", "stack", "seconds", "posture", "within")
 

@@ -85,7 +85,7 @@ void Mission::attach(const Plant& plant, Recorder& log) {
   log.add("mission/waiting", &waiting_);
   log.add("mission/force", force_names_, forces_);
   if (!setup_.casualty.empty()) {
-    casualty_ = std::make_unique<CasualtyWatch>(plant.model(), setup_.casualty);
+    casualty_ = std::make_unique<CasualtyWatch>(plant.model(), setup_.casualty, setup_.stand_off);
     casualty_->add_log_channels(log);
   }
   const auto find = [&log](const std::string& where, const std::string& quantity) {

@@ -37,6 +37,7 @@ struct MissionSetup {
   double max_tilt = 0.0;    // [rad] of the support against its start; above, the robot fell
   std::vector<ServoGains> servo = {};
   std::string casualty = "";  // prefix of the person's names in the model, "" for nobody to watch
+  double stand_off = 0.0;     // [m] of the robot's centre of mass from the person's, before contact
 };
 
 class Mission : public Supervisor {

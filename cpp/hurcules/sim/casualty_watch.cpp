@@ -49,16 +49,19 @@ Vector3 at(const mjtNum* values, int i) {
 }  // namespace
 
 const std::vector<std::string>& CasualtyWatch::names() {
-  static const std::vector<std::string> all = {
-      "on_ground",     "on_left_arm", "on_right_arm",  "on_rest",
-      "behind_tips_m", "aside_m",     "height_m",      "moved_m",
-      "sag_m",         "heading_rad", "push_n",        "neck_flexion_rad",
-      "neck_turn_rad", "head_mps2",   "contact_share", "support_n"};
+  static const std::vector<std::string> all = {"on_ground",   "on_left_arm",      "on_right_arm",
+                                               "on_rest",     "behind_tips_m",    "aside_m",
+                                               "height_m",    "moved_m",          "sag_m",
+                                               "heading_rad", "stand_ahead_m",    "stand_rad",
+                                               "push_n",      "neck_flexion_rad", "neck_turn_rad",
+                                               "head_mps2",   "contact_share",    "support_n"};
   return all;
 }
 
-CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix)
-    : region_of_(static_cast<std::size_t>(m->nbody), -1) {
+CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix, double stand_off)
+    : stand_off_(stand_off), region_of_(static_cast<std::size_t>(m->nbody), -1) {
+  require(stand_off_ >= 0.0 && std::isfinite(stand_off_),
+          "a watched casualty wants a stand-off >= 0, " + std::to_string(stand_off_) + " m came");
   pelvis_ = body_of(m, prefix + "pelvis");
   chest_ = body_of(m, prefix + "thorax");
   root_ = m->body_rootid[pelvis_];
@@ -132,6 +135,11 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
   values_[kSag] = at(d->xpos, chest_).z() - at(d->xpos, pelvis_).z();
   const Vector3 body = at(d->xpos, chest_) - at(d->xpos, pelvis_);
   values_[kHeading] = std::atan2(-body.dot(ahead), body.dot(aside));
+  const Vector3 along = Vector3(body.x(), body.y(), 0.0).normalized();
+  const Vector3 stand = centre - stand_off_ * along.cross(Vector3::UnitZ());
+  const Vector3 to_stand = stand - at(d->subtree_com, robot_);
+  values_[kStandAhead] = to_stand.dot(ahead);
+  values_[kStandBearing] = std::atan2(to_stand.dot(aside), to_stand.dot(ahead));
   if (flexion_ >= 0) values_[kNeckFlexion] = d->sensordata[flexion_];
   if (turn_ >= 0) values_[kNeckTurn] = d->sensordata[turn_];
   if (head_ >= 0) values_[kHead] = Eigen::Map<const Vector3>(d->sensordata + head_).norm();

@@ -1,5 +1,6 @@
 // What is seen of a person that the robot lifts: on what the weight rests, where the body's
-// centre lies on the arms, and what the arms press on each region of the body.
+// centre lies on the arms, what the arms press on each region of the body, and where the robot
+// would stand square to it.
 //
 // Taken from the physics itself; on a robot, load cells of the arms and a camera would tell it. An
 // arm that pushes somebody who lies is a contact, judged by its force; one that carries is a
@@ -22,7 +23,9 @@ class CasualtyWatch {
  public:
   static constexpr double kLying = 0.15;  // share of the weight
   // prefix of all names of the person; throws Error where the model has nobody of this name
-  CasualtyWatch(const mjModel_* model, const std::string& prefix);
+  // stand_off [m] >= 0: from the body's centre to the robot's where it stands square to the body,
+  // the head to its left
+  CasualtyWatch(const mjModel_* model, const std::string& prefix, double stand_off);
   void add_log_channels(Recorder& log) const;  // "casualty/NAME"
   // ways are counted from where the person lies at the first look after it
   void reset();
@@ -42,6 +45,8 @@ class CasualtyWatch {
     kMoved,         // [m] and from there along the ground
     kSag,           // [m] pelvis below (or above) the chest
     kHeading,       // [rad] of the body from pelvis to chest, 0: to the robot's left
+    kStandAhead,    // [m] the stand is ahead of the robot's centre of mass
+    kStandBearing,  // [rad] and to the left of its way
     kPush,          // [N] of the arms along the ground
     kNeckFlexion,   // [rad] negative: extension
     kNeckTurn,      // [rad]
@@ -58,6 +63,7 @@ class CasualtyWatch {
   int tips_[2] = {0, 0};                               // sites
   int flexion_ = -1, turn_ = -1, head_ = -1;           // rows of the sensors, -1: none
   double weight_ = 0.0;                                // [N]
+  double stand_off_ = 0.0;                             // [m]
   std::vector<int> region_of_;                         // (nbody), -1: none
   std::vector<std::string> regions_;
   Vector limits_;  // [N] (regions)
