@@ -1,7 +1,7 @@
 """Lifts many persons: masses, places, headings, frictions; one line of JSON a run.
 
-    python benchmarks/lift_sweep.py OUT.jsonl [--cells nominal,place,turned,mass,friction] [--seeds 1]
-                                    [--workers 2]
+    python benchmarks/lift_sweep.py OUT.jsonl [--cells nominal,place,turned,mass,friction]
+                                    [--seeds 1] [--workers 2]
 
 Each run is the mission `lift` in the physics, friction alone. A seed moves the person by up to 1 cm
 and 17 mrad, and each of the robot's joints by up to 0.7 mrad. Runs that OUT.jsonl already holds are

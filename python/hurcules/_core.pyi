@@ -2903,7 +2903,8 @@ class MissionSetup:
       max_seconds: [s] it fails when it takes longer.
       min_height: [m] of the pelvis above the support; below, the robot fell.
       max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
-      casualty: what stands before the names of the person to watch, "" for nobody."""
+      casualty: what stands before the names of the person to watch, "" for nobody.
+      stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     casualty: str
@@ -2922,6 +2923,7 @@ class MissionSetup:
         min_height: float = 0.0,
         max_tilt: float = 0.0,
         casualty: str = "",
+        stand_off: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -2936,6 +2938,10 @@ class MissionSetup:
     def min_height(self) -> float: ...
     @min_height.setter
     def min_height(self, arg0: float) -> None: ...
+    @property
+    def stand_off(self) -> float: ...
+    @stand_off.setter
+    def stand_off(self, arg0: float) -> None: ...
 
 class SensorModel:
     """How a sensor departs from the truth; all zero: not at all, to the last bit.

@@ -1,12 +1,14 @@
 """The mission `lift` in the physics: a limp person of 75 kg, friction alone, no weld.
 
 Strategy: one whole run with everything nominal, judged by what the person's body does in MuJoCo's
-data, beside what the mission says of itself. Other persons, places and frictions: the success map
+data, beside what the mission says of itself. The approach to a person who lies turned, up to the
+first contact, by geometry from MuJoCo's data. Other persons, places and frictions: the success map
 of docs/lift.md (benchmarks/lift_sweep.py), which takes an hour.
 """
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -60,6 +62,72 @@ def test_the_robot_stays_on_its_tracks_and_within_its_limits(run) -> None:
     assert simulation.limit_violation()["commanded"]["position_rad"] == 0.0
     assert simulation.figures()["static_margin_m"] > 0.05
     assert simulation.figures()["push_N"] < 500.0
+
+
+def seen_from_above(simulation: hurcules.Simulation) -> tuple[np.ndarray, ...]:
+    """The person's centre and the robot's [m]; its direction; the body, pelvis to chest [m]."""
+    model = simulation.model
+    data = mujoco.MjData(model)
+    data.qpos[:] = simulation.data.qpos
+    mujoco.mj_forward(model, data)
+    person, robot = (
+        data.subtree_com[model.body_rootid[model.body(name).id], :2]
+        for name in ("casualty_pelvis", "lower_leg_L")
+    )
+    heel, toe = (data.geom(f"L_lower_{end}").xpos[:2] for end in ("heel", "toe"))
+    body = data.body("casualty_thorax").xpos - data.body("casualty_pelvis").xpos
+    return person, robot, (toe - heel) / np.linalg.norm(toe - heel), body[:2]
+
+
+@pytest.mark.parametrize(("yaw", "offset"), [(0.30, (0.10, -0.15)), (-0.2, (0.0, 0.1))])
+def test_the_stand_is_square_before_the_person(yaw: float, offset: tuple[float, float]) -> None:
+    simulation = hurcules.Simulation(
+        "lift", variation=0.0, parameters={"yaw": yaw, "offset": offset}
+    )
+    simulation.step(20)
+    person, robot, ahead, _ = seen_from_above(simulation)
+    off = lift.mission().setup.stand_off
+    to_stand = person - off * np.array([np.cos(yaw), np.sin(yaw)]) - robot
+    bearing = np.arctan2(ahead[0] * to_stand[1] - ahead[1] * to_stand[0], ahead @ to_stand)
+    log = simulation.log()
+    assert log["casualty/stand_rad"][-1] == pytest.approx(bearing, abs=0.02)
+    assert log["casualty/stand_ahead_m"][-1] == pytest.approx(ahead @ to_stand, abs=0.01)
+    assert log["casualty/heading_rad"][-1] == pytest.approx(yaw, abs=0.02)
+
+
+@pytest.mark.slow
+def test_a_person_who_lies_turned_lies_square_before_he_is_touched() -> None:
+    simulation = hurcules.Simulation(
+        "lift", variation=0.0, parameters={"yaw": 0.30, "offset": (-0.10, -0.15)}
+    )
+    lay = seen_from_above(simulation)[0]
+    while simulation.phase != "press":
+        assert not simulation.finished, simulation.reason
+        simulation.step(20)
+    person, robot, ahead, body = seen_from_above(simulation)
+    way = person - robot
+    assert np.linalg.norm(person - lay) < 0.005  # not touched
+    assert abs(ahead @ body) / np.linalg.norm(body) < 0.06
+    assert abs(ahead[0] * way[1] - ahead[1] * way[0]) < 0.06  # the way goes to his centre
+    assert ahead @ way == pytest.approx(lift.mission().setup.stand_off, abs=0.04)
+
+
+@pytest.mark.parametrize("yaw", [0.4, -0.4])
+def test_a_heading_that_was_not_tried_is_refused(yaw: float) -> None:
+    simulation = hurcules.Simulation("lift", variation=0.0, parameters={"yaw": yaw})
+    while not simulation.finished:
+        simulation.step(100)
+    assert simulation.phase == "settle"
+    assert not simulation.success
+    assert "casualty/heading_rad" in simulation.reason
+
+
+def test_a_stand_off_below_zero_is_told() -> None:
+    wrong = lift.mission()
+    wrong.setup.stand_off = -1.0
+    model = lift.model(lift.Person())
+    with pytest.raises(Error, match="stand-off >= 0"):
+        hurcules.Simulation(model=model, controller=lift.controller(model), mission=wrong)
 
 
 def test_a_person_that_there_is_not_is_told() -> None:
