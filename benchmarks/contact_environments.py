@@ -19,7 +19,7 @@ from hurcules_envs.environment import Environment, Numbers
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.registry import make_environment
 
-NAMES = ("Press", "Valve", "Door", "Carry")
+NAMES = ("Press", "Valve", "Door", "Carry", "Lift")
 Policy = Callable[[Numbers], NDArray[np.float64]]
 
 

@@ -21,7 +21,8 @@ from hurcules_envs.registry import make_environment
 from hurcules_envs.single import SingleEnv
 
 CLASSES = {
-    name: f"hurcules_envs.{name.lower()}:{name}" for name in ("Press", "Valve", "Door", "Carry")
+    name: f"hurcules_envs.{name.lower()}:{name}"
+    for name in ("Press", "Valve", "Door", "Carry", "Lift")
 }
 IDS = [f"Hurcules/{name}-v0" for name in CLASSES]
 FAST = {"fidelity": "fast"}
