@@ -149,6 +149,7 @@ def test_a_step_shows_how_far_it_is_and_logs_the_rest(machine: Machine) -> None:
         ("c++: fatal error: Killed signal terminated program cc1plus", "make JOBS=1"),
         ("fatal error: cannot write: No space left on device", "The disk is full"),
         ("ERROR: No matching distribution found for numpy", "check the network"),
+        ("SSLError: [SSL: CERTIFICATE_VERIFY_FAILED]", "PIP_CERT"),
     ],
 )
 def test_a_failed_step_shows_cause_and_remedy(machine: Machine, output: str, says: str) -> None:
