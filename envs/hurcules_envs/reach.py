@@ -20,6 +20,7 @@ from hurcules_envs.springs import softest_spring
 __all__ = ["Reach", "ReachPrecise"]
 
 HOLD = 0.5  # [s] at the goal
+FAR = 1.2  # [m] a hand has to go at most: 4 s at full speed
 NEAR = 0.1  # [m] over which nearness grows
 EFFORT = 0.1
 STIFF = 60.0  # [rad/s] a spring of a higher frequency is not felt at the policy's rate
@@ -29,9 +30,10 @@ TURN = 0.3  # [m/rad] what an angle counts in the reward
 class Reach(Environment):
     """The hands reach goals that some posture without contact has.
 
-    All goals can be reached at once from where the robot stands. An action moves the references of
-    the hands; limits come before them, the posture gives way to them. Positions are in the world,
-    whose axes are x forward, y left, z up at the start. h is the number of hands, 2 for Hurcules.
+    All goals can be reached at once from where the robot stands, and are 1.2 m away at most. An
+    action moves the references of the hands; limits come before them, the posture gives way to
+    them. Positions are in the world, whose axes are x forward, y left, z up at the start. h is the
+    number of hands, 2 for Hurcules.
 
     Action: Box(-1, 1, (3 h,), float32), x, y, z of each hand. Zero holds.
 
@@ -43,6 +45,7 @@ class Reach(Environment):
     | "joint" |       | velocity of each coordinate's reference [rad/s], (n,) |
 
     Observation: Dict. `observation` of shape (3 h,), and `achieved_goal`, `desired_goal` (3 h,).
+    For the action "joint" the observation goes on with the n coordinates [rad].
 
     | group    | size | unit | bound | what it is               |
     |----------|------|------|-------|--------------------------|
@@ -108,11 +111,19 @@ class Reach(Environment):
             + [f"rotation/{frame}" for frame in self.setup.hands]
         )
         self.observation = (Group("hand", 3 * h, "m", 5.0, "hands in the world"),)
+        self._joints = action == "joint"  # who commands them wants to see them
+        if self._joints:
+            self.quantities += ("q",)
+            n = len(self.setup.joints)
+            self.observation += (Group("joint", n, "rad", 10.0, "coordinates"),)
 
     def start(self, generator: np.random.Generator) -> Start:
         """A posture to start from, another one whose hands are the goals."""
         postures = self.postures
-        first, second = generator.choice(len(postures.qpos), 2, replace=False)
+        first = generator.integers(len(postures.qpos))
+        ways = np.linalg.norm(postures.hands - postures.hands[first], axis=-1).max(axis=-1)
+        others = np.flatnonzero((ways <= FAR) & (np.arange(len(ways)) != first))
+        second = generator.choice(others) if len(others) else ways.argsort()[1]
         goal = postures.hands[second]
         if self.angle is not None:
             goal = np.concatenate([goal, quaternion(postures.turns[second])], axis=-1)
@@ -132,7 +143,8 @@ class Reach(Environment):
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """The hands; the goals stand beside them."""
-        return {"hand": self._hands(numbers)}
+        seen = {"hand": self._hands(numbers)}
+        return seen | {"joint": numbers["q"]} if self._joints else seen
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""
@@ -221,10 +233,11 @@ class Reach(Environment):
             velocity=hurcules.VelocityControllerOptions(max_acceleration=setup.max_acceleration),
             torque_scaling=fidelity != "kinematic",
         )
-        physics = fidelity != "kinematic"
-        model = hurcules.models.with_timestep(setup.model, tick) if physics else setup.model
         self.simulation = hurcules.Simulation(
-            model=model, controller=controller, record=False, physics=physics
+            model=hurcules.models.with_timestep(setup.model, tick),
+            controller=controller,
+            record=False,
+            physics=fidelity != "kinematic",
         )
 
     def _free_swing(self, dt: float) -> Array | None:

@@ -24,9 +24,10 @@ Array = NDArray[np.float64]
 
 POOL = 256  # postures that starts and goals are drawn from
 POOL_SEED = 20261123
-# [rad] how far Hurcules' postures are from its keyframe at most
+# [rad] how far postures are from the first one at most
 NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
 ARM = 1.0
+TRACK = 1  # contype of the tracks' geoms
 STANDS = 0.10  # [m] of the centre of mass within the contacts
 # [m] kept between parts: the lower arms of the rescue robot hang in springs that give by 0.08 rad,
 # which no encoder of a motor sees
@@ -44,7 +45,7 @@ class RobotSetup:
         model: robot and ground.
         hands: names of the frames that reach.
         joints: names of the coordinates.
-        keyframe: where it stands at first, "" for the model's initial posture.
+        keyframe: where it stands at first, "" for the model's initial posture within its limits.
         support: body that it stands on, "" for a fixed base.
         servo: see hurcules.servo_table; {}: reckoned from the model.
         ranges: by coordinate, narrower than the model's.
@@ -64,9 +65,14 @@ class RobotSetup:
     drives: bool = False
 
     def robot(self) -> hurcules.Robot:
-        """A Robot at its keyframe, standing on its support."""
+        """A Robot at its keyframe, standing on its support; without one, within its limits."""
         robot = hurcules.Robot(self.model, list(self.joints))
-        robot.set_keyframe(self.keyframe)
+        if self.keyframe:
+            robot.set_keyframe(self.keyframe)
+        else:
+            lower = [one.lower for one in robot.coordinates]
+            upper = [one.upper for one in robot.coordinates]
+            robot.set_configuration(np.clip(robot.configuration, lower, upper))
         if self.support:
             robot.stand_on(self.support)
         return robot
@@ -115,7 +121,7 @@ def load_robot(
     """Loads a robot by name or path.
 
     Args:
-        robot: "rescue", "manipulation", or the path of an MJCF file.
+        robot: "rescue", "manipulation", or the path of a model (MJCF, or MuJoCo's binary .mjb).
         frames: of a path: the frames of its hands, one or two.
         joints: of a path: its coordinates; None: see hurcules.Robot.
 
@@ -139,7 +145,9 @@ def _load(robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | 
             f"robot: {robot} wants frames=(...), the names of its one or two hands, got {frames!r}"
         )
     try:
-        model = mujoco.MjModel.from_xml_path(robot)
+        binary = Path(robot).suffix == ".mjb"
+        load = mujoco.MjModel.from_binary_path if binary else mujoco.MjModel.from_xml_path
+        model = load(robot)
     except ValueError as error:
         raise hurcules.Error(f"{robot}: {error}") from error
     own = hurcules.Robot(model, list(joints or []))
@@ -185,7 +193,7 @@ def sample_postures(
         robot: as for `load_robot`.
         frames: the same.
         joints: the same.
-        least_height: [m] of a hand over the ground.
+        least_height: [m] of a hand over the ground, where there is one.
 
     Raises:
         hurcules.Error: not enough of them are found.
@@ -198,16 +206,19 @@ def _sample(setup: RobotSetup, least: float) -> Postures:
     generator = np.random.default_rng(POOL_SEED)
     robot, data = setup.robot(), mujoco.MjData(setup.model)
     apart = setup.apart(robot)
+    data.qpos[:] = robot.qpos
+    ground = (setup.model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any()
+    always = _touching(setup, data)  # parts that touch by construction
     first = robot.configuration.copy()
     lower, upper = _ranges(setup, robot, first)
     qpos, hands, turns = [], [], []
     for _ in range(200 * POOL):
         robot.set_configuration(generator.uniform(lower, upper))
         places = [robot.position(frame) for frame in setup.hands]
-        if min(place[2] for place in places) < least:
+        if ground and min(place[2] for place in places) < least:
             continue
         data.qpos[:] = robot.qpos
-        if not _stands_free(setup.model, data, robot):
+        if _touching(setup, data) - always or not _stands(setup, data, robot):
             continue
         apart.update(robot)
         if (apart.error < apart.lower).any():
@@ -224,14 +235,15 @@ def _sample(setup: RobotSetup, least: float) -> Postures:
 
 
 def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Array, Array]:
-    """Between which angles a posture is drawn; legs and trunk stay near their keyframe."""
+    """Between which angles a posture is drawn: about the first one, legs and trunk nearest."""
     lower, upper = [], []
     for coordinate, value in zip(robot.coordinates, first, strict=True):
         low, high = setup.ranges.get(coordinate.name, (coordinate.lower, coordinate.upper))
         low, high = max(low, -np.pi, coordinate.lower), min(high, np.pi, coordinate.upper)
         margin = 0.05 * (high - low)
         low, high = low + margin, high - margin
-        reach = NEAR.get(coordinate.name, ARM) if setup.drives else np.pi
+        reach = NEAR.get(coordinate.name, ARM) if setup.drives else ARM
+        value = min(max(value, low), high)
         low, high = max(low, value - reach), min(high, value + reach)
         lower.append(low)
         upper.append(max(low, high))
@@ -250,24 +262,39 @@ def _support_polygon(setup: RobotSetup, robot: hurcules.Robot) -> Array:
     return np.array([[x, y], [far_x, y], [far_x, far_y], [x, far_y]])
 
 
-def _stands_free(model: mujoco.MjModel, data: mujoco.MjData, robot: hurcules.Robot) -> bool:
-    """Nothing of the robot touches but its tracks, and it stands within them."""
+def _touching(setup: RobotSetup, data: mujoco.MjData) -> set[tuple[int, int]]:
+    """Pairs of bodies that touch at `data.qpos`, but for tracks and what is fixed to each other."""
+    model = setup.model
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     mujoco.mj_collision(model, data)
-    feet: list[Any] = []
+    pairs = set()
     for contact in data.contact:
-        one, other = model.geom_bodyid[contact.geom1], model.geom_bodyid[contact.geom2]
-        if model.geom_contype[contact.geom1] == 1 or model.geom_contype[contact.geom2] == 1:
-            feet.append(contact.pos[:2].copy())
+        geoms = (contact.geom1, contact.geom2)
+        if contact.dist >= 0.0 or any(_is_track(setup, geom) for geom in geoms):
             continue
-        if contact.dist < 0.0 and model.body_weldid[one] != model.body_weldid[other]:
-            return False
+        one, other = (int(model.body_weldid[model.geom_bodyid[geom]]) for geom in geoms)
+        if one != other:
+            pairs.add((one, other))
+    return pairs
+
+
+def _stands(setup: RobotSetup, data: mujoco.MjData, robot: hurcules.Robot) -> bool:
+    """It stands within its tracks, if it has any; after `_touching`."""
+    feet = [
+        contact.pos[:2].copy()
+        for contact in data.contact
+        if _is_track(setup, contact.geom1) or _is_track(setup, contact.geom2)
+    ]
     if not feet:
         return True
     low, high = np.min(feet, axis=0) + STANDS, np.max(feet, axis=0) - STANDS
     com = robot.com[:2]
     return bool((com > low).all() and (com < high).all())
+
+
+def _is_track(setup: RobotSetup, geom: int) -> bool:
+    return setup.drives and bool(setup.model.geom_contype[geom] == TRACK)
 
 
 def _rotation_vector(R: Array) -> Array:

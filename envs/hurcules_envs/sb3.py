@@ -109,16 +109,23 @@ class GoalFeatures(BaseFeaturesExtractor):
     """What a network sees of a goal environment: the observation, and how far the goal is.
 
     Networks learn from differences at once what they learn from two places late.
+
+    Args:
+        observation_space: of the environment.
+        way_only: the observation is left out; what is learnt then holds at other places, and for
+            other robots.
     """
 
-    def __init__(self, observation_space: gymnasium.spaces.Dict) -> None:
+    def __init__(self, observation_space: gymnasium.spaces.Dict, way_only: bool = False) -> None:
         sizes = {name: (space.shape or (0,))[0] for name, space in observation_space.items()}
-        super().__init__(observation_space, sizes["observation"] + sizes["achieved_goal"])
+        seen = 0 if way_only else sizes["observation"]
+        super().__init__(observation_space, seen + sizes["achieved_goal"])
+        self._way_only = way_only
 
     def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
         """(n, features)."""
         way = SCALE * (observations["desired_goal"] - observations["achieved_goal"])
-        return torch.cat([observations["observation"], way], dim=1)
+        return way if self._way_only else torch.cat([observations["observation"], way], dim=1)
 
 
 def make_sb3(

@@ -210,11 +210,16 @@ def _model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     network: dict[str, Any] = {"net_arch": [64, 64]}
     if goal:
         network["features_extractor_class"] = GoalFeatures
+        # the observation of Reach, where the hands are, stands in the achieved goal already
+        reach = options.environment.startswith("Hurcules/Reach-")
+        network["features_extractor_kwargs"] = {"way_only": reach}
     shared = {"seed": options.seed, "device": "cpu", "tensorboard_log": _tensorboard(options.out)}
     if options.algorithm == "ppo":
         recipe = next((r for n, r in RECIPES.items() if options.environment.startswith(n)), {})
         settings = {**PPO_SETTINGS, **recipe}
         network["log_std_init"] = 0.0
+        rate = settings["learning_rate"]
+        settings["learning_rate"] = lambda left: rate * left
         return PPO(kind, environment, policy_kwargs=network, **settings, **shared)
     settings = dict(OFF_POLICY)
     if options.algorithm == "her":

@@ -2354,7 +2354,7 @@ class WholeBodyController:
         now: targets in the world stay where they are while the robot drives).
       support: body that stands on the ground; by default the robot's own, see Robot.stand_on.
       servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
-        default reckoned from the model.
+        default reckoned from the model, and decoupled by the mass matrix where feed_forward is on.
       feed_forward: servos are told the torques that the model says.
       torque_scaling: the motion slows down where a motor would be asked for more than its peak.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.

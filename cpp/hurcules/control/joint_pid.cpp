@@ -99,11 +99,17 @@ const Vector& JointPid::compute(const JointError& error, const ConstVectorRef& f
   return torque_;
 }
 
+double JointPid::feedback(Index i, const JointError& error) const {
+  const double e = error.position[i];
+  const double integral = integral_[i] + e * options_.dt;
+  return gain_[i] * (error.velocity[i] + options_.K_P[i] * e +
+                     options_.K_I[i] * integral);  // [T A.2.12], tau = -u
+}
+
 void JointPid::compute_joint(Index i, const JointError& error, double feed_forward) {
   const double e = error.position[i];
   const double integral = integral_[i] + e * options_.dt;
-  demand_[i] = feed_forward + gain_[i] * (error.velocity[i] + options_.K_P[i] * e +
-                                          options_.K_I[i] * integral);  // [T A.2.12], tau = -u
+  demand_[i] = feed_forward + feedback(i, error);
   torque_[i] = std::clamp(demand_[i], lower_[i], upper_[i]);
   // a saturated joint keeps its integral unless the error leads back
   const bool deeper = torque_[i] != demand_[i] && (e > 0.0) == (demand_[i] > 0.0);

@@ -52,6 +52,8 @@ class JointPid {
   const Vector& compute(const JointError& error);
   // the same beside a torque that a model tells, [N m], (m); both saturate together
   const Vector& compute(const JointError& error, const ConstVectorRef& feed_forward);
+  // what compute will ask of joint i at this error, feed-forward and saturation left out [N m]
+  [[nodiscard]] double feedback(Index i, const JointError& error) const;
   // saturation of joint i from now on, never beyond max_torque; 0 to 0 for a drive that is off
   void limit(Index i, const EffortRange& range);
   // goes on from a torque that somebody else gave: at this error joint i's next demand is `torque`

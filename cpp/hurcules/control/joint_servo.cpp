@@ -36,7 +36,7 @@ double spread(int i, Index coordinate) {
 
 }  // namespace
 
-std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt) {
+std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool decoupled) {
   const Index n = robot.size();
   Robot sampled(robot.model(), robot.coordinate_names());
   sampled.set_qpos(robot.qpos());
@@ -71,7 +71,8 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt) {
       }
     }
     const double rated = std::sqrt(low * high);
-    const double bandwidth = std::min(kBandwidth, kFastest * low / (3.0 * rated * dt));
+    const double slowest = decoupled ? 1.0 : low / rated;
+    const double bandwidth = std::min(kBandwidth, kFastest * slowest / (3.0 * dt));
     table.push_back({actuator.joint, rated, bandwidth});
   }
   return table;
@@ -95,7 +96,7 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
         if (joint.actuator >= 0) squares += joint.factor * joint.factor;
       }
     }
-    motors_.push_back({actuator, coordinate, factor, factor / squares});
+    motors_.push_back({actuator, coordinate, factor, factor / squares, row.inertia});
     drives.push_back({row.inertia, row.bandwidth, actuator.limits.peak});
   };
   for (Index k = 0; k < robot.size(); ++k) {
@@ -152,6 +153,24 @@ void JointServo::feed_forward(const Vector& efforts) {
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     feed_forward_[i] = motor.share * efforts[motor.coordinate];
+  }
+}
+
+void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration) {
+  efforts.setZero();
+  acceleration.setZero();  // for now the rated inertia
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    const ActuatorStatus& status =
+        state.actuators[static_cast<std::size_t>(motor.actuator.actuator)];
+    if (status.braked || left_[static_cast<std::size_t>(i)]) continue;
+    error_.position[i] = position_[i] - state.qpos[motor.actuator.qpos];
+    error_.velocity[i] = velocity_[i] - state.qvel[motor.actuator.dof];
+    efforts[motor.coordinate] += motor.factor * pid_.feedback(i, error_);
+    acceleration[motor.coordinate] += motor.factor * motor.factor * motor.inertia;
+  }
+  for (Index k = 0; k < efforts.size(); ++k) {
+    if (acceleration[k] > 0.0) acceleration[k] = efforts[k] / acceleration[k];
   }
 }
 

@@ -24,8 +24,10 @@ struct ServoGains {
 // Gains for any robot, one row a joint with an actuator. Over its ranges, sampled, a joint feels
 // inertias from 1 / (M^-1)_ii (all others free) to M_ii (all others held). The rated inertia is
 // their geometric mean, so that a triple pole, stable from a ninth of it upwards, covers them; the
-// bandwidth is 30 rad/s, less where the smallest inertia would make the loop too fast for dt.
-[[nodiscard]] std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt);
+// bandwidth is 30 rad/s, less where the smallest inertia would make the loop too fast for dt. Where
+// the servos are decoupled, the joints feel nothing of each other, and dt alone bounds it.
+[[nodiscard]] std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt,
+                                                          bool decoupled = false);
 
 // What the drive of an actuator can do at the moment.
 struct ActuatorStatus {
@@ -63,6 +65,9 @@ class JointServo {
   const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state);
   // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
   void feed_forward(const Vector& efforts);
+  // what the servos are about to give the coordinates beside it, (n) [N m], and the accelerations
+  // that it would be at their rated inertias, (n) [rad/s^2]
+  void feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration);
   // writes the controls of its actuators, ctrl (nu)
   void compute(const RobotState& state, VectorRef ctrl);
   // at rest at a configuration (nq), without memory and feed-forward
@@ -95,6 +100,7 @@ class JointServo {
     Index coordinate = -1;  // -1: holds its place
     double factor = 1.0;    // joint = factor * coordinate
     double share = 1.0;     // of the coordinate's effort
+    double inertia = 0.0;   // rated
   };
   struct Rest {
     bool on = false;    // the brake holds, the motor is without power

@@ -38,7 +38,11 @@ void require_distinct(const std::vector<Named>& all, const char* kind) {
 
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
   options.velocity.dt = options.acceleration.dt = options.dt;
-  if (options.servo.empty()) options.servo = default_servo_gains(robot, options.dt);
+  options.decoupled = options.decoupled.value_or(options.servo.empty() && options.feed_forward);
+  require(!*options.decoupled || options.feed_forward, "decoupled servos want feed_forward");
+  if (options.servo.empty()) {
+    options.servo = default_servo_gains(robot, options.dt, *options.decoupled);
+  }
   if (options.support.empty()) options.support = robot.support_name();
   if (options.drive) options.drive->drive.dt = options.dt;
   return options;
@@ -94,6 +98,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
     row += channel.size();
   }
   q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
+  feedback_ = feedback_acceleration_ = efforts_;
   delta_ = Vector::Zero(scale_.size());
   reset(robot.qpos());
 }
@@ -203,7 +208,7 @@ void WholeBodyController::reset(const Vector& qpos) {
   if (drive_) drive_->reset();
   last_qd_.setZero();
   servo_.reset(start_);
-  feed_forward();
+  feed_forward(nullptr);
 }
 
 void WholeBodyController::hold_targets() {
@@ -212,7 +217,11 @@ void WholeBodyController::hold_targets() {
 
 // What the plan takes at q* and qdot*, with the accelerations that a law or a move commands; a
 // velocity that is solved for or scaled down may jump: what that takes is left to the servos.
-void WholeBodyController::feed_forward() {
+//
+// Decoupled servos: what they ask for as accelerations a is given by the mass matrix,
+// tau = M(q*) (qdd* + a) + h(q*, qdot*); inverse dynamics control, Siciliano et al., Robotics (2009),
+// section 8.5.2.
+void WholeBodyController::feed_forward(const RobotState* state) {
   if (!options_.feed_forward) return;
   const bool commanded = moves_joints_ || (law().order() == ControlOrder::Acceleration && !scaled_);
   if (commanded) {
@@ -222,7 +231,13 @@ void WholeBodyController::feed_forward() {
   }
   last_qd_ = qd_;
   plan_.set_velocity(qd_);
+  const bool decoupled = *options_.decoupled && state;
+  if (decoupled) {
+    servo_.feedback(*state, feedback_, feedback_acceleration_);
+    qdd_ += feedback_acceleration_;
+  }
   plan_.inverse_dynamics(qdd_, efforts_);
+  if (decoupled) efforts_ -= feedback_;
   servo_.feed_forward(efforts_);
 }
 
@@ -410,7 +425,7 @@ void WholeBodyController::refer() {
 // torques  [T A.2.12]
 void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
   refer();
-  feed_forward();
+  feed_forward(&state);
   servo_.compute(state, ctrl);
   if (drive_) drive_->compute(state, ctrl);
 }

@@ -55,6 +55,9 @@ struct WholeBodyControllerOptions {
   // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
   // whatever the robot carries is a disturbance to them.
   bool feed_forward = true;
+  // what the servos ask for as accelerations is given by the mass matrix, so that no joint's motion
+  // disturbs another; wants feed_forward; not given: where the gains are default_servo_gains
+  std::optional<bool> decoupled = {};
   // the motion slows down where a motor would be asked for more than its peak
   bool torque_scaling = true;
   std::optional<TrackDriveOptions> drive = {};  // tracks, where a Drive channel is to move them
@@ -147,7 +150,7 @@ class WholeBodyController {
   void read_forces(const RobotState& state);
   void take_over();
   void refer();
-  void feed_forward();
+  void feed_forward(const RobotState* state);
 
   WholeBodyControllerOptions options_;
   Robot plan_;
@@ -166,11 +169,12 @@ class WholeBodyController {
   bool moves_joints_ = false, scaled_ = false;
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
-  Vector start_;                    // (nq) where the plan stands
-  Vector ahead_;                    // (nq) scratch
-  Vector wished_;                   // (n) scratch
-  Vector delta_;                    // scratch
-  Vector last_qd_, qdd_, efforts_;  // (n) for the feed-forward
+  Vector start_;                             // (nq) where the plan stands
+  Vector ahead_;                             // (nq) scratch
+  Vector wished_;                            // (n) scratch
+  Vector delta_;                             // scratch
+  Vector last_qd_, qdd_, efforts_;           // (n) for the feed-forward
+  Vector feedback_, feedback_acceleration_;  // (n) of the servos
   Frame support_;
   std::vector<double> scratch_;
 };

@@ -1,0 +1,75 @@
+"""Servos of reckoned gains on an arm whose joints feel each other strongly.
+
+Strategy: a ring and an arm turn about one axis, so that each alone turns a sixtieth of what it
+turns while the other is held. The ring is swung to and fro and stopped. Negative control: the same
+gains, joint by joint.
+"""
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+
+ARM = """
+<mujoco>
+  <option timestep="0.004"/>
+  <compiler angle="radian"/>
+  <default><joint axis="0 0 1" range="-2.5 2.5" armature="0.01"/></default>
+  <worldbody>
+    <body name="ring"><joint name="turn"/>
+      <geom type="cylinder" size="0.08 0.02" mass="2"/>
+      <body name="arm"><joint name="swing"/>
+        <geom type="capsule" fromto="0 0 0 0.6 0 0" size="0.05" mass="12"/>
+        <body name="hand" pos="0.6 0 0"><joint name="wrist"/>
+          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.03" mass="0.5"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor joint="turn" ctrlrange="-200 200"/>
+    <motor joint="swing" ctrlrange="-200 200"/>
+    <motor joint="wrist" ctrlrange="-20 20"/>
+  </actuator>
+</mujoco>
+"""
+
+
+def swing(servo: dict[str, tuple[float, float]]) -> tuple[float, float]:
+    """Largest joint error on the way [rad], and how far joints still move at the end [rad]."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(
+        robot, [posture], {"joints": hurcules.Twist(posture, 2.0)}, dt=0.004, servo=servo
+    )
+    simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+    read = hurcules.Quantities(simulation, ["q_des", "q"])
+    errors, places = [], []
+    for tick in range(750):
+        way = np.sin(2 * np.pi * tick / 250) if tick < 500 else 0.0
+        simulation.step(1, {"joints": [way, 0.0, 0.0]})
+        commanded, measured = np.split(simulation.read(read), 2)
+        errors.append(np.abs(commanded - measured).max())
+        places.append(measured)
+    return float(np.max(errors)), float(np.ptp(places[-125:], axis=0).max())
+
+
+def test_one_joint_swings_and_comes_to_rest() -> None:
+    error, rest = swing({})
+    assert error < 0.01  # of +-0.64 rad
+    assert rest < 5e-4
+
+
+def test_joint_by_joint_the_same_gains_never_rest() -> None:
+    # geometric means of the inertias with all others free and all others held
+    alone = {"turn": (0.215, 30.0), "swing": (0.215, 30.0), "wrist": (0.0121, 30.0)}
+    error, rest = swing(alone)
+    assert error > 0.1
+    assert rest > 0.1
+
+
+def test_a_table_of_ones_own_wants_all_joints() -> None:
+    with pytest.raises(hurcules.Error, match="servo of joint 'wrist'"):
+        swing({"turn": (0.2, 30.0), "swing": (0.2, 30.0)})

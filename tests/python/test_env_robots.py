@@ -1,0 +1,91 @@
+"""Reach on a robot of one's own: two arms of four joints, from MJCF and from MuJoCo's binary.
+
+Strategy: the scripted expert, in the physics and without it; the same bits from both files. Parts
+that touch by construction do not keep postures from being found. Bad input says what was wanted.
+"""
+
+from pathlib import Path
+
+import gymnasium as gym
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+import hurcules_envs  # noqa: F401  registers
+
+ARM = """
+<body name="{s}_yaw" pos="0 {y} 0.9"><joint name="{s}1" axis="0 0 1" range="-1.6 1.6"/>
+  <geom type="cylinder" size="0.06 0.05" mass="3"/>
+  <body name="{s}_upper"><joint name="{s}2" axis="0 1 0" range="-1.2 1.2"/>
+    <geom type="capsule" fromto="0.10 0 0 0.36 0 0" size="0.05" mass="4"/>
+    <body name="{s}_fore" pos="0.4 0 0"><joint name="{s}3" axis="0 1 0" range="0.1 2.4"/>
+      <geom type="capsule" fromto="0.06 0 0 0.28 0 0" size="0.04" mass="2"/>
+      <body name="{s}_roll" pos="0.3 0 0"><joint name="{s}4" axis="1 0 0" range="-2 2"/>
+        <geom type="capsule" fromto="0.06 0 0 0.12 0.05 0" size="0.03" mass="0.5"/>
+        <site name="{s}_tip" pos="0.14 0.05 0"/>
+      </body></body></body></body>
+"""
+ROBOT = (
+    """<mujoco><compiler angle="radian"/><option timestep="0.002"/>
+  <default><joint armature="0.02" damping="0.5"/></default>
+  <worldbody><geom name="floor" type="plane" size="3 3 1"/>
+    <body name="pole" pos="0 0 0.45"><geom type="cylinder" size="0.05 0.47"/></body>"""
+    + ARM.format(s="l", y=0.3)
+    + ARM.format(s="r", y=-0.3)
+    + "</worldbody><actuator>"
+    + "".join(
+        f'<motor joint="{side}{i}" ctrlrange="-{most} {most}"/>'
+        for side in "lr"
+        for i, most in enumerate((80, 120, 60, 20), start=1)
+    )
+    + "</actuator></mujoco>"
+)
+FRAMES = ("l_tip", "r_tip")
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, str]:
+    """The robot as MJCF and as a binary; its pole stands in the floor."""
+    folder: Path = tmp_path_factory.mktemp("robot")
+    text, binary = folder / "two_arms.xml", folder / "two_arms.mjb"
+    text.write_text(ROBOT)
+    mujoco.mj_saveModel(mujoco.MjModel.from_xml_path(str(text)), str(binary), None)
+    return str(text), str(binary)
+
+
+@pytest.mark.parametrize("fidelity", ["kinematic", "fast", "exact"])
+def test_the_expert_reaches_with_any_robot(files: tuple[str, str], fidelity: str) -> None:
+    env = gym.make_vec(
+        "Hurcules/Reach-v0", num_envs=8, fidelity=fidelity, robot=files[0], frames=FRAMES
+    )
+    observation, info = env.reset(seed=0)
+    succeeded, excess = np.zeros(8, dtype=bool), 0.0
+    for _ in range(99):
+        way = observation["desired_goal"] - observation["achieved_goal"]
+        observation, _, _, _, info = env.step(np.clip(10 * way, -1, 1).astype(np.float32))
+        succeeded |= info["is_success"].astype(bool)
+        excess = max(excess, float(info["limit_excess"].max()))
+    assert succeeded.sum() >= 7
+    assert excess < 5e-3
+    env.close()
+
+
+def test_a_binary_model_has_the_same_bits(files: tuple[str, str]) -> None:
+    seen = []
+    for file in files:
+        env = gym.make("Hurcules/Reach-v0", fidelity="fast", robot=file, frames=FRAMES)
+        env.reset(seed=3)
+        for _ in range(10):
+            observation, *_ = env.step(np.full(6, 0.3, np.float32))
+        seen.append(observation)
+        env.close()
+    for name, value in seen[0].items():
+        np.testing.assert_array_equal(value, seen[1][name])
+
+
+def test_a_file_that_is_no_model_says_so(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.mjb"
+    broken.write_bytes(b"nothing")
+    with pytest.raises(hurcules.Error, match=r"broken\.mjb"):
+        gym.make("Hurcules/Reach-v0", robot=str(broken), frames=FRAMES)
