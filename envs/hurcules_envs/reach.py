@@ -13,7 +13,7 @@ import hurcules
 from hurcules_envs.commands import channel_of, joint_channel
 from hurcules_envs.drawing import add_ball
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of
-from hurcules_envs.robots import load_robot, sample_postures
+from hurcules_envs.robots import MAX_ACCELERATION, load_robot, sample_postures
 from hurcules_envs.rotations import angle_between, quaternion
 from hurcules_envs.springs import softest_spring
 
@@ -230,7 +230,7 @@ class Reach(Environment):
             dt=tick,
             support=setup.support,
             servo=setup.servo,
-            velocity=hurcules.VelocityControllerOptions(max_acceleration=setup.max_acceleration),
+            velocity=hurcules.VelocityControllerOptions(max_acceleration=MAX_ACCELERATION),
             torque_scaling=fidelity != "kinematic",
         )
         self.simulation = hurcules.Simulation(

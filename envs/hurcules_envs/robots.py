@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 import hurcules
 
-__all__ = ["Postures", "RobotSetup", "load_robot", "sample_postures"]
+__all__ = ["MAX_ACCELERATION", "Postures", "RobotSetup", "load_robot", "sample_postures"]
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,8 @@ STANDS = 0.10  # [m] of the centre of mass within the contacts
 # which no encoder of a motor sees
 APART = {"rescue": 0.10, "manipulation": 0.03}
 LOOK = 0.10  # [m] beyond that, pairs do not count
-SMOOTH = 5.0  # [rad/s^2] which keeps these springs from swinging
+# [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
+MAX_ACCELERATION = 5.0
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,6 @@ class RobotSetup:
         support: body that it stands on, "" for a fixed base.
         servo: see hurcules.servo_table; {}: reckoned from the model.
         ranges: by coordinate, narrower than the model's.
-        max_acceleration: of its coordinates [rad/s^2].
         drives: its tracks drive it.
     """
 
@@ -61,7 +61,6 @@ class RobotSetup:
     support: str = ""
     servo: dict[str, tuple[float, float]] = field(default_factory=dict)
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
-    max_acceleration: float = 20.0
     drives: bool = False
 
     def robot(self) -> hurcules.Robot:
@@ -169,7 +168,6 @@ def _hurcules(name: str) -> RobotSetup:
         support="lower_leg_L",
         servo=hurcules.servo_table(name),
         ranges=ranges if name == "rescue" else {},
-        max_acceleration=SMOOTH,
         drives=True,
     )
 
