@@ -2,12 +2,14 @@
 
 Run:  python benchmarks/arrival.py [--law thesis] [--dt 0.001] [--seeds 2] [--only panda]
       python benchmarks/arrival.py --conflict
+      python benchmarks/arrival.py --straight 0.15 --only robosuite
 
 The stack is `limits < hand < posture`, all else by default. The target is the hand of a random
 posture inside the limits (`--way 0.3`: that share of the way to it), so that it can be reached,
 though not always by a descent from where the robot stands: joint limits leave dead ends. `alone`
 is the same without the posture: what the hand itself does. With `--conflict`: two hands in six
-dimensions, the second 1.5 m out of its reach, centre of mass and posture below.
+dimensions, the second 1.5 m out of its reach, centre of mass and posture below. With `--straight`:
+from angles as near 0 as the limits allow, so far towards the sixth joint before the hand.
 
 Packages, none of them needed: robosuite, gymnasium, gymnasium-robotics, dm_control, metaworld,
 example-robot-data.
@@ -88,13 +90,27 @@ def posture(robot: hurcules.Robot, seed: int, way: float) -> np.ndarray:
     return start + way * (lower + share * (upper - lower) - start)
 
 
+def place_inside(arm: Arm, robot: hurcules.Robot, way: float) -> np.ndarray:
+    """Stretches the arm; where its hand is then, so far [m] towards the arm's foot."""
+    lower, upper = ranges(robot)
+    robot.set_configuration(np.clip(np.zeros(robot.size), lower, upper))
+    foot = robot.coordinates[max(0, robot.size - 6)].joints[0].joint
+    body = arm.model.body(int(arm.model.jnt_bodyid[arm.model.joint(foot).id])).name
+    place = robot.position(arm.hand)
+    line = robot.position(body) - place
+    return place + way * line / np.linalg.norm(line)
+
+
 def reach(arm: Arm, seed: int, options: argparse.Namespace, alone: bool) -> tuple[float, Motion]:
     """The miss [m] and how the hand came there."""
     robot = arm.robot()
-    start = robot.configuration
-    robot.set_configuration(posture(robot, seed, options.way))
-    target = robot.position(arm.hand)
-    robot.set_configuration(start)
+    if options.straight:
+        target = place_inside(arm, robot, options.straight)
+    else:
+        start = robot.configuration
+        robot.set_configuration(posture(robot, seed, options.way))
+        target = robot.position(arm.hand)
+        robot.set_configuration(start)
     limits, hand = JointLimits("limits", robot), PositionTask("hand", robot, arm.hand)
     hand.set_target(target)
     levels = [limits, hand] if alone else [limits, hand, PostureTask("posture", robot)]
@@ -153,6 +169,7 @@ def main() -> None:
     parser.add_argument("--way", type=float, default=1.0)
     parser.add_argument("--only", default="", help="part of a name")
     parser.add_argument("--conflict", action="store_true")
+    parser.add_argument("--straight", type=float, default=0.0, help="[m]")
     options = parser.parse_args()
     options.seconds = options.seconds or (25.0 if options.conflict else 10.0)
     titles = ("first", "second") if options.conflict else ("miss", "alone")

@@ -39,7 +39,8 @@ AccelerationController::AccelerationController(const Robot& robot,
     : options_(std::move(options)),
       own_limits_("limits", robot),
       problem_(robot.size()),
-      solver_(robot.size(), options_.solver) {
+      solver_(robot.size(), options_.solver),
+      probe_(robot) {
   check(options_);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
@@ -56,6 +57,8 @@ void AccelerationController::set_stack(const Stack& stack) {
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
   weights_.assign(problem_.hierarchy().size(), 0.0);
+  gains_ = weights_;
+  probe_.set_stack(problem_.stack());
   dead_zone_.set_stack(problem_.stack(), acceleration_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
@@ -79,7 +82,10 @@ void AccelerationController::measure(const Robot& robot) {
       fill_rates(k);
     }
   }
-  if (options_.law == Law::Arrive) dead_zone_.apply(weights_, limits(), hierarchy);
+  if (options_.law == Law::Arrive) {
+    probe_.look_at(robot, stack());
+    dead_zone_.apply(weights_, gains_, limits(), &probe_, hierarchy);
+  }
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     if (!hierarchy[k].bounds) fill_rows(robot, stack().levels()[k], hierarchy[k]);
   }
@@ -98,6 +104,7 @@ const Vector& AccelerationController::solve() {
       acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
     }
     acceleration_ -= braked_;
+    if (options_.law == Law::Arrive) acceleration_ += options_.damping * dead_zone_.nudge();
   }
   for (Index i = 0; limits() && i < acceleration_.size(); ++i) {  // what rounding left
     const AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
@@ -204,6 +211,7 @@ void AccelerationController::fill_rates(std::size_t k) {
   }
   if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
+  gains_[k] = gain / std::max(1.0, most);
   Index row = 0;
   for (const Task* task : source.tasks) {
     const Index rows = task->rows();

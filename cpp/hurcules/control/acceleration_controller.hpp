@@ -95,7 +95,9 @@ class AccelerationController {
   StackProblem problem_;
   Solver solver_;
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
+  std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
   DeadZone dead_zone_;
+  SaddleProbe probe_;
   Vector acceleration_;
   Vector next_;                                  // [rad/s] scratch, one dt further
   Vector braked_, speed_;                        // D qdot and qdot, of the last measure

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hurcules {
 
@@ -11,6 +12,11 @@ constexpr double kOpens = 0.02, kWide = 0.1;  // w at which a zone opens, and is
 constexpr double kNearLimit = 0.02;  // [rad] or [m] from a limit: a joint begins to be held
 constexpr double kFreeJoint = 1e-6;  // what the rows above leave of a joint
 constexpr double kRank = 1e-10;      // as the solver's, of rows of length 1
+constexpr double kSaddleBegins = 0.025, kSaddle = 0.075;  // d [1/rad]
+constexpr double kLooks = 0.05;   // share that a zone takes from which on a saddle is looked for
+constexpr double kNoPull = 1e-7;  // slope below which the pull has no direction
+constexpr double kWeak = 0.03;    // of S: a row that moves no more may vanish at a saddle
+constexpr double kNudge = 0.02;   // [rad/s]
 
 bool is_equality(const Level& level, Index row) {
   return level.lower[row] == level.upper[row];
@@ -20,19 +26,26 @@ bool is_equality(const Level& level, Index row) {
 
 void DeadZone::set_stack(const Stack& stack, Index n) {
   known_ = Matrix::Zero(n, n);
-  pull_ = direction_ = parts_ = held_ = Vector::Zero(n);
+  pull_ = direction_ = parts_ = held_ = nudge_ = off_ = Vector::Zero(n);
   shares_.assign(stack.levels().size(), 1.0);
   pressed_ = Eigen::MatrixXi::Zero(static_cast<Index>(shares_.size()), n);
   apart_.clear();
+  Index rows = 0;
   for (const StackLevel& level : stack.levels()) {
     apart_.push_back(std::all_of(level.tasks.begin(), level.tasks.end(),
                                  [](const Task* task) { return task->rows_apart(); }));
+    Index sum = 0;
+    for (const Task* task : level.tasks) sum += task->rows();
+    rows = std::max(rows, sum);
   }
+  left_ = Matrix::Zero(rows, n);
 }
 
-void DeadZone::apply(std::span<const double> weights, const Task* limits, Hierarchy& hierarchy) {
+void DeadZone::apply(std::span<const double> weights, std::span<const double> gains,
+                     const Task* limits, SaddleProbe* probe, Hierarchy& hierarchy) {
   rank_ = 0;
   pressed_.setZero();
+  nudge_.setZero();
   double above = 0.0;  // the largest w of the levels above
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     Level& level = hierarchy[k];
@@ -40,8 +53,14 @@ void DeadZone::apply(std::span<const double> weights, const Task* limits, Hierar
     if (level.bounds) continue;
     const double open = std::clamp((weights[k] - kOpens) / (kWide - kOpens), 0.0, 1.0);
     const double eps = kZone + (kZoneBelow - kZone) * above;
-    if (open > 0.0 && !(rank_ == 0 && apart_[k]))
-      shares_[k] = share_of(k, level, eps * open, limits);
+    if (open > 0.0 && !(rank_ == 0 && apart_[k])) {
+      const double slope = slope_of(k, level, limits);
+      const double taken = slope > eps * open ? eps * open / slope : 1.0;
+      shares_[k] = 1.0 - taken;
+      const double looks = (1.0 - above) * std::clamp(taken / kLooks - 1.0, 0.0, 1.0);
+      if (probe && looks > 0.0 && !apart_[k])
+        shares_[k] += looks * taken * saddle_at(k, level, gains[k], *probe);
+    }
     for (Index row = 0; row < level.rows(); ++row) {
       if (!is_equality(level, row)) continue;
       direction_ = level.A.row(row);
@@ -62,14 +81,64 @@ void DeadZone::add_held(Eigen::VectorXi& held) const {
   }
 }
 
-double DeadZone::share_of(std::size_t k, const Level& level, double zone, const Task* limits) {
+double DeadZone::slope_of(std::size_t k, const Level& level, const Task* limits) {
   find_pull(level);
-  const double most = asked_ * lever_;
-  if (most == 0.0) return 1.0;
   remove_known(pull_);
   if (limits) hold_pressed_joints(k, *limits);
-  const double slope = pull_.norm() / most;
-  return slope > zone ? 1.0 - zone / slope : 0.0;
+  const double most = asked_ * lever_;
+  return most > 0.0 ? pull_.norm() / most : std::numeric_limits<double>::infinity();
+}
+
+double DeadZone::saddle_at(std::size_t k, const Level& level, double gain, SaddleProbe& probe) {
+  const Index above = rank_;
+  add_strong_rows(level);
+  off_ = pull_;
+  remove_known(off_);
+  const double most = asked_ * lever_, length = off_.norm();
+  double saddle = 0.0;
+  if (length > kNoPull * most) {
+    off_ /= length;
+    saddle = saddle_along(k, level, gain, probe);
+  } else {
+    for (Index i = 0; i < off_.size() && saddle < 1.0; ++i) {
+      off_.setZero();
+      off_[i] = 1.0;
+      remove_known(off_);
+      if (off_.norm() < kFreeJoint) continue;
+      off_ /= off_.norm();
+      const double here = saddle_along(k, level, gain, probe);
+      if (here > saddle) nudge_ = here * kNudge * off_;
+      saddle = std::max(saddle, here);
+    }
+  }
+  rank_ = above;
+  return saddle;
+}
+
+double DeadZone::saddle_along(std::size_t k, const Level& level, double gain, SaddleProbe& probe) {
+  const double d = probe.growth(k, level, off_, gain) / (asked_ * lever_);
+  return std::clamp((d - kSaddleBegins) / (kSaddle - kSaddleBegins), 0.0, 1.0);
+}
+
+// to what is known: the directions that the equality rows move in by more than `kWeak` of the lever
+// each, the strongest that is left first
+void DeadZone::add_strong_rows(const Level& level) {
+  auto left = left_.topRows(level.rows());
+  for (Index row = 0; row < level.rows(); ++row) {
+    direction_.setZero();
+    if (is_equality(level, row)) direction_ = level.A.row(row);
+    remove_known(direction_);
+    left.row(row) = direction_;
+  }
+  for (Index count = 0; count < level.rows() && rank_ < known_.rows(); ++count) {
+    Index strongest = 0;
+    const double length = std::sqrt(left.rowwise().squaredNorm().maxCoeff(&strongest));
+    if (length < kWeak * lever_) return;
+    known_.row(rank_) = left.row(strongest) / length;
+    for (Index row = 0; row < level.rows(); ++row)
+      left.row(row) -= left.row(row).dot(known_.row(rank_)) * known_.row(rank_);
+    ++rank_;
+  }
 }
 
 // A'y, |y| and S of the equality rows

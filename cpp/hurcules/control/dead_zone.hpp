@@ -11,6 +11,12 @@
 //   slope = |p| / (|y| S)             S: largest column of A; what a rad wins, as a share of the
 //                                     most that a joint of this level could win; 0 to about 1
 //   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)
+// At a saddle (saddle_probe.hpp) there is no zone: with
+//   d = growth of the pull along what p moves weakly, as a share like the slope [1/rad]
+// it fades from d = 0.025 on and is gone at 0.075, but not below a level that is not met. Exactly at
+// one p is nothing: then the level is sent off, along what its rows leave of a coordinate whose d is
+// large enough.
+//
 // The rows stay: y = 0 still keeps the levels below from driving them. A level below one that is
 // not met wants a larger zone (its own place moves with theirs): eps goes from `kZone` to `kZoneBelow`
 // with the largest w above. Both were fitted: to robots and conflicts of docs/control.md. A first
@@ -20,6 +26,7 @@
 #include <span>
 #include <vector>
 
+#include "hurcules/control/saddle_probe.hpp"
 #include "hurcules/control/stack.hpp"
 #include "hurcules/solver/hierarchy.hpp"
 
@@ -32,8 +39,13 @@ class DeadZone {
   // n coordinates; makes the memory
   void set_stack(const Stack& stack, Index n);
   // shortens what the equality rows of each level ask for (lower = upper), as rates [unit/s];
-  // weights: w a level (task_speed.hpp); limits: of the coordinates, measured, null for none
-  void apply(std::span<const double> weights, const Task* limits, Hierarchy& hierarchy);
+  // weights: w a level (task_speed.hpp), gains: K / max(1, F) [1/s]; limits: of the coordinates,
+  // measured, null for none; probe: looks at
+  // where the robot stands, null for saddles like any other place
+  void apply(std::span<const double> weights, std::span<const double> gains, const Task* limits,
+             SaddleProbe* probe, Hierarchy& hierarchy);
+  // [rad/s] (n), on top of what the hierarchy asks for: off a saddle, else 0
+  [[nodiscard]] const Vector& nudge() const { return nudge_; }
   // what a level was left at the last apply, 0 to 1
   [[nodiscard]] double share(std::size_t level) const { return shares_[level]; }
   // -1, 0, 1: a level that was shortened stands at the lower, no, the upper limit of a coordinate
@@ -45,7 +57,15 @@ class DeadZone {
   void add_held(Eigen::VectorXi& held) const;
 
  private:
-  [[nodiscard]] double share_of(std::size_t k, const Level& level, double zone, const Task* limits);
+  // the slope of a level; leaves its pull
+  [[nodiscard]] double slope_of(std::size_t k, const Level& level, const Task* limits);
+  // 1 where the level whose pull is known stands at a saddle, 0 where not; nudges it off one
+  [[nodiscard]] double saddle_at(std::size_t k, const Level& level, double gain,
+                                 SaddleProbe& probe);
+  // the same along off_
+  [[nodiscard]] double saddle_along(std::size_t k, const Level& level, double gain,
+                                    SaddleProbe& probe);
+  void add_strong_rows(const Level& level);
   void find_pull(const Level& level);
   void hold_pressed_joints(std::size_t k, const Task& limits);
   void add_direction();
@@ -55,6 +75,8 @@ class DeadZone {
   Index rank_ = 0;
   Vector pull_;                       // p (n)
   Vector direction_, parts_;          // scratch (n)
+  Vector nudge_, off_;                // (n); off_: scratch
+  Matrix left_;                       // scratch (rows, n)
   double asked_ = 0.0, lever_ = 0.0;  // |y|, S
   Vector held_;                       // (n): how much of each further row of known_ counts
   std::vector<double> shares_;

@@ -52,7 +52,8 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
     : options_(std::move(options)),
       own_limits_("limits", robot),
       problem_(robot.size()),
-      solver_(robot.size(), options_.solver) {
+      solver_(robot.size(), options_.solver),
+      probe_(robot) {
   check(options_);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
@@ -74,6 +75,8 @@ void VelocityController::set_stack(const Stack& stack) {
   problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
   begin_transition();
   weights_.assign(problem_.hierarchy().size(), 0.0);
+  gains_ = weights_;
+  probe_.set_stack(problem_.stack());
   dead_zone_.set_stack(problem_.stack(), velocity_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
@@ -96,7 +99,10 @@ void VelocityController::measure(const Robot& robot) {
       fill_rows(k);
     }
   }
-  if (options_.law == Law::Arrive) dead_zone_.apply(weights_, limits(), hierarchy);
+  if (options_.law == Law::Arrive) {
+    probe_.look_at(robot, stack());
+    dead_zone_.apply(weights_, gains_, limits(), &probe_, hierarchy);
+  }
 }
 
 const Vector& VelocityController::solve() {
@@ -106,6 +112,7 @@ const Vector& VelocityController::solve() {
   const bool solved = solver_.solution().status != SolverStatus::InvalidInput;
   if (!solved) brake();
   if (fading_ && solved) add_transition();
+  if (options_.law == Law::Arrive && solved) velocity_ += dead_zone_.nudge();
   // bounds hold but for rounding: hold them exactly
   if (limits() && solved) {
     const Level& bounds = problem_.bounds();
@@ -269,6 +276,7 @@ void VelocityController::fill_rows(std::size_t k) {
   }
   if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
+  gains_[k] = options_.gain / std::max(1.0, most);
   Index row = 0;
   for (const Task* task : source.tasks) {
     const Index rows = task->rows();

@@ -94,7 +94,9 @@ class VelocityController {
   StackProblem problem_;
   Solver solver_;
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
+  std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
   DeadZone dead_zone_;
+  SaddleProbe probe_;
   Vector velocity_;
   Vector next_;        // [rad], (n): q* after a step
   Vector offset_;      // [rad/s] (n) of the transition, at its start

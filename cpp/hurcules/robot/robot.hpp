@@ -56,6 +56,7 @@ struct Coordinate {
 struct Frame {
   int type = 0;
   int id = 0;
+  friend bool operator==(const Frame&, const Frame&) = default;
 };
 
 // Velocity of a frame in W.

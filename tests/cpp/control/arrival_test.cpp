@@ -88,8 +88,7 @@ class Arrival : public testing::TestWithParam<double> {
     for (int i = 0; i < ticks; ++i) {
       const Vector now = tick();
       motion.hardest = std::max(motion.hardest, (now - last).cwiseAbs().maxCoeff() / most);
-      if (i > ticks * 9 / 10)
-        motion.fastest = std::max(motion.fastest, now.cwiseAbs().maxCoeff());
+      if (i > ticks * 9 / 10) motion.fastest = std::max(motion.fastest, now.cwiseAbs().maxCoeff());
       last = now;
     }
     for (Task* task : std::initializer_list<Task*>{&limits_, &elbow_, &wrist_, &tip_, &posture_})
@@ -151,6 +150,37 @@ TEST_P(Arrival, RestsAtALimitThatHoldsIt) {
   EXPECT_LE(motion.hardest, 1.0 + 1e-9);
 }
 
+TEST_P(Arrival, TheStraightArmBendsForAPlaceOnItsOwnLine) {
+  tip_.set_target(Vector2(1.2, 0.0));
+  const Motion motion = run(limits_ < tip_ < posture_);
+  EXPECT_LT(tip_.error().norm(), 1e-6);
+  EXPECT_LT(motion.fastest, 0.01);
+  EXPECT_LE(motion.hardest, 1.0 + 1e-9);
+
+  robot_.set_configuration(Vector::Zero(3));
+  const Motion accelerated = accelerate(limits_ < tip_ < posture_);
+  EXPECT_LT(tip_.error().norm(), 1e-6);
+  EXPECT_LT(accelerated.fastest, 0.01);
+  EXPECT_LE(accelerated.hardest, 1.0 + 1e-9);
+}
+
+TEST_P(Arrival, TheStraightArmStaysForAPlaceBeyondItOnItsOwnLine) {
+  tip_.set_target(Vector2(1.8, 0.0));
+  const Motion motion = run(limits_ < tip_ < posture_);
+  EXPECT_LT(tip_.error().norm(), 0.3 + 1e-9);
+  EXPECT_EQ(motion.fastest, 0.0);
+}
+
+TEST_P(Arrival, ALevelBelowLeavesItsSaddleAsFarAsTheOneAboveAllows) {
+  // the elbow holds; the forearm's two links of the second level bend alone
+  elbow_.set_target(Vector2(0.5, 0.0));
+  tip_.set_target(Vector2(1.2, 0.0));
+  const Motion motion = run(limits_ < elbow_ < tip_ < posture_);
+  EXPECT_LT(elbow_.error().norm(), 1e-6);
+  EXPECT_LT(tip_.error().norm(), 1e-6);
+  EXPECT_LT(motion.fastest, 0.01);
+}
+
 TEST_P(Arrival, ByAccelerationsToo) {
   wrist_.set_target(Vector2(0.7, 0.7));
   const Motion near_by = accelerate(limits_ < wrist_ < posture_);
@@ -209,6 +239,8 @@ class Zone : public Arrival {
   DeadZone zone_;
 };
 
+const std::vector<double> kGains{1.0, 1.0};  // [1/s]
+
 // levels of two coordinates that ask for y
 Hierarchy two_levels(double second_lever) {
   Hierarchy levels(2);
@@ -223,7 +255,7 @@ TEST_F(Zone, ShortensAPullByWhatItCouldWin) {
   const auto share = [&](double lever, double weight, double above) {
     Hierarchy levels = two_levels(lever);
     const std::vector<double> weights{above, weight};
-    zone_.apply(weights, nullptr, levels);
+    zone_.apply(weights, kGains, nullptr, nullptr, levels);
     EXPECT_DOUBLE_EQ(levels[1].lower[1], zone_.share(1));
     EXPECT_EQ(levels[1].lower, levels[1].upper);
     return zone_.share(1);
@@ -237,7 +269,7 @@ TEST_F(Zone, ShortensAPullByWhatItCouldWin) {
 TEST_F(Zone, DoesNotCountWhatTheLevelsAboveHold) {
   Hierarchy levels = two_levels(1.0);
   levels[1].lower = levels[1].upper = Vector2(1.0, 0.0);  // along the row above
-  zone_.apply(std::vector<double>{0.0, 1.0}, nullptr, levels);
+  zone_.apply(std::vector<double>{0.0, 1.0}, kGains, nullptr, nullptr, levels);
   EXPECT_EQ(zone_.share(1), 0.0);
 }
 
@@ -249,7 +281,7 @@ TEST_F(Zone, CountsAJointTheLessTheNearerItsLimitIs) {
     limits.update(robot);
     Hierarchy levels = two_levels(1.0);
     levels[0].lower = levels[0].upper = Vector::Constant(1, towards);
-    zone_.apply(std::vector<double>{1.0, 0.0}, &limits, levels);
+    zone_.apply(std::vector<double>{1.0, 0.0}, kGains, &limits, nullptr, levels);
     return zone_.share(0);
   };
   EXPECT_EQ(share(0.0, 1.0), 0.0);

@@ -1,0 +1,47 @@
+#include "hurcules/control/saddle_probe.hpp"
+
+namespace hurcules {
+
+SaddleProbe::SaddleProbe(const Robot& robot) : robot_(robot.model(), robot.coordinate_names()) {}
+
+void SaddleProbe::set_stack(const Stack& stack) {
+  tasks_.clear();
+  for (const StackLevel& level : stack.levels()) {
+    tasks_.emplace_back();
+    for (const Task* task : level.tasks) {
+      tasks_.back().push_back(task->clone());
+      copy_memory(*task, *tasks_.back().back(), scratch_);  // so that it has grown
+    }
+  }
+}
+
+void SaddleProbe::look_at(const Robot& robot, const Stack& stack) {
+  looked_at_ = &robot;
+  stack_ = &stack;
+  stands_there_ = false;
+}
+
+double SaddleProbe::growth(std::size_t k, const Level& level, const Vector& u, double gain) {
+  if (!stands_there_) {
+    robot_.set_qpos(looked_at_->qpos());
+    if (robot_.support() != looked_at_->support()) robot_.stand_on(looked_at_->support_name());
+    stands_there_ = true;
+  }
+  robot_.set_velocity(u);
+  double sum = 0.0;
+  Index row = 0;
+  for (std::size_t i = 0; i < tasks_[k].size(); ++i) {
+    const Task& source = *stack_->levels()[k].tasks[i];
+    Task& task = *tasks_[k][i];
+    copy_memory(source, task, scratch_);
+    task.update(robot_);
+    for (Index j = 0; j < task.rows(); ++j, ++row) {
+      if (level.lower[row] != level.upper[row]) continue;
+      const double rate = level.A.row(row).dot(u);
+      sum += source.weights()[j] * task.drift()[j] * level.lower[row] - gain * rate * rate;
+    }
+  }
+  return sum;
+}
+
+}  // namespace hurcules
