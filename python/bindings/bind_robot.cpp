@@ -176,6 +176,8 @@ void bind_state(py::class_<Robot>& robot) {
           py::arg("q"), kSetConfiguration)
       .def("set_velocity", &Robot::set_velocity, py::arg("velocity"), kSetVelocity)
       .def("stand_on", &Robot::stand_on, py::arg("body"), kStandOn)
+      .def_property_readonly("floats", &Robot::floats,
+                             "its root is free and it stands on nothing: stand_on was not called")
       .def(
           "set_keyframe",
           [](Robot& self, const std::string& name) {

@@ -117,7 +117,9 @@ from hurcules._core import (  # noqa: E402
     step,
 )
 from hurcules.mission_table import Mission  # noqa: E402
+from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
+from hurcules.urdf import load_urdf  # noqa: E402
 
 _reprs.install()
 
@@ -225,6 +227,7 @@ __all__ = [
     "driving",
     "largest_stiffness",
     "lift",
+    "load_urdf",
     "missions",
     "mode_ranges",
     "models",
@@ -237,4 +240,5 @@ __all__ = [
     "servo_table",
     "step",
     "transfer_bed",
+    "with_motors",
 ]

@@ -529,6 +529,10 @@ class Robot:
         """list of Coordinate, n of them"""
 
     @property
+    def floats(self) -> bool:
+        """its root is free and it stands on nothing: stand_on was not called"""
+
+    @property
     def left_out(self) -> str:
         """str: joints of the robot that are held, and constraints that the coordinates do not keep.
 

@@ -125,6 +125,7 @@ class Simulation(_core.Simulation):
             self.model = _model(model)
             if physics:
                 _warn_of_settings(self.model)
+                _warn_of_floating(self.model, controller)
             self.data = mujoco.MjData(self.model)
             if table is None:
                 super().__init__(self.model, self.data, controller, options)
@@ -242,7 +243,7 @@ def _flat(controller: WholeBodyController, command: Command, rows: int | None = 
 
 def _warn_of_settings(model: mujoco.MjModel) -> None:
     """Warns of settings of the physics with which tracks were measured to go wrong in silence."""
-    if not any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
+    if not _has_tracks(model):
         return
     step, iterations = model.opt.timestep, model.opt.iterations
     if step > 1.001 * MAX_STEP:
@@ -255,6 +256,20 @@ def _warn_of_settings(model: mujoco.MjModel) -> None:
         warnings.warn(
             f"{iterations} iterations of MuJoCo's solver: with 4 or fewer contacts of tracks are "
             "wrong, and nothing else says so",
+            stacklevel=3,
+        )
+
+
+def _has_tracks(model: mujoco.MjModel) -> bool:
+    return any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple))
+
+
+def _warn_of_floating(model: mujoco.MjModel, controller: WholeBodyController) -> None:
+    if controller.plan.floats and not _has_tracks(model):
+        warnings.warn(
+            "the robot's root is free, and nothing says what it stands on: the plan holds the root "
+            "where it starts, the physics lets it fall; WholeBodyController(..., support=BODY) "
+            "names the body that stands",
             stacklevel=3,
         )
 

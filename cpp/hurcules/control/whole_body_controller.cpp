@@ -234,10 +234,14 @@ void WholeBodyController::feed_forward(const RobotState* state) {
   const bool decoupled = *options_.decoupled && state;
   if (decoupled) {
     servo_.feedback(*state, feedback_, feedback_acceleration_);
-    qdd_ += feedback_acceleration_;
+    if (!plan_.floats()) qdd_ += feedback_acceleration_;
   }
   plan_.inverse_dynamics(qdd_, efforts_);
   if (decoupled) efforts_ -= feedback_;
+  if (decoupled && plan_.floats()) {
+    plan_.floating_inertia(feedback_acceleration_, feedback_);
+    efforts_ += feedback_;
+  }
   servo_.feed_forward(efforts_);
 }
 

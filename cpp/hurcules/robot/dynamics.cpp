@@ -5,6 +5,7 @@
 //                                                      no force where nothing moves
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
 
@@ -39,6 +40,34 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   for (Index i = 0; i < size(); ++i) {
     torque[i] =
         support_ >= 0 ? screws_->root_motion().col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      torque[i] += joint.factor * efforts_[joint.dof];
+  }
+}
+
+void Robot::floating_inertia(const ConstVectorRef& acceleration, VectorRef torque) const {
+  assert(floats() && acceleration.size() == size() && torque.size() == size());
+  const mjModel& m = *model_;
+  mjData* const d = data_.get();
+  need_com();
+  mj_crb(&m, d);
+  Vector& qacc = momentum_;  // scratch
+  qacc.setZero();
+  Eigen::Matrix<double, 6, 6> root;
+  for (Index r = 0; r < 6; ++r) {
+    qacc[root_dof_ + r] = 1.0;
+    mj_mulM(&m, d, efforts_.data(), qacc.data());
+    root.col(r) = efforts_.segment<6>(root_dof_);
+    qacc[root_dof_ + r] = 0.0;
+  }
+  for (Index i = 0; i < size(); ++i)
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      qacc[joint.dof] = joint.factor * acceleration[i];
+  mj_mulM(&m, d, efforts_.data(), qacc.data());
+  qacc.segment<6>(root_dof_) = -root.ldlt().solve(efforts_.segment<6>(root_dof_));
+  mj_mulM(&m, d, efforts_.data(), qacc.data());
+  for (Index i = 0; i < size(); ++i) {
+    torque[i] = 0.0;
     for (const DrivenJoint& joint : coordinates_[i].joints)
       torque[i] += joint.factor * efforts_[joint.dof];
   }

@@ -148,6 +148,11 @@ class Robot {
   // standing as stand_on says: inertia with armature, gravity, centrifugal and Coriolis terms,
   // springs and dampers of the model; without dry friction and contacts. [rad/s^2] (n) -> [N m] (n)
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
+  // its root is free and it stands on nothing: what holds the root in the plan, no ground does
+  [[nodiscard]] bool floats() const { return root_dof_ >= 0 && support_ < 0; }
+  // torque that this acceleration takes by inertia alone when the root gives way to it:
+  //   (M_cc - M_cb M_bb^-1 M_bc) a,   b: the root.   [rad/s^2] (n) -> [N m] (n); for one that floats
+  void floating_inertia(const ConstVectorRef& acceleration, VectorRef torque) const;
 
  private:
   void find_screws();   // where another body comes to stand

@@ -65,7 +65,7 @@ int substeps_of(double period, double timestep) {
 }
 
 std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController> controller,
-                                             const mjModel* m) {
+                                             const mjModel* m, bool physics) {
   require(controller != nullptr, "a simulation wants a controller, none came");
   const mjModel* const own = controller->plan().model().get();
   require(own->nq == m->nq && own->nv == m->nv && own->nu == m->nu && own->nbody == m->nbody,
@@ -73,6 +73,9 @@ std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController
               std::to_string(own->nq) + ", " + std::to_string(own->nv) + ", " +
               std::to_string(own->nu) + " instead of " + std::to_string(m->nq) + ", " +
               std::to_string(m->nv) + ", " + std::to_string(m->nu));
+  require(!physics || controller->servo().coordinate_joints() > 0,
+          "no joint of the robot has an actuator: in the physics nothing would move it; "
+          "hurcules.with_motors and load_urdf (Python) give each joint a motor");
   return controller;
 }
 
@@ -87,7 +90,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
                        mjData* data)
     : options_(std::move(options)),
       plant_(std::move(model), data),
-      controller_(checked(std::move(controller), plant_.model())),
+      controller_(checked(std::move(controller), plant_.model(), options_.physics)),
       supervisor_(std::move(supervisor)),
       world_(plant_.model_ptr(), controller_->plan().coordinate_names()),
       substeps_(substeps_of(controller_->dt(), plant_.dt())),

@@ -1,0 +1,65 @@
+"""Motors for a model that has none, as one out of a URDF."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+
+from hurcules._core import Error
+
+__all__ = ["with_motors"]
+
+_MOVING = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
+
+
+def with_motors(
+    model: str | Path | mujoco.MjSpec, peak: float | None = None, armature: float | None = None
+) -> mujoco.MjModel:
+    """A model with a motor, named after its joint, at each hinge and slide that has no actuator.
+
+    A motor gives as much as the joint allows: `actuatorfrcrange` in MJCF, `effort` in a URDF.
+
+    Args:
+        model: file (MJCF or URDF), or a specification, which keeps the motors.
+        peak: [N m] or [N] of a joint that says nothing; None: no limit.
+        armature: [kg m^2] or [kg] of the rotor at a joint that has none; None: none.
+
+    Raises:
+        Error: a file that MuJoCo cannot read, or a number that is not above 0.
+    """
+    for name, number in (("peak", peak), ("armature", armature)):
+        if number is not None and not number > 0.0:
+            raise Error(f"with_motors: {name} wants a number above 0, got {number!r}")
+    try:
+        spec = model if isinstance(model, mujoco.MjSpec) else mujoco.MjSpec.from_file(str(model))
+        driven = {each.target for each in spec.actuators if _is_at_joint(each)}
+        for joint in spec.joints:
+            if joint.type not in _MOVING or joint.name in driven:
+                continue
+            _add_motor(spec, joint, peak)
+            if armature is not None and joint.armature == 0.0:
+                joint.armature = armature
+        return spec.compile()
+    except ValueError as error:
+        raise Error(f"with_motors: {error}") from error
+
+
+def _is_at_joint(actuator: mujoco.MjsActuator) -> bool:
+    return actuator.trntype in (
+        mujoco.mjtTrn.mjTRN_JOINT,
+        mujoco.mjtTrn.mjTRN_JOINTINPARENT,
+    )
+
+
+def _add_motor(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, peak: float | None) -> None:
+    motor = spec.add_actuator(name=joint.name, target=joint.name)
+    motor.trntype = mujoco.mjtTrn.mjTRN_JOINT
+    motor.set_to_motor()
+    lower, upper = joint.actfrcrange
+    if lower < upper:
+        motor.forcerange = [lower, upper]
+        motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+    elif peak is not None:
+        motor.forcerange = [-peak, peak]
+        motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE

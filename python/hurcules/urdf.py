@@ -1,0 +1,208 @@
+"""Robots out of URDF files: frames, limits of speed and effort, motors."""
+
+from __future__ import annotations
+
+import math
+import warnings
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules._core import Error
+from hurcules.motors import with_motors
+
+__all__ = ["load_urdf"]
+
+_MESHES = (".stl", ".obj", ".msh")  # that MuJoCo reads
+_LEAST_MASS, _LEAST_INERTIA = 1e-3, 1e-6  # [kg], [kg m^2] of links that say nothing, or less
+_COMPILER = {
+    "balanceinertia": "true",  # of links whose inertia no body can have
+    "boundmass": str(_LEAST_MASS),
+    "boundinertia": str(_LEAST_INERTIA),
+    "inertiafromgeom": "false",
+    "fusestatic": "false",  # keeps the frames of fixed joints
+    "strippath": "false",
+}
+
+
+def load_urdf(path: str | Path, *, shapes: bool = True) -> mujoco.MjModel:
+    """A URDF as a model that `Robot` and `Simulation` take.
+
+    All links stay frames, fixed ones too. The limits of position and effort are MuJoCo's, those of
+    speed stand as numerics `velocity_limit_JOINT`, where `Robot` finds them. Each joint has a motor
+    (`with_motors`). The root is fixed to the world, as in the file. Links that touch each other in
+    the first posture never do: their hulls overlap by construction.
+
+    Args:
+        path: of the file. Meshes are looked for as it names them, `package://NAME/...` in a folder
+            NAME above the file.
+        shapes: False leaves out everything to see and to touch.
+
+    Raises:
+        Error: a file that cannot be read, is no URDF, or is one that MuJoCo refuses.
+
+    Warns:
+        UserWarning: shapes that were left out, since their meshes are not there or of a kind that
+            MuJoCo does not read.
+    """
+    path = Path(path)
+    try:
+        root = ET.parse(path).getroot()
+    except OSError as error:
+        raise Error(f"cannot read {path}: {error.strerror}") from error
+    except ET.ParseError as error:
+        raise Error(f"{path} is no XML: {error}") from error
+    if root.tag != "robot":
+        raise Error(f"{path} wants to be a URDF, whose root is <robot>; <{root.tag}> came")
+    _fit_shapes(root, path, shapes)
+    _fit_inertias(root, path)
+    speeds = _speeds(root, path)
+    extension = root.find("mujoco")
+    if extension is None:
+        extension = ET.SubElement(root, "mujoco")
+    compiler = extension.find("compiler")
+    if compiler is None:
+        compiler = ET.SubElement(extension, "compiler")
+    compiler.attrib.update(_COMPILER)
+    compiler.attrib.pop("meshdir", None)
+    try:
+        spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
+    except ValueError as error:
+        raise Error(f"{path}: {error}") from error
+    joints = {joint.name for joint in spec.joints}
+    for name, speed in speeds.items():
+        if name in joints:
+            spec.add_numeric(name=f"velocity_limit_{name}", data=[speed], size=1)
+    for mesh in spec.meshes:  # thin ones have no volume
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    try:
+        _exclude_overlaps(spec, spec.compile())
+        return with_motors(spec)
+    except (ValueError, Error) as error:
+        raise Error(f"{path}: {error}") from error
+
+
+def _exclude_overlaps(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
+    data = mujoco.MjData(model)
+    for joint in range(model.njnt):
+        if model.jnt_limited[joint]:
+            place = model.jnt_qposadr[joint]
+            data.qpos[place] = np.clip(data.qpos[place], *model.jnt_range[joint])
+    mujoco.mj_forward(model, data)
+    pairs = {tuple(sorted(pair)) for pair in model.geom_bodyid[data.contact.geom].tolist()}
+    for first, second in sorted(pairs):
+        spec.add_exclude(bodyname1=model.body(first).name, bodyname2=model.body(second).name)
+
+
+def _fit_inertias(root: ET.Element, path: Path) -> None:
+    """Inertias with an axis that has none, which MuJoCo refuses, get the least there."""
+    for link in root.iter("link"):
+        inertia = link.find("inertial/inertia")
+        if inertia is None:
+            continue
+        try:
+            tensor = _tensor(inertia)
+        except ValueError as error:
+            raise Error(f"{path}: inertia of link {link.get('name')!r}: {error}") from error
+        values, axes = np.linalg.eigh(tensor)
+        if values[0] >= _LEAST_INERTIA:
+            continue
+        tensor = axes @ np.diag(values.clip(_LEAST_INERTIA)) @ axes.T
+        for key, (i, j) in _ENTRIES.items():
+            inertia.set(key, repr(float(tensor[i, j])))
+
+
+_ENTRIES = {
+    "ixx": (0, 0),
+    "iyy": (1, 1),
+    "izz": (2, 2),
+    "ixy": (0, 1),
+    "ixz": (0, 2),
+    "iyz": (1, 2),
+}
+
+
+def _tensor(inertia: ET.Element) -> NDArray[np.float64]:
+    tensor = np.zeros((3, 3))
+    for key, (i, j) in _ENTRIES.items():
+        tensor[i, j] = tensor[j, i] = float(inertia.get(key, "0"))
+    return tensor
+
+
+def _speeds(root: ET.Element, path: Path) -> dict[str, float]:
+    """By joint its limit [rad/s] or [m/s], where it has one above 0."""
+    speeds = {}
+    for joint in root.findall("joint"):
+        limit = joint.find("limit")
+        text = None if limit is None else limit.get("velocity")
+        if text is None:
+            continue
+        try:
+            speed = float(text)
+        except ValueError:
+            speed = math.nan
+        if math.isnan(speed) or speed < 0.0:
+            raise Error(f"{path}: joint {joint.get('name')!r} wants a velocity >= 0, got {text!r}")
+        if 0.0 < speed < math.inf:
+            speeds[str(joint.get("name"))] = speed
+    return speeds
+
+
+def _fit_shapes(root: ET.Element, path: Path, shapes: bool) -> None:
+    """Meshes by their places; takes out shapes that are not wanted or cannot be had."""
+    lost = []
+    for link in root.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if not shapes:
+                link.remove(shape)
+            elif mesh is not None:
+                name = mesh.get("filename", "")
+                file = _mesh_file(name, path)
+                if file is None:
+                    lost.append(name)
+                    link.remove(shape)
+                else:
+                    mesh.set("filename", str(file))
+    if lost:
+        warnings.warn(
+            f"{path.name}: {len(lost)} shapes are left out, whose meshes are not there or not "
+            f"STL, OBJ or MSH: {lost[0]}" + ", ..." * (len(lost) > 1),
+            stacklevel=3,
+        )
+
+
+def _mesh_file(name: str, path: Path) -> Path | None:
+    file = _find_mesh(name, path)
+    return file if file is not None and _is_readable(file) else None
+
+
+def _is_readable(file: Path) -> bool:
+    """Whether MuJoCo reads it: of STL, it takes binary files alone."""
+    if file.suffix.lower() != ".stl":
+        return True
+    with file.open("rb") as stream:
+        head = stream.read(84)
+    return len(head) == 84 and file.stat().st_size == 84 + 50 * int.from_bytes(head[80:], "little")
+
+
+def _find_mesh(name: str, path: Path) -> Path | None:
+    if not name.lower().endswith(_MESHES):
+        return None
+    name = name.removeprefix("file://")
+    package = name.startswith("package://")
+    relative = Path(name.removeprefix("package://"))
+    folders = list(path.resolve().parents) if package else [path.resolve().parent]
+    for folder in folders:
+        file = folder / relative
+        if file.is_file():
+            return file
+        # beside the file of its own package: package://NAME/meshes -> .../NAME/meshes
+        if package and folder.name == relative.parts[0]:
+            file = folder.joinpath(*relative.parts[1:])
+            if file.is_file():
+                return file
+    return None

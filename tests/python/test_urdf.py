@@ -1,0 +1,185 @@
+"""Robots out of URDF files: what is read, what is left out, and that they run in the physics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+
+# a shoulder and an elbow; the base has no inertia about z, its mesh is not there, the tool is fixed
+ARM = """
+<robot name="arm">
+  <link name="base">
+    <inertial>
+      <mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <visual><geometry><mesh filename="package://arm/meshes/base.dae"/></geometry></visual>
+    <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
+  </link>
+  <link name="upper">
+    <inertial>
+      <origin xyz="0 0 0.2"/><mass value="2"/>
+      <inertia ixx="0.03" iyy="0.03" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><origin xyz="0 0 0.2"/><geometry><box size="0.1 0.1 0.5"/></geometry></collision>
+  </link>
+  <link name="lower">
+    <inertial>
+      <origin xyz="0 0 0.2"/><mass value="1"/>
+      <inertia ixx="0.02" iyy="0.02" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><origin xyz="0 0 0.2"/><geometry><box size="0.1 0.1 0.9"/></geometry></collision>
+  </link>
+  <link name="tool"/>
+  <joint name="shoulder" type="revolute">
+    <parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2" effort="60" velocity="1.5"/>
+  </joint>
+  <joint name="elbow" type="revolute">
+    <parent link="upper"/><child link="lower"/><origin xyz="0 0 0.4"/><axis xyz="0 1 0"/>
+    <limit lower="0.2" upper="2" effort="30" velocity="2.5"/>
+  </joint>
+  <joint name="flange" type="fixed">
+    <parent link="lower"/><child link="tool"/><origin xyz="0 0 0.4"/>
+  </joint>
+</robot>
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM)
+    return path
+
+
+def test_limits_and_frames_are_those_of_the_file(file: Path) -> None:
+    with pytest.warns(UserWarning, match=r"1 shapes are left out.*base\.dae"):
+        model = hurcules.load_urdf(file)
+    robot = hurcules.Robot(model)
+    shoulder, elbow = robot.coordinates
+    assert (shoulder.max_velocity, elbow.max_velocity) == (1.5, 2.5)
+    assert (shoulder.max_effort, elbow.max_effort) == (60.0, 30.0)
+    assert (elbow.lower, elbow.upper) == (0.2, 2.0)
+    robot.set_configuration([0.0, 0.2])
+    # 0.4 m up, then 0.4 m along the lower arm
+    np.testing.assert_allclose(
+        robot.position("tool"), [0.4 * np.sin(0.2), 0.0, 0.4 + 0.4 * np.cos(0.2)], atol=1e-12
+    )
+
+
+def test_its_links_move_in_the_physics_within_their_limits(file: Path) -> None:
+    model = hurcules.load_urdf(file, shapes=False)
+    assert model.ngeom == 0
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.0, 1.2])
+    tool = hurcules.PositionTask("tool", robot, "tool", axes=[[1, 0, 0], [0, 0, 1]])
+    controller = hurcules.WholeBodyController(robot, [tool], {"tool": hurcules.Twist(tool, 0.5)})
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    start, second = simulation.data.body("tool").xpos.copy(), round(1 / simulation.dt)
+    simulation.step(second, {"tool": [0.1, -0.1]})
+    simulation.step(second)
+    moved = simulation.data.body("tool").xpos - start
+    np.testing.assert_allclose(moved, [0.1, 0.0, -0.1], atol=2e-3)
+    assert simulation.limit_violation()["position_rad"] == 0.0
+
+
+def test_links_that_overlap_by_construction_do_not_touch(file: Path) -> None:
+    with pytest.warns(UserWarning):
+        model = hurcules.load_urdf(file)
+    data = mujoco.MjData(model)
+    data.qpos[:] = [0.0, 0.2]  # the lower arm's box reaches into the base
+    mujoco.mj_forward(model, data)
+    assert data.ncon == 0
+    data.qpos[:] = [0.0, 2.0]
+    mujoco.mj_forward(model, data)
+    assert model.nexclude == 1
+
+
+def test_motors_are_added_where_there_are_none() -> None:
+    spec = mujoco.MjSpec.from_string(
+        """<mujoco><worldbody><body><joint name="a"/><geom size="0.1"/>
+        <body><joint name="b" type="slide" actuatorfrcrange="-5 3"/><geom size="0.1"/></body>
+        </body></worldbody><actuator><position joint="a" kp="1"/></actuator></mujoco>"""
+    )
+    model = hurcules.with_motors(spec)
+    assert [model.actuator(i).name for i in range(model.nu)] == ["", "b"]
+    assert model.actuator_forcerange[1].tolist() == [-5.0, 3.0]
+    again = hurcules.with_motors(spec)
+    assert again.nu == 2
+
+
+def test_a_robot_without_motors_is_refused_in_the_physics_alone() -> None:
+    text = (
+        '<mujoco><worldbody><body><joint name="a"/><geom size="0.1"/></body></worldbody></mujoco>'
+    )
+    model = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(model, joints=["a"])
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    with pytest.raises(hurcules.Error, match=r"no joint of the robot has an actuator.*with_motors"):
+        hurcules.Simulation(model=model, controller=controller)
+    hurcules.Simulation(model=model, controller=controller, physics=False).step(10)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("<mujoco/>", "whose root is <robot>; <mujoco> came"),
+        ("<robot", "is no XML"),
+        (ARM.replace('velocity="1.5"', 'velocity="fast"'), "'shoulder' wants a velocity >= 0"),
+        (ARM.replace('ixx="0.1"', 'ixx="much"'), "inertia of link 'base'"),
+        (ARM.replace('child link="upper"', 'child link="nobody"'), "arm.urdf"),
+    ],
+)
+def test_a_file_that_is_none_is_refused(file: Path, text: str, wanted: str) -> None:
+    file.write_text(text)
+    with pytest.raises(hurcules.Error, match=wanted):
+        hurcules.load_urdf(file, shapes=False)
+
+
+def test_what_is_not_there_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(hurcules.Error, match="cannot read"):
+        hurcules.load_urdf(tmp_path / "none.urdf")
+    with pytest.raises(hurcules.Error, match="peak wants a number above 0"):
+        hurcules.with_motors(mujoco.MjSpec(), peak=0.0)
+
+
+FLOATING = """
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.002"/>
+  <worldbody>
+    <body name="pelvis" pos="0 0 1">
+      <freejoint/>
+      <geom size="0.15" mass="8"/>
+      <body name="trunk">
+        <joint name="waist" axis="0 1 0" range="-1 1" limited="true"/>
+        <geom type="capsule" fromto="0 0 0 0 0 0.6" size="0.1" mass="30"/>
+        <body pos="0 0 0.6">
+          <joint name="neck" axis="0 1 0" range="-1 1" limited="true"/>
+          <geom fromto="0 0 0 0 0 0.3" type="capsule" size="0.05" mass="5"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="waist"/><motor joint="neck"/></actuator>
+</mujoco>"""
+
+
+def test_a_floating_robot_warns_and_keeps_its_posture_as_it_falls() -> None:
+    # for gains of a pelvis that is held the pelvis alone is ninety times too light
+    model = mujoco.MjModel.from_xml_string(FLOATING)
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.02, 0.3])
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(robot, [posture])
+    with pytest.warns(UserWarning, match="root is free, and nothing says what it stands on"):
+        simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(200)
+    assert not simulation.finished
+    np.testing.assert_allclose(simulation.data.qpos[7:], [0.02, 0.3], atol=0.03)
+    assert np.abs(simulation.data.qvel[6:]).max() < 0.2
