@@ -43,8 +43,8 @@ FLOORS: tuple[set[str], ...] = (
         "opengl", "plugins", "running_gear",
     )},
     {"hurcules." + name for name in (
-        "_reprs", "_version", "casualties", "driving", "mission_table", "motors", "output", "postures",
-        "rendering", "rhqp", "sensors", "validation",
+        "_reprs", "_version", "casualties", "driving", "mission_table", "motors", "output",
+        "postures", "rendering", "rhqp", "sensors", "validation",
     )},
     {"hurcules." + name for name in ("cameras", "mjcf", "transfer_bed", "urdf", "video")},
     {"hurcules.scenes"},
