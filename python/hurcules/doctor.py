@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from hurcules.extras import EXTRA, REMEDY, missing
 from hurcules.opengl import REMEDY as RENDERER_REMEDY
-from hurcules.opengl import import_mujoco
+from hurcules.opengl import import_mujoco, lacking
 
 __all__ = ["Finding", "Status", "examine", "render_with", "report"]
 
@@ -68,6 +68,8 @@ def render_with(backend: str) -> str:
     Returns:
         "" when it worked, else the last line of what went wrong.
     """
+    if lost := lacking(backend):
+        return f"no {' and no '.join(lost)}"
     # MuJoCo's import has left the choice of this process there
     environment = {k: v for k, v in os.environ.items() if k != "PYOPENGL_PLATFORM"}
     try:

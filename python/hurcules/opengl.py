@@ -13,7 +13,7 @@ from collections.abc import MutableMapping
 from pathlib import Path
 from typing import Any
 
-__all__ = ["REMEDY", "choose_backend", "give_mujoco", "import_mujoco"]
+__all__ = ["REMEDY", "choose_backend", "give_mujoco", "import_mujoco", "lacking"]
 
 REMEDY = (
     "apt-get install libosmesa6 (or libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0), "
@@ -39,14 +39,17 @@ def choose_backend(environment: MutableMapping[str, str] = os.environ) -> str:
     Returns:
         The value of MUJOCO_GL afterwards, "" when MuJoCo's own choice is left alone.
     """
-    has_display = environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY")
-    if sys.platform == "linux" and not has_display and "MUJOCO_GL" not in environment:
+    if sys.platform == "linux" and not _has_display(environment) and "MUJOCO_GL" not in environment:
         device = any(Path("/dev").glob("nvidia[0-9]*")) or any(Path("/dev/dri").glob("render*"))
         for backend in ("egl", "osmesa") if device else ("osmesa", "egl"):
-            if all(any(_loads(name) for name in group) for group in _LIBRARIES[backend]):
+            if not lacking(backend):
                 environment["MUJOCO_GL"] = backend
                 break
     return environment.get("MUJOCO_GL", "")
+
+
+def _has_display(environment: MutableMapping[str, str]) -> bool:
+    return bool(environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"))
 
 
 def import_mujoco() -> Any:
@@ -80,6 +83,8 @@ def _first_context(width: int, height: int) -> Any:
     backend = choose_backend()
     if backend not in ("", "egl", "glfw", "glx", "osmesa"):
         raise RuntimeError(f"invalid value for environment variable MUJOCO_GL: {backend}")
+    if not backend and sys.platform == "linux" and not _has_display(os.environ):
+        raise RuntimeError("no display, and neither OSMesa nor EGL on this machine")
     give_mujoco(backend if backend in _LIBRARIES else "glfw")
     context: Any = sys.modules["mujoco.rendering.classic.gl_context"]
     return context.GLContext(width, height)
@@ -97,6 +102,12 @@ def give_mujoco(backend: str) -> None:
     if backend in (*_LIBRARIES, "glfw"):
         chosen: Any = importlib.import_module("mujoco.rendering.classic.gl_context")
         chosen.GLContext = importlib.import_module(f"mujoco.{backend}").GLContext
+
+
+def lacking(backend: str) -> list[str]:
+    """The shared libraries that a backend wants and that are not on this machine."""
+    groups = _LIBRARIES.get(backend, [])
+    return [group[0] for group in groups if not any(_loads(name) for name in group)]
 
 
 def _loads(library: str) -> bool:
