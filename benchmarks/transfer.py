@@ -20,7 +20,9 @@ from typing import Any
 
 from stable_baselines3 import PPO
 
-from hurcules_envs.training import TrainOptions, evaluate, load_policy, train
+from hurcules_envs.evaluation import evaluate
+from hurcules_envs.policy import Policy
+from hurcules_envs.training import TrainOptions, train
 
 IDS = ("Hurcules/Reach-v0", "Hurcules/ReachJoint-v0")
 EVERY = 10_000  # steps between checkpoints
@@ -77,7 +79,7 @@ def main() -> None:
             folder = given.out / f"{name.split('/')[1]}-{seed}"
             row: dict[str, Any] = {"environment": name, "seed": seed}
             row["curve"] = learn(name, seed, given.steps, folder)
-            act = acting(load_policy(folder)[0])
+            act = Policy(folder)
             for fidelity in ("kinematic", "exact"):
                 row[fidelity] = asdict(evaluate(act, name, 100, fidelity=fidelity))
             if name == IDS[0]:

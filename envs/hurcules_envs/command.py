@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,6 +12,10 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 import hurcules
 from hurcules.cli import results_in
+from hurcules.output import Output
+from hurcules_envs import evaluation
+from hurcules_envs.policy import Policy, full_id
+from hurcules_envs.running import environment_of
 
 __all__ = ["evaluate", "record", "train"]
 
@@ -42,12 +45,12 @@ def train(
 ) -> None:
     """Train a policy that commands a robot in task space, then judge it in the full physics.
 
-    Goes on where an earlier run in the same folder was stopped. Writes policy.zip, checkpoint.zip,
-    settings.json and evaluation.json.
+    Goes on where an earlier run in the same folder was stopped. Writes policy.onnx, policy.zip,
+    checkpoint.zip, settings.json and evaluation.json.
 
     For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`
     """
-    name = _full(environment)
+    name = full_id(environment)
     options = _given(fidelity=fidelity or "kinematic", robot=robot, action=action)
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
@@ -66,7 +69,7 @@ def train(
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(f"{algo} on {name}", total=steps, success=0.0)
         training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
-    _judge(folder, judge, "exact", None, console)
+    _judge(str(folder), None, judge, "exact", None, None, console)
 
 
 def _on_cluster(
@@ -85,21 +88,32 @@ def _on_cluster(
 
 
 def evaluate(
-    folder: Annotated[Path, typer.Argument(help="That train wrote.")],
+    policy: Annotated[
+        str, typer.Argument(help="An ONNX file, a folder that train wrote, or Reach-v0, Drive-v0.")
+    ],
+    environment: Annotated[
+        str | None, typer.Argument(help="For files that do not say it.", show_default="its own")
+    ] = None,
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
     robot: Robot = None,
-    episodes: Annotated[int, typer.Option(help="How many.")] = 100,
+    episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
+    out: Annotated[Path | None, results_in("beside the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
-    """Judge a trained policy: success with its 95 % interval, falls, limits, self-contact.
+    """Judge a policy: success with its 95 % interval, falls, limits, self-contact.
 
-    For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`
+    Runs without PyTorch. Writes evaluation.json.
+
+    For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
+    `hurcules evaluate Drive-v0`
     """
-    _judge(folder, episodes, fidelity, robot, Console())
+    _judge(policy, environment, episodes, fidelity, robot, out, Console())
 
 
 def record(
     environment: Annotated[str, typer.Argument(help="Reach-v0, Drive-v0, ...")],
-    policy: Annotated[str, typer.Option(help="expert, or a folder that train wrote.")] = "expert",
+    policy: Annotated[
+        str, typer.Option(help="expert, an ONNX file, a folder, or Reach-v0.")
+    ] = "expert",
     episodes: Annotated[int, typer.Option(help="How many.")] = 100,
     seed: Annotated[int, typer.Option(help="Of the first one.")] = 0,
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
@@ -111,11 +125,12 @@ def record(
     """
     from hurcules_envs import recording
 
-    name, author = _full(environment), "expert"
+    name, author = full_id(environment), "expert"
     act: Any = _expert
     if policy != "expert":
-        model, _ = _training().load_policy(Path(policy))
-        act, author = (lambda _, seen: model.predict(seen, deterministic=True)[0]), "policy"
+        network, author = Policy(policy), "policy"
+        environment_of(network, name)
+        act = _acting(network)
     with Progress() as bar:
         task = bar.add_task(f"{author} in {name}", total=episodes)
         folder = out or Path("out", "data")
@@ -132,26 +147,41 @@ def _expert(env: Any, seen: Any) -> Any:
     return env.environment.expert(env.numbers)[0]
 
 
-def _judge(folder: Path, episodes: int, fidelity: str, robot: str | None, console: Console) -> None:
-    training = _training()
-    model, settings = training.load_policy(folder)
-    options = settings["options"] | _given(fidelity=fidelity, robot=robot)
-    result = training.evaluate(
-        lambda seen: model.predict(seen, deterministic=True)[0],
-        settings["environment"],
-        episodes,
-        **options,
-    )
-    figures = asdict(result) | {"environment": settings["environment"], "options": options}
-    path = folder / "evaluation.json"
-    path.write_text(json.dumps(figures, indent=2) + "\n")
-    words = ", ".join(f"{name} {value}" for name, value in options.items())
-    console.print(f"{settings['environment']} ({words}), {episodes} episodes")
+def _acting(policy: Policy) -> Any:
+    """The policy as `recording.record` wants it; it is checked at the first observation."""
+
+    def act(env: Any, seen: Any) -> Any:
+        policy.check(env.spec.id, env.observation_space, env.action_space)
+        one = {n: v[None] for n, v in seen.items()} if isinstance(seen, dict) else seen[None]
+        return policy(one)[0]
+
+    return act
+
+
+def _judge(
+    source: str,
+    environment: str | None,
+    episodes: int,
+    fidelity: str,
+    robot: str | None,
+    out: Path | None,
+    console: Console,
+) -> None:
+    policy = Policy(source)
+    name, options = environment_of(policy, environment, fidelity=fidelity, robot=robot)
+    result = evaluation.evaluate(policy, name, episodes, **options)
+    figures = asdict(result) | {"environment": name, "options": options}
+    beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
+    output = Output(out or beside, ("evaluation.json",))
+    output.write_json("evaluation.json", figures)
+    words = ", ".join(f"{key} {value}" for key, value in options.items())
+    console.print(f"{name} ({words}), {episodes} episodes")
     console.print(f"  success        {result.success:.0%} ({result.low:.0%} to {result.high:.0%})")
+    console.print(f"  steps          {result.mean_length:.0f}, mean")
     console.print(f"  falls          {result.falls:.0%}")
     console.print(f"  over a limit   {1e3 * result.limit_excess:.1f} mrad at most, measured")
     console.print(f"  self-contact   {result.self_contacts:.2%} of the steps")
-    console.print(f"  {path}")
+    console.print(f"  {output.saved[0]}")
 
 
 def _training() -> Any:
@@ -160,11 +190,6 @@ def _training() -> Any:
     except ImportError as error:
         raise hurcules.Error(f"{MISSING} ({error})") from error
     return training
-
-
-def _full(name: str) -> str:
-    name = name.removeprefix("hurcules_envs:")
-    return name if name.startswith("Hurcules/") else f"Hurcules/{name}"
 
 
 def _given(**options: str | None) -> dict[str, str]:

@@ -23,6 +23,8 @@ FAR = (2.0, 6.0)  # [m] of the goal
 WIDE = 0.5  # [m] beside the lane on terrain
 NEAR, ALIGNED = 0.3, math.radians(15.0)  # [m], [rad] of success
 STILL = 0.1  # [m/s]
+EFFORT = 0.02
+NEARBY = 1.0  # [m] over which the heading begins to count
 CENTRE = -0.41  # [m] of the point that it turns about, its centre of mass, from the knee axis
 TILT = 0.9  # [rad] of a robot that fell
 
@@ -54,13 +56,15 @@ class Drive(Environment):
     | legs     | 1    | rad   | 4     | knee                                              |
     | margin   | 1    | m     | 2     | of the centre of mass within what it stands on    |
 
-    Reward: `progress`, the way [m] that the goal came nearer; `heading`, minus 0.1 of the heading's
-    error [rad] within 1 m of the goal; `success`, 10 once; `fall`, -10 once. Success: nearer than
-    0.3 m and 15 degrees, at less than 0.1 m/s. Both success and a fall end the episode.
+    Reward: `progress`, the way [m] that the goal came nearer; `heading`, what half of the heading's
+    error [rad] times exp(-d / 1 m) became smaller, d the distance of the goal; `success`, 10 once;
+    `fall`, -10 once; `effort`, minus 0.02 times the mean square of the action. The first two are
+    differences of a potential (Ng, Harada and Russell, ICML 1999), so that no detour pays. Success:
+    nearer than 0.3 m and 15 degrees, at less than 0.1 m/s. Both success and a fall end the episode.
     """
 
     task_description = "Drive to the goal and stand there with the wanted heading."
-    terms = ("progress", "heading", "success", "fall")
+    terms = ("progress", "heading", "success", "fall", "effort")
 
     def __init__(
         self,
@@ -119,7 +123,7 @@ class Drive(Environment):
             fall=hurcules.FallOptions("upper_legs", max_tilt=TILT),
         )
         self.goal = 4
-        self.memory = {"goal": 4, "way": 1, "gained": 1, "done": 1}
+        self.memory = {"goal": 4, "way": 1, "skew": 1, "gained": 1, "aligned": 1, "done": 1}
         self.quantities = (
             "position/upper_legs",
             "matrix/upper_legs",
@@ -153,7 +157,8 @@ class Drive(Environment):
             goal = (x + far, y + generator.uniform(-WIDE, WIDE), 0.0)
         place = [*goal[:2], math.cos(goal[2]), math.sin(goal[2])]
         way = math.hypot(goal[0] - x, goal[1] - y)
-        return Start(qpos, {"goal": place, "way": way})
+        error = abs(math.remainder(goal[2] - heading, 2.0 * math.pi))
+        return Start(qpos, {"goal": place, "way": way, "skew": _skew(error, way)})
 
     def remember(self, numbers: Numbers) -> None:
         """The way that is left, and whether it is done."""
@@ -162,8 +167,12 @@ class Drive(Environment):
         memory = numbers.memory
         memory["gained"][:, 0] = memory["way"][:, 0] - way
         memory["way"][:, 0] = way
+        turn = self._turn(achieved, desired)
+        skew = _skew(turn, way)
+        memory["aligned"][:, 0] = memory["skew"][:, 0] - skew
+        memory["skew"][:, 0] = skew
         slow = np.linalg.norm(numbers["velocity/upper_legs"], axis=1) < STILL
-        done = slow & (way < NEAR) & (self._turn(achieved, desired) < ALIGNED)
+        done = slow & (way < NEAR) & (turn < ALIGNED)
         memory["done"][done] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
@@ -191,14 +200,16 @@ class Drive(Environment):
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Progress and heading, then what ends the episode."""
-        achieved, desired = self.goals(numbers)
-        near = numbers["way"][:, 0] < 1.0
         shaped = 0.0 if self.sparse else 1.0
         return {
             "progress": shaped * numbers["gained"][:, 0],
-            "heading": -0.1 * shaped * self._turn(achieved, desired) * near,
+            "heading": shaped * numbers["aligned"][:, 0],
             "success": 10.0 * numbers["done"][:, 0],
             "fall": -10.0 * numbers.finished.astype(np.float64),
+            "effort": -shaped
+            * EFFORT
+            * np.einsum("ni,ni->n", numbers.action, numbers.action)
+            / 3.0,
         }
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
@@ -267,6 +278,11 @@ def _into(forward: Array, vector: Array) -> Array:
     along = np.einsum("ni,ni->n", forward, vector)
     left = forward[:, 0] * vector[:, 1] - forward[:, 1] * vector[:, 0]
     return np.stack([along, left], axis=1)
+
+
+def _skew(turn: Any, way: Any) -> Any:
+    """What a heading's error [rad] counts at a distance [m] of the goal."""
+    return 0.5 * turn * np.exp(-way / NEARBY)
 
 
 def _wrap(angle: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
@@ -17,6 +18,7 @@ __all__ = ["GoalFeatures", "Sb3VecEnv", "make_sb3"]
 
 
 SCALE = 3.0  # of the way to a goal, beside velocities and angles
+PARTS = ("observation", "way")
 
 
 class Sb3VecEnv(VecEnv):
@@ -112,20 +114,23 @@ class GoalFeatures(BaseFeaturesExtractor):
 
     Args:
         observation_space: of the environment.
-        way_only: the observation is left out; what is learnt then holds at other places, and for
-            other robots.
+        parts: "observation", "way" or both. Without the observation, what is learnt holds at other
+            places, and for other robots; without the way where the observation has the goal.
     """
 
-    def __init__(self, observation_space: gymnasium.spaces.Dict, way_only: bool = False) -> None:
+    def __init__(
+        self, observation_space: gymnasium.spaces.Dict, parts: Sequence[str] = PARTS
+    ) -> None:
         sizes = {name: (space.shape or (0,))[0] for name, space in observation_space.items()}
-        seen = 0 if way_only else sizes["observation"]
-        super().__init__(observation_space, seen + sizes["achieved_goal"])
-        self._way_only = way_only
+        widths = {"observation": sizes["observation"], "way": sizes["achieved_goal"]}
+        super().__init__(observation_space, sum(widths[part] for part in parts))
+        self.parts = tuple(parts)
 
     def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
         """(n, features)."""
         way = SCALE * (observations["desired_goal"] - observations["achieved_goal"])
-        return way if self._way_only else torch.cat([observations["observation"], way], dim=1)
+        seen = {"observation": observations["observation"], "way": way}
+        return torch.cat([seen[part] for part in self.parts], dim=1)
 
 
 def make_sb3(

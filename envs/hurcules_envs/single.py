@@ -81,6 +81,11 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         """The loop underneath."""
         return self._episodes.batch[0]
 
+    @property
+    def qpos(self) -> NDArray[np.float64]:
+        """(nq,) positions of everything in the model, now."""
+        return self._episodes.batch.qpos[0].copy()
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:

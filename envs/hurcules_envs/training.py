@@ -1,18 +1,15 @@
-"""Training a policy, and judging it: Stable-Baselines3 on native vectors of environments."""
+"""Training a policy: Stable-Baselines3 on native vectors of environments."""
 
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import gymnasium
-import numpy as np
 import torch
-from numpy.typing import NDArray
 from stable_baselines3 import PPO, SAC, HerReplayBuffer
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback
@@ -20,9 +17,10 @@ from stable_baselines3.common.callbacks import BaseCallback
 import hurcules
 import hurcules_envs
 from hurcules.validation import require_known
-from hurcules_envs.sb3 import GoalFeatures, make_sb3
+from hurcules_envs.exporting import export_policy
+from hurcules_envs.sb3 import PARTS, GoalFeatures, make_sb3
 
-__all__ = ["Evaluation", "TrainOptions", "evaluate", "load_policy", "train"]
+__all__ = ["TrainOptions", "train"]
 
 ALGORITHMS = ("ppo", "sac", "her")
 PPO_SETTINGS = {
@@ -36,7 +34,18 @@ PPO_SETTINGS = {
 # by the beginning of an id: what differs
 RECIPES: Mapping[str, Mapping[str, Any]] = {
     "Hurcules/Reach": {},
-    "Hurcules/Drive": {"gamma": 0.98, "gae_lambda": 0.95, "n_steps": 128, "learning_rate": 1e-3},
+    "Hurcules/Drive": {
+        "gamma": 0.98,
+        "gae_lambda": 0.95,
+        "n_steps": 256,
+        "batch_size": 512,
+        "learning_rate": 1e-3,
+    },
+}
+# of the observation and the way to the goal, what a network sees; by default both
+SEEN: Mapping[str, Sequence[str]] = {
+    "Hurcules/Reach-": ("way",),  # where the hands are stands in the achieved goal already
+    "Hurcules/Drive-": ("observation",),  # in which the goal is, seen from the robot
 }
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
 
@@ -65,38 +74,12 @@ class TrainOptions:
     checkpoint_every: int = 20_000
 
 
-@dataclass(frozen=True)
-class Evaluation:
-    """How a policy did.
-
-    Attributes:
-        episodes: how many.
-        success: share of them.
-        low: lower end of its 95 % interval (Wilson).
-        high: upper end.
-        mean_return: sum of rewards, mean.
-        mean_length: steps, mean.
-        falls: share that ended by a fall.
-        limit_excess: worst, measured [rad].
-        self_contacts: share of steps in which the robot touched itself.
-    """
-
-    episodes: int
-    success: float
-    low: float
-    high: float
-    mean_return: float
-    mean_length: float
-    falls: float
-    limit_excess: float
-    self_contacts: float
-
-
 def train(options: TrainOptions, progress: Callable[[int, float], None] | None = None) -> Path:
     """Trains a policy; goes on where an earlier run in the same folder was stopped.
 
-    Writes checkpoint.zip every `checkpoint_every` steps, policy.zip at the end, settings.json, and
-    the logs of TensorBoard where that is installed.
+    Writes checkpoint.zip every `checkpoint_every` steps; at the end policy.zip (as
+    Stable-Baselines3 reads it) and policy.onnx (see `hurcules_envs.policy`); settings.json, and the
+    logs of TensorBoard where that is installed.
 
     Args:
         options: what, and for how long.
@@ -133,73 +116,17 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         model.learn(left, callback=watch, reset_num_timesteps=False)
         watch.save()
     model.save(out / "policy.zip")
+    about = {
+        "environment": options.environment,
+        "options": dict(options.options),
+        "algorithm": options.algorithm,
+        "steps": model.num_timesteps,
+        "seed": options.seed,
+        "action_names": environment.environment.action_names,
+    }
+    export_policy(model, out / "policy.onnx", about)
     environment.close()
     return out
-
-
-def load_policy(folder: Path) -> tuple[BaseAlgorithm, dict[str, Any]]:
-    """Reads a policy and its settings from a folder that `train` wrote.
-
-    Raises:
-        hurcules.Error: there is none.
-    """
-    policy, settings = folder / "policy.zip", folder / "settings.json"
-    if not (policy.exists() and settings.exists()):
-        raise hurcules.Error(f"{folder}: wanted policy.zip and settings.json, as train writes them")
-    known = json.loads(settings.read_text())
-    kind = PPO if known["algorithm"] == "ppo" else SAC
-    if known["algorithm"] == "her":
-        environment = make_sb3(known["environment"], 1, **known["options"])
-        return kind.load(policy, environment, device="cpu"), known
-    return kind.load(policy, device="cpu"), known
-
-
-def evaluate(
-    act: Callable[[Any], NDArray[Any]],
-    environment: str,
-    episodes: int = 100,
-    seed: int = 10_000,
-    threads: int = 0,
-    **options: Any,
-) -> Evaluation:
-    """Runs a policy once in each of many episodes.
-
-    Args:
-        act: actions (n, k) for observations.
-        environment: id.
-        episodes: how many, side by side.
-        seed: of the first; they are not those of training.
-        threads: 0 for one a processor.
-        options: of the environment.
-    """
-    vector = gymnasium.make_vec(environment, num_envs=episodes, threads=threads, **options)
-    observation, info = vector.reset(seed=seed)
-    running = np.ones(episodes, dtype=bool)
-    success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
-    returns, lengths = np.zeros(episodes), np.zeros(episodes)
-    touching, excess = 0.0, 0.0
-    while running.any():
-        observation, reward, terminated, truncated, info = vector.step(act(observation))
-        returns[running] += reward[running]
-        lengths[running] += 1
-        touching += float((info["self_contacts"][running] > 0).sum())
-        excess = max(excess, float(info["limit_excess"][running].max()))
-        success[running] = info["is_success"][running]
-        fell[running] = info["failed"][running]
-        running &= ~(terminated | truncated)
-    vector.close()
-    low, high = _wilson(int(success.sum()), episodes)
-    return Evaluation(
-        episodes=episodes,
-        success=float(success.mean()),
-        low=low,
-        high=high,
-        mean_return=float(returns.mean()),
-        mean_length=float(lengths.mean()),
-        falls=float(fell.mean()),
-        limit_excess=excess,
-        self_contacts=touching / float(lengths.sum()),
-    )
 
 
 def _model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
@@ -210,9 +137,8 @@ def _model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     network: dict[str, Any] = {"net_arch": [64, 64]}
     if goal:
         network["features_extractor_class"] = GoalFeatures
-        # the observation of Reach, where the hands are, stands in the achieved goal already
-        reach = options.environment.startswith("Hurcules/Reach-")
-        network["features_extractor_kwargs"] = {"way_only": reach}
+        parts = next((p for n, p in SEEN.items() if options.environment.startswith(n)), PARTS)
+        network["features_extractor_kwargs"] = {"parts": parts}
     shared = {"seed": options.seed, "device": "cpu", "tensorboard_log": _tensorboard(options.out)}
     if options.algorithm == "ppo":
         recipe = next((r for n, r in RECIPES.items() if options.environment.startswith(n)), {})
@@ -235,14 +161,6 @@ def _tensorboard(out: Path) -> str | None:
     except ImportError:
         return None
     return str(out / "tensorboard")
-
-
-def _wilson(successes: int, n: int) -> tuple[float, float]:
-    """The 95 % interval of a share (Wilson 1927)."""
-    z, p = 1.96, successes / n
-    middle = (p + z * z / (2 * n)) / (1 + z * z / n)
-    half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    return max(0.0, middle - half), min(1.0, middle + half)
 
 
 class _Watch(BaseCallback):

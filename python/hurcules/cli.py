@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,7 +16,7 @@ import hurcules
 from hurcules import lift, plugins
 from hurcules._core import Error
 from hurcules.output import WriteError
-from hurcules.plugins import MethodOptions, Methods
+from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
 from hurcules.validation import require_known
@@ -61,7 +61,7 @@ def _options(
     """Keeps `hurcules` a command with subcommands."""
 
 
-_METHODS = "Test methods"  # where their options stand in the help
+_METHODS, _POLICIES = "Test methods", "Policies"  # where their options stand in the help
 _MISSION_OPTIONS = ("seconds", "method", "sensors")
 _METHOD_OPTIONS = ("robot", "repetitions", "pace", "workers")
 
@@ -70,8 +70,13 @@ _METHOD_OPTIONS = ("robot", "repetitions", "pace", "workers")
 def run_mission(
     context: typer.Context,
     mission: Annotated[
-        str, typer.Argument(help="A mission or a test method of `hurcules list`.")
+        str,
+        typer.Argument(help="A mission, test method or environment of `hurcules list`."),
     ] = "stretch",
+    policy: Annotated[
+        str | None,
+        typer.Option(help="Run an episode of this policy: an ONNX file, a folder, or Reach-v0."),
+    ] = None,
     seed: Annotated[int, typer.Option(help="Random numbers: what differs between runs.")] = 0,
     out: Annotated[Path | None, results_in("out/MISSION")] = None,
     seconds: Annotated[
@@ -85,7 +90,7 @@ def run_mission(
     ] = False,
     video: Annotated[bool, typer.Option("--video/--no-video", help="Write video.mp4.")] = True,
     robot: Annotated[
-        str, typer.Option(help="Which robot is tested.", rich_help_panel=_METHODS)
+        str, typer.Option(help="Which robot is tested, or acts.", rich_help_panel=_METHODS)
     ] = "rescue",
     repetitions: Annotated[
         int, typer.Option(help="Repetitions at each setting.", rich_help_panel=_METHODS)
@@ -100,11 +105,16 @@ def run_mission(
         int,
         typer.Option(help="Processes; the result does not depend on it.", rich_help_panel=_METHODS),
     ] = 1,
+    fidelity: Annotated[
+        str,
+        typer.Option(help="Of a policy: exact, fast or kinematic.", rich_help_panel=_POLICIES),
+    ] = "exact",
 ) -> None:
     """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.
 
     A test method tries harder and harder settings until one fails. Its parameter's name selects
-    settings instead, and other parameters of its scene may follow (degrees, m).
+    settings instead, and other parameters of its scene may follow (degrees, m). A policy acts for
+    an episode of its environment.
 
     Exit status: 0 done, 1 the mission failed (`summary.json` says why), 2 wrong usage, 130 Ctrl-C.
 
@@ -119,11 +129,25 @@ def run_mission(
     - `hurcules run lift --mass 90 --offset 0.05,-0.1 --yaw 0.2 --friction 0.6 --pose back`
 
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
+
+    - `hurcules run --policy Drive-v0 --seed 3`
     """
     if mission.startswith("-"):  # the first unknown option took the mission's place
         raise Error(
             f"no such option: {mission.partition('=')[0]} (a test method's come after its name)"
         )
+    if policy is not None:
+        _refuse(context, (*_MISSION_OPTIONS, *_METHOD_OPTIONS[1:]), "not with --policy")
+        if context.args:
+            raise Error(f"unexpected argument: {context.args[0]}")
+        environment = mission if _was_given(context, "mission") else None
+        other = robot if _was_given(context, "robot") else None
+        raise typer.Exit(
+            _policy_runner()(
+                PolicyOptions(policy, environment, fidelity, other, seed, out, video), Console()
+            )
+        )
+    _refuse(context, ("fidelity",), "for policies")
     folder = out or Path("out", mission)
     if methods := _methods(mission):
         _refuse(context, _MISSION_OPTIONS, f"for missions; '{mission}' is a test method")
@@ -141,6 +165,13 @@ def run_mission(
         raise Error(f"{kind}: {context.args[0]}")
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
     raise typer.Exit(run(options, Console()))
+
+
+def _policy_runner() -> Callable[[PolicyOptions, Console], int]:
+    runner = plugins.policy_runner()
+    if runner is None:
+        raise Error("--policy: no package that runs policies is installed (hurcules_envs does)")
+    return runner
 
 
 def _methods(name: str) -> Methods | None:

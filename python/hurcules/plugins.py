@@ -4,6 +4,7 @@
 |---|---|
 | `hurcules.commands` | a function: a command of its own, as `hurcules reproduce` |
 | `hurcules.methods` | a `Methods`: more that `hurcules run` can run, as `hurcules run e2803` |
+| `hurcules.policies` | a function that runs an episode of a policy, as `hurcules run --policy` |
 | `hurcules.environments` | names of gymnasium environments of the entry's package |
 """
 
@@ -18,7 +19,10 @@ from typing import Any, Protocol
 
 from rich.console import Console
 
-__all__ = ["MethodOptions", "Methods", "commands", "environments", "method_groups"]
+__all__ = [
+    "MethodOptions", "Methods", "PolicyOptions", "commands", "environments", "method_groups",
+    "policy_runner",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,19 @@ class MethodOptions:
     speed: float | None = None  # [m/s]
     workers: int = 1
     out: Path = Path("out", "method")
+    video: bool = True
+
+
+@dataclass(frozen=True)
+class PolicyOptions:
+    """What `hurcules run --policy` was asked for."""
+
+    policy: str  # file, folder or name
+    environment: str | None = None  # that of the policy
+    fidelity: str = "exact"
+    robot: str | None = None  # that of the policy
+    seed: int = 0
+    out: Path | None = None
     video: bool = True
 
 
@@ -58,6 +75,11 @@ def commands() -> dict[str, Callable[..., Any]]:
 def method_groups() -> list[Methods]:
     """Everything that knows test methods."""
     return [methods for _, _, methods in _entries("hurcules.methods")]
+
+
+def policy_runner() -> Callable[[PolicyOptions, Console], int] | None:
+    """What runs an episode of a policy and returns the exit code; None: nothing does."""
+    return next((run for _, _, run in _entries("hurcules.policies")), None)
 
 
 def environments() -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hurcules.legend import limit_words
 from hurcules.rendering import open_renderer, overview_camera, pose
 
-__all__ = ["Frame", "Painter", "film"]
+__all__ = ["Frame", "Painter", "encode", "film"]
 
 Picture = NDArray[np.uint8]  # (height, width, 3)
 
@@ -148,6 +148,21 @@ def film(
     Raises:
         OSError: the file cannot be written.
     """
+    captioned = (painter.frame(replace(frame, time=frame.time - origin), note) for frame in frames)
+    return encode(path, captioned, fps, progress, stopped)
+
+
+def encode(
+    path: Path,
+    pictures: Iterable[Picture],
+    fps: int,
+    progress: Callable[[int], None] = lambda _: None,
+    stopped: Callable[[], bool] = lambda: False,
+) -> int:
+    """Writes pictures (height, width, 3), multiples of 16, as an H.264 film.
+
+    Arguments, result and errors are those of `film`.
+    """
     import imageio.v2 as imageio  # of the extra hurcules[report]
 
     done = 0
@@ -161,8 +176,8 @@ def film(
         output_params=["-crf", "25", "-preset", "veryfast", "-movflags", "+faststart"],
     )
     try:
-        for frame in frames:
-            writer.append_data(painter.frame(replace(frame, time=frame.time - origin), note))
+        for picture in pictures:
+            writer.append_data(picture)
             done += 1
             progress(done)
             if stopped():

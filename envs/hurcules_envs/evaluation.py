@@ -1,0 +1,101 @@
+"""Judging a policy: success, falls, limits and self-contact over many episodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules_envs.policy import Policy
+
+__all__ = ["Evaluation", "evaluate", "wilson"]
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """How a policy did.
+
+    Attributes:
+        episodes: how many.
+        success: share of them.
+        low: lower end of its 95 % interval (Wilson).
+        high: upper end.
+        mean_return: sum of rewards, mean.
+        mean_length: steps, mean.
+        falls: share that ended by a fall.
+        limit_excess: worst, measured [rad].
+        self_contacts: share of steps in which the robot touched itself.
+    """
+
+    episodes: int
+    success: float
+    low: float
+    high: float
+    mean_return: float
+    mean_length: float
+    falls: float
+    limit_excess: float
+    self_contacts: float
+
+
+def evaluate(
+    act: Callable[[Any], NDArray[Any]],
+    environment: str,
+    episodes: int = 100,
+    seed: int = 10_000,
+    threads: int = 0,
+    **options: Any,
+) -> Evaluation:
+    """Runs a policy once in each of many episodes.
+
+    Args:
+        act: actions (n, k) for observations; a `Policy` is checked against the environment first.
+        environment: id.
+        episodes: how many, side by side.
+        seed: of the first; they are not those of training.
+        threads: 0 for one a processor.
+        options: of the environment.
+    """
+    vector = gymnasium.make_vec(environment, num_envs=episodes, threads=threads, **options)
+    if isinstance(act, Policy):
+        act.check(environment, vector.single_observation_space, vector.single_action_space)
+    observation, info = vector.reset(seed=seed)
+    running = np.ones(episodes, dtype=bool)
+    success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
+    returns, lengths = np.zeros(episodes), np.zeros(episodes)
+    touching, excess = 0.0, 0.0
+    while running.any():
+        observation, reward, terminated, truncated, info = vector.step(act(observation))
+        returns[running] += reward[running]
+        lengths[running] += 1
+        touching += float((info["self_contacts"][running] > 0).sum())
+        excess = max(excess, float(info["limit_excess"][running].max()))
+        success[running] = info["is_success"][running]
+        fell[running] = info["failed"][running]
+        running &= ~(terminated | truncated)
+    vector.close()
+    low, high = wilson(int(success.sum()), episodes)
+    return Evaluation(
+        episodes=episodes,
+        success=float(success.mean()),
+        low=low,
+        high=high,
+        mean_return=float(returns.mean()),
+        mean_length=float(lengths.mean()),
+        falls=float(fell.mean()),
+        limit_excess=excess,
+        self_contacts=touching / float(lengths.sum()),
+    )
+
+
+def wilson(successes: int, n: int) -> tuple[float, float]:
+    """The 95 % interval of a share, lower and upper end (Wilson 1927)."""
+    z, p = 1.96, successes / n
+    middle = (p + z * z / (2 * n)) / (1 + z * z / n)
+    half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+    return max(0.0, middle - half), min(1.0, middle + half)

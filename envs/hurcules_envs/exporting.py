@@ -1,0 +1,89 @@
+"""Policies of Stable-Baselines3 as ONNX files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from stable_baselines3.common.base_class import BaseAlgorithm
+from torch import nn
+
+import hurcules
+from hurcules_envs.onnx_file import Graph, Node, write
+from hurcules_envs.sb3 import SCALE, GoalFeatures
+
+__all__ = ["export_policy"]
+
+_ACTIVATIONS = {nn.Tanh: "Tanh", nn.ReLU: "Relu"}
+
+
+def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any]) -> None:
+    """Writes the deterministic policy: features, network, and the action cut to [-1, 1].
+
+    Inputs are named as the parts of a goal environment's observation, or `observation`; the output
+    is `action`.
+
+    Args:
+        model: PPO or SAC, as `hurcules_envs.training` builds them.
+        path: the file.
+        metadata: what the file says about itself; what is no text is written as JSON.
+
+    Raises:
+        hurcules.Error: its network has layers that are not known here.
+    """
+    space, actor = model.observation_space, model.policy
+    weights: dict[str, Any] = {}
+    nodes: list[Node] = []
+    if hasattr(actor, "action_net"):  # of PPO
+        features, layers = actor.pi_features_extractor, [*actor.mlp_extractor.policy_net]
+        layers, squashed = [*layers, actor.action_net], False
+    else:
+        features, squashed = actor.actor.features_extractor, True
+        layers = [*actor.actor.latent_pi, actor.actor.mu]
+    if isinstance(features, GoalFeatures):
+        inputs = {name: box.shape[0] for name, box in space.items()}
+        weights["scale"] = np.float32(SCALE)
+        nodes += [
+            Node("Sub", ("desired_goal", "achieved_goal"), ("away",)),
+            Node("Mul", ("away", "scale"), ("way",)),
+            Node("Concat", features.parts, ("seen",), {"axis": 1}),
+        ]
+        if "way" not in features.parts:
+            del nodes[:2], weights["scale"]
+        used = {name for node in nodes for name in node.inputs}
+        inputs = {name: size for name, size in inputs.items() if name in used}
+        last = "seen"
+    else:
+        inputs, last = {"observation": space.shape[0]}, "observation"
+    last = _add_layers(layers, last, nodes, weights)
+    if squashed:
+        nodes.append(Node("Tanh", (last,), ("action",)))
+    else:
+        weights |= {"least": np.float32(-1.0), "most": np.float32(1.0)}
+        nodes.append(Node("Clip", (last, "least", "most"), ("action",)))
+    texts = {n: v if isinstance(v, str) else json.dumps(v) for n, v in metadata.items()}
+    action = {"action": model.action_space.shape[0]}
+    write(path, Graph(tuple(nodes), weights, inputs, action, texts))
+
+
+def _add_layers(
+    layers: Iterable[nn.Module], last: str, nodes: list[Node], weights: dict[str, Any]
+) -> str:
+    """Adds the nodes of a network behind `last`; gives the name of what comes out."""
+    for i, layer in enumerate(layers):
+        out = f"layer_{i}"
+        if isinstance(layer, nn.Linear):
+            for name, values in (("weight", layer.weight), ("bias", layer.bias)):
+                weights[f"{name}_{i}"] = values.detach().to(torch.float32).numpy()
+            inputs = (last, f"weight_{i}", f"bias_{i}")
+            nodes.append(Node("Gemm", inputs, (out,), {"transB": 1}))
+        elif type(layer) in _ACTIVATIONS:
+            nodes.append(Node(_ACTIVATIONS[type(layer)], (last,), (out,)))
+        else:
+            raise hurcules.Error(f"ONNX: the layer {type(layer).__name__} is not known")
+        last = out
+    return last

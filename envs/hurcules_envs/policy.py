@@ -1,0 +1,184 @@
+"""Policies as ONNX files: read, checked against an environment, and asked for actions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules_envs import onnx_file
+
+__all__ = ["Policy", "full_id", "shipped"]
+
+Array = NDArray[np.float32]
+
+
+def _gemm(a: Any, b: Any, c: Any = 0.0, **given: float) -> Any:
+    left = a.T if given.get("transA", 0) else a
+    right = b.T if given.get("transB", 0) else b
+    return (
+        np.float32(given.get("alpha", 1.0)) * (left @ right)
+        + np.float32(given.get("beta", 1.0)) * c
+    )
+
+
+# what numpy computes; files with other operators want onnxruntime
+OPERATORS: Mapping[str, Callable[..., Any]] = {
+    "Add": lambda a, b: a + b,
+    "Clip": lambda a, low=-np.inf, high=np.inf: np.clip(a, low, high),
+    "Concat": lambda *parts, axis: np.concatenate(parts, axis=int(axis)),
+    "Div": lambda a, b: a / b,
+    "Gemm": _gemm,
+    "Identity": lambda a: a,
+    "MatMul": lambda a, b: a @ b,
+    "Mul": lambda a, b: a * b,
+    "Relu": lambda a: np.maximum(a, 0),
+    "Sub": lambda a, b: a - b,
+    "Tanh": np.tanh,
+}
+
+
+class Policy:
+    """A network from observations to actions.
+
+    Attributes:
+        path: the file.
+        environment: id of the environment that it was trained in; "" where the file does not say.
+        options: of that environment.
+        metadata: what else the file says, by name.
+    """
+
+    def __init__(self, source: str | Path) -> None:
+        """Reads a policy.
+
+        Networks of the operators above run on numpy; others run on onnxruntime where it is
+        installed.
+
+        Args:
+            source: an ONNX file, a folder that `hurcules train` wrote, or the id of an environment
+                whose policy is part of the package, see `shipped`.
+
+        Raises:
+            hurcules.Error: there is none, or it is no ONNX file of one output.
+        """
+        self.path = _file(str(source))
+        self._graph = onnx_file.read(self.path)
+        self.metadata = dict(self._graph.metadata)
+        self.environment = self.metadata.get("environment", "")
+        try:
+            options = json.loads(self.metadata.get("options", "{}"))
+        except json.JSONDecodeError:
+            options = None
+        if not isinstance(options, dict):
+            raise hurcules.Error(f"{self.path}: its options of the environment are no JSON object")
+        self.options: dict[str, Any] = options
+        if len(self._graph.outputs) != 1 or not self._graph.inputs:
+            raise hurcules.Error(
+                f"{self.path}: wanted a network with one output, the action; got the inputs "
+                f"{_listed(self._graph.inputs)} and the outputs {_listed(self._graph.outputs)}"
+            )
+        self._session = self._other_runtime()
+
+    def check(self, name: str, observation: spaces.Space[Any], action: spaces.Space[Any]) -> None:
+        """Whether it fits an environment.
+
+        Args:
+            name: id of the environment, for the message.
+            observation: space of one observation.
+            action: space of one action.
+
+        Raises:
+            hurcules.Error: it has other inputs or another output; says which, and what is wanted.
+        """
+        trained = f"; it was trained in {self.environment}" if self.environment else ""
+        boxes = observation.spaces if isinstance(observation, spaces.Dict) else {}
+        wanted = {key: space.shape[0] for key, space in boxes.items() if space.shape}
+        if not wanted:
+            only = next(iter(self._graph.inputs)) if len(self._graph.inputs) == 1 else "observation"
+            wanted = {only: (observation.shape or (0,))[0]}
+        known = {key: size for key, size in self._graph.inputs.items()}
+        unfit = {key for key in known if known[key] not in (0, wanted.get(key))}
+        if set(known) - set(wanted) or unfit:
+            raise hurcules.Error(
+                f"{self.path} does not fit {name}: wanted the inputs {_listed(wanted)}, "
+                f"got {_listed(known)}{trained}"
+            )
+        size = next(iter(self._graph.outputs.values()))
+        (numbers,) = action.shape or (0,)
+        if size not in (0, numbers):
+            raise hurcules.Error(
+                f"{self.path} does not fit {name}: wanted {numbers} numbers of the action, "
+                f"got {size}{trained}"
+            )
+
+    def __call__(self, observation: Any) -> Array:
+        """Actions (n, k) in [-1, 1] for observations (n, ...), an array or a dictionary of them.
+
+        Raises:
+            hurcules.Error: the network gave numbers that are not finite.
+        """
+        names = list(self._graph.inputs)
+        given = observation if isinstance(observation, Mapping) else {names[0]: observation}
+        fed = {name: np.asarray(given[name], dtype=np.float32) for name in names}
+        result = self._computed(fed) if self._session is None else self._session.run(None, fed)[0]
+        if not np.isfinite(result).all():
+            raise hurcules.Error(f"{self.path}: the network gave numbers that are not finite")
+        return np.clip(result, -1.0, 1.0).astype(np.float32)
+
+    def _computed(self, values: dict[str, Any]) -> Any:
+        known: dict[str, Any] = {**self._graph.weights, **values}
+        for node in self._graph.nodes:
+            inputs = [known[name] for name in node.inputs if name]
+            known[node.outputs[0]] = OPERATORS[node.kind](*inputs, **node.attributes)
+        return known[next(iter(self._graph.outputs))]
+
+    def _other_runtime(self) -> Any:
+        others = sorted({node.kind for node in self._graph.nodes} - set(OPERATORS))
+        if not others:
+            return None
+        try:
+            import onnxruntime
+        except ImportError:
+            raise hurcules.Error(
+                f"{self.path}: its operators {', '.join(others)} want onnxruntime: "
+                "pip install onnxruntime"
+            ) from None
+        return onnxruntime.InferenceSession(self.path, providers=["CPUExecutionProvider"])
+
+
+def shipped() -> dict[str, Path]:
+    """The policies that are part of the package, by the id of their environment."""
+    folder = Path(str(files("hurcules_envs") / "policies"))
+    return {f"Hurcules/{path.stem}": path for path in sorted(folder.glob("*.onnx"))}
+
+
+def full_id(name: str) -> str:
+    """The id of an environment of this package: Reach-v0 is Hurcules/Reach-v0."""
+    name = name.removeprefix("hurcules_envs:")
+    return name if "/" in name else f"Hurcules/{name}"
+
+
+def _file(source: str) -> Path:
+    path = Path(source)
+    if path.is_dir() and (path / "policy.onnx").is_file():
+        return path / "policy.onnx"
+    if path.is_file():
+        return path
+    if found := shipped().get(full_id(source)):
+        return found
+    what = "no policy.onnx lies there" if path.is_dir() else "no such file"
+    raise hurcules.Error(
+        f"policy: wanted an ONNX file, a folder that train wrote, or one of "
+        f"{', '.join(name.split('/')[1] for name in shipped())}; got '{source}': {what}"
+    )
+
+
+def _listed(sizes: Mapping[str, int]) -> str:
+    return ", ".join(f"{name} ({size or '?'})" for name, size in sizes.items()) or "none"

@@ -1,0 +1,154 @@
+"""Policies as ONNX files: written, read, judged, run. PyTorch is not needed.
+
+Strategy: small networks of known weights are written and read back; what ships is run in its
+environment. Where the package onnx is installed, it checks the files and computes the same.
+Not tested: that training leads anywhere (docs/environments.md has the figures).
+"""
+
+import json
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+
+import hurcules
+import hurcules_envs
+from hurcules.cli import main
+from hurcules_envs.evaluation import evaluate, wilson
+from hurcules_envs.onnx_file import Graph, Node, read, write
+from hurcules_envs.policy import Policy, shipped
+
+REACH = {"environment": "Hurcules/Reach-v0", "options": '{"fidelity": "kinematic"}'}
+GOAL = {"desired_goal": 6, "achieved_goal": 6}
+
+
+def linear(path: Path, gain: float = 3.0, inputs=GOAL, metadata=REACH, kind: str = "Tanh") -> Path:
+    """A policy that goes straight to the goal: tanh(gain (desired - achieved))."""
+    nodes = (
+        Node("Sub", ("desired_goal", "achieved_goal"), ("way",)),
+        Node("Gemm", ("way", "weight", "bias"), ("sum",), {"transB": 1, "alpha": 0.5}),
+        Node(kind, ("sum",), ("action",)),
+    )
+    weights = {"weight": 2.0 * gain * np.eye(6), "bias": np.zeros(6)}
+    write(path, Graph(nodes, weights, inputs, {"action": 6}, metadata))
+    return path
+
+
+def test_what_is_written_is_read(tmp_path: Path) -> None:
+    graph = read(linear(tmp_path / "a.onnx"))
+    assert [node.kind for node in graph.nodes] == ["Sub", "Gemm", "Tanh"]
+    assert graph.nodes[1].attributes == {"transB": 1, "alpha": 0.5}
+    assert (graph.inputs, graph.outputs, graph.metadata) == (GOAL, {"action": 6}, REACH)
+    assert np.array_equal(graph.weights["weight"], 6.0 * np.eye(6, dtype=np.float32))
+
+
+def test_a_policy_computes_its_network(tmp_path: Path) -> None:
+    policy = Policy(linear(tmp_path / "a.onnx"))
+    generator = np.random.default_rng(0)
+    seen = {name: generator.normal(size=(5, 6)).astype(np.float32) for name in GOAL}
+    way = seen["desired_goal"] - seen["achieved_goal"]
+    assert np.allclose(policy(seen), np.tanh(3.0 * way), atol=1e-6)
+    assert policy(seen).dtype == np.float32
+
+
+def test_other_programs_read_the_files(tmp_path: Path) -> None:
+    onnx = pytest.importorskip("onnx", reason="pip install onnx")
+    from onnx.reference import ReferenceEvaluator
+
+    seen = {name: np.ones((2, size), np.float32) for name, size in GOAL.items()}
+    for path in (linear(tmp_path / "a.onnx"), shipped()["Hurcules/Reach-v0"]):
+        onnx.checker.check_model(onnx.load(path), full_check=True)
+        theirs = ReferenceEvaluator(str(path)).run(None, seen)[0]
+        assert np.allclose(Policy(path)(seen), theirs, atol=1e-6)
+
+
+def test_a_policy_acts_in_one_line_and_is_judged(tmp_path: Path) -> None:
+    policy = Policy(linear(tmp_path / "a.onnx", gain=5.0))
+    result = evaluate(policy, "Hurcules/Reach-v0", 8, fidelity="kinematic")
+    assert (result.episodes, result.success, result.self_contacts) == (8, 1.0, 0.0)
+    assert wilson(8, 8) == pytest.approx((0.676, 1.0), abs=1e-3)  # Wilson (1927)
+
+
+@pytest.mark.parametrize("name", sorted(shipped()))
+def test_what_ships_solves_its_environment(name: str) -> None:
+    policy = Policy(name.split("/")[1])
+    assert policy.environment == name
+    assert {"algorithm", "steps", "seed", "action_names"} <= set(policy.metadata)
+    assert evaluate(policy, name, 10, **policy.options).success >= 0.8
+
+
+def test_the_command_line_judges_a_file(tmp_path: Path) -> None:
+    words = ["evaluate", str(linear(tmp_path / "a.onnx", 5.0)), "--fidelity", "kinematic"]
+    assert main([*words, "--episodes", "4", "--out", str(tmp_path / "judged")]) == 0
+    figures = json.loads((tmp_path / "judged" / "evaluation.json").read_text())
+    assert figures["success"] == 1.0
+
+
+def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:
+    words = ["run", "--policy", "Reach-v0", "--seed", "3", "--fidelity", "kinematic", "--no-video"]
+    assert main([*words, "--out", str(tmp_path)]) == 0
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert (summary["success"], summary["steps"], summary["seed"]) == (True, 100, 3)
+    terms = [value for key, value in summary.items() if key.startswith("reward_")]
+    assert sum(terms) == pytest.approx(summary["return"])
+    with np.load(tmp_path / "episode.npz") as episode:
+        assert (len(episode["qpos"]), len(episode["actions"])) == (101, 100)
+        env = gymnasium.make("Hurcules/Reach-v0", fidelity="kinematic")
+        env.reset(seed=3)
+        rewards = [env.step(action.astype(np.float32))[1] for action in episode["actions"]]
+        assert rewards == episode["rewards"].tolist()  # actions alone give the same bits
+
+
+def test_the_command_line_films_an_episode_and_says_that_it_failed(tmp_path: Path) -> None:
+    pytest.importorskip("imageio_ffmpeg", reason="pip install 'hurcules[report]'")
+    hurcules_envs.register("Own/Short-v0", "hurcules_envs.reach:Reach", 5)
+    metadata = REACH | {"environment": "Own/Short-v0"}
+    policy = linear(tmp_path / "a.onnx", metadata=metadata)
+    words = ["run", "--policy", str(policy), "--fidelity", "kinematic", "--out", str(tmp_path)]
+    assert main(words) == 1  # a quarter of a second is too short
+    assert (tmp_path / "video.mp4").stat().st_size > 5_000
+
+
+def test_bad_files_get_one_clear_error(tmp_path: Path) -> None:
+    whole = linear(tmp_path / "a.onnx").read_bytes()
+    cases = {
+        "text.onnx": (b"no network at all", "wanted an ONNX file"),
+        "empty.onnx": (b"", "wanted an ONNX file"),
+        "cut.onnx": (whole[:100], "wanted an ONNX file"),
+    }
+    for name, (content, text) in cases.items():
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(hurcules.Error, match=text):
+            Policy(tmp_path / name)
+    with pytest.raises(hurcules.Error, match=r"no such file"):
+        Policy(tmp_path / "none.onnx")
+    with pytest.raises(hurcules.Error, match=r"no policy\.onnx lies there"):
+        Policy(tmp_path)
+    with pytest.raises(hurcules.Error, match="Softmax want onnxruntime"):
+        Policy(linear(tmp_path / "b.onnx", kind="Softmax"))
+
+
+def test_policies_of_others_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def complaint(*words: str) -> str:
+        assert main([*words, "--out", str(tmp_path / "out")]) == 2
+        return capsys.readouterr().err
+
+    reach = str(linear(tmp_path / "a.onnx"))
+    assert "wanted a policy of Hurcules/Drive-v0, got one of Hurcules/Reach-v0" in complaint(
+        "run", "--policy", reach, "Drive-v0"
+    )
+    bare = str(linear(tmp_path / "b.onnx", metadata={}))
+    assert "does not say its environment" in complaint("evaluate", bare)
+    assert "wanted the inputs achieved_goal (4), desired_goal (4), observation (15)" in complaint(
+        "evaluate", bare, "Drive-v0", "--fidelity", "kinematic", "--episodes", "1"
+    )
+    assert "does not exist" in complaint("run", "--policy", bare, "Fly-v0")
+    assert "for policies" in complaint("run", "stretch", "--fidelity", "fast")
+    assert "not with --policy" in complaint("run", "--policy", reach, "--seconds", "3")
+
+
+def test_numbers_that_are_not_finite_are_no_action(tmp_path: Path) -> None:
+    policy = Policy(linear(tmp_path / "a.onnx"))
+    with pytest.raises(hurcules.Error, match="not finite"):
+        policy({name: np.full((1, 6), np.nan, np.float32) for name in GOAL})
