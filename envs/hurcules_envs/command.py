@@ -117,11 +117,12 @@ def record(
     episodes: Annotated[int, typer.Option(help="How many.")] = 100,
     seed: Annotated[int, typer.Option(help="Of the first one.")] = 0,
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
+    form: Annotated[str, typer.Option("--format", help="minari or robomimic.")] = "minari",
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
-    """Record episodes as a Minari data set for imitation.
+    """Record episodes as a data set for imitation: Minari's, or an HDF5 file of robomimic.
 
-    For example `hurcules record Drive-v0 --episodes 100`
+    For example `hurcules record Drive-v0 --episodes 100 --format robomimic`
     """
     from hurcules_envs import recording
 
@@ -135,10 +136,11 @@ def record(
         task = bar.add_task(f"{author} in {name}", total=episodes)
         folder = out or Path("out", "data")
         identifier = recording.record(
-            name, act, episodes, folder, seed=seed, author=author, fidelity=fidelity,
+            name, act, episodes, folder, seed=seed, author=author, form=form,
+            fidelity=fidelity,
             progress=lambda done: bar.update(task, completed=done),
         )  # fmt: skip
-    Console().print(f"{identifier} in {folder}")
+    Console().print(identifier if form == "robomimic" else f"{identifier} in {folder}")
 
 
 def _expert(env: Any, seen: Any) -> Any:
