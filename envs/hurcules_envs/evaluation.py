@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +12,10 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+import hurcules
+from hurcules_envs.episodes import Episodes
 from hurcules_envs.policy import Policy
+from hurcules_envs.registry import make_environment
 
 __all__ = ["Evaluation", "evaluate", "wilson"]
 
@@ -61,24 +65,39 @@ def evaluate(
         threads: 0 for one a processor.
         options: of the environment.
     """
-    vector = gymnasium.make_vec(environment, num_envs=episodes, threads=threads, **options)
+    spec = gymnasium.spec(environment)
+    given = {**spec.kwargs, **options}
+    if "environment" not in given:
+        raise hurcules.Error(f"{environment} cannot be evaluated: it has no native vector")
+    flat = bool(given.pop("flat", False))
+    batch = Episodes(
+        make_environment(given.pop("environment"), given), episodes, threads, flat=flat
+    )
     if isinstance(act, Policy):
-        act.check(environment, vector.single_observation_space, vector.single_action_space)
-    observation, info = vector.reset(seed=seed)
+        act.check(environment, batch.single_observation_space, batch.single_action_space)
+    batch.generators = [np.random.default_rng(seed + i) for i in range(episodes)]
+    batch.reset()
+    seen = batch.look(remember=None)
     running = np.ones(episodes, dtype=bool)
     success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess = 0.0, 0.0
-    while running.any():
-        observation, reward, terminated, truncated, info = vector.step(act(observation))
-        returns[running] += reward[running]
+    shape = (episodes, len(batch.action_scale))
+    for _ in range(spec.max_episode_steps or sys.maxsize):
+        observation = seen.observation
+        parts = observation if len(observation) > 1 else observation["observation"]
+        batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still
+        seen = batch.look(remember=running)
+        info = seen.info
+        returns[running] += seen.reward[running]
         lengths[running] += 1
         touching += float((info["self_contacts"][running] > 0).sum())
         excess = max(excess, float(info["limit_excess"][running].max()))
         success[running] = info["is_success"][running]
         fell[running] = info["failed"][running]
-        running &= ~(terminated | truncated)
-    vector.close()
+        running &= ~seen.terminated
+        if not running.any():
+            break
     low, high = wilson(int(success.sum()), episodes)
     return Evaluation(
         episodes=episodes,
