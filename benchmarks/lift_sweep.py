@@ -1,11 +1,12 @@
 """Lifts many persons: masses, places, headings, frictions; one line of JSON a run.
 
-    python benchmarks/lift_sweep.py OUT.jsonl [--cells nominal,place,turned,mass,friction]
+    python benchmarks/lift_sweep.py OUT.jsonl [--mission casualty] [--cells nominal,place,mass]
                                     [--seeds 1] [--workers 2]
 
-Each run is the mission `lift` in the physics, friction alone. A seed moves the person by up to 1 cm
-and 17 mrad, and each of the robot's joints by up to 0.7 mrad. Runs that OUT.jsonl already holds are
-left out, so that an interrupted sweep goes on. `--show` prints the success map of a file.
+Each run is the mission `lift`, or `casualty`, in the physics, friction alone. A seed moves the
+person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad. Runs that
+OUT.jsonl already holds are left out, so that an interrupted sweep goes on. `--show` prints the
+success map of a file.
 """
 
 from __future__ import annotations
@@ -68,11 +69,11 @@ def cells(kind: str) -> Iterator[Cell]:
         yield NOMINAL | change
 
 
-def lift(task: tuple[Cell, int]) -> dict[str, Any]:
+def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
     """One run: how it ended, its figures, and the largest share of a motor's peak torque."""
-    cell, seed = task
+    mission, cell, seed = task
     simulation = hurcules.Simulation(
-        "lift", seed, variation=VARIATION, record=False, parameters=cell
+        mission, seed, variation=VARIATION, record=False, parameters=cell
     )
     model, controller = simulation.model, simulation.controller
     joints = [model.joint(name).id for name in controller.joints]
@@ -86,9 +87,11 @@ def lift(task: tuple[Cell, int]) -> dict[str, Any]:
         share[phase] = max(share[phase], float(now.max()))
     return {
         **cell,
+        "mission": mission,
         "seed": seed,
         "success": simulation.success,
         "reason": simulation.reason,
+        "phase": simulation.phase,
         "seconds": simulation.time,
         "torque_share": dict(share),
         "figures": {name: float(value) for name, value in simulation.figures().items()},
@@ -97,11 +100,17 @@ def lift(task: tuple[Cell, int]) -> dict[str, Any]:
 
 def key(run: dict[str, Any]) -> tuple[Any, ...]:
     """What tells runs apart."""
-    return (*_place(run), run["seed"])
+    return (run.get("mission", "lift"), *_place(run), run["seed"])
 
 
 def _place(run: dict[str, Any]) -> tuple[Any, ...]:
     return (run["mass"], *run["offset"], run["yaw"], run["friction"], run["pose"])
+
+
+def _slid(figures: dict[str, float]) -> float:
+    """[m] along the arms in the hold, or on the bed while driving home."""
+    names = ("held_drift_m", "slid_ahead_m", "slid_aside_m")
+    return max(figures[name] for name in names if name in figures)
 
 
 def show(path: Path) -> None:
@@ -110,12 +119,12 @@ def show(path: Path) -> None:
     table = defaultdict(list)
     for run in runs:
         table[_place(run)].append(run)
-    print("mass  ahead  left   yaw    mu    pose   success  push  drift  torque  failures")
+    print("mass  ahead  left   yaw    mu    pose   success  push  slid   torque  failures")
     for place, found in table.items():
         mass, dx, dy, yaw, mu, pose = place
         good = sum(run["success"] for run in found)
         push = max(run["figures"]["push_N"] for run in found)
-        drift = max(run["figures"]["held_drift_m"] for run in found)
+        drift = max(_slid(run["figures"]) for run in found)
         torque = max(max(run["torque_share"].values()) for run in found)
         why = "; ".join(run["reason"] for run in found if not run["success"])
         print(
@@ -130,6 +139,7 @@ def main() -> None:
     """Runs what is missing."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
+    parser.add_argument("--mission", default="lift", choices=hurcules.lift.MISSIONS)
     parser.add_argument("--cells", default="nominal")
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--workers", type=int, default=2)
@@ -141,11 +151,11 @@ def main() -> None:
     if arguments.out.exists():
         done = {key(json.loads(line)) for line in arguments.out.read_text().splitlines()}
     tasks = [
-        (cell, FIRST_SEED + seed)
+        (arguments.mission, cell, FIRST_SEED + seed)
         for kind in arguments.cells.split(",")
         for cell in cells(kind)
         for seed in range(arguments.seeds)
-        if key(cell | {"seed": FIRST_SEED + seed}) not in done
+        if key(cell | {"mission": arguments.mission, "seed": FIRST_SEED + seed}) not in done
     ]
     with (
         multiprocessing.get_context("spawn").Pool(arguments.workers) as pool,

@@ -1,10 +1,13 @@
-"""docs/lift.jpg: the phases of the mission `lift`, a person of 75 kg who lies turned by 0.3 rad.
+"""docs/lift.jpg, docs/casualty.jpg: the phases of these missions, each a run of its success map.
 
-`python benchmarks/figures/lift.py`; needs an OpenGL without a window.
+`python benchmarks/figures/lift.py [lift|casualty]`, both without a name; needs an OpenGL without a
+window.
 """
 
 from __future__ import annotations
 
+import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import mujoco
@@ -12,30 +15,55 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 import hurcules
-from hurcules.rendering import open_renderer
+from hurcules.rendering import following_camera, open_renderer
 
-PICTURE = Path(__file__).parents[2] / "docs" / "lift.jpg"
+DOCS = Path(__file__).parents[2] / "docs"
 SIZE = (480, 300)  # [pixels] of each picture
 COLUMNS = 3
-YAW, SEED, VARIATION = 0.30, 1000, 1 / 3  # a run of the success map
-# the end of each of these
-PHASES = (
-    "turn right", "approach", "square left", "press", "stop", "lift", "hold", "set down", "rest",
-)  # fmt: skip
+SEED, VARIATION = 1000, 1 / 3
 
 
-def camera() -> mujoco.MjvCamera:
+@dataclass(frozen=True)
+class Sheet:
+    """What is shown of a mission: the end of each of these phases; the person lies turned so."""
+
+    phases: tuple[str, ...]
+    yaw: float = 0.0  # [rad]
+    follows: bool = False  # the camera
+
+
+SHEETS = {
+    "lift": Sheet(
+        ("turn right", "approach", "square left", "press", "stop", "lift", "hold", "set down",
+         "rest"),
+        yaw=0.30,
+    ),
+    "casualty": Sheet(
+        ("stand", "under", "lift", "raise", "sit down", "fold the right leg", "fold the left leg",
+         "slide the bed out", "lay down", "arms out", "arms down", "hand over"),
+        follows=True,
+    ),
+}  # fmt: skip
+
+
+def camera(model: mujoco.MjModel, follows: bool) -> mujoco.MjvCamera:
     """From the front, on the side of the legs."""
+    if follows:
+        return following_camera(model, "upper_legs")
     view = mujoco.MjvCamera()
     view.lookat[:], view.distance = (2.4, -0.2, 0.55), 4.2
     view.azimuth, view.elevation = 128, -16
     return view
 
 
-def moments() -> tuple[mujoco.MjModel, dict[str, np.ndarray]]:
+def moments(mission: str) -> tuple[mujoco.MjModel, dict[str, np.ndarray]]:
     """The model, and qpos at the end of each phase."""
     simulation = hurcules.Simulation(
-        "lift", SEED, variation=VARIATION, record=False, parameters={"yaw": YAW}
+        mission,
+        SEED,
+        variation=VARIATION,
+        record=False,
+        parameters={"yaw": SHEETS[mission].yaw},
     )
     ends: dict[str, np.ndarray] = {}
     while not simulation.finished:
@@ -44,16 +72,17 @@ def moments() -> tuple[mujoco.MjModel, dict[str, np.ndarray]]:
     return simulation.model, ends
 
 
-def sheet(model: mujoco.MjModel, ends: dict[str, np.ndarray]) -> Image.Image:
+def sheet(model: mujoco.MjModel, ends: dict[str, np.ndarray], what: Sheet) -> Image.Image:
     """The pictures, row by row."""
+    view = camera(model, what.follows)
     data = mujoco.MjData(model)
-    rows = -(-len(PHASES) // COLUMNS)
+    rows = -(-len(what.phases) // COLUMNS)
     image = Image.new("RGB", (SIZE[0] * COLUMNS, SIZE[1] * rows))
     with open_renderer(model, *SIZE) as renderer:
-        for i, phase in enumerate(PHASES):
+        for i, phase in enumerate(what.phases):
             data.qpos[:] = ends[phase]
             mujoco.mj_forward(model, data)
-            renderer.update_scene(data, camera())
+            renderer.update_scene(data, view)
             tile = Image.fromarray(renderer.render())
             ImageDraw.Draw(tile).text((10, SIZE[1] - 20), phase, (20, 20, 20))
             image.paste(tile, (i % COLUMNS * SIZE[0], i // COLUMNS * SIZE[1]))
@@ -61,8 +90,10 @@ def sheet(model: mujoco.MjModel, ends: dict[str, np.ndarray]) -> Image.Image:
 
 
 def main() -> None:
-    """Runs the mission and draws."""
-    sheet(*moments()).save(PICTURE, quality=84, optimize=True)
+    """Runs the missions and draws."""
+    for mission in sys.argv[1:] or SHEETS:
+        picture = sheet(*moments(mission), SHEETS[mission])
+        picture.save(DOCS / f"{mission}.jpg", quality=84, optimize=True)
 
 
 if __name__ == "__main__":

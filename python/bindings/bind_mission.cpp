@@ -52,25 +52,27 @@ Args:
   way: until so much has been given [SI s]; inf: on and on.
   by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
 )";
-constexpr const char* kKey = R"(Angles of coordinates at a share of a motion.
+constexpr const char* kKey = R"(Angles of coordinates, or places of joints, at a share of a motion.
 
 Args:
   share: 0 to 1.
-  angles: by coordinate [rad]; the others stay as at the beginning.
+  angles: by coordinate [rad], or by joint [rad] or [m]; the others stay as at the beginning.
 )";
 constexpr const char* kPhase = R"(One row of a mission's table.
 
 Args:
   name: of the row.
-  stack: of the controller, which rules.
+  stack: of the controller, which rules, or "joints": none rules, joints are moved one by one.
   seconds: [s] that ways and postures take, the least duration.
   leads: list of Lead; channels that are not led hold.
-  posture: channel of a PostureTask over all coordinates.
+  support: body that the robot stands on from here on; "": that of the row before.
+  posture: channel of a PostureTask over all coordinates; of the stack "joints" a JointRates.
   keys: list of PostureKey, where it leads to.
   done: list of Condition, all of them, when all motions have ended.
   within: [s].
   late: list of Reaction, when it takes longer.
   troubles: list of Trouble.
+  last: the run is over after it; what follows is only reached by reactions.
 )";
 constexpr const char* kMeasure = R"(A figure of a run: a quantity over some phases.
 
@@ -168,7 +170,8 @@ void bind_rows(py::module_& module) {
                        field("seconds", &Phase::seconds), field("leads", &Phase::leads),
                        field("posture", &Phase::posture), field("keys", &Phase::keys),
                        field("done", &Phase::done), field("within", &Phase::within),
-                       field("late", &Phase::late), field("troubles", &Phase::troubles)});
+                       field("late", &Phase::late), field("troubles", &Phase::troubles),
+                       field("support", &Phase::support), field("last", &Phase::last)});
 }
 
 }  // namespace

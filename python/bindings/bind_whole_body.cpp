@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -70,6 +71,16 @@ Args:
   joint: name of a joint with an actuator.
   scale: full scale [rad/s] or [m/s].
 )";
+constexpr const char* kJointsChannel =
+    R"(A channel that moves joints one by one, by velocities, while no stack rules (`move_joints`).
+
+Velocities change within the acceleration limit, places stay within the ranges of the joints. While a
+stack rules it moves nothing.
+
+Args:
+  joints: names of joints with an actuator.
+  scale: full scale [rad/s] or [m/s].
+)";
 constexpr const char* kController =
     R"(The controller of a whole robot: named commands in, controls of the actuators out.
 
@@ -80,7 +91,8 @@ Position, velocity and acceleration limits of all coordinates come before every 
 Args:
   robot: Robot where it starts; any MJCF robot.
   levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
-  channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate.
+  channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate,
+    JointRates.
   stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
     first one rules at the start if no `levels` are given.
   control: by what `levels` rule, "velocity" or "acceleration".
@@ -119,6 +131,17 @@ Args:
   position: [rad] or [m].
   velocity: [rad/s] or [m/s].
 )";
+constexpr const char* kStandOn = R"(The plan stands on another body, where it is now.
+
+What the plan takes is told anew, the integrals of the servos take over the difference: no torque
+jumps. It holds until a reset.
+
+Args:
+  body: of the robot, with a free root.
+
+Raises:
+  Error: no such body.
+)";
 constexpr const char* kMoveAll = R"(The same for all joints with a servo, in the order of `joints`.
 
 Args:
@@ -141,7 +164,7 @@ struct ChannelSpec {
   ChannelKind kind;
   py::object task = py::none();
   Vector scale;
-  std::string joint = {};
+  std::vector<std::string> joints = {};
 };
 
 Vector scale_of(const py::object& scale) {
@@ -161,7 +184,8 @@ ChannelSpec task_channel(const TaskObject& task, const ScaleObject& scale) {
 
 Channel channel_of(const std::string& name, const ChannelSpec& spec) {
   if (spec.kind == ChannelKind::Drive) return Channel::drive(name, spec.scale[0], spec.scale[1]);
-  if (spec.kind == ChannelKind::Joint) return Channel::joint(name, spec.joint, spec.scale[0]);
+  if (spec.kind == ChannelKind::Joint) return Channel::joint(name, spec.joints[0], spec.scale[0]);
+  if (spec.kind == ChannelKind::Joints) return Channel::joints(name, spec.joints, spec.scale[0]);
   return {name, spec.kind, *spec.task.cast<Task*>(), spec.scale};
 }
 
@@ -213,9 +237,9 @@ std::shared_ptr<WholeBodyController> make(
   std::vector<Channel> made;
   for (const auto& [name, spec] : channels) {  // in the order in which they were written
     const auto text = name.cast<std::string>();
-    require(
-        py::isinstance<ChannelSpec>(spec),
-        "channel '" + text + "' wants Twist, Delta, Target, ForceReference, Drive or JointRate");
+    require(py::isinstance<ChannelSpec>(spec),
+            "channel '" + text +
+                "' wants Twist, Delta, Target, ForceReference, Drive, JointRate or JointRates");
     made.push_back(channel_of(text, spec.cast<const ChannelSpec&>()));
   }
   WholeBodyControllerOptions options;
@@ -273,9 +297,15 @@ void bind_channels(py::module_& module) {
   module.def(
       "JointRate",
       [](const std::string& joint, double scale) {
-        return ChannelSpec{ChannelKind::Joint, py::none(), Vector::Constant(1, scale), joint};
+        return ChannelSpec{ChannelKind::Joint, py::none(), Vector::Constant(1, scale), {joint}};
       },
       "joint"_a, "scale"_a, kJointChannel);
+  module.def(
+      "JointRates",
+      [](const std::vector<std::string>& joints, double scale) {
+        return ChannelSpec{ChannelKind::Joints, py::none(), Vector::Constant(1, scale), joints};
+      },
+      "joints"_a, "scale"_a = std::numeric_limits<double>::infinity(), kJointsChannel);
 }
 
 std::vector<std::pair<std::string, Index>> sizes(const WholeBodyController& self) {
@@ -323,6 +353,9 @@ void bind_whole_body(py::module_& module) {
   controller.def("use", &WholeBodyController::use, "stack"_a, kUse)
       .def("move", move_one, "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
       .def("move_all", move_all, "positions"_a, "velocities"_a, kMoveAll)
+      .def("move_joints", &WholeBodyController::move_joints,
+           "No stack rules until `use`: joints stay where they are, JointRates moves them.")
+      .def("stand_on", &WholeBodyController::stand_on, "body"_a, kStandOn)
       .def("hold_targets", &WholeBodyController::hold_targets,
            "The targets of all tasks come to where the plan is.")
       .def("sense", &sense, "task"_a, "source"_a, "row"_a = 0, "sign"_a = 1.0,

@@ -2349,7 +2349,8 @@ class WholeBodyController:
     Args:
       robot: Robot where it starts; any MJCF robot.
       levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
-      channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate.
+      channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate,
+        JointRates.
       stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
         first one rules at the start if no `levels` are given.
       control: by what `levels` rule, "velocity" or "acceleration".
@@ -2410,6 +2411,9 @@ class WholeBodyController:
           positions: (m,) [rad] or [m].
           velocities: (m,) [rad/s] or [m/s]."""
 
+    def move_joints(self) -> None:
+        """No stack rules until `use`: joints stay where they are, JointRates moves them."""
+
     def restore(self, state: collections.abc.Sequence[float]) -> None:
         """Goes on from what state() gave."""
 
@@ -2424,6 +2428,18 @@ class WholeBodyController:
 
         Raises:
           Error: an unknown sensor."""
+
+    def stand_on(self, body: str) -> None:
+        """The plan stands on another body, where it is now.
+
+        What the plan takes is told anew, the integrals of the servos take over the difference: no torque
+        jumps. It holds until a reset.
+
+        Args:
+          body: of the robot, with a free root.
+
+        Raises:
+          Error: no such body."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -2730,11 +2746,11 @@ class Lead:
     def way(self, arg0: float) -> None: ...
 
 class PostureKey:
-    """Angles of coordinates at a share of a motion.
+    """Angles of coordinates, or places of joints, at a share of a motion.
 
     Args:
       share: 0 to 1.
-      angles: by coordinate [rad]; the others stay as at the beginning."""
+      angles: by coordinate [rad], or by joint [rad] or [m]; the others stay as at the beginning."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -2759,20 +2775,24 @@ class Phase:
 
     Args:
       name: of the row.
-      stack: of the controller, which rules.
+      stack: of the controller, which rules, or "joints": none rules, joints are moved one by one.
       seconds: [s] that ways and postures take, the least duration.
       leads: list of Lead; channels that are not led hold.
-      posture: channel of a PostureTask over all coordinates.
+      support: body that the robot stands on from here on; "": that of the row before.
+      posture: channel of a PostureTask over all coordinates; of the stack "joints" a JointRates.
       keys: list of PostureKey, where it leads to.
       done: list of Condition, all of them, when all motions have ended.
       within: [s].
       late: list of Reaction, when it takes longer.
-      troubles: list of Trouble."""
+      troubles: list of Trouble.
+      last: the run is over after it; what follows is only reached by reactions."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
+    last: bool
     name: str
     posture: str
     stack: str
+    support: str
 
     def __copy__(self) -> Phase: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> Phase: ...
@@ -2790,6 +2810,8 @@ class Phase:
         within: float = ...,
         late: collections.abc.Sequence[Reaction] = [],
         troubles: collections.abc.Sequence[Trouble] = [],
+        support: str = "",
+        last: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -3662,6 +3684,16 @@ def JointRate(joint: str, scale: float) -> Channel:
 
     Args:
       joint: name of a joint with an actuator.
+      scale: full scale [rad/s] or [m/s]."""
+
+def JointRates(joints: collections.abc.Sequence[str], scale: float = ...) -> Channel:
+    """A channel that moves joints one by one, by velocities, while no stack rules (`move_joints`).
+
+    Velocities change within the acceleration limit, places stay within the ranges of the joints. While a
+    stack rules it moves nothing.
+
+    Args:
+      joints: names of joints with an actuator.
       scale: full scale [rad/s] or [m/s]."""
 
 def Target(task: Task, scale: float | ArrayLike = ...) -> Channel:

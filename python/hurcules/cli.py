@@ -159,7 +159,7 @@ def run_mission(
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
     require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
-    parameters = lift.parameters_of(context.args) if mission == "lift" else {}
+    parameters = lift.parameters_of(context.args) if mission in lift.MISSIONS else {}
     if context.args and not parameters:
         kind = "no such option" if context.args[0].startswith("-") else "unexpected argument"
         raise Error(f"{kind}: {context.args[0]}")

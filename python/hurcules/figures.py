@@ -52,6 +52,14 @@ FIGURES = {
     "support_N": Figure("largest force that carries a region of the body"),
     "neck_extension_rad": Figure("head hangs back by, at the most"),
     "head_mps2": Figure("largest acceleration of the head, gravity included [m/s²]"),
+    # of the casualty mission
+    "on_bed_share": Figure("share of the weight on the bed in the end"),
+    "left_arm_share": Figure("share of the weight on the left arm in the end"),
+    "right_arm_share": Figure("share of the weight on the right arm in the end"),
+    "slid_ahead_m": Figure("slid along the robot on the way home by"),
+    "slid_aside_m": Figure("slid across the robot on the way home by"),
+    "carried_on_ground_share": Figure("share of the weight on the ground once carried, largest"),
+    "ride_mps2": Figure("largest acceleration of the head on the way home, with gravity [m/s²]"),
     # of the monitors: the worst of the run
     "self_collision_distance_m": Figure("nearest that the robot came to itself", "§4.2.1"),
     "static_margin_m": Figure("centre of mass inside its support by, least", "§4.2.1"),

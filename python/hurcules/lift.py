@@ -1,7 +1,8 @@
-"""The mission `lift`: the rescue robot lifts a person, holds him and lays him down again.
+"""The missions `lift` and `casualty`: the rescue robot lifts a person.
 
-The phases stand in models/missions/lift.toml; here are the person, the start and the controller
-that they command: channels and stacks by their names.
+In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off.
+The phases stand in models/missions/lift.toml and casualty.toml; here are the person, the start and
+the controller that they command: channels and stacks by their names.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from hurcules._core import (
     ForceGains,
     ForceTask,
     JointLimits,
+    JointRates,
     PositionTask,
     PostureTask,
     Robot,
@@ -33,8 +35,18 @@ from hurcules._core import (
 )
 from hurcules.mission_table import Mission
 
-__all__ = ["Person", "controller", "mission", "model", "parameters_of", "person", "spec"]
+__all__ = [
+    "MISSIONS",
+    "Person",
+    "controller",
+    "mission",
+    "model",
+    "parameters_of",
+    "person",
+    "spec",
+]
 
+MISSIONS = ("lift", "casualty")
 SUPPORT = "lower_leg_L"
 # tips 5 cm above the ground, 1.80 m ahead of the knee axis, lower arms 0.12 rad below the level;
 # the head looks up, or it would meet the person where the trunk leans by more than 1.2 rad
@@ -135,13 +147,15 @@ def spec(person: Person) -> mujoco.MjSpec:
     )
 
 
-def mission() -> Mission:
-    """The phases of models/missions/lift.toml."""
-    return Mission.load(mjcf.folder() / "missions" / "lift.toml")
+def mission(name: str = "lift") -> Mission:
+    """The phases of models/missions/NAME.toml, one of `MISSIONS`."""
+    return Mission.load(mjcf.folder() / "missions" / f"{name}.toml")
 
 
 def controller(model: mujoco.MjModel) -> WholeBodyController:
     """Stacks `arms`, `press` (force control downwards) and `posture`, with a channel a task.
+
+    Channel `joints` moves all joints but the belts one by one.
 
     Its robot stands at the start.
     """
@@ -172,18 +186,20 @@ def controller(model: mujoco.MjModel) -> WholeBodyController:
     pelvis = PositionTask("pelvis", robot, "pelvis", axes=[[1.0, 0.0, 0.0]])
     neck = PostureTask("neck", robot, ["NKY", "NKP"])
     posture = PostureTask("posture", robot)
+    servo = _core.servo_table("rescue")
+    joints = [name for name in servo if not name.endswith("_belt")]
     tasks = [*hands, *across, *press, *pitch, pelvis, neck, posture]
     made = WholeBodyController(
         robot,
         None,
         {task.name: Twist(task, math.inf) for task in tasks}
-        | {"drive": Drive(speed=1.0, yaw_rate=0.5)},
+        | {"drive": Drive(speed=1.0, yaw_rate=0.5), "joints": JointRates(joints)},
         stacks={
             "arms": Stack([limits, hands, pitch, pelvis, neck]),
             "press": Stack([limits, [*across, *press], pitch, pelvis, neck]),
             "posture": Stack([limits, posture]),
         },
-        servo=_core.servo_table("rescue"),
+        servo=servo,
         drive=DriveOptions(),
     )
     for side, task in zip("LR", press, strict=True):

@@ -14,6 +14,14 @@
     late = ["hold 2 s", "back to reach, 2 times", "abort"]
     trouble = [{ when = "monitor/static_margin_m <= 0.03", do = ["lower"] }]
 
+Rows of another table are taken by `[[phase]]` with `include = "lift.toml"` and `rows = ["settle",
+"raise"]`: from the first to the second of these. The same trouble in many phases is said once:
+
+    [[monitor]]
+    when = "monitor/static_margin_m <= 0.02 for 0.2 s"
+    do = ["hold 2 s", "abort"]
+    phases = ["turn left", "home"]
+
 A posture is `posture = "CHANNEL"` with `keys = [{ share = 1.0, HIP = 0.3, SP = 1.2 }]`. Quantities
 are columns of the log (`simulation.channels`). A `[[figure]]` is a quantity over some phases, with
 the bounds that make a run a success.
@@ -75,18 +83,24 @@ class Mission:
                 coordinates, quantities) is checked when a simulation is made.
         """
         try:
-            text = Path(path).read_text(encoding="utf-8")
-            return cls.read(tomllib.loads(text))
+            return cls.read(_toml(path), Path(path).parent)
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise Error(f"mission file {path}: {error}") from error
 
     @classmethod
-    def read(cls, data: Mapping[str, Any]) -> Mission:
-        """The same from what a TOML file holds."""
-        _known(data, ("mission", "phase", "figure"), "mission")
+    def read(cls, data: Mapping[str, Any], folder: str | Path = ".") -> Mission:
+        """The same from what a TOML file holds.
+
+        Args:
+            data: of the file.
+            folder: where the files lie whose rows it includes.
+        """
+        _known(data, ("mission", "phase", "monitor", "figure"), "mission")
         head = dict(data.get("mission", {}))
         safety = head.pop("safety", "")
-        phases = [_phase(row) for row in data.get("phase", [])]
+        rows = _included(data.get("phase", []), Path(folder))
+        _watch(rows, data.get("monitor", []))
+        phases = [_phase(row) for row in rows]
         measures = [_of(Measure, row, "figure") for row in data.get("figure", [])]
         table = MissionTable(phases=phases, safety=safety, measures=measures)
         return cls(_of(MissionSetup, head, "[mission]"), table)
@@ -122,7 +136,7 @@ class Mission:
 
 _SETUP = ("name", "support", "max_seconds", "min_height", "max_tilt", "casualty", "stand_off")
 _MEASURE = ("name", "quantity", "take", "phases", "least", "most")
-_PHASE = ("name", "stack", "seconds", "posture", "within")
+_PHASE = ("name", "stack", "seconds", "support", "posture", "within", "last")
 
 
 def condition(text: str) -> Condition:
@@ -160,6 +174,46 @@ def reaction(text: str) -> Reaction:
         seconds=float(found["seconds"] or 0),
         times=int(found["times"] or 1),
     )
+
+
+def _toml(path: str | Path) -> dict[str, Any]:
+    return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+
+
+def _included(rows: Sequence[Mapping[str, Any]], folder: Path) -> list[dict[str, Any]]:
+    """The rows of the table, those of other files in their place."""
+    found: list[dict[str, Any]] = []
+    for row in rows:
+        if "include" not in row:
+            found.append(dict(row))
+            continue
+        file = row["include"]
+        where = f"include of {file!r}"
+        _known(row, ("include", "rows"), where)
+        there = _included(_toml(folder / file).get("phase", []), folder)
+        names = [one.get("name") for one in there]
+        ends = row.get("rows", [])
+        if len(ends) != 2 or not set(ends) <= set(names):
+            raise Error(f"{where}: rows wants the names of two of its phases, got {ends!r}")
+        first, last = (names.index(name) for name in ends)
+        if first > last:
+            raise Error(f"{where}: '{ends[0]}' comes after '{ends[1]}'")
+        found += there[first : last + 1]
+    return found
+
+
+def _watch(rows: Sequence[dict[str, Any]], monitors: Sequence[Mapping[str, Any]]) -> None:
+    """Each monitor becomes a trouble of each of its phases."""
+    for monitor in monitors:
+        where = f"monitor {monitor.get('when', '?')!r}"
+        _known(monitor, ("when", "do", "phases"), where)
+        trouble = {key: value for key, value in monitor.items() if key != "phases"}
+        names = [row.get("name") for row in rows]
+        for name in monitor.get("phases", []):
+            if name not in names:
+                raise Error(f"{where}: no phase {name!r}; there are: {', '.join(map(str, names))}")
+            row = rows[names.index(name)]
+            row["trouble"] = [*row.get("trouble", []), trouble]
 
 
 def _phase(row: Mapping[str, Any]) -> Phase:
@@ -257,6 +311,8 @@ def _entries(values: Mapping[str, Any], defaults: object) -> list[str]:
 
 
 def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
     if isinstance(value, list):

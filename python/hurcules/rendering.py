@@ -16,6 +16,7 @@ from hurcules.running_gear import RunningGear
 __all__ = [
     "RendererError",
     "TrackRenderer",
+    "following_camera",
     "make_renderer",
     "open_renderer",
     "overview_camera",
@@ -83,6 +84,15 @@ def overview_camera() -> mujoco.MjvCamera:
     camera.type = mujoco.mjtCamera.mjCAMERA_FREE
     camera.lookat[:] = (1.3, 0.0, 0.46)
     camera.distance, camera.azimuth, camera.elevation = 3.5, 103.0, -10.0
+    return camera
+
+
+def following_camera(model: mujoco.MjModel, body: str) -> mujoco.MjvCamera:
+    """The camera of films of a robot that drives: it goes with what hangs on this body."""
+    camera = mujoco.MjvCamera()
+    camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
+    camera.trackbodyid = model.body(body).id
+    camera.distance, camera.azimuth, camera.elevation = 6.0, 122.0, -14.0
     return camera
 
 

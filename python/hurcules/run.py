@@ -9,18 +9,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import mujoco
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from hurcules import extras
+from hurcules import extras, lift
 from hurcules._core import Error
 from hurcules.figures import describe, readable
 from hurcules.interrupts import Interrupts
 from hurcules.legend import event_words
 from hurcules.output import Output
 from hurcules.recording import Recording, Snapshot, record
-from hurcules.rendering import RendererError
+from hurcules.rendering import RendererError, following_camera
 from hurcules.sensors import realistic
 from hurcules.simulation import Simulation
 from hurcules.summary import summarize
@@ -30,7 +31,7 @@ __all__ = ["DONE", "FAILED", "INTERRUPTED", "RunOptions", "progress_bar", "run"]
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130  # exit codes
 FILES = ("log.npz", "timing.npz", "summary.json", "video.mp4", "report.html")
-FPS, SPEED = 20, 2  # pictures a second of film, seconds of mission a second of film
+FPS = 20  # pictures a second of film
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,7 @@ def _simulate(
         recording = record(
             simulation,
             ticks,
-            round(SPEED / FPS / simulation.dt),
+            round(_speed(simulation) / FPS / simulation.dt),
             show,
             stopped=lambda: interrupts.noted,
         )
@@ -147,8 +148,8 @@ def _save(
         video = "the run was interrupted"
     elif options.video:
         try:
-            with Painter(simulation.model) as painter:
-                video = _film(painter, recording, output, console, interrupts)
+            with Painter(simulation.model, _camera(simulation)) as painter:
+                video = _film(painter, _speed(simulation), recording, output, console, interrupts)
                 snapshots = _snapshots(painter, recording, summary)
         except RendererError as missing:
             video = str(missing)
@@ -160,8 +161,20 @@ def _save(
     )
 
 
+def _speed(simulation: Simulation) -> int:
+    """Seconds of the mission a second of film: more where minutes of driving and turning count."""
+    return 5 if simulation.mission in lift.MISSIONS else 2
+
+
+def _camera(simulation: Simulation) -> mujoco.MjvCamera | None:
+    """One that goes with a robot that drives, else that of the painter."""
+    drives = simulation.mission in lift.MISSIONS
+    return following_camera(simulation.model, "upper_legs") if drives else None
+
+
 def _film(
     painter: Painter,
+    speed: int,
     recording: Recording,
     output: Output,
     console: Console,
@@ -178,7 +191,7 @@ def _film(
                 recording.frames,
                 origin=recording.origin,
                 fps=FPS,
-                note=f"{SPEED}x speed",
+                note=f"{speed}x speed",
                 progress=lambda n: bar.update(task, completed=n, note=f"{n} pictures"),
                 stopped=lambda: interrupts.noted,
             )

@@ -37,7 +37,7 @@ Command = Mapping[str, ArrayLike] | ArrayLike
 
 def missions() -> list[str]:
     """Returns the names of the missions."""
-    return [*_core.missions(), "lift"]
+    return [*_core.missions(), *lift.MISSIONS]
 
 
 class Simulation(_core.Simulation):
@@ -89,7 +89,7 @@ class Simulation(_core.Simulation):
             physics: False: the robot is where it is commanded to be, at once and whatever it
                 touches; nothing else moves and no force acts.
             fall: when a robot without a mission counts as fallen; None: never.
-            parameters: of the mission: for "lift" those of `hurcules.lift.Person`.
+            parameters: of the mission: for "lift" and "casualty" those of `hurcules.lift.Person`.
 
         Raises:
             Error: no such mission, method or sensor (the text names those that exist), a bad
@@ -111,13 +111,14 @@ class Simulation(_core.Simulation):
             raise Error("a simulation without a mission wants both a model and a controller")
         if model is not None and isinstance(mission, str):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
-        if parameters and mission != "lift":
+        lifts = isinstance(mission, str) and mission in lift.MISSIONS
+        if parameters and not lifts:
             raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
         table = mission if isinstance(mission, Mission) else None
         if table is not None and controller is None:
             raise Error("a table of phases wants a model and a controller")
-        if mission == "lift":
-            table, model = lift.mission(), lift.model(lift.person(parameters or {}))
+        if lifts:
+            table, model = lift.mission(str(mission)), lift.model(lift.person(parameters or {}))
             controller = lift.controller(model)
         self.mission: str | None
         if controller is not None:

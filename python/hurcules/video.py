@@ -39,12 +39,13 @@ class Frame:
 class Painter:
     """Draws frames of one model; a context manager, for it holds the renderers."""
 
-    def __init__(self, model: mujoco.MjModel, camera: str | None = None) -> None:
+    def __init__(self, model: mujoco.MjModel, camera: mujoco.MjvCamera | str | None = None) -> None:
         """Opens the renderers.
 
         Args:
             model: what is drawn.
-            camera: of the model, for the overview; by default one that stands still.
+            camera: for the overview, or the name of one of the model; by default one that stands
+                still.
 
         Raises:
             RendererError: there is no OpenGL that works.

@@ -133,6 +133,53 @@ def test_a_user_adds_a_phase() -> None:
     assert Mission(mission.setup, rows).rows.phases[-1].name == "wait"
 
 
+def test_rows_of_another_table_and_monitors_of_many_phases(tmp_path: Path) -> None:
+    (tmp_path / "wave.toml").write_text(ROWS)
+    own = """
+[mission]
+name = "twice"
+safety = "back"
+
+[[phase]]
+name = "before"
+stack = "posture"
+seconds = 1.0
+last = true
+
+[[phase]]
+include = "wave.toml"
+rows = ["up", "back"]
+
+[[monitor]]
+when = "q/j1 >= 1.5"
+do = ["abort"]
+phases = ["before", "up"]
+"""
+    (tmp_path / "twice.toml").write_text(own)
+    mission = Mission.load(tmp_path / "twice.toml")
+    rows = mission.rows.phases
+    assert [row.name for row in rows] == ["before", "up", "back"]
+    assert rows[1:] != read(ROWS).rows.phases
+    assert [len(row.troubles) for row in rows] == [1, 2, 0]
+    assert rows[0].last and not rows[1].last
+    mission.save(tmp_path / "saved.toml")
+    assert Mission.load(tmp_path / "saved.toml") == mission
+    for old, new, wanted in (
+        (
+            'phases = ["before", "up"]',
+            'phases = ["down"]',
+            "no phase 'down'; there are: before",
+        ),
+        ('rows = ["up", "back"]', 'rows = ["up"]', "the names of two of its phases"),
+        ('rows = ["up", "back"]', 'rows = ["back", "up"]', "'back' comes after 'up'"),
+        ("wave.toml", "wvae.toml", "wvae.toml"),
+    ):
+        (tmp_path / "twice.toml").write_text(own.replace(old, new))
+        with pytest.raises(Error) as raised:
+            Mission.load(tmp_path / "twice.toml")
+        assert wanted in str(raised.value)
+
+
 def test_conditions_and_reactions_are_read_from_text() -> None:
     one = condition("monitor/static_margin_m <= 0.05 for 0.3 s")
     assert (one.quantity, one.above, one.value) == ("monitor/static_margin_m", False, 0.05)

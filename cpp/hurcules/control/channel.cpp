@@ -75,7 +75,15 @@ Channel Channel::drive(std::string name, double speed, double yaw_rate) {
 
 Channel Channel::joint(std::string name, std::string joint, double scale) {
   Channel channel(std::move(name), ChannelKind::Joint, Vector::Constant(1, scale), {});
-  channel.joint_ = std::move(joint);
+  channel.joints_ = {std::move(joint)};
+  return channel;
+}
+
+Channel Channel::joints(std::string name, std::vector<std::string> joints, double scale) {
+  require(!joints.empty(), "channel '" + name + "' wants at least one joint");
+  const auto size = static_cast<Index>(joints.size());
+  Channel channel(std::move(name), ChannelKind::Joints, Vector::Constant(size, scale), joints);
+  channel.joints_ = std::move(joints);
   return channel;
 }
 

@@ -6,6 +6,7 @@
 //   Force   the reference of a force task [N]
 //   Drive   speed [m/s] and yaw rate [rad/s] of the tracks
 //   Joint   the place of a joint that no coordinate moves (gripper, bed), as a velocity
+//   Joints  the places of joints while no stack rules, as velocities
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace hurcules {
 
-enum class ChannelKind { Twist, Delta, Target, Force, Drive, Joint };
+enum class ChannelKind { Twist, Delta, Target, Force, Drive, Joint, Joints };
 
 class Channel {
  public:
@@ -25,13 +26,14 @@ class Channel {
           std::vector<std::string> components = {});
   static Channel drive(std::string name, double speed, double yaw_rate);
   static Channel joint(std::string name, std::string joint, double scale);
+  static Channel joints(std::string name, std::vector<std::string> joints, double scale);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] ChannelKind kind() const { return kind_; }
   [[nodiscard]] Index size() const { return scale_.size(); }
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (size)
-  [[nodiscard]] Task* task() const { return task_; }            // null for Drive and Joint
-  [[nodiscard]] const std::string& joint_name() const { return joint_; }
+  [[nodiscard]] Task* task() const { return task_; }            // null for Drive, Joint, Joints
+  [[nodiscard]] const std::vector<std::string>& joint_names() const { return joints_; }
   // "hand_x", "hand_y", ...: one a number; the name itself for a single one
   [[nodiscard]] std::vector<std::string> entries() const;
   // the same for another task of the same kind, that of a copied controller
@@ -43,7 +45,7 @@ class Channel {
   std::string name_;
   ChannelKind kind_;
   Task* task_ = nullptr;
-  std::string joint_;
+  std::vector<std::string> joints_;
   Vector scale_;
   std::vector<std::string> components_;
 };

@@ -59,6 +59,8 @@ class JointPid {
   // goes on from a torque that somebody else gave: at this error joint i's next demand is `torque`
   // [N m], and the integral takes it from there
   void take_over(Index i, const JointError& error, double torque);
+  // joint i's demand goes up by so much from now on [N m], as if the integral had grown
+  void add(Index i, double torque) { integral_[i] += torque / (gain_[i] * options_.K_I[i]); }
   // the velocity of the reference, 0 in `error`, at which joint i would ask for this torque [N m]
   // in this period: [rad/s]
   [[nodiscard]] double rate_at(Index i, const JointError& error, double torque) const;

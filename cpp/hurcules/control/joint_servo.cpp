@@ -156,6 +156,13 @@ void JointServo::feed_forward(const Vector& efforts) {
   }
 }
 
+void JointServo::add(const Vector& efforts) {
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    pid_.add(i, motor.share * efforts[motor.coordinate]);
+  }
+}
+
 void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration) {
   efforts.setZero();
   acceleration.setZero();  // for now the rated inertia

@@ -65,6 +65,8 @@ class JointServo {
   const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state);
   // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
   void feed_forward(const Vector& efforts);
+  // as much more effort of the coordinates from now on, (n) [N m], for feed-forward that falls away
+  void add(const Vector& efforts);
   // what the servos are about to give the coordinates beside it, (n) [N m], and the accelerations
   // that it would be at their rated inertias, (n) [rad/s^2]
   void feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration);
@@ -86,6 +88,7 @@ class JointServo {
     return motors_[static_cast<std::size_t>(joint)].coordinate;
   }
   [[nodiscard]] const Vector& position() const { return position_; }    // [rad] (m) reference
+  [[nodiscard]] const Vector& velocity() const { return velocity_; }    // [rad/s] (m) reference
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
   // [N m], (m), before saturation
   [[nodiscard]] const Vector& demand() const { return pid_.demand(); }

@@ -127,11 +127,13 @@ void WholeBodyController::check_channels() {
       require(drive_.has_value(), "channel '" + channel.name() +
                                       "' drives: the controller wants options for its tracks");
     }
-    if (channel.kind() == ChannelKind::Joint) {
-      const Index joint = servo_.find(channel.joint_name());
-      require(servo_.coordinate_of(joint) < 0, "channel '" + channel.name() + "' moves joint '" +
-                                                   channel.joint_name() +
-                                                   "', which the tasks move: it wants a task");
+    moved_.emplace_back();
+    for (const std::string& name : channel.joint_names()) {
+      const Index joint = servo_.find(name);
+      require(channel.kind() == ChannelKind::Joints || servo_.coordinate_of(joint) < 0,
+              "channel '" + channel.name() + "' moves joint '" + name +
+                  "', which the tasks move: it wants a task");
+      moved_.back().push_back(joint);
     }
     if (!channel.task()) continue;
     const auto found = std::find(tasks_.begin(), tasks_.end(), channel.task());
@@ -188,6 +190,8 @@ std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& rob
 }
 
 void WholeBodyController::reset(const Vector& qpos) {
+  if (!options_.support.empty()) plan_.stand_on(options_.support);
+  support_ = plan_.support();
   plan_.set_qpos(qpos);
   start_ = ahead_ = plan_.qpos();
   q_ = plan_.configuration();
@@ -283,6 +287,21 @@ void WholeBodyController::move(const Vector& position, const Vector& velocity) {
   moves_joints_ = true;
 }
 
+void WholeBodyController::stand_on(const std::string& body) {
+  plan_.set_configuration(q_);
+  plan_.set_velocity(qd_);
+  qdd_.setZero();
+  plan_.inverse_dynamics(qdd_, efforts_);
+  feedback_ = efforts_;
+  plan_.stand_on(body);
+  support_ = plan_.support();
+  start_ = plan_.qpos();
+  if (!options_.feed_forward) return;
+  plan_.inverse_dynamics(qdd_, efforts_);
+  feedback_ -= efforts_;
+  servo_.add(feedback_);
+}
+
 void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> spring) {
   forces_.push_back({&task, std::move(spring), -1, 1.0});
 }
@@ -325,10 +344,14 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     command_.setZero();
   }
   Index row = 0;
-  for (const Channel& channel : channels_) {
-    const auto part = command_.segment(row, channel.size());
-    row += channel.size();
-    apply(channel, part, first && command, state);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const auto part = command_.segment(row, channels_[i].size());
+    row += channels_[i].size();
+    if (channels_[i].kind() == ChannelKind::Joints) {
+      if (moves_joints_) lead_joints(moved_[i], part);
+    } else {
+      apply(channels_[i], part, first && command, state);
+    }
   }
 }
 
@@ -349,13 +372,29 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
     case ChannelKind::Drive:
       return drive_->controller().drive({command[0], command[1]});
     case ChannelKind::Joint: {
-      const Index joint = servo_.find(channel.joint_name());
+      const Index joint = servo_.find(channel.joint_names().front());
       const JointActuator& actuator = servo_.actuator(joint);
       const double place = servo_.position()[joint] + command[0] * dt();
       const double held = std::clamp(place, actuator.lower, actuator.upper);
       servo_.move(joint, held, held == place ? command[0] : 0.0);
       return;
     }
+    case ChannelKind::Joints:
+      return;  // lead_joints
+  }
+}
+
+// within the acceleration limit, and no further than the joints go
+void WholeBodyController::lead_joints(const std::vector<Index>& joints,
+                                      const ConstVectorRef& rates) {
+  const double most = options_.velocity.max_acceleration * dt();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const JointActuator& actuator = servo_.actuator(joints[i]);
+    const double now = servo_.velocity()[joints[i]];
+    const double rate = std::clamp(rates[static_cast<Index>(i)], now - most, now + most);
+    const double place = servo_.position()[joints[i]] + rate * dt();
+    const double held = std::clamp(place, actuator.lower, actuator.upper);
+    servo_.move(joints[i], held, held == place ? rate : 0.0);
   }
 }
 
@@ -442,6 +481,7 @@ void WholeBodyController::lead(const RobotState& state) {
 void WholeBodyController::save(StateWriter& writer) const {
   writer.put(static_cast<double>(active_));
   writer.put(moves_joints_ ? 1.0 : 0.0);
+  writer.put(static_cast<double>(support_.id));
   for (const Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     writer.put(*vector);
   }
@@ -455,6 +495,7 @@ void WholeBodyController::save(StateWriter& writer) const {
 void WholeBodyController::restore(StateReader& reader) {
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
+  const auto support = static_cast<int>(reader.get_count(plan_.model()->nbody - 1));
   for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     reader.get(*vector);
   }
@@ -463,6 +504,8 @@ void WholeBodyController::restore(StateReader& reader) {
   for (const auto& law : laws_) law->restore(reader);
   servo_.restore(reader);
   if (drive_) drive_->restore(reader);
+  if (support != support_.id) plan_.stand_on(Frame{support_.type, support});
+  support_ = plan_.support();
   plan_.set_qpos(start_);
   scaled_ = false;
 }

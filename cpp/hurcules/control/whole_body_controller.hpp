@@ -87,6 +87,11 @@ class WholeBodyController {
   void move(const std::string& joint, double position, double velocity);
   // the same for all of them, in the order of the servo: (m) each
   void move(const Vector& position, const Vector& velocity);
+  // no stack rules until `use`: joints stay where they are, channels of joints move them
+  void move_joints() { moves_joints_ = true; }
+  // The plan stands on another body, where it is now: what it takes is told anew, and the integrals
+  // of the servos take over the difference, so that no torque jumps. Until `reset`.
+  void stand_on(const std::string& body);
   // a force task that reads the deflection of a spring, or a row of the model's sensors (its
   // reading is `sign` times the force that the robot exerts along the task's axis)
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
@@ -146,6 +151,7 @@ class WholeBodyController {
   void check_channels();
   void apply(const Channel& channel, const ConstVectorRef& command, bool first,
              const RobotState& state);
+  void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
   void read_forces(const RobotState& state);
   void take_over();
@@ -161,6 +167,7 @@ class WholeBodyController {
   std::vector<Task*> tasks_, limits_;         // of all stacks
   std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
   std::vector<Channel> channels_;
+  std::vector<std::vector<Index>> moved_;  // (channels) joints of Joints channels
   std::vector<std::string> command_names_;
   std::vector<ForceReading> forces_;
   JointServo servo_;

@@ -37,9 +37,12 @@ void Mission::compile(const WholeBodyController& controller) {
     made.condition = condition;
     return made;
   };
+  std::string support = controller.options().support;
   for (const Phase& phase : table_.phases) {
     const std::string where = "phase '" + phase.name + "'";
     Row row;
+    if (!phase.support.empty()) support = phase.support;
+    row.support = support;
     for (const Lead& lead : phase.leads) {
       const ChannelPlace place = find_channel(controller, lead.channel, where);
       Way way;
@@ -54,9 +57,15 @@ void Mission::compile(const WholeBodyController& controller) {
       row.ways.push_back(std::move(way));
     }
     if (!phase.keys.empty()) {
-      row.posture.emplace(phase.keys, controller.plan().coordinate_names(), phase.seconds);
-      row.posture_row = find_channel(controller, phase.posture, where).row;
-      row.posture_size = controller.plan().size();
+      const ChannelPlace place = find_channel(controller, phase.posture, where);
+      const std::vector<std::string>& joints = place.channel->joint_names();
+      row.posture_row = place.row;
+      row.posture_size = place.channel->size();
+      row.places = Vector::Zero(static_cast<Index>(joints.size()));
+      for (const std::string& joint : joints) row.joints.push_back(controller.servo().find(joint));
+      row.posture.emplace(phase.keys,
+                          joints.empty() ? controller.plan().coordinate_names() : joints,
+                          phase.seconds, !joints.empty());
     }
     for (const Condition& condition : phase.done) row.done.push_back(watch(condition));
     for (const Reaction& reaction : phase.late) row.late_left.push_back(reaction.times);
@@ -180,11 +189,21 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
   }
   for (Way& way : row.ways) way.given = 0.0;
   const std::string& stack = table_.phases[phase_].stack;
-  if (controller.moves_joints() || controller.stacks()[controller.active()].name != stack) {
+  if (stack == kJoints) {
+    controller.move_joints();
+  } else if (controller.moves_joints() || controller.stacks()[controller.active()].name != stack) {
     controller.use(stack);
     controller.hold_targets();  // where the plan is: nothing jumps
   }
-  if (row.posture) row.posture->start(controller.q_des());
+  if (!row.support.empty() && controller.plan().support_name() != row.support) {
+    controller.stand_on(row.support);
+  }
+  if (row.posture) {
+    for (std::size_t i = 0; i < row.joints.size(); ++i) {
+      row.places[static_cast<Index>(i)] = controller.servo().position()[row.joints[i]];
+    }
+    row.posture->start(row.joints.empty() ? controller.q_des() : row.places);
+  }
   entered(time);
 }
 
@@ -259,7 +278,7 @@ bool Mission::advance(WholeBodyController& controller, double time) {
   if (!cause && elapsed_ > table_.phases[phase_].within + extra_) cause = 0;
   if (cause) return react(*cause, controller, time);
   while (over(time)) {
-    if (phase_ + 1 == rows_.size()) {
+    if (phase_ + 1 == rows_.size() || table_.phases[phase_].last) {
       ended_ = true;
       tell();
       return false;

@@ -106,6 +106,9 @@ class Mission : public Supervisor {
     std::vector<Way> ways;
     std::optional<PostureWay> posture;
     Index posture_row = 0, posture_size = 0;
+    std::vector<Index> joints;  // of the servo, where no stack rules
+    Vector places;              // of these, scratch
+    std::string support;        // body that stands, "": the controller's
     std::vector<Watch> done, troubles;
     std::vector<int> late_left;                   // times, of each reaction
     std::vector<std::vector<int>> troubles_left;  // the same

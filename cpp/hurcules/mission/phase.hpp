@@ -49,7 +49,7 @@ struct Lead {
   Vector by = {};  // [unit s] the way that it is led in the seconds of the phase, smoothly
 };
 
-// Angles of coordinates [rad] at a share of a motion, 0 to 1; the others stay as at its beginning.
+// Angles of coordinates [rad], or places of joints, at a share of a motion, 0 to 1; the others stay as at its beginning.
 // "SP" means both "LSP" and "RSP".
 struct PostureKey {
   double share = 1.0;
@@ -58,15 +58,18 @@ struct PostureKey {
 
 struct Phase {
   std::string name;
-  std::string stack;             // of the controller
-  double seconds = 0.0;          // [s] that leads by a way and postures take, the least duration
+  std::string stack;     // of the controller, or "joints": none rules, joints are moved one by one
+  double seconds = 0.0;  // [s] that leads by a way and postures take, the least duration
   std::vector<Lead> leads = {};  // channels that are not led hold
-  std::string posture = "";      // channel of a PostureTask over all coordinates
+  std::string support =
+      "";  // body that the robot stands on from here on; "": that of the row before
+  std::string posture = "";           // channel of a PostureTask over all coordinates, or of joints
   std::vector<PostureKey> keys = {};  // where that leads to
   std::vector<Condition> done = {};   // all of them, when all motions have ended
   double within = std::numeric_limits<double>::infinity();  // [s]
   std::vector<Reaction> late = {};                          // when it takes longer
   std::vector<Trouble> troubles = {};
+  bool last = false;  // the run is over after it: what follows is only reached by reactions
 };
 
 }  // namespace hurcules

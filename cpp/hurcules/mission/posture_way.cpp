@@ -24,12 +24,12 @@ std::vector<Index> coordinates_of(const std::string& name,
 }
 
 PostureWay::PostureWay(const std::vector<PostureKey>& keys,
-                       const std::vector<std::string>& coordinates, double seconds)
-    : seconds_(seconds) {
+                       const std::vector<std::string>& coordinates, double seconds, bool rounded)
+    : seconds_(seconds), rounded_(rounded) {
   const auto n = static_cast<Index>(coordinates.size()), k = static_cast<Index>(keys.size());
   shares_ = Vector::Zero(k + 1);
   angles_ = Matrix::Constant(n, k, std::numeric_limits<double>::quiet_NaN());
-  points_ = Matrix::Zero(n, k + 1);
+  points_ = slopes_ = Matrix::Zero(n, k + 1);
   now_ = next_ = Vector::Zero(n);
   for (Index i = 0; i < k; ++i) {
     const PostureKey& key = keys[static_cast<std::size_t>(i)];
@@ -55,6 +55,17 @@ void PostureWay::fill() {
   for (Index i = 0; i < angles_.cols(); ++i) {
     points_.col(i + 1) = angles_.col(i).array().isNaN().select(points_.col(0), angles_.col(i));
   }
+  if (!rounded_) return;
+  const auto line = [this](Index c, Index i) {
+    return (points_(c, i + 1) - points_(c, i)) / (shares_[i + 1] - shares_[i]);
+  };
+  const Index last = angles_.cols();
+  for (Index c = 0; c < points_.rows(); ++c) {
+    for (Index i = 0; i <= last; ++i) {
+      const double a = line(c, std::max<Index>(i - 1, 0)), b = line(c, std::min(i, last - 1));
+      slopes_(c, i) = a * b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
+    }
+  }
 }
 
 void PostureWay::place(double time, Vector& q) const {
@@ -62,7 +73,14 @@ void PostureWay::place(double time, Vector& q) const {
   Index i = 1;
   while (i + 1 < shares_.size() && u > shares_[i]) ++i;
   const double along = (u - shares_[i - 1]) / (shares_[i] - shares_[i - 1]);
-  q = points_.col(i - 1) + along * (points_.col(i) - points_.col(i - 1));
+  if (!rounded_) {
+    q = points_.col(i - 1) + along * (points_.col(i) - points_.col(i - 1));
+    return;
+  }
+  const double span = shares_[i] - shares_[i - 1], back = 1.0 - along;
+  q = (back * back * (1.0 + 2.0 * along)) * points_.col(i - 1) +
+      (along * along * (1.0 + 2.0 * back)) * points_.col(i) +
+      (span * along * back) * (back * slopes_.col(i - 1) - along * slopes_.col(i));
 }
 
 void PostureWay::velocity(double time, double dt, VectorRef out) {

@@ -25,7 +25,13 @@ bool ends(const Lead& lead) {
 void check_leads(const Phase& phase, const WholeBodyController& controller,
                  const std::string& where) {
   for (const Lead& lead : phase.leads) {
-    const Index size = find_channel(controller, lead.channel, where).channel->size();
+    const Channel& channel = *find_channel(controller, lead.channel, where).channel;
+    const Index size = channel.size();
+    require(!channel.task() || phase.stack != kJoints,
+            where + ": channel '" + lead.channel + "' moves a task, but no stack rules");
+    require(channel.kind() != ChannelKind::Joints || phase.stack == kJoints,
+            where + ": channel '" + lead.channel + "' moves joints, which wants the stack '" +
+                kJoints + "'");
     const bool led_by_rate = lead.rate.size() > 0;
     const Vector& given = led_by_rate ? lead.rate : lead.by;
     require(led_by_rate == (lead.by.size() == 0),
@@ -40,17 +46,35 @@ void check_leads(const Phase& phase, const WholeBodyController& controller,
   }
 }
 
+// what no stack keeps within the range of its joint
+void check_range(const std::string& name, double place, const std::vector<std::string>& joints,
+                 const JointServo& servo, const std::string& where) {
+  for (const Index at : coordinates_of(name, joints)) {
+    const std::string& joint = joints[static_cast<std::size_t>(at)];
+    const JointActuator& actuator = servo.actuator(servo.find(joint));
+    require(place >= actuator.lower - 1e-6 && place <= actuator.upper + 1e-6,
+            where + ": joint '" + joint + "' goes from " + to_text(actuator.lower) + " to " +
+                to_text(actuator.upper) + ", " + to_text(place) + " came");
+  }
+}
+
 void check_posture(const Phase& phase, const WholeBodyController& controller,
                    const std::string& where) {
   require(phase.posture.empty() == phase.keys.empty(),
           where + ": a posture wants a channel and keys, both or none");
   if (phase.keys.empty()) return;
   const Channel& channel = *find_channel(controller, phase.posture, where).channel;
-  const auto& names = controller.plan().coordinate_names();
-  require(dynamic_cast<const PostureTask*>(channel.task()) &&
-              channel.size() == static_cast<Index>(names.size()),
-          where + ": channel '" + phase.posture +
-              "' wants a PostureTask of all coordinates to lead a posture by");
+  const bool of_joints = phase.stack == kJoints;
+  const auto& names = of_joints ? channel.joint_names() : controller.plan().coordinate_names();
+  if (of_joints) {
+    require(channel.kind() == ChannelKind::Joints,
+            where + ": channel '" + phase.posture + "' wants to be one of joints: no stack rules");
+  } else {
+    require(dynamic_cast<const PostureTask*>(channel.task()) &&
+                channel.size() == static_cast<Index>(names.size()),
+            where + ": channel '" + phase.posture +
+                "' wants a PostureTask of all coordinates to lead a posture by");
+  }
   require(phase.seconds > 0.0, where + ": a posture wants seconds above 0");
   double before = 0.0;
   for (const PostureKey& key : phase.keys) {
@@ -62,6 +86,7 @@ void check_posture(const Phase& phase, const WholeBodyController& controller,
         throw Error(where + ": " + unknown_name("coordinate", name, names));
       }
       require(std::isfinite(angle), where + ": the angle of '" + name + "' is no finite number");
+      if (of_joints) check_range(name, angle, names, controller.servo(), where);
     }
   }
   require(before == 1.0, where + ": the last share of a posture wants to be 1");
@@ -100,8 +125,14 @@ void check_phase(const Phase& phase, const MissionTable& table,
           where + ": seconds want a finite number >= 0, " + to_text(phase.seconds) + " came");
   require(phase.within > 0.0,
           where + ": within wants a time above 0, " + to_text(phase.within) + " s came");
+  if (!phase.support.empty()) {
+    const Robot& plan = controller.plan();
+    require(plan.is_body(plan.frame(phase.support)),
+            where + ": the robot stands on a body; '" + phase.support + "' is none");
+  }
   std::vector<std::string> stacks;
   for (const NamedStack& stack : controller.stacks()) stacks.push_back(stack.name);
+  stacks.emplace_back(kJoints);
   if (std::find(stacks.begin(), stacks.end(), phase.stack) == stacks.end()) {
     throw Error(where + ": " + unknown_name("stack", phase.stack, stacks));
   }
@@ -198,6 +229,10 @@ ChannelPlace find_channel(const WholeBodyController& controller, const std::stri
 
 void check_table(const MissionTable& table, const WholeBodyController& controller) {
   require(!table.phases.empty(), "a mission wants at least one phase");
+  for (const NamedStack& stack : controller.stacks()) {
+    require(stack.name != kJoints, std::string("a mission wants no stack called '") + kJoints +
+                                       "': phases in which none rules say so");
+  }
   for (std::size_t i = 0; i < table.phases.size(); ++i) {
     const std::string& name = table.phases[i].name;
     require(!name.empty(), "phase " + std::to_string(i + 1) + " wants a name");
@@ -219,6 +254,8 @@ std::string table_text(const MissionTable& table) {
     const Phase& phase = table.phases[i];
     add(text, {std::to_string(i + 1), "  ", phase.name, "  [", phase.stack, "]"});
     if (phase.seconds > 0.0) add(text, {"  ", to_text(phase.seconds), " s"});
+    if (!phase.support.empty()) add(text, {"  on ", phase.support});
+    if (phase.last) text += "  (the last)";
     text += "\n";
     for (const Lead& lead : phase.leads) {
       const bool by_rate = lead.rate.size() > 0;

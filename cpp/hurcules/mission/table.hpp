@@ -21,6 +21,9 @@ struct Measure {
   double most = std::numeric_limits<double>::infinity();
 };
 
+// of a phase in which no stack rules
+inline constexpr const char* kJoints = "joints";
+
 struct MissionTable {
   std::vector<Phase> phases;
   std::string safety = "";  // the phase that Lower goes to, "" for none
@@ -32,7 +35,7 @@ struct MissionTable {
 [[nodiscard]] std::string to_text(double number);  // "0.3"
 
 // Throws Error, naming the row: an unknown phase, stack, channel or coordinate with those that exist;
-// a lead of the wrong size, or one that never ends while nothing else ends the phase; a time-out
+// a lead of the wrong size, one of a task where no stack rules, or one that never ends while nothing else ends the phase; a time-out
 // that is not above 0, or without a reaction; reactions that do not end in safety (Lower or Abort);
 // a jump without a count. Quantities are checked when a simulation brings its log.
 void check_table(const MissionTable& table, const WholeBodyController& controller);

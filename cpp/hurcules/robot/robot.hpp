@@ -105,9 +105,10 @@ class Robot {
 
   // The body that stays where it is when the coordinates move; by default that is the root of its
   // tree. A robot with folding legs stands on those that lie on the ground: then its root, and all
-  // above, moves with the knees, and Jacobians, drifts and inertia count that. Throws Error for a
-  // body of another tree, or one without free root.
+  // above, moves with the knees, and Jacobians, drifts and inertia count that. From one body to
+  // another it allocates nothing. Throws Error for a body of another tree, or one without free root.
   void stand_on(const std::string& body);
+  void stand_on(Frame body);
 
   // Configuration: the whole qpos (nq) as sensed, or the coordinates alone (n), all else kept as it
   // is but a root that stands on another body. Each updates every pose and Jacobian.

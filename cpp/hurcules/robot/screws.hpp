@@ -26,6 +26,9 @@ class Screws {
   // `support`: the body that stands, of the tree with this root; -1: every root does
   Screws(const mjModel_& model, const std::vector<Coordinate>& coordinates, int root, int support);
 
+  // another body of the tree stands; not for a tree whose root stood
+  void stand_on(int support) { support_ = support; }
+
   // what hangs where; qpos (nq), of which all but the driven joints are read
   void note(const double* qpos) { skeleton_.note(*model_, qpos); }
   // poses and screws; qpos (nq), of which the driven joints and the root are read

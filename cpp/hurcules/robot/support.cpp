@@ -12,16 +12,28 @@
 namespace hurcules {
 
 void Robot::stand_on(const std::string& body) {
-  const mjModel& m = *model_;
   const Frame frame = this->frame(body);
   require(frame.type == mjOBJ_BODY, "a robot stands on a body; '" + body + "' is none");
+  stand_on(frame);
+}
+
+void Robot::stand_on(Frame frame) {
+  const mjModel& m = *model_;
+  require(is_body(frame) && frame.id < m.nbody, "a robot stands on a body of its model");
+  const char* const text = mj_id2name(&m, mjOBJ_BODY, frame.id);
+  const std::string body = text ? text : "";
   const int root = m.body_rootid[frame.id];
   require(size() > 0 && root == tree_,
           "'" + body + "' belongs to another tree than the coordinates");
   require(root_qpos_ >= 0, "a robot stands on a body of a tree with a free joint; '" + body +
                                "' is bolted to the world");
+  const bool stood = support_ >= 0;
   support_ = frame.id;
-  find_screws();
+  if (stood) {
+    screws_->stand_on(support_);
+  } else {
+    find_screws();
+  }
   read_qpos();
 }
 

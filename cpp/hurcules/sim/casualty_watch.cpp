@@ -50,8 +50,9 @@ Vector3 at(const mjtNum* values, int i) {
 
 const std::vector<std::string>& CasualtyWatch::names() {
   static const std::vector<std::string> all = {"on_ground",   "on_left_arm",      "on_right_arm",
-                                               "on_rest",     "behind_tips_m",    "aside_m",
-                                               "height_m",    "moved_m",          "sag_m",
+                                               "on_bed",      "on_rest",          "behind_tips_m",
+                                               "aside_m",     "height_m",         "moved_m",
+                                               "bed_ahead_m", "bed_aside_m",      "sag_m",
                                                "heading_rad", "stand_ahead_m",    "stand_rad",
                                                "push_n",      "neck_flexion_rad", "neck_turn_rad",
                                                "head_mps2",   "contact_share",    "support_n"};
@@ -72,6 +73,12 @@ CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix, double
   tips_[0] = mj_name2id(m, mjOBJ_SITE, "L_tcp");
   tips_[1] = mj_name2id(m, mjOBJ_SITE, "R_tcp");
   require(tips_[0] >= 0 && tips_[1] >= 0, "a watched casualty wants sites L_tcp and R_tcp");
+  bed_ = mj_name2id(m, mjOBJ_BODY, "transfer_bed");
+  is_bed_.assign(static_cast<std::size_t>(m->nbody), false);
+  for (int i = std::max(bed_, 1); bed_ >= 0 && i < m->nbody; ++i) {  // parents come first
+    is_bed_[static_cast<std::size_t>(i)] =
+        i == bed_ || is_bed_[static_cast<std::size_t>(m->body_parentid[i])];
+  }
   flexion_ = row_of(m, prefix + "neck_flexion");
   turn_ = row_of(m, prefix + "neck_turn");
   head_ = row_of(m, prefix + "head_acceleration");
@@ -133,6 +140,12 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
   values_[kHeight] = centre.z() - origin_.z();
   values_[kMoved] = (centre - origin_).head<2>().norm();
   values_[kSag] = at(d->xpos, chest_).z() - at(d->xpos, pelvis_).z();
+  if (bed_ >= 0) {
+    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> R(d->xmat + 9 * bed_);
+    const Vector3 on_bed = R.transpose() * (centre - at(d->xpos, bed_));
+    values_[kBedAhead] = on_bed.x();
+    values_[kBedAside] = on_bed.y();
+  }
   const Vector3 body = at(d->xpos, chest_) - at(d->xpos, pelvis_);
   values_[kHeading] = std::atan2(-body.dot(ahead), body.dot(aside));
   const Vector3 along = Vector3(body.x(), body.y(), 0.0).normalized();
@@ -177,7 +190,7 @@ void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
       values_[other == arms_[0] ? kOnLeft : kOnRight] += share;
       push += force;
     } else {
-      values_[kOnRest] += share;
+      values_[is_bed_[static_cast<std::size_t>(other)] ? kOnBed : kOnRest] += share;
     }
     const int region = region_of_[static_cast<std::size_t>(mine)];
     if (region >= 0) forces_[region] += wrench[0];

@@ -38,11 +38,14 @@ class CasualtyWatch {
     kOnGround,      // shares of the weight: on the ground,
     kOnLeft,        // on the left arm,
     kOnRight,       // on the right arm,
+    kOnBed,         // on the transfer bed,
     kOnRest,        // on any other part of the robot
     kBehindTips,    // [m] the tips are ahead of the body's centre of mass
     kAside,         // [m] the centre is to the left of the middle between the tips
     kHeight,        // [m] the centre is above where it lay
     kMoved,         // [m] and from there along the ground
+    kBedAhead,      // [m] it is ahead of the bed's middle, in the frame of the bed
+    kBedAside,      // [m] and to the left
     kSag,           // [m] pelvis below (or above) the chest
     kHeading,       // [rad] of the body from pelvis to chest, 0: to the robot's left
     kStandAhead,    // [m] the stand is ahead of the robot's centre of mass
@@ -60,7 +63,9 @@ class CasualtyWatch {
 
   int root_ = 0, pelvis_ = 0, chest_ = 0, robot_ = 0;  // bodies
   int arms_[2] = {0, 0};                               // bodies, left and right
+  int bed_ = -1;                                       // body, -1: the robot has none
   int tips_[2] = {0, 0};                               // sites
+  std::vector<bool> is_bed_;                           // (nbody)
   int flexion_ = -1, turn_ = -1, head_ = -1;           // rows of the sensors, -1: none
   double weight_ = 0.0;                                // [N]
   double stand_off_ = 0.0;                             // [m]

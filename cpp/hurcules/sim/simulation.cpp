@@ -325,6 +325,16 @@ void Simulation::judge() {
     return end(supervisor_->verdict().empty() ? Ending::Completed : Ending::Missed, now);
   }
   if (supervisor_->phase() != phase) record_.note_phase(supervisor_->phase());
+  stand_on_new_support();
+}
+
+// a phase may have the robot stand on another body
+void Simulation::stand_on_new_support() {
+  const Frame support = controller_->plan().support();
+  if (support.id == support_.id) return;
+  support_ = support;
+  fall_watch_.reset(world_.orientation(support_));
+  if (placed_) placed_->stand_on(controller_->plan().support_name());
 }
 
 // what somebody outside sees between two calls: the state as it is now
@@ -424,6 +434,7 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
   sensors_.reset(plant_.data(), seed);
   finding_ = {};
   held_ticks_ = 0;
+  support_ = controller_->plan().support();
   fall_watch_.reset(world_.orientation(support_));
   if (supervisor_) {
     supervisor_->reset(*controller_, world_);
@@ -502,6 +513,7 @@ void Simulation::read(const std::vector<double>& values) {
   plant_.restore(reader);
   if (supervisor_) supervisor_->restore(reader);
   controller_->restore(reader);
+  support_ = controller_->plan().support();
   battery_.restore(reader);
   limit_watch_.restore(reader);
   fall_watch_.restore(reader);

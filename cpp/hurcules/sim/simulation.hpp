@@ -124,6 +124,7 @@ class Simulation {
   void advance_plan();
   void record();
   void judge();
+  void stand_on_new_support();
 
   void place(std::uint64_t seed, const Vector* start);
   void write(std::vector<double>& values) const;

@@ -1,0 +1,112 @@
+"""The mission `casualty` in the physics: a limp person of 75 kg, friction alone, no weld.
+
+Strategy: one whole run with everything nominal, judged by what MuJoCo's data say of the person,
+beside what the mission says of itself; its way to safety in each part of the story, as the table
+says it. Other persons and places: docs/casualty.md (benchmarks/lift_sweep.py).
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import lift
+
+
+@pytest.fixture(scope="module")
+def run() -> tuple[hurcules.Simulation, dict[str, list[np.ndarray]]]:
+    """The simulation at its end; by phase where the trunk was, on the bed from `home` on."""
+    simulation = hurcules.Simulation("casualty", variation=0.0)
+    data = simulation.data
+    places: dict[str, list[np.ndarray]] = {}
+    while not simulation.finished:
+        simulation.step(100)
+        place = data.body("casualty_thorax").xpos.copy()
+        if simulation.phase in ("home", "hand over"):
+            bed = data.body("transfer_bed")
+            place = bed.xmat.reshape(3, 3).T @ (place - bed.xpos)
+        places.setdefault(simulation.phase, []).append(place)
+    return simulation, places
+
+
+def partners(simulation: hurcules.Simulation) -> dict[str, float]:
+    """Bodies that the person touches, with the upward force on him over his weight."""
+    model, data = simulation.model, simulation.data
+    person = model.body_rootid[model.body("casualty_pelvis").id]
+    weight = model.body_subtreemass[person] * 9.81
+    found: dict[str, float] = {}
+    for i, contact in enumerate(data.contact):
+        bodies = model.geom_bodyid[contact.geom]
+        his = model.body_rootid[bodies] == person
+        if his.all() or not his.any():
+            continue
+        force = np.zeros(6)
+        mujoco.mj_contactForce(model, data, i, force)
+        upward = (contact.frame.reshape(3, 3).T @ force[:3])[2] * (1 if his[1] else -1)
+        name = model.body(int(bodies[0] if his[1] else bodies[1])).name
+        found[name] = found.get(name, 0.0) + upward / weight
+    return found
+
+
+@pytest.mark.slow
+def test_a_person_is_fetched_on_the_bed(run) -> None:
+    simulation, places = run
+    assert simulation.success, simulation.reason
+    assert simulation.phase == "hand over"
+    touched = partners(simulation)
+    bed = sum(share for name, share in touched.items() if "bed" in name)
+    assert 0.9 <= bed <= 1.02
+    assert bed == pytest.approx(simulation.figures()["on_bed_share"], abs=0.05)
+    assert {"world", "L_larm", "R_larm"}.isdisjoint(touched)
+    # he is carried at a height of 0.5 m or more from the raise on, and does not slide on the way
+    carried = [places[name] for name in ("carry", "sit down", "fold the left leg", "turn ahead")]
+    assert min(np.array(way)[:, 2].min() for way in carried) > 0.5
+    assert np.ptp(np.array(places["home"] + places["hand over"]), axis=0).max() < 0.05
+
+
+@pytest.mark.slow
+def test_no_commanded_velocity_jumps_and_no_torque_when_it_sits(run) -> None:
+    simulation, _ = run
+    log = simulation.log()
+    for channel, values in log.items():
+        if channel.startswith("qd_des/"):  # one tick of the acceleration limit
+            assert np.abs(np.diff(values)).max() <= 20.0 * simulation.dt + 1e-9, channel
+    sits = int(np.flatnonzero(log["phase"] == simulation.phases.index("straighten"))[0])
+    for joint in ("LKN", "RKN", "HIP", "LEB", "REB"):
+        torque = log[f"torque/{joint}"][sits - 2 : sits + 3]
+        assert np.abs(np.diff(torque)).max() < 40.0, joint  # [N m], of 1500 or more
+
+
+@pytest.mark.slow
+def test_the_robot_does_not_tip_and_drives_home_on_its_folded_tracks(run) -> None:
+    simulation, _ = run
+    figures = simulation.figures()
+    assert figures["pressure_margin_m"] > 0.05
+    assert figures["static_margin_m"] > 0.0
+    knees = [float(simulation.data.joint(name).qpos[0]) for name in ("LKN", "RKN")]
+    assert knees == pytest.approx([0.0, 0.0], abs=0.02)
+    log = simulation.log()
+    driven = log["base/x"][-1] - log["base/x"][log["phase"] == simulation.phases.index("home")][0]
+    assert driven == pytest.approx(-3.0, abs=0.2)
+
+
+def test_every_part_of_the_story_has_its_way_to_safety() -> None:
+    rows = {row.name: row for row in lift.mission("casualty").rows.phases}
+    names = list(rows)
+    carried = names[names.index("carry") : names.index("hand over")]
+    for name in carried:
+        assert any("pressure_margin" in one.when.quantity for one in rows[name].troubles), name
+        last = {one.reactions[-1].kind for one in rows[name].troubles}
+        # in the air he is lowered; seated the robot stands still
+        assert last == ({"lower"} if name == "carry" else {"abort"}), name
+    assert rows["hand over"].last
+    assert names[-4:] == ["lower", "set down", "withdraw", "rest"]
+
+
+def test_the_casualty_mission_takes_the_persons_parameters() -> None:
+    simulation = hurcules.Simulation("casualty", parameters={"mass": 120}, record=False)
+    model = simulation.model
+    assert model.body_subtreemass[model.body("casualty_pelvis").id] == pytest.approx(120.0, abs=0.5)
+    assert "casualty" in hurcules.missions()
