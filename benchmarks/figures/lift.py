@@ -40,7 +40,7 @@ SHEETS = {
     ),
     "casualty": Sheet(
         ("stand", "under", "lift", "raise", "sit down", "fold the right leg", "fold the left leg",
-         "slide the bed out", "lay down", "arms out", "arms down", "hand over"),
+         "slide the bed out", "lay down", "arms out", "arms free", "hand over"),
         follows=True,
     ),
 }  # fmt: skip

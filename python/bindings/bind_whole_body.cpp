@@ -134,7 +134,7 @@ Args:
 constexpr const char* kStandOn = R"(The plan stands on another body, where it is now.
 
 What the plan takes is told anew, the integrals of the servos take over the difference: no torque
-jumps. It holds until a reset.
+jumps (of decoupled servos it may). It holds until a reset.
 
 Args:
   body: of the robot, with a free root.

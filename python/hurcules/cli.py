@@ -126,6 +126,8 @@ def run_mission(
 
     - `hurcules run --sensors`
 
+    - `hurcules run casualty --mass 120`
+
     - `hurcules run lift --mass 90 --offset 0.05,-0.1 --yaw 0.2 --friction 0.6 --pose back`
 
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`

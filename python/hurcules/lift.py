@@ -83,10 +83,10 @@ def person(parameters: Mapping[str, Any]) -> Person:
     known = [field.name for field in fields(Person)]
     for name in parameters:
         if name not in known:
-            raise Error(f"lift: no parameter '{name}'; there are: {', '.join(known)}")
+            raise Error(f"person: no parameter '{name}'; there are: {', '.join(known)}")
     made = Person(**parameters)
     if len(made.offset) != 2 or not all(math.isfinite(number) for number in made.offset):
-        raise Error(f"lift: offset wants two numbers, ahead and to the left, got {made.offset!r}")
+        raise Error(f"person: offset wants two numbers, ahead and to the left, got {made.offset!r}")
     return made
 
 
@@ -101,7 +101,7 @@ def parameters_of(words: Sequence[str]) -> dict[str, Any]:
     while rest:
         option, _, value = rest.pop(0).partition("=")
         if option not in _OPTIONS:
-            raise Error(f"no such option: {option}; lift takes {', '.join(_OPTIONS)}")
+            raise Error(f"no such option: {option}; there are: {', '.join(_OPTIONS)}")
         value = value or (rest.pop(0) if rest else "")
         try:
             found[option.removeprefix("--")] = _OPTIONS[option](value)

@@ -14,6 +14,8 @@ namespace hurcules {
 
 namespace {
 
+constexpr Index kMostBodies = 1'000'000;  // no snapshot names a later one
+
 const std::string& name_of(const NamedStack& stack) {
   return stack.name;
 }
@@ -296,7 +298,7 @@ void WholeBodyController::stand_on(const std::string& body) {
   plan_.stand_on(body);
   support_ = plan_.support();
   start_ = plan_.qpos();
-  if (!options_.feed_forward) return;
+  if (!options_.feed_forward || *options_.decoupled) return;
   plan_.inverse_dynamics(qdd_, efforts_);
   feedback_ -= efforts_;
   servo_.add(feedback_);
@@ -495,7 +497,7 @@ void WholeBodyController::save(StateWriter& writer) const {
 void WholeBodyController::restore(StateReader& reader) {
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
-  const auto support = static_cast<int>(reader.get_count(plan_.model()->nbody - 1));
+  const auto support = static_cast<int>(reader.get_count(kMostBodies));
   for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     reader.get(*vector);
   }

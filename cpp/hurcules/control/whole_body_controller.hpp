@@ -90,7 +90,8 @@ class WholeBodyController {
   // no stack rules until `use`: joints stay where they are, channels of joints move them
   void move_joints() { moves_joints_ = true; }
   // The plan stands on another body, where it is now: what it takes is told anew, and the integrals
-  // of the servos take over the difference, so that no torque jumps. Until `reset`.
+  // of the servos take over the difference, so that no torque jumps (decoupled servos: it may, by
+  // what the plan's weight and inertia differ). Until `reset`.
   void stand_on(const std::string& body);
   // a force task that reads the deflection of a spring, or a row of the model's sensors (its
   // reading is `sign` times the force that the robot exerts along the task's axis)

