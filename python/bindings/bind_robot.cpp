@@ -175,7 +175,8 @@ void bind_state(py::class_<Robot>& robot) {
           },
           py::arg("q"), kSetConfiguration)
       .def("set_velocity", &Robot::set_velocity, py::arg("velocity"), kSetVelocity)
-      .def("stand_on", &Robot::stand_on, py::arg("body"), kStandOn)
+      .def("stand_on", py::overload_cast<const std::string&>(&Robot::stand_on), py::arg("body"),
+           kStandOn)
       .def_property_readonly("floats", &Robot::floats,
                              "its root is free and it stands on nothing: stand_on was not called")
       .def(

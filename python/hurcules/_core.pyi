@@ -2433,7 +2433,7 @@ class WholeBodyController:
         """The plan stands on another body, where it is now.
 
         What the plan takes is told anew, the integrals of the servos take over the difference: no torque
-        jumps. It holds until a reset.
+        jumps (of decoupled servos it may). It holds until a reset.
 
         Args:
           body: of the robot, with a free root.

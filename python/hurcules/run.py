@@ -31,7 +31,7 @@ __all__ = ["DONE", "FAILED", "INTERRUPTED", "RunOptions", "progress_bar", "run"]
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130  # exit codes
 FILES = ("log.npz", "timing.npz", "summary.json", "video.mp4", "report.html")
-FPS = 20  # pictures a second of film
+FPS, SPEED = 20, 2  # pictures a second of film, seconds of mission a second of film
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,7 @@ def _save(
 
 def _speed(simulation: Simulation) -> int:
     """Seconds of the mission a second of film: more where minutes of driving and turning count."""
-    return 5 if simulation.mission in lift.MISSIONS else 2
+    return 5 if simulation.mission in lift.MISSIONS else SPEED
 
 
 def _camera(simulation: Simulation) -> mujoco.MjvCamera | None:

@@ -122,7 +122,7 @@ MissionTable lift_table() {
   table.phases = {{.name = "stand", .stack = "rest", .seconds = 0.1},
                   {.name = "turn",
                    .stack = "joints",
-                   .seconds = 2.0,
+                   .seconds = 3.0,
                    .support = "back",
                    .posture = "joints",
                    .keys = {{0.3, {{"shoulder", 0.5}}}, {1.0, {{"shoulder", 0.8}}}}},
@@ -150,7 +150,7 @@ TEST(JointPhase, LeadsJointsThroughKeysWithoutACornerAndEndsWhereItSays) {
     highest = std::max(highest, servo.position()[1]);
   }
   EXPECT_EQ(simulation.reason(), "completed");
-  EXPECT_NEAR(simulation.time(), 2.3, 1.5 * kDt);
+  EXPECT_NEAR(simulation.time(), 3.3, 1.5 * kDt);
   EXPECT_EQ(controller->plan().support_name(), "back");
   EXPECT_NEAR(controller->servo().position()[1], 0.8, 1e-9);
   EXPECT_NEAR(highest, 0.8, 1e-9);
