@@ -85,7 +85,7 @@ def test_every_figure_of_the_missions_is_described() -> None:
     from hurcules.figures import FIGURES
 
     battery = {"energy_J", "battery_share"}  # of every mission, added by the summary
-    given = [hurcules.Simulation(mission).figures() for mission in ("stretch", "lift")]
+    given = [hurcules.Simulation(mission).figures() for mission in hurcules.missions()]
     assert set().union(*given) == set(FIGURES) - battery
 
 
