@@ -67,6 +67,13 @@ def test_a_person_is_fetched_on_the_bed(run) -> None:
 
 
 @pytest.mark.slow
+def test_no_joint_is_led_beyond_its_range_and_none_goes_there_by_more_than_a_degree(run) -> None:
+    over = run[0].limit_violation()
+    assert over["commanded"]["position_rad"] < 1e-9
+    assert over["position_rad"] < np.radians(1.0)
+
+
+@pytest.mark.slow
 def test_no_commanded_velocity_jumps_and_no_torque_when_it_sits(run) -> None:
     simulation, _ = run
     log = simulation.log()

@@ -104,7 +104,13 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
     t.seen_qd[i] = sensed.seen_qvel[joint.dof] / joint.factor;
   }
   t.q_des = controller.q_des();
-  if (const Task* const limits = controller.law().limits()) {
+  const Task* const limits = controller.law().limits();
+  if (controller.moves_joints()) {  // no mode: the ranges of the joints
+    for (Index i = 0; i < world.size(); ++i) {
+      t.limit_lower[i] = world.coordinates()[static_cast<std::size_t>(i)].lower;
+      t.limit_upper[i] = world.coordinates()[static_cast<std::size_t>(i)].upper;
+    }
+  } else if (limits) {
     t.limit_lower = limits->lower();
     t.limit_upper = limits->upper();
   }

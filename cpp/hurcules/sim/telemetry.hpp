@@ -26,17 +26,18 @@ struct Telemetry {
   Telemetry& operator=(const Telemetry&) = delete;
   void clear();
 
-  double time = 0.0;                         // [s] since reset
-  double phase = 0.0;                        // number of the phase
-  Vector q, qd;                              // [rad], [rad/s] (n) measured in the physics
-  Vector seen_q, seen_qd;                    // (n) as the sensors say
-  Vector q_des, qd_des;                      // (n) commanded
-  Vector lag;                                // [rad] (n) commanded minus seen
-  Vector limit_lower, limit_upper;           // [rad] (n) of the present mode
-  Vector to_lower, to_upper;                 // [rad] (n) seen distance to them, negative beyond
-  Vector active;                             // (n) -1 0 1: held back by a position limit
-  Vector torque, demand;                     // [N m] (m) applied, and asked for
-  Vector joint_error;                        // [rad] (m)
+  double time = 0.0;       // [s] since reset
+  double phase = 0.0;      // number of the phase
+  Vector q, qd;            // [rad], [rad/s] (n) measured in the physics
+  Vector seen_q, seen_qd;  // (n) as the sensors say
+  Vector q_des, qd_des;    // (n) commanded
+  Vector lag;              // [rad] (n) commanded minus seen
+  Vector limit_lower,
+      limit_upper;            // [rad] (n) of the present mode, of the joints where no stack rules
+  Vector to_lower, to_upper;  // [rad] (n) seen distance to them, negative beyond
+  Vector active;              // (n) -1 0 1: held back by a position limit
+  Vector torque, demand;      // [N m] (m) applied, and asked for
+  Vector joint_error;         // [rad] (m)
   Vector level_error, level_error_measured;  // (p) norms, in the unit of the tasks
   Vector level_active;                       // (p) rows of any level that this one pushes against
   Vector task_error, task_error_measured;    // (r)
