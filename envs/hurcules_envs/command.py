@@ -154,8 +154,7 @@ def _acting(policy: Policy) -> Any:
 
     def act(env: Any, seen: Any) -> Any:
         policy.check(env.spec.id, env.observation_space, env.action_space)
-        one = {n: v[None] for n, v in seen.items()} if isinstance(seen, dict) else seen[None]
-        return policy(one)[0]
+        return policy.one(seen)
 
     return act
 

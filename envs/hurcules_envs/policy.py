@@ -132,6 +132,12 @@ class Policy:
             raise hurcules.Error(f"{self.path}: the network gave numbers that are not finite")
         return np.clip(result, -1.0, 1.0).astype(np.float32)
 
+    def one(self, observation: Any) -> Array:
+        """The action (k,) for a single observation, an array (m,) or a dictionary of them."""
+        named = isinstance(observation, Mapping)
+        rows = {n: v[None] for n, v in observation.items()} if named else observation[None]
+        return self(rows)[0]
+
     def _computed(self, values: dict[str, Any]) -> Any:
         known: dict[str, Any] = {**self._graph.weights, **values}
         for node in self._graph.nodes:

@@ -130,9 +130,7 @@ class _Episode:
         self._picture()
 
     def step(self, policy: Policy) -> None:
-        seen = self._seen
-        one = {n: v[None] for n, v in seen.items()} if isinstance(seen, dict) else seen[None]
-        action = policy(one)[0]
+        action = policy.one(self._seen)
         self._seen, reward, terminated, truncated, info = self._env.step(action)
         self.over = terminated or truncated
         self.success, self.failed, self.time = info["is_success"], info["failed"], info["time"]

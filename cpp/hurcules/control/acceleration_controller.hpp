@@ -14,6 +14,7 @@
 // critically damped, it comes from inside to its side without passing it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hurcules/control/acceleration_interval.hpp"
@@ -97,7 +98,7 @@ class AccelerationController {
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
   DeadZone dead_zone_;
-  SaddleProbe probe_;
+  std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector acceleration_;
   Vector next_;                                  // [rad/s] scratch, one dt further
   Vector braked_, speed_;                        // D qdot and qdot, of the last measure

@@ -52,9 +52,9 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
     : options_(std::move(options)),
       own_limits_("limits", robot),
       problem_(robot.size()),
-      solver_(robot.size(), options_.solver),
-      probe_(robot) {
+      solver_(robot.size(), options_.solver) {
   check(options_);
+  if (options_.law == Law::Arrive) probe_.emplace(robot);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
                             options_.max_acceleration, options_.return_speed});
@@ -76,7 +76,7 @@ void VelocityController::set_stack(const Stack& stack) {
   begin_transition();
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
-  probe_.set_stack(problem_.stack());
+  if (probe_) probe_->set_stack(problem_.stack());
   dead_zone_.set_stack(problem_.stack(), velocity_.size());
   active_limits_.setZero();
   solver_.reserve(problem_.hierarchy());
@@ -100,8 +100,8 @@ void VelocityController::measure(const Robot& robot) {
     }
   }
   if (options_.law == Law::Arrive) {
-    probe_.look_at(robot, stack());
-    dead_zone_.apply(weights_, gains_, limits(), &probe_, hierarchy);
+    probe_->look_at(robot, stack());
+    dead_zone_.apply(weights_, gains_, limits(), &*probe_, hierarchy);
   }
 }
 

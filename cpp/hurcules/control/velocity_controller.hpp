@@ -11,6 +11,7 @@
 // on both sides of their interval.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hurcules/control/dead_zone.hpp"
@@ -96,7 +97,7 @@ class VelocityController {
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
   DeadZone dead_zone_;
-  SaddleProbe probe_;
+  std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector velocity_;
   Vector next_;        // [rad], (n): q* after a step
   Vector offset_;      // [rad/s] (n) of the transition, at its start
