@@ -20,7 +20,7 @@ from hurcules.validation import require_known
 from hurcules_envs.exporting import export_policy
 from hurcules_envs.sb3 import PARTS, GoalFeatures, make_sb3
 
-__all__ = ["TrainOptions", "train"]
+__all__ = ["TrainOptions", "make_model", "train"]
 
 ALGORITHMS = ("ppo", "sac", "her")
 PPO_SETTINGS = {
@@ -107,7 +107,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
                 f"{out} holds a run with another {', '.join(differing)}: give another folder"
             )
     written.write_text(json.dumps(settings, indent=2) + "\n")
-    model = _model(options, environment)
+    model = make_model(options, environment)
     if checkpoint.exists():
         model = type(model).load(checkpoint, environment, device="cpu")
     left = options.steps - model.num_timesteps
@@ -129,7 +129,16 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     return out
 
 
-def _model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
+def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
+    """An untrained model of Stable-Baselines3, with this package's network and settings.
+
+    Args:
+        options: algorithm, id of the environment, seed; logs go to a folder in `out`.
+        environment: from `make_sb3`.
+
+    Raises:
+        hurcules.Error: "her" for what is no goal environment.
+    """
     goal = isinstance(environment.observation_space, gymnasium.spaces.Dict)
     if options.algorithm == "her" and not goal:
         raise hurcules.Error(f"her: {options.environment} is no goal environment")
