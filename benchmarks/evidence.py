@@ -5,7 +5,7 @@ through the hierarchy with its limits and safe levels, and a plain damped-least-
 have the same task, budget, network, limits and slew. Policies learn in `kinematic`; every 10,000
 steps the deterministic policy is judged in `kinematic`, every 20,000 the actions drawn in training
 are judged in `fast`, which has contacts to measure. The last policy is judged in `kinematic`, as it
-is in `exact`, and on the other form of the robot.
+is in `exact`; twists on the other form of the robot too.
 
 Run:  python benchmarks/evidence.py OUT [--seeds 5]
 Writes OUT/evidence.json after each run and goes on where it was stopped; `figures/evidence.py`
@@ -55,12 +55,9 @@ class Run:
 
 
 def runs(seeds: int) -> list[Run]:
-    """All of them; stopped at any time, all layers have about as many seeds."""
-    found = []
-    for seed in range(seeds):
-        found += [Run("ppo", layer, seed) for layer in LAYERS]
-        found += [Run("her", layer, seed) for layer in ("twist", "joint")]
-    return found
+    """All of them, all layers of a seed after each other."""
+    found = [Run("ppo", layer, seed) for seed in range(seeds) for layer in LAYERS]
+    return found + [Run("her", one, seed) for seed in range(seeds) for one in ("twist", "joint")]
 
 
 def acting(model: BaseAlgorithm, deterministic: bool) -> Callable[[Any], Any]:
@@ -117,7 +114,7 @@ def perform(run: Run, out: Path) -> dict[str, Any]:
     for fidelity in ("kinematic", "exact"):
         judged = evaluate(act, name, EPISODES[fidelity], threads=1, fidelity=fidelity, **given)
         row[fidelity] = asdict(judged)
-    if run.algorithm == "ppo" and run.layer != "joint":  # its actions are those of one robot
+    if run.algorithm == "ppo" and run.layer in ("twist", "least squares"):
         other = evaluate(
             act, name, EPISODES["manipulation"], threads=1, fidelity="fast",
             robot="manipulation", **given,
@@ -146,7 +143,9 @@ def main() -> None:
         beside.write_text(json.dumps(rows, indent=1) + "\n")
         beside.replace(path)
         row = rows[-1]
-        print(run.text, *(f"{f} {row[f]['success']:.0%}" for f in ("kinematic", "exact")), flush=True)
+        print(
+            run.text, *(f"{f} {row[f]['success']:.0%}" for f in ("kinematic", "exact")), flush=True
+        )
 
 
 if __name__ == "__main__":

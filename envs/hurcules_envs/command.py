@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -117,30 +118,33 @@ def record(
     episodes: Annotated[int, typer.Option(help="How many.")] = 100,
     seed: Annotated[int, typer.Option(help="Of the first one.")] = 0,
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
-    form: Annotated[str, typer.Option("--format", help="minari or robomimic.")] = "minari",
+    form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
-    """Record episodes as a data set for imitation: Minari's, or an HDF5 file of robomimic.
+    """Record episodes as a data set for imitation, of Minari, robomimic or LeRobot.
+
+    A recording that was stopped goes on where it was.
 
     For example `hurcules record Drive-v0 --episodes 100 --format robomimic`
     """
     from hurcules_envs import recording
 
-    name, author = full_id(environment), "expert"
+    name, author, source = full_id(environment), "expert", ""
     act: Any = _expert
     if policy != "expert":
         network, author = Policy(policy), "policy"
+        source = sha256(network.path.read_bytes()).hexdigest()
         environment_of(network, name)
         act = _acting(network)
     with Progress() as bar:
         task = bar.add_task(f"{author} in {name}", total=episodes)
         folder = out or Path("out", "data")
         identifier = recording.record(
-            name, act, episodes, folder, seed=seed, author=author, form=form,
-            fidelity=fidelity,
+            name, act, episodes, folder, seed=seed, author=author, source=source,
+            form=form, fidelity=fidelity,
             progress=lambda done: bar.update(task, completed=done),
         )  # fmt: skip
-    Console().print(identifier if form == "robomimic" else f"{identifier} in {folder}")
+    Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)
 
 
 def _expert(env: Any, seen: Any) -> Any:

@@ -1,10 +1,16 @@
-"""Episodes as data for imitation: data sets of Minari, files of robomimic."""
+"""Episodes as data for imitation: run once, kept one by one, then written as a data set.
+
+Each episode is a file from the moment it ends, in a folder `NAME.part` beside the data set. The
+data set appears when it is whole, and the folder goes. A recording that was stopped, by a full disk
+say, has lost nothing that was finished: the same command goes on with it.
+"""
 
 from __future__ import annotations
 
 import json
-import os
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +19,12 @@ import numpy as np
 
 import hurcules
 from hurcules.validation import require_known
+from hurcules_envs.data_formats import FORMATS
+from hurcules_envs.episode_data import Episode, Recording
 
-__all__ = ["record"]
+__all__ = ["Act", "record"]
 
 Act = Callable[[Any, Any], Any]  # (environment, observation) -> action (k,)
-
-
-FORMATS = ("minari", "robomimic")
-GYM_TYPE = 2  # robomimic.envs.env_base.EnvType.GYM_TYPE
 
 
 def record(
@@ -32,6 +36,7 @@ def record(
     form: str = "minari",
     seed: int = 0,
     author: str = "expert",
+    source: str = "",
     progress: Callable[[int], None] = lambda _: None,
     **options: Any,
 ) -> str:
@@ -44,129 +49,99 @@ def record(
         act: the policy.
         episodes: how many are recorded; successful or not, the data say which.
         out: folder of data sets, as MINARI_DATASETS_PATH.
-        form: "minari", or "robomimic": one HDF5 file, its demonstrations demo_0, demo_1, ...
+        form: "minari"; "robomimic", one HDF5 file, its demonstrations demo_0, demo_1, ...; or
+            "lerobot", a folder.
         seed: of the first episode, the others follow.
-        author: who acted, for the data set's description.
+        author: who acts, for the data set's name and description.
+        source: which policy, so that a recording that was stopped goes on with no other.
         progress: is told how many are done.
         options: of the environment.
 
     Returns:
-        The id of the data set, or the path of the file.
+        The id of the data set, or the path of the file or folder.
 
     Raises:
-        hurcules.Error: an unknown format, a package that it wants is not installed, or the data set
-            exists.
+        hurcules.Error: an unknown format, a package that it wants is not installed, the data set
+            exists, or it could not be written; the text says how many episodes are kept, and where.
     """
     require_known("format", form, FORMATS)
-    out.mkdir(parents=True, exist_ok=True)
-    write = _minari if form == "minari" else _robomimic
-    return write(environment, act, episodes, out, seed, author, progress, options)
-
-
-def _minari(
-    environment: str,
-    act: Act,
-    episodes: int,
-    out: Path,
-    seed: int,
-    author: str,
-    progress: Callable[[int], None],
-    options: dict[str, Any],
-) -> str:
-    os.environ["MINARI_DATASETS_PATH"] = str(out.resolve())
-    try:
-        import minari
-    except ImportError as error:
-        raise hurcules.Error(
-            f"recording wants Minari: pip install 'hurcules[data]' ({error})"
-        ) from None
-    name = environment.split("/")[-1].removesuffix("-v0").lower()
-    identifier = f"hurcules/{name}/{author}-v0"
-    if (out / identifier).exists():
-        raise hurcules.Error(f"{out / identifier} exists: give another folder")
-    collector = minari.DataCollector(gymnasium.make(environment, **options), record_infos=True)
-    for episode in range(episodes):
-        observation, _ = collector.reset(seed=seed + episode)
-        over = False
-        while not over:
-            action = np.asarray(act(collector.unwrapped, observation), dtype=np.float32)
-            observation, _, terminated, truncated, _ = collector.step(action)
-            over = terminated or truncated
-        progress(episode + 1)
-    collector.create_dataset(
-        identifier,
-        algorithm_name=author,
-        description=collector.unwrapped.task_description,
-        author="The Hurcules developers",
-        code_permalink="none",
-        eval_env=gymnasium.spec(environment),
-    )
-    collector.close()
-    return identifier
-
-
-def _robomimic(
-    environment: str,
-    act: Act,
-    episodes: int,
-    out: Path,
-    seed: int,
-    author: str,
-    progress: Callable[[int], None],
-    options: dict[str, Any],
-) -> str:
-    """The layout of robomimic 0.3: data/demo_i with actions, rewards, dones, obs and next_obs."""
-    try:
-        import h5py
-    except ImportError as error:
-        raise hurcules.Error(f"robomimic's files want h5py: pip install h5py ({error})") from None
-    path = out / f"{environment.split('/')[-1]}-{author}.hdf5"
-    if path.exists():
-        raise hurcules.Error(f"{path} exists: give another folder")
-    part = path.with_suffix(".part")
+    written = FORMATS[form]
+    written.require()
+    recording = Recording(environment, episodes, seed, author, source, options)
+    target = out / written.place(recording)
+    if target.exists():
+        raise hurcules.Error(f"{target} exists: give another folder")
+    part = target.with_name(target.name + ".part")
     env: Any = gymnasium.make(environment, **options)
-    about = {
-        "env_name": environment, "env_version": hurcules.__version__, "type": GYM_TYPE,
-        "env_kwargs": options,
-    }  # fmt: skip
     try:
-        with h5py.File(part, "w") as file:
-            data = file.create_group("data")
-            data.attrs["env_args"] = json.dumps(about)
-            for episode in range(episodes):
-                _demonstrate(env, act, seed + episode, data.create_group(f"demo_{episode}"))
-                data.attrs["total"] = sum(int(demo.attrs["num_samples"]) for demo in data.values())
-                progress(episode + 1)
-        part.replace(path)
+        part.mkdir(parents=True, exist_ok=True)
+        _same(recording, part / "recording.json")
+        for i, path in enumerate(_paths(recording, part)):
+            if not path.exists():
+                _run(env, act, seed + i).save(path)
+            progress(i + 1)
+        _remove(part / "whole")
+        written.write(recording, env, _read(recording, part), part / "whole")
+        (part / "whole" / written.place(recording)).replace(target)
+    except (OSError, ImportError, RuntimeError) as error:  # the last is HDF5's word for the first
+        kept = sum(path.exists() for path in _paths(recording, part))
+        raise hurcules.Error(
+            f"{target} could not be written: {error}. {kept} of {episodes} episodes are kept in "
+            f"{part}; the same command goes on with them"
+        ) from error
     finally:
-        part.unlink(missing_ok=True)
         env.close()
-    return str(path)
+    _remove(part)
+    return written.identifier(recording, target)
 
 
-def _demonstrate(env: Any, act: Act, seed: int, demo: Any) -> None:
-    """Runs an episode and writes it into a group of the file."""
-    observation, _ = env.reset(seed=seed)
-    seen, actions, rewards, dones, over = [_parts(observation)], [], [], [], False
-    success = False
+def _same(recording: Recording, path: Path) -> None:
+    """A recording that goes on is the one that was stopped."""
+    settings = asdict(recording) | {"version": hurcules.__version__}
+    settings = json.loads(json.dumps(settings))
+    earlier = json.loads(path.read_text() or "{}") if path.exists() else {}
+    differing = [n for n in earlier if n != "episodes" and earlier[n] != settings.get(n)]
+    if differing:
+        raise hurcules.Error(
+            f"{path.parent} holds a recording that was stopped, with another "
+            f"{', '.join(differing)}: delete it or give another folder"
+        )
+    path.write_text(json.dumps(settings, indent=1) + "\n")
+
+
+def _paths(recording: Recording, part: Path) -> list[Path]:
+    return [part / f"{i:06d}.npz" for i in range(recording.episodes)]
+
+
+def _read(recording: Recording, part: Path) -> Iterator[Episode]:
+    return (Episode.load(path) for path in _paths(recording, part))
+
+
+def _remove(folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _run(env: Any, act: Act, seed: int) -> Episode:
+    observation, info = env.reset(seed=seed)
+    seen, told, steps, over = [_parts(observation)], [info], [], False
     while not over:
         action = np.asarray(act(env.unwrapped, observation), dtype=np.float32)
         observation, reward, terminated, truncated, info = env.step(action)
         over = terminated or truncated
-        success = bool(info["is_success"])
         seen.append(_parts(observation))
-        actions.append(action)
-        rewards.append(float(reward))
-        dones.append(int(over))
-    demo.attrs["num_samples"], demo.attrs["seed"] = len(actions), seed
-    demo.attrs["success"] = success
-    for name, values in (("actions", actions), ("rewards", rewards), ("dones", dones)):
-        demo.create_dataset(name, data=np.array(values))
-    for name in seen[0]:
-        demo.create_dataset(f"obs/{name}", data=np.stack([one[name] for one in seen[:-1]]))
-        demo.create_dataset(f"next_obs/{name}", data=np.stack([one[name] for one in seen[1:]]))
+        told.append(info)
+        steps.append((action, reward, terminated, truncated))
+    actions, rewards, terminated, truncated = zip(*steps, strict=True)
+    return Episode(
+        seed,
+        {name: np.stack([one[name] for one in seen]) for name in seen[0]},
+        np.stack(actions),
+        np.array(rewards, dtype=float),
+        np.array(terminated),
+        np.array(truncated),
+        {name: np.array([one[name] for one in told]) for name in told[0]},
+    )
 
 
 def _parts(observation: Any) -> dict[str, Any]:
-    """By name; robomimic calls what has no name flat."""
     return dict(observation) if isinstance(observation, dict) else {"flat": observation}

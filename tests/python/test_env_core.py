@@ -244,60 +244,6 @@ def test_a_bad_action_says_what_was_wanted():
         env.reset(options={"goal": 1})
 
 
-def test_recorded_actions_alone_give_the_same_episode(tmp_path, monkeypatch):
-    pytest.importorskip("minari", reason="pip install 'hurcules[data]'")
-    pytest.importorskip("jax", reason="pip install 'hurcules[data]'")
-    import minari
-
-    from hurcules_envs.recording import record
-
-    name = "Hurcules/Drive-v0"
-
-    def expert(env, _):
-        return env.environment.expert(env.numbers)[0]
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # Minari's own, about what it computes
-        identifier = record(name, expert, 2, tmp_path, seed=3, fidelity="kinematic")
-        monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
-        data = minari.load_dataset(identifier)
-        with pytest.raises(hurcules.Error, match="exists"):
-            record(name, expert, 1, tmp_path, fidelity="kinematic")
-    assert data.total_episodes == 2
-    env = gym.make(name, **FAST)
-    for number, episode in enumerate(data):
-        observation, _ = env.reset(seed=3 + number)
-        for k, action in enumerate(episode.actions):
-            assert np.array_equal(
-                observation["observation"], episode.observations["observation"][k]
-            )
-            observation, reward, *_ = env.step(action)
-            assert reward == episode.rewards[k]
-
-
-def test_a_file_of_robomimic_gives_the_same_episode(tmp_path):
-    h5py = pytest.importorskip("h5py", reason="pip install h5py")
-    from hurcules.cli import main
-
-    words = ["record", "Drive-v0", "--format", "robomimic", "--episodes", "2", "--seed", "3"]
-    words += ["--policy", "Drive-v0", "--fidelity", "kinematic", "--out", str(tmp_path)]
-    assert main(words) == 0
-    assert main(words) == 2  # it exists
-    env = gym.make("Hurcules/Drive-v0", **FAST)
-    with h5py.File(tmp_path / "Drive-v0-policy.hdf5") as file:
-        data = file["data"]
-        assert json.loads(data.attrs["env_args"])["env_name"] == "Hurcules/Drive-v0"
-        assert data.attrs["total"] == sum(len(demo["actions"]) for demo in data.values())
-        for number, demo in enumerate(data.values()):
-            observation, _ = env.reset(seed=3 + number)
-            for k, action in enumerate(demo["actions"]):
-                assert np.array_equal(observation["observation"], demo["obs/observation"][k])
-                observation, reward, over, *_ = env.step(action)
-                assert (reward, over) == (demo["rewards"][k], bool(demo["dones"][k]))
-                assert np.array_equal(observation["desired_goal"], demo["next_obs/desired_goal"][k])
-            assert demo.attrs["success"]
-
-
 def test_a_training_that_was_stopped_goes_on(tmp_path):
     training = pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
     from stable_baselines3 import PPO

@@ -1,0 +1,163 @@
+"""Episodes recorded as data sets: replayed bit for bit, stopped and gone on with.
+
+Strategy: two episodes of a fast environment in each format, opened by the format's own library and
+replayed by their actions alone. A format whose library is not installed is skipped.
+Not tested: what is learnt from them (docs/environments.md).
+"""
+
+import json
+import resource
+import warnings
+from pathlib import Path
+
+import gymnasium as gym
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules.cli import main
+from hurcules_envs import recording
+
+NAME = "Hurcules/Drive-v0"
+FAST = {"fidelity": "kinematic"}
+
+
+def expert(env, _):
+    return env.environment.expert(env.numbers)[0]
+
+
+def words(form: str, out: Path, *more: str) -> list[str]:
+    """The command that records two episodes of the policy that ships."""
+    given = ["record", "Drive-v0", "--format", form, "--episodes", "2", "--seed", "3"]
+    return [*given, "--policy", "Drive-v0", "--fidelity", "kinematic", "--out", str(out), *more]
+
+
+def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
+    pytest.importorskip("minari", reason="pip install 'hurcules[data]'")
+    import minari
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # Minari's own, about what it computes
+        identifier = recording.record(NAME, expert, 2, tmp_path, seed=3, **FAST)
+        monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+        data = minari.load_dataset(identifier)
+        with pytest.raises(hurcules.Error, match="exists"):
+            recording.record(NAME, expert, 1, tmp_path, **FAST)
+    assert data.total_episodes == 2
+    env = gym.make(NAME, **FAST)
+    for number, episode in enumerate(data):
+        observation, _ = env.reset(seed=3 + number)
+        for k, action in enumerate(episode.actions):
+            assert np.array_equal(
+                observation["observation"], episode.observations["observation"][k]
+            )
+            observation, reward, *_, info = env.step(action)
+            assert reward == episode.rewards[k]
+            assert info["is_success"] == episode.infos["is_success"][k + 1]
+
+
+def test_a_file_of_robomimic_gives_the_same_episode(tmp_path):
+    h5py = pytest.importorskip("h5py", reason="pip install h5py")
+    assert main(words("robomimic", tmp_path)) == 0
+    assert main(words("robomimic", tmp_path)) == 2  # it exists
+    env = gym.make(NAME, **FAST)
+    with h5py.File(tmp_path / "Drive-v0-policy.hdf5") as file:
+        data = file["data"]
+        assert json.loads(data.attrs["env_args"])["env_name"] == NAME
+        assert data.attrs["total"] == sum(len(demo["actions"]) for demo in data.values())
+        for number, demo in enumerate(data.values()):
+            observation, _ = env.reset(seed=3 + number)
+            for k, action in enumerate(demo["actions"]):
+                assert np.array_equal(observation["observation"], demo["obs/observation"][k])
+                observation, reward, over, *_ = env.step(action)
+                assert (reward, over) == (demo["rewards"][k], bool(demo["dones"][k]))
+                assert np.array_equal(observation["desired_goal"], demo["next_obs/desired_goal"][k])
+            assert demo.attrs["success"]
+
+
+def test_a_data_set_of_lerobot_gives_the_same_episode(tmp_path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        pytest.importorskip("lerobot", reason="pip install 'lerobot>=0.4'")
+        from lerobot.datasets.lerobot_dataset import LeRobotDataset
+
+        assert main(words("lerobot", tmp_path)) == 0
+        assert main(words("lerobot", tmp_path)) == 2  # it exists
+        root = tmp_path / "Drive-v0-policy-lerobot"
+        data = LeRobotDataset("hurcules/drive", root=root)
+        frames = [data[i] for i in range(len(data))]
+    about = json.loads((root / "meta" / "hurcules.json").read_text())
+    env = gym.make(about["environment"], **about["options"])
+    rate = env.unwrapped.environment.rate
+    assert (data.num_episodes, data.fps) == (2, rate)
+    for number, seed in enumerate(about["seeds"]):
+        observation, _ = env.reset(seed=seed)
+        episode = [one for one in frames if one["episode_index"] == number]
+        assert bool(episode[-1]["next.success"])
+        for k, one in enumerate(episode):
+            assert one["task"] == env.unwrapped.task_description
+            assert one["timestamp"].item() == pytest.approx(k / rate)
+            for key, name in (
+                ("observation.state", "observation"),
+                ("observation.achieved_goal", "achieved_goal"),
+                ("observation.environment_state", "desired_goal"),
+            ):
+                assert np.array_equal(observation[name], one[key].numpy())
+            observation, reward, over, cut, _ = env.step(one["action"].numpy())
+            assert np.float32(reward) == one["next.reward"].item()
+            assert (over or cut) == bool(one["next.done"])
+
+
+def test_a_recording_that_was_stopped_goes_on(tmp_path):
+    h5py = pytest.importorskip("h5py", reason="pip install h5py")
+    whole, stopped = tmp_path / "whole", tmp_path / "stopped"
+    path = recording.record(NAME, expert, 2, whole, form="robomimic", **FAST)
+    with h5py.File(path) as file:
+        steps = len(file["data/demo_0/actions"]) + 5
+    acted = []
+
+    def stops(env, seen):
+        acted.append(1)
+        if len(acted) > steps:
+            raise KeyboardInterrupt
+        return expert(env, seen)
+
+    with pytest.raises(KeyboardInterrupt):
+        recording.record(NAME, stops, 2, stopped, form="robomimic", **FAST)
+    assert len(list(stopped.glob("*.part/*.npz"))) == 1
+    with pytest.raises(hurcules.Error, match="another seed"):
+        recording.record(NAME, expert, 2, stopped, form="robomimic", seed=1, **FAST)
+    again = []
+
+    def counts(env, seen):
+        again.append(1)
+        return expert(env, seen)
+
+    recording.record(NAME, counts, 2, stopped, form="robomimic", **FAST)
+    assert [one.name for one in stopped.iterdir()] == [Path(path).name]
+    with h5py.File(path) as one, h5py.File(stopped / Path(path).name) as other:
+        assert len(again) == len(one["data/demo_1/actions"])  # the first one was kept
+        for demo in ("demo_0", "demo_1"):
+            for part in ("actions", "rewards", "obs/observation"):
+                assert np.array_equal(one[f"data/{demo}/{part}"], other[f"data/{demo}/{part}"])
+
+
+def test_a_full_disk_keeps_what_was_finished(tmp_path):
+    """A limit on the size of files stands for it: first for the data set, then for an episode."""
+    pytest.importorskip("h5py", reason="pip install h5py")
+
+    def tried(out: str) -> str:
+        return recording.record(NAME, expert, 4, tmp_path / out, form="robomimic", **FAST)
+
+    size = Path(tried("whole")).stat().st_size
+    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for limit, kept in ((size - 1, 4), (2000, 0)):
+        out = f"limit {limit}"
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, usual[1]))
+        try:
+            with pytest.raises(hurcules.Error, match=rf"{kept} of 4 episodes are kept in .*\.part"):
+                tried(out)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, usual)
+        assert [one.suffix for one in (tmp_path / out).iterdir()] == [".part"]
+        assert Path(tried(out)).stat().st_size == size
