@@ -4,7 +4,7 @@
 ifndef PYTHON
 PYTHON := $(shell .ci/machine python)
 endif
-MISSION ?= stretch
+MISSION ?= casualty
 DEMO_ARGS ?=
 WERROR ?= OFF
 ASSERTS ?= OFF

@@ -1,15 +1,18 @@
 """docs/lift.jpg, docs/casualty.jpg: the phases of these missions, each a run of its success map.
 
 `python benchmarks/figures/lift.py [lift|casualty]`, both without a name; needs an OpenGL without a
-window.
+window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four pictures of the film
+that `hurcules run casualty` has written to out/casualty.
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import imageio.v2 as imageio
 import mujoco
 import numpy as np
 from PIL import Image, ImageDraw
@@ -21,6 +24,8 @@ DOCS = Path(__file__).parents[2] / "docs"
 SIZE = (480, 300)  # [pixels] of each picture
 COLUMNS = 3
 SEED, VARIATION = 1000, 1 / 3
+FILM = ("under", "carry", "fold the right leg", "home")  # the ends of these phases
+FILM_SIZE = (640, 360)  # [pixels] of each picture
 
 
 @dataclass(frozen=True)
@@ -49,7 +54,7 @@ SHEETS = {
 def camera(model: mujoco.MjModel, follows: bool) -> mujoco.MjvCamera:
     """From the front, on the side of the legs."""
     if follows:
-        return following_camera(model, "upper_legs")
+        return following_camera(model, "casualty_pelvis", 3.8, 150.0, -16.0)
     view = mujoco.MjvCamera()
     view.lookat[:], view.distance = (2.4, -0.2, 0.55), 4.2
     view.azimuth, view.elevation = 128, -16
@@ -89,8 +94,33 @@ def sheet(model: mujoco.MjModel, ends: dict[str, np.ndarray], what: Sheet) -> Im
     return image
 
 
+def film_sheet(folder: Path) -> Image.Image:
+    """Pictures of the film in the folder of a run."""
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    begins = [
+        (event["time_s"], event["text"].removeprefix("phase "))
+        for event in summary["events"]
+        if event["text"].startswith("phase ")
+    ]
+    times = [time for time, _ in begins[1:]] + [summary["simulated_seconds"]]
+    ends = dict(zip([name for _, name in begins], times, strict=True))
+    image = Image.new("RGB", (2 * FILM_SIZE[0], 2 * FILM_SIZE[1]))
+    with imageio.get_reader(folder / "video.mp4") as reader:
+        pictures = [picture for picture in reader]
+    every = summary["simulated_seconds"] / (len(pictures) - 1)
+    for i, phase in enumerate(FILM):
+        picture = Image.fromarray(pictures[int(ends[phase] / every)])
+        tile = picture.resize(FILM_SIZE, Image.Resampling.LANCZOS)
+        image.paste(tile, (i % 2 * FILM_SIZE[0], i // 2 * FILM_SIZE[1]))
+    return image
+
+
 def main() -> None:
     """Runs the missions and draws."""
+    if sys.argv[1:] == ["film"]:
+        picture = film_sheet(Path("out", "casualty"))
+        picture.save(DOCS / "rescue.jpg", quality=86, optimize=True)
+        return
     for mission in sys.argv[1:] or SHEETS:
         picture = sheet(*moments(mission), SHEETS[mission])
         picture.save(DOCS / f"{mission}.jpg", quality=84, optimize=True)

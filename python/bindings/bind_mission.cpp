@@ -72,6 +72,7 @@ Args:
   within: [s].
   late: list of Reaction, when it takes longer.
   troubles: list of Trouble.
+  note: what it is for, in words: for the printed table and the film.
   last: the run is over after it; what follows is only reached by reactions.
 )";
 constexpr const char* kMeasure = R"(A figure of a run: a quantity over some phases.
@@ -92,7 +93,7 @@ Args:
   measures: list of Measure.
 )";
 constexpr const char* kTableText =
-    R"(The table as text: a line a phase, conditions and reactions below.)";
+    R"(The table as text: a line a phase, note, conditions and reactions below.)";
 constexpr const char* kSetup = R"(What a mission wants of its run.
 
 Args:
@@ -165,13 +166,14 @@ void bind_rows(py::module_& module) {
   bind_options<PostureKey>(
       module, "PostureKey", kKey,
       {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});
-  bind_options<Phase>(module, "Phase", kPhase,
-                      {required("name", &Phase::name), required("stack", &Phase::stack),
-                       field("seconds", &Phase::seconds), field("leads", &Phase::leads),
-                       field("posture", &Phase::posture), field("keys", &Phase::keys),
-                       field("done", &Phase::done), field("within", &Phase::within),
-                       field("late", &Phase::late), field("troubles", &Phase::troubles),
-                       field("support", &Phase::support), field("last", &Phase::last)});
+  bind_options<Phase>(
+      module, "Phase", kPhase,
+      {required("name", &Phase::name), required("stack", &Phase::stack),
+       field("seconds", &Phase::seconds), field("leads", &Phase::leads),
+       field("posture", &Phase::posture), field("keys", &Phase::keys), field("done", &Phase::done),
+       field("within", &Phase::within), field("late", &Phase::late),
+       field("troubles", &Phase::troubles), field("support", &Phase::support),
+       field("note", &Phase::note), field("last", &Phase::last)});
 }
 
 }  // namespace

@@ -136,6 +136,14 @@ std::vector<std::string> phase_names(const Simulation& self) {
   return self.supervisor() ? self.supervisor()->phase_names() : std::vector<std::string>{};
 }
 
+std::vector<std::string> phase_notes(const Simulation& self) {
+  std::vector<std::string> notes;
+  if (const auto* mission = dynamic_cast<const Mission*>(self.supervisor())) {
+    for (const Phase& phase : mission->table().phases) notes.push_back(phase.note);
+  }
+  return notes;
+}
+
 std::string phase(const Simulation& self) {
   if (!self.supervisor()) return "";
   return phase_names(self)[self.supervisor()->phase()];
@@ -280,6 +288,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("reason", &Simulation::reason, kReason)
       .def_property_readonly("phase", &phase, "of the mission; '' without one")
       .def_property_readonly("phases", &phase_names)
+      .def_property_readonly("phase_notes", &phase_notes, "of each, what it is for")
       .def_property_readonly("command_names", &command_names)
       .def_property_readonly("command_scale", &command_scale, py::return_value_policy::copy,
                              "(k,) SI")

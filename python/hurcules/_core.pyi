@@ -2785,11 +2785,13 @@ class Phase:
       within: [s].
       late: list of Reaction, when it takes longer.
       troubles: list of Trouble.
+      note: what it is for, in words: for the printed table and the film.
       last: the run is over after it; what follows is only reached by reactions."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     last: bool
     name: str
+    note: str
     posture: str
     stack: str
     support: str
@@ -2811,6 +2813,7 @@ class Phase:
         late: collections.abc.Sequence[Reaction] = [],
         troubles: collections.abc.Sequence[Trouble] = [],
         support: str = "",
+        note: str = "",
         last: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -2909,7 +2912,7 @@ class MissionTable:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def text(self) -> str:
-        """The table as text: a line a phase, conditions and reactions below."""
+        """The table as text: a line a phase, note, conditions and reactions below."""
 
     @property
     def measures(self) -> list[Measure]: ...
@@ -3464,6 +3467,10 @@ class Simulation:
     @property
     def phase(self) -> str:
         """of the mission; '' without one"""
+
+    @property
+    def phase_notes(self) -> list[str]:
+        """of each, what it is for"""
 
     @property
     def phases(self) -> list[str]: ...

@@ -27,6 +27,9 @@ LEVELS = {
     "hpitch": "pitch of the lower arms",
     "pel": "pelvis, forward",
     "gaze": "gaze direction",
+    "L_hand + R_hand": "hands",
+    "L_pitch + R_pitch": "pitch of the lower arms",
+    "L_across + R_across + L_press + R_press": "hands, pressing",
 }
 _SIDES = {"L": "left", "R": "right"}
 

@@ -7,6 +7,7 @@
     [[phase]]
     name = "reach"
     stack = "arms"
+    note = "hands forward"      # for the printed table and the film
     seconds = 2.0               # that ways (`by`) and postures take, the least duration
     lead.hand = { by = [0.1, 0.0, 0.0] }             # or { rate = [...], way = 0.2 }
     done = ["mission/force/hand <= -2.5 for 0.3 s"]  # all of them
@@ -106,7 +107,7 @@ class Mission:
         return cls(_of(MissionSetup, head, "[mission]"), table)
 
     def table(self) -> str:
-        """The phases as text, conditions and reactions below each."""
+        """The phases as text, note, conditions and reactions below each."""
         return self.rows.text()
 
     def save(self, path: str | Path) -> None:
@@ -136,7 +137,7 @@ class Mission:
 
 _SETUP = ("name", "support", "max_seconds", "min_height", "max_tilt", "casualty", "stand_off")
 _MEASURE = ("name", "quantity", "take", "phases", "least", "most")
-_PHASE = ("name", "stack", "seconds", "support", "posture", "within", "last")
+_PHASE = ("name", "note", "stack", "seconds", "support", "posture", "within", "last")
 
 
 def condition(text: str) -> Condition:

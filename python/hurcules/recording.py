@@ -36,8 +36,16 @@ CHANNELS = (
     ("monitor/M", "what monitor M saw, its unit in its name: self_collision_distance_m, ..."),
     ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
 )
+# and where a person is lifted
+PERSON_CHANNELS = (
+    ("casualty/Q", "quantity Q of the person, unit in its name; shares are of his weight"),
+    ("casualty/force/R", "[N] of the robot on region R of the body"),
+)
 # What timing.npz holds, (ticks,) each [s]. It is a file of its own: log.npz is the same for a seed.
 STAGES = "time, sense, kinematics, hierarchy, solve, servo, physics, record"
+
+
+GIVES_WAY = 0.01  # [m] or [rad] off its target, a level counts as giving way
 
 
 @dataclass(frozen=True)
@@ -113,8 +121,16 @@ def record(
         progress(simulation.time / recording.wall_seconds)
     recording.log, recording.timings = simulation.log(), simulation.timings()
     recording.log.pop("tick_us", None)
+    notes = dict(zip(simulation.phases, simulation.phase_notes, strict=False))
     recording.frames = [
-        Frame(time, qpos, phase, active_limits(recording.log, time))
+        Frame(
+            time,
+            qpos,
+            phase,
+            active_limits(recording.log, time),
+            notes.get(phase, ""),
+            yielding_levels(recording.log, time),
+        )
         for time, qpos, phase in moments
     ]
     return recording
@@ -124,13 +140,29 @@ def active_limits(log: dict[str, Array], time: float) -> tuple[str, ...]:
     """The position limits that hold a coordinate back at this time, e.g. ("HIP upper",)."""
     if not len(log["time"]):
         return ()
-    tick = min(int(np.searchsorted(log["time"], time)), len(log["time"]) - 1)
+    tick = _tick(log, time)
     sides = {-1: "lower", 1: "upper"}
     return tuple(
         f"{channel.removeprefix('active/')} {sides[int(values[tick])]}"
         for channel, values in log.items()
         if channel.startswith("active/") and values[tick] != 0
     )
+
+
+def yielding_levels(log: dict[str, Array], time: float) -> tuple[str, ...]:
+    """The levels whose commanded motion is off their targets at this time, highest first."""
+    if not len(log["time"]):
+        return ()
+    tick = _tick(log, time)
+    return tuple(
+        channel.removeprefix("error/")
+        for channel, values in log.items()
+        if channel.startswith("error/") and values[tick] > GIVES_WAY
+    )
+
+
+def _tick(log: dict[str, Array], time: float) -> int:
+    return min(int(np.searchsorted(log["time"], time)), len(log["time"]) - 1)
 
 
 def _moment(simulation: Simulation) -> tuple[float, Array, str]:

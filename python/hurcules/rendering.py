@@ -87,12 +87,18 @@ def overview_camera() -> mujoco.MjvCamera:
     return camera
 
 
-def following_camera(model: mujoco.MjModel, body: str) -> mujoco.MjvCamera:
-    """The camera of films of a robot that drives: it goes with what hangs on this body."""
+def following_camera(
+    model: mujoco.MjModel,
+    body: str,
+    distance: float = 6.0,
+    azimuth: float = 122.0,
+    elevation: float = -14.0,
+) -> mujoco.MjvCamera:
+    """A camera that goes with what hangs on this body: distance [m], angles [degrees]."""
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
     camera.trackbodyid = model.body(body).id
-    camera.distance, camera.azimuth, camera.elevation = 6.0, 122.0, -14.0
+    camera.distance, camera.azimuth, camera.elevation = distance, azimuth, elevation
     return camera
 
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import mujoco
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
@@ -25,13 +24,33 @@ from hurcules.rendering import RendererError, following_camera
 from hurcules.sensors import realistic
 from hurcules.simulation import Simulation
 from hurcules.summary import summarize
-from hurcules.video import Painter, film
+from hurcules.video import Inset, Painter, film
 
-__all__ = ["DONE", "FAILED", "INTERRUPTED", "RunOptions", "progress_bar", "run"]
+__all__ = [
+    "DONE",
+    "FAILED",
+    "INTERRUPTED",
+    "Pace",
+    "RunOptions",
+    "progress_bar",
+    "run",
+]
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130  # exit codes
 FILES = ("log.npz", "timing.npz", "summary.json", "video.mp4", "report.html")
-FPS, SPEED = 20, 2  # pictures a second of film, seconds of mission a second of film
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Of a film: pictures a second of it, seconds of the mission in a second of it."""
+
+    fps: int = 20
+    speed: int = 2
+
+    @property
+    def seconds(self) -> float:
+        """[s] of the mission between two pictures."""
+        return self.speed / self.fps
 
 
 @dataclass(frozen=True)
@@ -116,7 +135,7 @@ def _simulate(
         recording = record(
             simulation,
             ticks,
-            round(_speed(simulation) / FPS / simulation.dt),
+            round(_pace(simulation).seconds / simulation.dt),
             show,
             stopped=lambda: interrupts.noted,
         )
@@ -148,9 +167,9 @@ def _save(
         video = "the run was interrupted"
     elif options.video:
         try:
-            with Painter(simulation.model, _camera(simulation)) as painter:
-                video = _film(painter, _speed(simulation), recording, output, console, interrupts)
-                snapshots = _snapshots(painter, recording, summary)
+            with _open_painter(simulation) as drawing:
+                video = _film(drawing, _pace(simulation), recording, output, console, interrupts)
+                snapshots = _snapshots(drawing, recording, summary)
         except RendererError as missing:
             video = str(missing)
             console.print(f"no video: {missing}", style="yellow", highlight=False, markup=False)
@@ -161,20 +180,28 @@ def _save(
     )
 
 
-def _speed(simulation: Simulation) -> int:
-    """Seconds of the mission a second of film: more where minutes of driving and turning count."""
-    return 5 if simulation.mission in lift.MISSIONS else SPEED
+def _pace(simulation: Simulation) -> Pace:
+    """Minutes of driving and turning are shown faster, with fewer pictures."""
+    return Pace(fps=12, speed=6) if simulation.mission in lift.MISSIONS else Pace()
 
 
-def _camera(simulation: Simulation) -> mujoco.MjvCamera | None:
-    """One that goes with a robot that drives, else that of the painter."""
-    drives = simulation.mission in lift.MISSIONS
-    return following_camera(simulation.model, "upper_legs") if drives else None
+def _open_painter(simulation: Simulation) -> Painter:
+    """Two cameras that go with the person where one is carried, else those of the painter."""
+    model = simulation.model
+    if simulation.mission not in lift.MISSIONS:
+        return Painter(model)
+    person = "casualty_pelvis"
+    across = following_camera(model, person, distance=2.3, azimuth=215.0, elevation=-20.0)
+    return Painter(
+        model,
+        following_camera(model, person, distance=3.8, azimuth=150.0, elevation=-16.0),
+        Inset(across, "from his head's side"),
+    )
 
 
 def _film(
     painter: Painter,
-    speed: int,
+    pace: Pace,
     recording: Recording,
     output: Output,
     console: Console,
@@ -190,8 +217,8 @@ def _film(
                 path,
                 recording.frames,
                 origin=recording.origin,
-                fps=FPS,
-                note=f"{speed}x speed",
+                fps=pace.fps,
+                note=f"{pace.speed}x speed",
                 progress=lambda n: bar.update(task, completed=n, note=f"{n} pictures"),
                 stopped=lambda: interrupts.noted,
             )

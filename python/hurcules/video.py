@@ -1,4 +1,4 @@
-"""The film of a run: overview, the head camera in a corner, and a strip that says what goes on."""
+"""The film of a run: two cameras, and strips that say what goes on and what gives way to what."""
 
 from __future__ import annotations
 
@@ -12,17 +12,19 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules.legend import limit_words
+from hurcules.legend import level_words, limit_words
 from hurcules.rendering import open_renderer, overview_camera, pose
 
-__all__ = ["Frame", "Painter", "encode", "film"]
+__all__ = ["Frame", "Inset", "Painter", "encode", "film"]
 
 Picture = NDArray[np.uint8]  # (height, width, 3)
 
 WIDTH, HEIGHT = 1280, 720  # multiples of 16, as the encoder wants them
 INSET_WIDTH, INSET_HEIGHT = 320, 180
-STRIP = 64  # height of the caption [pixels]
-SHADOW_MAP = 2048  # half of MuJoCo's: software rendering spends most of its time there
+STRIP, NOTE = 64, 40  # heights of the caption and of the note below it [pixels]
+# a quarter of MuJoCo's, and one sample a pixel: drawn by software, samples double the time of a
+# picture and shadows add half of it; edges and shadows look the same
+SHADOW_MAP, SAMPLES = 1024, 0
 ACCENT, PAPER, SOFT, INK = (255, 138, 60), (246, 246, 243), (170, 174, 180), (20, 22, 25)
 
 
@@ -34,30 +36,49 @@ class Frame:
     qpos: NDArray[np.float64]  # (nq)
     phase: str
     active: tuple[str, ...]  # active limits, e.g. ("HIP upper",)
+    note: str = ""  # what the phase is for
+    yields: tuple[str, ...] = ()  # levels that give way to those above them
+
+
+@dataclass(frozen=True)
+class Inset:
+    """A second camera, in a corner."""
+
+    camera: mujoco.MjvCamera | str  # or the name of one of the model
+    title: str
 
 
 class Painter:
     """Draws frames of one model; a context manager, for it holds the renderers."""
 
-    def __init__(self, model: mujoco.MjModel, camera: mujoco.MjvCamera | str | None = None) -> None:
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        camera: mujoco.MjvCamera | str | None = None,
+        inset: Inset | None = None,
+    ) -> None:
         """Opens the renderers.
 
         Args:
             model: what is drawn.
             camera: for the overview, or the name of one of the model; by default one that stands
                 still.
+            inset: a second camera; by default the model's head camera, where it has one.
 
         Raises:
             RendererError: there is no OpenGL that works.
         """
         self._model, self._data = model, mujoco.MjData(model)
-        model.vis.quality.shadowsize = min(SHADOW_MAP, model.vis.quality.shadowsize)
+        quality = model.vis.quality
+        quality.shadowsize = min(SHADOW_MAP, quality.shadowsize)
+        quality.offsamples = min(SAMPLES, quality.offsamples)
         self._camera = camera or overview_camera()
-        self._head = next((name for name in _cameras(model) if name.startswith("head")), None)
+        heads = [name for name in _cameras(model) if name.startswith("head")]
+        self._inset = inset or (Inset(heads[0], "head camera") if heads else None)
         self._stack = ExitStack()
         self._overview = self._stack.enter_context(open_renderer(model, WIDTH, HEIGHT))
-        if self._head:
-            self._inset = self._stack.enter_context(open_renderer(model, INSET_WIDTH, INSET_HEIGHT))
+        if self._inset:
+            self._small = self._stack.enter_context(open_renderer(model, INSET_WIDTH, INSET_HEIGHT))
         import matplotlib  # both are of the extra hurcules[report]
         from PIL import ImageFont
 
@@ -82,26 +103,27 @@ class Painter:
         return self._overview.render()
 
     def frame(self, frame: Frame, note: str = "") -> Picture:
-        """The overview with the head camera's picture and the caption, (720, 1280, 3)."""
+        """The overview with the inset and the captions, (720, 1280, 3)."""
         from PIL import Image
 
         image = Image.fromarray(self.picture(frame.qpos))
-        if self._head:
-            self._paste_inset(image)
+        if self._inset:
+            self._paste(image, self._inset)
         self._write_caption(image, frame, note)
+        if frame.note or frame.yields:
+            self._write_note(image, frame)
         return np.asarray(image)
 
-    def _paste_inset(self, image: Any) -> None:
+    def _paste(self, image: Any, inset: Inset) -> None:
         from PIL import Image, ImageDraw
 
-        self._inset.update_scene(self._data, self._head)
-        self._inset.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
-        inset = Image.fromarray(self._inset.render())
-        left, top = WIDTH - INSET_WIDTH - 24, STRIP + 24
+        self._small.update_scene(self._data, inset.camera)
+        self._small.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
+        left, top = WIDTH - INSET_WIDTH - 24, STRIP + NOTE + 24
         draw = ImageDraw.Draw(image)
         draw.rectangle((left - 3, top - 3, left + INSET_WIDTH + 2, top + INSET_HEIGHT + 2), PAPER)
-        image.paste(inset, (left, top))
-        draw.text((left + 10, top + 8), "head camera", PAPER, self._text.font_variant(size=16))
+        image.paste(Image.fromarray(self._small.render()), (left, top))
+        draw.text((left + 10, top + 8), inset.title, PAPER, self._text.font_variant(size=16))
 
     def _write_caption(self, image: Any, frame: Frame, note: str) -> None:
         from PIL import ImageDraw
@@ -119,6 +141,17 @@ class Painter:
             right -= width + 12
         label = "limits" if frame.active else "no active limit"
         draw.text((right, middle), label, SOFT, self._text, anchor="rm")
+
+    def _write_note(self, image: Any, frame: Frame) -> None:
+        from PIL import ImageDraw
+
+        draw = ImageDraw.Draw(image)
+        middle = STRIP + NOTE // 2
+        draw.rectangle((0, STRIP, WIDTH, STRIP + NOTE), PAPER)
+        draw.text((160, middle), frame.note, INK, self._text, anchor="lm")
+        if frame.yields:
+            words = "gives way: " + ", ".join(level_words(name) for name in frame.yields)
+            draw.text((WIDTH - 28, middle), words, INK, self._text, anchor="rm")
 
 
 def film(

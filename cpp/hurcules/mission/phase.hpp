@@ -69,7 +69,8 @@ struct Phase {
   double within = std::numeric_limits<double>::infinity();  // [s]
   std::vector<Reaction> late = {};                          // when it takes longer
   std::vector<Trouble> troubles = {};
-  bool last = false;  // the run is over after it: what follows is only reached by reactions
+  std::string note = "";  // what it is for, in words: for the printed table and the film
+  bool last = false;      // the run is over after it: what follows is only reached by reactions
 };
 
 }  // namespace hurcules

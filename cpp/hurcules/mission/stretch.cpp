@@ -103,9 +103,19 @@ MissionTable Stretch::table_of() {
   const Lead right{"right_hand", Vector3(kStretchSpeed, 0.0, 0.0), kStretchLength};
   MissionTable table;
   table.phases.resize(3);
-  table.phases[kSettle] = {.name = "settle", .stack = "stretch", .seconds = kSettleSeconds};
-  table.phases[kStretch] = {.name = "stretch", .stack = "stretch", .leads = {left, right}};
-  table.phases[kHold] = {.name = "hold", .stack = "stretch", .seconds = kHoldSeconds};
+  table.phases[kSettle] = {.name = "settle",
+                           .stack = "stretch",
+                           .seconds = kSettleSeconds,
+                           .note = "the brakes open, the robot finds its rest"};
+  table.phases[kStretch] = {
+      .name = "stretch",
+      .stack = "stretch",
+      .leads = {left, right},
+      .note = "both hands go forward along a line; what comes after them gives way"};
+  table.phases[kHold] = {.name = "hold",
+                         .stack = "stretch",
+                         .seconds = kHoldSeconds,
+                         .note = "the hands stay where they are"};
   return table;
 }
 

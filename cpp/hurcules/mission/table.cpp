@@ -261,6 +261,7 @@ std::string table_text(const MissionTable& table) {
     if (!phase.support.empty()) add(text, {"  on ", phase.support});
     if (phase.last) text += "  (the last)";
     text += "\n";
+    if (!phase.note.empty()) add(text, {"     ", phase.note, "\n"});
     for (const Lead& lead : phase.leads) {
       const bool by_rate = lead.rate.size() > 0;
       add(text, {"     ", lead.channel, by_rate ? " at " : " by ",

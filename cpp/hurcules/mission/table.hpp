@@ -40,7 +40,7 @@ struct MissionTable {
 // a jump without a count. Quantities are checked when a simulation brings its log.
 void check_table(const MissionTable& table, const WholeBodyController& controller);
 
-// as text: a line a phase, those of its conditions and reactions below
+// as text: a line a phase, its note, conditions and reactions below
 [[nodiscard]] std::string table_text(const MissionTable& table);
 
 // place of a phase; throws Error with the names that exist; `where` for the text

@@ -11,7 +11,7 @@ import jinja2
 
 from hurcules.figures import describe, readable
 from hurcules.legend import event_words, joint_words, level_words
-from hurcules.recording import CHANNELS, STAGES, Recording, Snapshot
+from hurcules.recording import CHANNELS, PERSON_CHANNELS, STAGES, Recording, Snapshot
 from hurcules.report import plots
 from hurcules.report.style import applied, data_address, jpeg
 
@@ -59,7 +59,10 @@ def write(
             for s in snapshots
         ],
         plots=_plots(recording, summary),
-        channels=CHANNELS,
+        channels=[
+            *CHANNELS,
+            *(PERSON_CHANNELS if "casualty/contact_share" in recording.log else ()),
+        ],
         stages=STAGES,
     )
     path.write_text(page, encoding="utf-8")
@@ -108,7 +111,7 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     times = {round(event["time_s"] - origin, 1) for event in summary["events"] if event["time_s"]}
     events = sorted(times)
     later = plots.settled(log)
-    drawn = (
+    drawn = [
         (plots.joint_positions, log, "Joint positions", _POSITIONS),
         (plots.joint_velocities, later, "Reference velocities", _VELOCITIES),
         (plots.control_errors, later, "Control errors", _ERRORS),
@@ -117,7 +120,9 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
         (plots.monitors, log, "Monitors", _MONITORS),
         (plots.solver_work, log, "Work of the solver", _SOLVER),
         (plots.tick_times, log, "Time of a control tick", _TIMES),
-    )
+    ]
+    if "casualty/contact_share" in log:
+        drawn.insert(0, (plots.person, log, "The person", _PERSON))
     with applied():
         return [
             {"title": title, "text": text, "svg": draw(part, events)}
@@ -144,6 +149,11 @@ _MONITORS = (
     "Safety monitors beside the controller (§4.2.1): distance of the robot to itself (0.25 m "
     "stands for more), distance of the centre of mass and of the centre of pressure from the edge "
     "of the support, angle and work to tipping over, hottest motor winding. Dashed: alarm."
+)
+_PERSON = (
+    "What the robot does to the person. While more than 15 % of his weight is on the ground its "
+    "forces are contacts, the worst over the limit of its region (dashed: 1; ISO/TS 15066); later "
+    "they carry him, which is judged by pressure. Acceleration includes gravity."
 )
 _SOLVER = "Factorizations and working-set changes of each solve; a level takes one at least."
 _TIMES = "From sensing to servo, without physics, on the machine named above."

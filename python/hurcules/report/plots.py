@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -29,6 +30,7 @@ __all__ = [
     "joint_positions",
     "joint_velocities",
     "monitors",
+    "person",
     "solver_work",
     "task_errors",
     "tick_times",
@@ -127,6 +129,41 @@ def monitors(log: Log, events: Sequence[float]) -> str:
         # zero, or the threshold where it is in sight, belongs into the picture
         if low - 3 * (high - low) - abs(limit) <= limit <= high + 3 * (high - low):
             plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+    return side_by_side(drawn)
+
+
+# of the person: channel, title, and what it should stay below
+_PERSON = (
+    ("contact_share", "contact force over its region's limit", 1.0),
+    ("support_n", "largest force that carries a region [N]", math.inf),
+    ("head_mps2", "acceleration of the head [m/s²]", 98.1),
+)
+_BEARERS = {
+    "on_ground": "ground",
+    "on_left_arm": "left arm",
+    "on_right_arm": "right arm",
+    "on_bed": "bed",
+}
+
+
+def person(log: Log, events: Sequence[float]) -> str:
+    """What is done to a person who is lifted, beside its limits, and what bears him."""
+    drawn = cells(len(_PERSON) + 1)
+    for (_, plot), (name, title, limit) in zip(drawn, _PERSON, strict=False):
+        values = log[f"casualty/{name}"]
+        plot.plot(*decimate(log["time"], values), color=INK, linewidth=0.9)
+        if limit <= 2.0 * float(np.max(values)):
+            plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+        plot.set_title(title)
+    _, plot = drawn[-1]
+    for (name, label), colour in zip(_BEARERS.items(), LINES, strict=False):
+        plot.plot(*decimate(log["time"], log[f"casualty/{name}"]), color=colour, label=label)
+    plot.set_ylim(-0.1, 1.3)
+    plot.set_title("share of his weight on")
+    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.25), ncols=2)
+    for _, plot in drawn:
+        mark(plot, events)
+        plot.set_xlabel("time [s]")
     return side_by_side(drawn)
 
 

@@ -21,7 +21,7 @@ from hurcules.models import names as robot_names
 from hurcules.output import Output
 from hurcules.plugins import MethodOptions
 from hurcules.rendering import RendererError
-from hurcules.run import DONE, FAILED, FPS, INTERRUPTED, SPEED, progress_bar
+from hurcules.run import DONE, FAILED, INTERRUPTED, Pace, progress_bar
 from hurcules.validation import require_known
 from hurcules.video import Frame, Painter, film
 from hurcules_studies.field_tests import METHODS, Method, Result, Variation, page, repeat, runner
@@ -32,6 +32,7 @@ from hurcules_studies.field_tests.runner import attempt_seed
 __all__ = ["FIELD_TESTS", "run_method", "summarize"]
 
 FILES = ("summary.json", "video.mp4", "report.html")
+PACE = Pace()
 
 
 class FieldTests:
@@ -194,7 +195,7 @@ def _frames(
     frames: list[Frame] = []
 
     def watch(_: mujoco.MjModel, qpos: NDArray[np.float64], time: float) -> None:
-        if time >= len(frames) * SPEED / FPS:
+        if time >= len(frames) * PACE.seconds:
             frames.append(Frame(time, qpos.copy(), f"{options.method}, seed {seed}", ()))
 
     how = options.robot, seed, options.speed, None, Variation(), watch, stopped
@@ -205,13 +206,13 @@ def _frames(
 
 def _film(painter: Painter, path: Path, frames: list[Frame], stopped: Any) -> None:
     """Films all frames, or until it is stopped."""
-    note = f"{SPEED}x speed"
+    note = f"{PACE.speed}x speed"
     film(
         painter,
         path,
         frames,
         origin=0.0,
-        fps=FPS,
+        fps=PACE.fps,
         note=note,
         progress=lambda n: None,
         stopped=stopped,
