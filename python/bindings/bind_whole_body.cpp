@@ -358,6 +358,9 @@ void bind_whole_body(py::module_& module) {
       .def("stand_on", &WholeBodyController::stand_on, "body"_a, kStandOn)
       .def("hold_targets", &WholeBodyController::hold_targets,
            "The targets of all tasks come to where the plan is.")
+      .def("task", &WholeBodyController::task, "name"_a,
+           py::return_value_policy::reference_internal,
+           "A task of its stacks, by name. Raises Error with the names that exist.")
       .def("sense", &sense, "task"_a, "source"_a, "row"_a = 0, "sign"_a = 1.0,
            py::keep_alive<1, 2>(), kSense)
       .def("state", &state<WholeBodyController>, kState)

@@ -2444,6 +2444,9 @@ class WholeBodyController:
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
 
+    def task(self, name: str) -> Task:
+        """A task of its stacks, by name. Raises Error with the names that exist."""
+
     def use(self, stack: str) -> None:
         """Lets another stack rule from the next tick on.
 

@@ -2,7 +2,8 @@
 
 Strategy: one whole run with everything nominal, judged by what MuJoCo's data say of the person,
 beside what the mission says of itself; its way to safety in each part of the story, as the table
-says it. Other persons and places: docs/casualty.md (benchmarks/lift_sweep.py).
+says it. Faults go on from the start of a phase of that run, so that each costs seconds. Other
+persons and places, other faults: docs/casualty.md (benchmarks/lift_sweep.py, rescue_faults.py).
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import pytest
 import hurcules
 from hurcules import lift
 
+KEPT: dict[str, np.ndarray] = {}  # the state of that run early in each phase, filled by `run`
+
 
 @pytest.fixture(scope="module")
 def run() -> tuple[hurcules.Simulation, dict[str, list[np.ndarray]]]:
@@ -23,6 +26,7 @@ def run() -> tuple[hurcules.Simulation, dict[str, list[np.ndarray]]]:
     places: dict[str, list[np.ndarray]] = {}
     while not simulation.finished:
         simulation.step(100)
+        KEPT.setdefault(simulation.phase, simulation.state())
         place = data.body("casualty_thorax").xpos.copy()
         if simulation.phase in ("home", "hand over"):
             bed = data.body("transfer_bed")
@@ -117,3 +121,81 @@ def test_the_casualty_mission_takes_the_persons_parameters() -> None:
     model = simulation.model
     assert model.body_subtreemass[model.body("casualty_pelvis").id] == pytest.approx(120.0, abs=0.5)
     assert "casualty" in hurcules.missions()
+
+
+def going_on(phase: str, model: mujoco.MjModel | None = None) -> hurcules.Simulation:
+    """A simulation of the mission at the start of a phase of `run`, maybe with another model."""
+    model = model or lift.model(lift.Person())
+    simulation = hurcules.Simulation(
+        lift.mission("casualty"),
+        model=model,
+        controller=lift.controller(model),
+        variation=0.0,
+        record=False,
+    )
+    simulation.restore(KEPT[phase])
+    return simulation
+
+
+def until_it_reacts(simulation: hurcules.Simulation, seconds: float) -> str:
+    """The phase after the present one, or the reason of the end."""
+    phase, end = simulation.phase, simulation.time + seconds
+    while simulation.time < end and simulation.phase == phase and not simulation.finished:
+        simulation.step(20)
+    return simulation.reason if simulation.finished else simulation.phase
+
+
+@pytest.mark.slow
+def test_a_push_of_200_N_changes_nothing(run) -> None:
+    simulation = going_on("carry")
+    for force in (200.0, 0.0):
+        simulation.data.body("torso").xfrc_applied[:3] = (force, force, 0.0)
+        simulation.step(1000)
+    assert simulation.phase == "carry"
+    assert simulation.data.body("casualty_thorax").xpos[2] > 1.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share, after", [(0.7, "look"), (0.3, "lower")])
+def test_a_weak_hip_motor_lifts_or_lays_down(run, share: float, after: str) -> None:
+    model = lift.model(lift.Person())
+    motor = model.actuator_trnid[: model.nu, 0].tolist().index(model.joint("HIP").id)
+    model.actuator_forcerange[motor] *= share
+    assert until_it_reacts(going_on("lift", model), 6.0) == after
+
+
+@pytest.mark.slow
+def test_a_person_who_slides_off_is_laid_down(run) -> None:
+    simulation = going_on("carry")
+    simulation.data.body("casualty_thorax").xfrc_applied[0] = 250.0  # towards the tips
+    assert until_it_reacts(simulation, 2.0) == "lower"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("phase, after", [("press", "torque/LEB"), ("under", "withdraw")])
+def test_a_force_sensor_that_reads_nothing_touches_nobody(run, phase: str, after: str) -> None:
+    simulation = going_on(phase)
+    controller = simulation.controller
+    controller.sense(controller.task("L_press"), "casualty_force_skull")  # which stays at 0
+    assert after in until_it_reacts(simulation, 5.0)
+
+
+def test_an_empty_battery_lifts_nobody() -> None:
+    mission = lift.mission("casualty")
+    phases = mission.rows.phases
+    at = hurcules.Condition(quantity="charge", above=False, value=1.0)  # of a full one
+    for row in phases:
+        row.troubles = [
+            hurcules.Trouble(when=at, reactions=one.reactions)
+            if one.when.quantity == "charge"
+            else one
+            for one in row.troubles
+        ]
+    rows = hurcules.MissionTable(phases=phases, safety=mission.rows.safety)
+    model = lift.model(lift.Person())
+    simulation = hurcules.Simulation(
+        hurcules.Mission(mission.setup, rows), model=model, controller=lift.controller(model)
+    )
+    assert "charge <= 1" in until_it_reacts(simulation, 1.0)
+    watched = {row.name for row in phases if any(t.when.quantity == "charge" for t in row.troubles)}
+    assert {"settle", "stand", "press", "lift", "carry"} <= watched

@@ -43,6 +43,7 @@ safety = "back"
 
 [[phase]]
 name = "up"
+note = "waves"
 stack = "posture"
 posture = "posture"
 seconds = 1.0
@@ -118,7 +119,7 @@ def test_what_is_saved_is_what_was_loaded(tmp_path: Path) -> None:
 
 def test_the_table_is_printed() -> None:
     text = read(ROWS).table()
-    assert "1  up  [posture]  1 s" in text
+    assert "1  up  [posture]  1 s\n     waves\n" in text
     assert "within 3 s: hold 0.5 s, then back to 'up', 2 times, then abort" in text
     assert "if q/j2 >= 2: ask 5 s, then lower" in text
     assert "lower goes to 'back'" in text

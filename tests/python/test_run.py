@@ -21,6 +21,7 @@ import hurcules
 from hurcules import run as runs
 from hurcules.recording import CHANNELS, STAGES
 from hurcules.run import DONE, FAILED, RunOptions, run
+from hurcules.video import NOTE, STRIP
 
 COMMAND = [sys.executable, "-c", "import sys; from hurcules.cli import main; sys.exit(main())"]
 SECONDS = 2.4  # the stretch begins at 2 s
@@ -125,6 +126,27 @@ def test_the_report_needs_no_other_file(result: tuple[Path, str]) -> None:
     assert page.count("<svg") == 20  # panels, that a phone shows one below the other
     for title in ("Joint positions", "Control errors", "Task errors", "Active limits"):
         assert f"<h2>{title}</h2>" in page
+
+
+# imageio's reader, not its writer, leaves pipes open
+@pytest.mark.filterwarnings(
+    "ignore:unclosed file", "ignore::pytest.PytestUnraisableExceptionWarning"
+)
+def test_the_film_of_a_rescue_says_what_goes_on_and_the_report_what_is_done_to_the_person(
+    tmp_path: Path,
+) -> None:
+    out = tmp_path / "casualty"
+    assert run(RunOptions("casualty", out=out, seconds=2.0), quiet()) == DONE
+    with imageio.get_reader(out / "video.mp4") as reader:
+        pictures = [picture for picture in reader]
+    assert len(pictures) == 5  # every 0.5 s
+    note = pictures[-1][STRIP + 4 : STRIP + NOTE - 4]  # light, with dark letters on its left
+    assert np.median(note) > 200
+    assert np.min(note[:, :640]) < 100 < np.min(note[:, 900:])
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "<h2>The person</h2>" in page
+    assert "casualty/force/R" in page
+    assert "<h2>Beside the thesis</h2>" not in page  # which has no figures of it
 
 
 def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Path) -> None:

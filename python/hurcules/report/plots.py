@@ -160,7 +160,7 @@ def person(log: Log, events: Sequence[float]) -> str:
         plot.plot(*decimate(log["time"], log[f"casualty/{name}"]), color=colour, label=label)
     plot.set_ylim(-0.1, 1.3)
     plot.set_title("share of his weight on")
-    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.25), ncols=2)
+    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.4), ncols=2)
     for _, plot in drawn:
         mark(plot, events)
         plot.set_xlabel("time [s]")
