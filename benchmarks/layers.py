@@ -1,4 +1,4 @@
-"""The action layers that evidence.py compares on Reach, and the one that is not part of the package.
+"""The action layers that evidence.py compares on Reach; the last one is not part of the package.
 
 `LeastSquares` is what many write first: resolved rates by damped least squares.
 """
