@@ -97,6 +97,8 @@ void bind_acceleration(py::module_& module) {
            "options"_a = AccelerationControllerOptions{})
       .def("step", step, "robot"_a, kStep)
       .def("torque", torque, "robot"_a, kTorque)
+      .def("contact_force", &AccelerationController::contact_force, "contact"_a,
+           "F (3,) [N] in W on the robot at a ContactTask of the stack, of the last solution.")
       .def_property_readonly("acceleration", &AccelerationController::acceleration,
                              py::return_value_policy::copy,
                              "(n,) [rad/s^2] or [m/s^2], the last qddot*");

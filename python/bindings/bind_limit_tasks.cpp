@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "hurcules/robot/sole_points.hpp"
 #include "hurcules/tasks/balance_task.hpp"
+#include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
 
@@ -30,6 +32,38 @@ A level of its own, below the joint limits; for AccelerationController.
 Args:
   name: shown in plots and messages.
   robot: Robot, whose efforts it starts with (inf where it has none).
+)";
+constexpr const char* kContactTask =
+    R"(A body that keeps its place on what it stands on, and the forces that this may take.
+
+For stacks by torques (AccelerationController.torque). Its points neither slide nor lift; the forces at
+them are unknowns of the hierarchy, inside pyramids within the friction cones. A stack has its contacts
+on one level; the torque limits of the robot follow by themselves, and at the end the least forces.
+
+Args:
+  name: shown in plots and messages.
+  robot: Robot; with floating=True for one that nothing else carries.
+  body: name of the body, a foot, say.
+  points: (k, 3) [m] in the body's frame; None: the lowest points of its collision geoms as the robot
+    stands, four at most (sole_points). Three or more hold the body in 6-D, one or two themselves.
+  friction: Coulomb's coefficient, > 0.
+  normal: (3,) in W, out of what it stands on.
+
+Raises:
+  Error: no such body, a body without collision geoms, a friction that is not positive.
+)";
+constexpr const char* kSolePoints =
+    R"(The lowest points of the collision geoms of a body, and of what is welded to it, as the robot stands.
+
+Args:
+  robot: Robot.
+  body: name of a body.
+
+Returns:
+  (k, 3) [m] in the body's frame, the outermost four at most within 10 mm of the lowest.
+
+Raises:
+  Error: no such body, or one without collision geoms.
 )";
 constexpr const char* kBalanceTask =
     R"(The centre of mass stays over a polygon: e (k,) [m], distances from its sides, margin <= e.
@@ -151,6 +185,37 @@ void set_obstacle(DistanceTask& task, const Robot& robot, const std::string& bod
 void bind_limit_tasks(py::module_& module) {
   py::class_<TorqueLimits, Task>(module, "TorqueLimits", kTorqueLimits)
       .def(py::init<std::string, const Robot&>(), "name"_a, "robot"_a);
+  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  const ContactTaskOptions contact;
+  const auto make_contact = [](std::string name, const Robot& robot, const std::string& body,
+                               const std::optional<Points>& points, double friction,
+                               const Vector3& normal) {
+    ContactTaskOptions options{{}, friction, normal};
+    for (Index i = 0; points && i < points->rows(); ++i)
+      options.points.emplace_back(points->row(i));
+    return std::make_unique<ContactTask>(std::move(name), robot, body, std::move(options));
+  };
+  py::class_<ContactTask, Task>(module, "ContactTask", kContactTask)
+      .def(py::init(make_contact), "name"_a, "robot"_a, "body"_a, "points"_a = py::none(),
+           "friction"_a = contact.friction, "normal"_a = contact.normal)
+      .def_property_readonly(
+          "points",
+          [](const ContactTask& self) {
+            Points points(static_cast<Index>(self.options().points.size()), 3);
+            for (Index i = 0; i < points.rows(); ++i)
+              points.row(i) = self.options().points[static_cast<std::size_t>(i)];
+            return points;
+          },
+          "(k, 3) [m] in the body's frame");
+  module.def(
+      "sole_points",
+      [](const Robot& robot, const std::string& body) {
+        const std::vector<Vector3> found = sole_points(robot, body);
+        Points points(static_cast<Index>(found.size()), 3);
+        for (Index i = 0; i < points.rows(); ++i) points.row(i) = found[static_cast<std::size_t>(i)];
+        return points;
+      },
+      "robot"_a, "body"_a, kSolePoints);
   const BalanceTaskOptions balance;
   const auto make_balance = [](std::string name, const Robot& robot, Matrix polygon, double margin,
                                std::string reference) {

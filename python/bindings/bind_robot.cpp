@@ -34,9 +34,13 @@ Args:
   model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
   joints: names of the coordinates (joints, or tuples without their prefix), in this order; None: by
     the rule above.
+  floating: the free joint at the root is six coordinates more, in front: its position [m] and its
+    rotation vector [rad] in W; their velocities are those of MuJoCo's free joint. For a robot that
+    stands by contacts, with stacks by torques.
 
 Raises:
-  Error: the file cannot be read, or the tuples name no proper coordinates.
+  Error: the file cannot be read, the tuples name no proper coordinates, or a robot without a free
+    root shall float.
 )";
 constexpr const char* kCoordinate = "What the controller moves: one joint, or several together.";
 constexpr const char* kDrivenJoint =
@@ -122,24 +126,26 @@ void warn(const std::string& text) {
 
 using Names = std::vector<std::string>;
 
-std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints) {
-  auto robot = std::make_unique<Robot>(std::move(model), joints.value_or(Names{}));
+std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints,
+                               bool floating) {
+  auto robot = std::make_unique<Robot>(std::move(model), joints.value_or(Names{}), floating);
   warn(implausible_ranges(*robot));
   return robot;
 }
 
 std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
-                                       const std::optional<Names>& joints) {
+                                       const std::optional<Names>& joints, bool floating) {
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
   const auto address = model.attr("_address").cast<std::uintptr_t>();
-  return checked(borrow_model(reinterpret_cast<const mjModel_*>(address)), joints);
+  return checked(borrow_model(reinterpret_cast<const mjModel_*>(address)), joints,
+                 floating);
 }
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
-                                     const std::optional<Names>& joints) {
-  return checked(load_model(model.string()), joints);
+                                     const std::optional<Names>& joints, bool floating) {
+  return checked(load_model(model.string()), joints, floating);
 }
 
 void bind_coordinate(py::module_& module) {
@@ -178,7 +184,9 @@ void bind_state(py::class_<Robot>& robot) {
       .def("stand_on", py::overload_cast<const std::string&>(&Robot::stand_on), py::arg("body"),
            kStandOn)
       .def_property_readonly("floats", &Robot::floats,
-                             "its root is free and it stands on nothing: stand_on was not called")
+                             "its root is free, no coordinate, and stands on nothing")
+      .def_property_readonly("floating", &Robot::floating,
+                             "its first six coordinates are those of the root")
       .def(
           "set_keyframe",
           [](Robot& self, const std::string& name) {
@@ -196,7 +204,15 @@ void bind_state(py::class_<Robot>& robot) {
             self.coordinates_of(qpos, q);
             return q;
           },
-          py::arg("qpos"), kCoordinatesOf);
+          py::arg("qpos"), kCoordinatesOf)
+      .def(
+          "velocities_of",
+          [](const Robot& self, const ConstVectorRef& qvel) {
+            Vector velocity(self.size());
+            self.velocities_of(qvel, velocity);
+            return velocity;
+          },
+          py::arg("qvel"), "Velocities of the coordinates (n,) out of a whole qvel (nv,).");
 }
 
 void bind_kinematics(py::class_<Robot>& robot) {
@@ -250,9 +266,10 @@ void bind_robot(py::module_& module);
 void bind_robot(py::module_& module) {
   bind_coordinate(module);
   py::class_<Robot> robot(module, "Robot", kRobot);
-  robot.def(py::init(&robot_of_path), py::arg("model"), py::arg("joints") = py::none())
+  robot.def(py::init(&robot_of_path), py::arg("model"), py::arg("joints") = py::none(),
+            py::arg("floating") = false)
       .def(py::init(&robot_of_object), py::arg("model"), py::arg("joints") = py::none(),
-           py::keep_alive<1, 2>())
+           py::arg("floating") = false, py::keep_alive<1, 2>())
       .def("__repr__", [](const Robot& self) {
         return "Robot(" + std::to_string(self.size()) + " coordinates)";
       });

@@ -93,9 +93,11 @@ Args:
   levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
   channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate,
     JointRates.
-  stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
-    first one rules at the start if no `levels` are given.
-  control: by what `levels` rule, "velocity" or "acceleration".
+  stacks: by name further stacks for `use`, each levels as above or (levels, control); the first one
+    rules at the start if no `levels` are given.
+  control: by what `levels` rule: "velocity", "acceleration", or "torque": then the accelerations are
+    those of the robot as it is sensed, and its drives get what inverse dynamics says. Contacts
+    (ContactTask) carry a robot that floats.
   dt: control period [s]; by default the time step of the model.
   base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
     now: targets in the world stay where they are while the robot drives).
@@ -103,6 +105,7 @@ Args:
   servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
     default reckoned from the model, and decoupled by the mass matrix where feed_forward is on.
   feed_forward: servos are told the torques that the model says.
+  decoupled: what the servos ask for is given by the mass matrix; None: where `servo` is not given.
   torque_scaling: the motion slows down where a motor would be asked for more than its peak.
   drive: DriveOptions of a robot on tracks; needed for a Drive channel.
   belts: names of the left and right joint of the driven belts.
@@ -192,7 +195,8 @@ Channel channel_of(const std::string& name, const ChannelSpec& spec) {
 ControlOrder control_of(const std::string& name) {
   if (name == "velocity") return ControlOrder::Velocity;
   if (name == "acceleration") return ControlOrder::Acceleration;
-  throw Error(unknown_name("control", name, {"acceleration", "velocity"}));
+  if (name == "torque") return ControlOrder::Torque;
+  throw Error(unknown_name("control", name, {"acceleration", "torque", "velocity"}));
 }
 
 BaseSource base_of(const std::string& name) {
@@ -212,7 +216,7 @@ std::shared_ptr<WholeBodyController> make(
     const py::dict& stacks, const std::string& control, std::optional<double> dt,
     const std::string& base, const std::string& support,
     const std::map<std::string, std::pair<double, double>>& servo, bool feed_forward,
-    bool torque_scaling, const std::optional<DriveOptions>& drive,
+    std::optional<bool> decoupled, bool torque_scaling, const std::optional<DriveOptions>& drive,
     const std::pair<std::string, std::string>& belts,
     const std::optional<VelocityControllerOptions>& velocity,
     const std::optional<AccelerationControllerOptions>& acceleration) {
@@ -249,6 +253,7 @@ std::shared_ptr<WholeBodyController> make(
   options.base = base_of(base);
   options.support = support;
   options.feed_forward = feed_forward;
+  options.decoupled = decoupled;
   options.torque_scaling = torque_scaling;
   for (const auto& [joint, row] : servo) options.servo.push_back({joint, row.first, row.second});
   if (drive) options.drive = TrackDriveOptions{belts.first, belts.second, *drive};
@@ -324,7 +329,7 @@ void bind_whole_body(py::module_& module) {
                  py::kw_only(), "stacks"_a = py::dict(), "control"_a = "velocity",
                  "dt"_a = py::none(), "base"_a = "held", "support"_a = "",
                  "servo"_a = std::map<std::string, std::pair<double, double>>{},
-                 "feed_forward"_a = true, "torque_scaling"_a = true, "drive"_a = py::none(),
+                 "feed_forward"_a = true, "decoupled"_a = py::none(), "torque_scaling"_a = true, "drive"_a = py::none(),
                  "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
                  "velocity"_a = py::none(), "acceleration"_a = py::none());
   const auto solution = [](const WholeBodyController& self) { return self.law().solution(); };
@@ -369,6 +374,13 @@ void bind_whole_body(py::module_& module) {
           "diagnostics",
           [](const WholeBodyController& self) { return self.law().diagnostics(self.plan()); },
           "What each level falls short of and why: list of LevelNote, decreasing priority.")
+      .def(
+          "contact_force",
+          [](const WholeBodyController& self, const std::string& contact) {
+            return self.law().contact_force(self.task(contact));
+          },
+          "contact"_a,
+          "F (3,) [N] in W on the robot at a ContactTask of the stack that rules, as it was wanted last.")
       .def_property_readonly("dt", &WholeBodyController::dt, "[s]")
       .def_property_readonly("plan", &WholeBodyController::plan,
                              py::return_value_policy::reference_internal,

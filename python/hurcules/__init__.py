@@ -43,6 +43,7 @@ from hurcules._core import (  # noqa: E402
     Condition,
     ContactOptions,
     ContactState,
+    ContactTask,
     ControlSolution,
     Coordinate,
     CustomTask,
@@ -115,6 +116,7 @@ from hurcules._core import (  # noqa: E402
     obstacles,
     self_collision,
     servo_table,
+    sole_points,
     step,
 )
 from hurcules.mission_table import Mission  # noqa: E402
@@ -153,6 +155,7 @@ __all__ = [
     "Condition",
     "ContactOptions",
     "ContactState",
+    "ContactTask",
     "ControlSolution",
     "Coordinate",
     "CustomTask",
@@ -240,6 +243,7 @@ __all__ = [
     "self_collision",
     "sensors",
     "servo_table",
+    "sole_points",
     "step",
     "transfer_bed",
     "with_motors",

@@ -37,14 +37,17 @@ void check(const AccelerationControllerOptions& options) {
 AccelerationController::AccelerationController(const Robot& robot,
                                                AccelerationControllerOptions options)
     : options_(std::move(options)),
+      floating_(robot.floating()),
       own_limits_("limits", robot),
       problem_(robot.size()),
+      contacts_(robot),
       solver_(robot.size(), options_.solver) {
   check(options_);
-  if (options_.law == Law::Arrive) probe_.emplace(robot);
+  if (options_.law == Law::Arrive && !robot.floating()) probe_.emplace(robot);
   for (const Coordinate& coordinate : robot.coordinates()) {
+    const bool root = coordinate.joints.front().part >= 0;
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
-                            options_.max_acceleration, options_.return_speed});
+                            root ? kInfinity : options_.max_acceleration, options_.return_speed});
   }
   acceleration_ = braked_ = speed_ = next_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
@@ -52,15 +55,23 @@ AccelerationController::AccelerationController(const Robot& robot,
 }
 
 void AccelerationController::set_stack(const Stack& stack) {
-  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
+  const Stack completed = contacts_.completed(stack);
+  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr,
+                     contacts_.size());
+  contacts_.place(problem_);
+  has_zone_ = options_.law == Law::Arrive && contacts_.size() == 0;
   Index rows = 0;
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
-  if (probe_) probe_->set_stack(problem_.stack());
-  dead_zone_.set_stack(problem_.stack(), acceleration_.size());
+  if (has_zone_) {
+    probe_->set_stack(problem_.stack());
+    dead_zone_.set_stack(problem_.stack(), acceleration_.size());
+  }
   active_limits_.setZero();
+  const Index unknowns = acceleration_.size() + contacts_.size();
+  if (solver_.unknowns() != unknowns) solver_ = Solver(unknowns, options_.solver);
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
 }
@@ -82,17 +93,19 @@ void AccelerationController::measure(const Robot& robot) {
       fill_rates(k);
     }
   }
-  if (options_.law == Law::Arrive) {
+  if (has_zone_) {
     probe_->look_at(robot, stack());
     dead_zone_.apply(weights_, gains_, limits(), &*probe_, hierarchy);
   }
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     if (!hierarchy[k].bounds) fill_rows(robot, stack().levels()[k], hierarchy[k]);
   }
+  contacts_.fill(hierarchy);
 }
 
 const Vector& AccelerationController::solve() {
-  acceleration_ = solver_.solve(problem_.hierarchy()).x;  // [T 5.3.18]
+  const Index n = acceleration_.size();
+  acceleration_ = solver_.solve(problem_.hierarchy()).x.head(n);  // [T 5.3.18]
   if (solver_.solution().status == SolverStatus::InvalidInput) {
     // numbers that say nothing: towards rest as fast as the acceleration limit allows
     const double a = options_.max_acceleration;
@@ -101,10 +114,11 @@ const Vector& AccelerationController::solve() {
     // bounds hold but for rounding: hold them exactly
     if (limits()) {
       const Level& bounds = problem_.bounds();
-      acceleration_ = acceleration_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
+      acceleration_ = acceleration_.cwiseMax(bounds.lower.head(n)).cwiseMin(bounds.upper.head(n));
     }
     acceleration_ -= braked_;
-    if (options_.law == Law::Arrive) acceleration_ += options_.damping * dead_zone_.nudge();
+    contacts_.read(solver_.solution().x);
+    if (has_zone_) acceleration_ += options_.damping * dead_zone_.nudge();
   }
   for (Index i = 0; limits() && i < acceleration_.size(); ++i) {  // what rounding left
     const AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
@@ -115,7 +129,7 @@ const Vector& AccelerationController::solve() {
     return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
   };
   find_held(solver_.solution(), problem_.bounds_level(), is_limit, active_limits_);
-  if (options_.law == Law::Arrive) dead_zone_.add_held(active_limits_);
+  if (has_zone_) dead_zone_.add_held(active_limits_);
   return acceleration_;
 }
 
@@ -141,9 +155,12 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
         torque += force->force() * force->jacobian().row(0).transpose();
     }
   }
+  contacts_.relieve(torque);
 }
 
 void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
+  if (floating_)
+    throw Error("integrate: no reference can lead a free root; it wants torques");
   const double dt = options_.dt;
   for (Index i = 0; i < q.size(); ++i) {
     const double next = velocity[i] + acceleration_[i] * dt;
@@ -184,7 +201,7 @@ RateLimits AccelerationController::row_limits() const {
 }
 
 void AccelerationController::fill_bounds(const Robot& robot, const Task& task, Level& level) {
-  for (Index i = 0; i < level.rows(); ++i) {
+  for (Index i = 0; i < task.rows(); ++i) {
     const RateState state{task.lower()[i] - task.error()[i], task.upper()[i] - task.error()[i],
                           robot.velocity()[i]};
     RateLimits& rates = rate_limits_[static_cast<std::size_t>(i)];
@@ -215,7 +232,7 @@ void AccelerationController::fill_rates(std::size_t k) {
   Index row = 0;
   for (const Task* task : source.tasks) {
     const Index rows = task->rows();
-    level.A.middleRows(row, rows) = task->jacobian();
+    level.A.block(row, 0, rows, task->jacobian().cols()) = task->jacobian();
     if (task->commands_acceleration() || task->is_limit()) {
       level.lower.segment(row, rows).setZero();
       level.upper.segment(row, rows).setZero();

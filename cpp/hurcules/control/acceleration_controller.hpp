@@ -11,13 +11,15 @@
 // limits, force control. With `rest` D the unknown is qddot + D qdot: what regularisation takes
 // from a weak direction, and a direction that no task holds, then brakes as exp(-D t) instead of
 // going on at its speed. A row with a side above or below asks for  -L dg/dt + K (side - g):
-// critically damped, it comes from inside to its side without passing it.
+// critically damped, it comes from inside to its side without passing it. Contacts in the stack bring
+// their forces and the torque limits along (contact_forces.hpp): then the robot is the real one.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "hurcules/control/acceleration_interval.hpp"
+#include "hurcules/control/contact_forces.hpp"
 #include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/level_notes.hpp"
 #include "hurcules/control/stack_problem.hpp"
@@ -59,11 +61,15 @@ class AccelerationController {
   // (torque_scaling.hpp), sooner than accelerations but no sooner than velocity limits; true when it
   // changed qddot*
   bool scale_velocity(const VelocityBounds& bounds, const Vector& velocity);
-  // one dt further, (n) [rad], (n) [rad/s]; rounding never carries a coordinate over its limit
+  // one dt further, (n) [rad], (n) [rad/s]; rounding never carries a coordinate over its limit;
+  // throws Error for a robot that floats
   void integrate(VectorRef q, VectorRef velocity) const;
   // inverse dynamics: what the drives must give for qddot* and, in contact, against the forces that
-  // the stack's force tasks read: M qddot* + h + J' f, (n) [N m]
+  // the stack's force tasks read, beside what its contacts carry: M qddot* + h + J' f - E lambda,
+  // (n) [N m]
   void torque(const Robot& robot, VectorRef torque) const;
+  // F in W [N] that the last solution wants of a contact of the stack
+  [[nodiscard]] Vector3 contact_force(const Task& contact) const { return contacts_.force(contact); }
 
   [[nodiscard]] const Stack& stack() const { return problem_.stack(); }
   [[nodiscard]] const Hierarchy& hierarchy() const { return problem_.hierarchy(); }
@@ -78,7 +84,7 @@ class AccelerationController {
   // what each level fell short of at the last compute, and why; makes its texts when asked
   [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const {
     return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_,
-                        options_.law == Law::Arrive ? &dead_zone_ : nullptr});
+                        has_zone_ ? &dead_zone_ : nullptr});
   }
   void reset();  // cold
   void save(StateWriter& writer) const;
@@ -91,12 +97,15 @@ class AccelerationController {
   [[nodiscard]] RateLimits row_limits() const;
 
   AccelerationControllerOptions options_;
+  bool floating_;                        // its root is a coordinate
   std::vector<RateLimits> rate_limits_;  // (n)
   JointLimits own_limits_;               // those of the robot
   StackProblem problem_;
+  ContactForces contacts_;
   Solver solver_;
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
+  bool has_zone_ = false;        // by the law that arrives, where no contacts hold the robot
   DeadZone dead_zone_;
   std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector acceleration_;

@@ -237,10 +237,14 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   }
 }
 
-void JointServo::reset(const Vector& qpos) {
+void JointServo::forget() {
   pid_.reset();
-  for (Vector* vector :
-       {&error_.position, &error_.velocity, &velocity_, &offset_, &feed_forward_}) {
+  offset_.setZero();
+}
+
+void JointServo::reset(const Vector& qpos) {
+  forget();
+  for (Vector* vector : {&error_.position, &error_.velocity, &velocity_, &feed_forward_}) {
     vector->setZero();
   }
   for (Rest& rest : rests_) rest = {};

@@ -70,6 +70,8 @@ class JointServo {
   // what the servos are about to give the coordinates beside it, (n) [N m], and the accelerations
   // that it would be at their rated inertias, (n) [rad/s^2]
   void feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration);
+  // its integrals begin anew, joints stand as their coordinates say
+  void forget();
   // writes the controls of its actuators, ctrl (nu)
   void compute(const RobotState& state, VectorRef ctrl);
   // at rest at a configuration (nq), without memory and feed-forward

@@ -44,6 +44,7 @@ std::string holder(const SolvedStack& solved, const ActiveRow& active) {
   const StackLevel& level = solved.problem.stack().levels()[static_cast<std::size_t>(active.level)];
   if (active.level != solved.problem.bounds_level())
     return row_name(solved.robot, level, active.row);
+  if (active.row >= solved.active_limits.size()) return "the friction of its contacts";
   const auto i = static_cast<std::size_t>(active.row);
   const std::string side = active.side == Side::Upper ? " upper" : " lower";
   const bool limit = solved.active_limits[active.row] != 0;

@@ -47,7 +47,7 @@ class VelocityLaw final : public LawOf<VelocityController> {
   double rate() const override { return controller_.options().gain; }
 };
 
-class AccelerationLaw final : public LawOf<AccelerationController> {
+class AccelerationLaw : public LawOf<AccelerationController> {
  public:
   AccelerationLaw(const Robot& robot, const Stack& stack,
                   const AccelerationControllerOptions& options)
@@ -75,6 +75,22 @@ class AccelerationLaw final : public LawOf<AccelerationController> {
   Vector next_;
 };
 
+// what it leads is the robot itself: nothing is integrated
+class TorqueLaw final : public AccelerationLaw {
+ public:
+  using AccelerationLaw::AccelerationLaw;
+  ControlOrder order() const override { return ControlOrder::Torque; }
+  void torque(const Robot& plan, VectorRef torque) const override {
+    controller_.torque(plan, torque);
+  }
+  Vector3 contact_force(const Task& contact) const override {
+    return controller_.contact_force(contact);
+  }
+  bool scale(const VelocityBounds&, const Vector&) override { return false; }
+  const Vector& next_velocity(const Vector& velocity) override { return velocity; }
+  void integrate(Vector&, Vector&) const override {}
+};
+
 }  // namespace
 
 std::unique_ptr<MotionLaw> make_law(const Robot& robot, const Stack& stack,
@@ -85,6 +101,11 @@ std::unique_ptr<MotionLaw> make_law(const Robot& robot, const Stack& stack,
 std::unique_ptr<MotionLaw> make_law(const Robot& robot, const Stack& stack,
                                     const AccelerationControllerOptions& options) {
   return std::make_unique<AccelerationLaw>(robot, stack, options);
+}
+
+std::unique_ptr<MotionLaw> make_torque_law(const Robot& robot, const Stack& stack,
+                                           const AccelerationControllerOptions& options) {
+  return std::make_unique<TorqueLaw>(robot, stack, options);
 }
 
 }  // namespace hurcules

@@ -10,8 +10,10 @@
 
 namespace hurcules {
 
-// What the unknowns of a stack are.
-enum class ControlOrder { Velocity, Acceleration };
+// What the unknowns of a stack are, and what the robot is told: velocities and accelerations are
+// integrated to references of the joint servos; by torques the accelerations are those of the robot
+// as it is sensed, and its drives get what inverse dynamics says.
+enum class ControlOrder { Velocity, Acceleration, Torque };
 
 class MotionLaw {
  public:
@@ -31,6 +33,12 @@ class MotionLaw {
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
 
+  // what the drives must give, (n) [N m]; by torques only
+  virtual void torque(const Robot& /*plan*/, VectorRef torque) const { torque.setZero(); }
+  // F in W [N] that the last solution wants of a contact of the stack; by torques only
+  [[nodiscard]] virtual Vector3 contact_force(const Task& /*contact*/) const {
+    return Vector3::Zero();
+  }
   [[nodiscard]] virtual ControlOrder order() const = 0;
   [[nodiscard]] virtual const Stack& stack() const = 0;
   [[nodiscard]] virtual const Hierarchy& hierarchy() const = 0;
@@ -46,5 +54,7 @@ class MotionLaw {
                                                   const VelocityControllerOptions& options);
 [[nodiscard]] std::unique_ptr<MotionLaw> make_law(const Robot& robot, const Stack& stack,
                                                   const AccelerationControllerOptions& options);
+[[nodiscard]] std::unique_ptr<MotionLaw> make_torque_law(
+    const Robot& robot, const Stack& stack, const AccelerationControllerOptions& options);
 
 }  // namespace hurcules

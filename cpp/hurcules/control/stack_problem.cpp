@@ -31,6 +31,7 @@ Level sized_level(const StackLevel& source, Index n) {
   for (const Task* task : source.tasks) rows += task->rows();
   Level level;
   level.bounds = is_bounds(source);
+  if (level.bounds) rows = n;
   level.rho = level.bounds ? 0.0 : source.rho;
   level.lower = Vector::Constant(rows, -kNone);
   level.upper = Vector::Constant(rows, kNone);
@@ -40,7 +41,7 @@ Level sized_level(const StackLevel& source, Index n) {
 
 }  // namespace
 
-void StackProblem::set_stack(const Stack& asked, JointLimits* own) {
+void StackProblem::set_stack(const Stack& asked, JointLimits* own, Index others) {
   const Stack stack = own ? with_limits(asked, *own) : asked;
   Hierarchy hierarchy;
   Task* bounds_task = nullptr;
@@ -58,7 +59,7 @@ void StackProblem::set_stack(const Stack& asked, JointLimits* own) {
       bounds_task = level.tasks.front();
       bounds_level = static_cast<int>(hierarchy.size());
     }
-    hierarchy.push_back(sized_level(level, n_));
+    hierarchy.push_back(sized_level(level, n_ + others));
   }
   stack_ = stack;
   hierarchy_ = std::move(hierarchy);

@@ -18,9 +18,10 @@ class StackProblem {
  public:
   // n unknowns
   explicit StackProblem(Index n) : n_(n) {}
-  // With `own` these limits come first where the stack names none. Throws Error for tasks of another
-  // robot and for a second level of limits.
-  void set_stack(const Stack& stack, JointLimits* own = nullptr);
+  // With `own` these limits come first where the stack names none. `others`: unknowns after those of
+  // the tasks, whose columns are left at zero. Throws Error for tasks of another robot and for a
+  // second level of limits.
+  void set_stack(const Stack& stack, JointLimits* own = nullptr, Index others = 0);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }
   [[nodiscard]] Hierarchy& hierarchy() { return hierarchy_; }
@@ -52,7 +53,7 @@ void find_held(const Solution& solution, int bounds_level, const IsLimit& is_lim
   held.setZero();
   for (const ActiveRow& active : solution.working_set) {
     const bool upper = active.side == Side::Upper;
-    if (active.level == bounds_level && is_limit(static_cast<std::size_t>(active.row), upper))
+    if (active.level == bounds_level && active.row < held.size() && is_limit(static_cast<std::size_t>(active.row), upper))
       held[active.row] = upper ? 1 : -1;
   }
 }

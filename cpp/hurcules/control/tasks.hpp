@@ -4,6 +4,7 @@
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
+#include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/custom_task.hpp"
 #include "hurcules/tasks/damping_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"

@@ -54,6 +54,9 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
       problem_(robot.size()),
       solver_(robot.size(), options_.solver) {
   check(options_);
+  require(!robot.floating(),
+          "no velocity can be given to a free root; a robot that floats wants an "
+          "AccelerationController, or a stack by torques");
   if (options_.law == Law::Arrive) probe_.emplace(robot);
   for (const Coordinate& coordinate : robot.coordinates()) {
     rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,

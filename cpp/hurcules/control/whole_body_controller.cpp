@@ -50,6 +50,18 @@ WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOpti
   return options;
 }
 
+std::unique_ptr<MotionLaw> law_of(const Robot& plan, const NamedStack& stack,
+                                  const WholeBodyControllerOptions& options) {
+  if (stack.order == ControlOrder::Torque)
+    return make_torque_law(plan, stack.stack, options.acceleration);
+  require(!plan.floating(),
+          "no reference can lead the free root of the robot: stack '" + stack.name +
+              "' wants the order 'torque'");
+  if (stack.order == ControlOrder::Velocity)
+    return make_law(plan, stack.stack, options.velocity);
+  return make_law(plan, stack.stack, options.acceleration);
+}
+
 // all tasks of a stack, in its order
 std::vector<Task*> tasks_of(const Stack& stack) {
   std::vector<Task*> all;
@@ -87,9 +99,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   }
   require_distinct(stacks_, "stacks");
   for (const NamedStack& stack : stacks_) {
-    laws_.push_back(stack.order == ControlOrder::Velocity
-                        ? make_law(plan_, stack.stack, options_.velocity)
-                        : make_law(plan_, stack.stack, options_.acceleration));
+    laws_.push_back(law_of(plan_, stack, options_));
   }
   collect_tasks();
   check_channels();
@@ -255,8 +265,10 @@ void WholeBodyController::use(const std::string& name) {
   for (std::size_t i = 0; i < stacks_.size(); ++i) {
     if (stacks_[i].name != name) continue;
     if (i == active_ && !moves_joints_) return;
+    const bool torques = by_torques() || stacks_[i].order == ControlOrder::Torque;
     active_ = i;
     if (moves_joints_) take_over();
+    if (torques) servo_.forget();  // what its integrals bear, the model knows
     laws_[active_]->take_over(qd_);
     return;
   }
@@ -316,6 +328,12 @@ void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
 void WholeBodyController::kinematics(const RobotState& state) {
   if (moves_joints_) {
     ahead_ = state.qpos;  // where a stack will find the robot
+    return;
+  }
+  if (by_torques()) {
+    plan_.set_qpos(state.qpos);
+    q_ = plan_.configuration();
+    plan_.velocities_of(state.qvel, qd_);
     return;
   }
   if (options_.base == BaseSource::Sensed) {
@@ -470,7 +488,12 @@ void WholeBodyController::refer() {
 // torques  [T A.2.12]
 void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
   refer();
-  feed_forward(&state);
+  if (by_torques() && !moves_joints_) {
+    law().torque(plan_, efforts_);
+    servo_.feed_forward(efforts_);
+  } else {
+    feed_forward(&state);
+  }
   servo_.compute(state, ctrl);
   if (drive_) drive_->compute(state, ctrl);
 }

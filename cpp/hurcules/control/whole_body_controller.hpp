@@ -11,7 +11,8 @@
 // of position, velocity and acceleration come first in every stack. There may be several stacks, by
 // velocities or by accelerations, of which one rules at a time; joints may also be moved one by one.
 // From one to the other the velocity goes on, within the acceleration limit, and the servos keep
-// their integrals.
+// their integrals. While a stack by torques rules, the plan is the robot as it is sensed, and its
+// drives get what inverse dynamics says.
 #pragma once
 
 #include <memory>
@@ -127,6 +128,9 @@ class WholeBodyController {
   [[nodiscard]] const std::vector<NamedStack>& stacks() const { return stacks_; }
   [[nodiscard]] std::size_t active() const { return active_; }       // of the stacks
   [[nodiscard]] bool moves_joints() const { return moves_joints_; }  // no stack rules
+  [[nodiscard]] bool by_torques() const {  // so goes the stack that rules
+    return stacks_[active_].order == ControlOrder::Torque;
+  }
   [[nodiscard]] const MotionLaw& law() const { return *laws_[active_]; }
   [[nodiscard]] const MotionLaw& law(std::size_t stack) const { return *laws_[stack]; }
   // all tasks of all stacks but the limits, each once

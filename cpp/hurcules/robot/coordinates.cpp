@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -46,7 +47,7 @@ int actuator_of(const mjModel& m, int joint) {
 }
 
 DrivenJoint driven(const mjModel& m, int joint, double factor) {
-  return {joint, m.jnt_qposadr[joint], m.jnt_dofadr[joint], actuator_of(m, joint), factor, 0.0};
+  return {joint, m.jnt_qposadr[joint], m.jnt_dofadr[joint], actuator_of(m, joint), factor};
 }
 
 Coordinate from_tuple(const mjModel& m, int tuple, const std::string& name) {
@@ -85,6 +86,49 @@ std::vector<Coordinate> from_joints(const mjModel& m, bool with_actuator) {
     found.back().joints = {driven(m, j, 1.0)};
   }
   return found;
+}
+
+// those of a free joint
+std::vector<Coordinate> from_free_joint(const mjModel& m, int joint) {
+  static constexpr std::array<const char*, 6> kParts = {"x", "y", "z", "rx", "ry", "rz"};
+  std::vector<Coordinate> found(kParts.size());
+  for (std::size_t part = 0; part < kParts.size(); ++part) {
+    found[part].name = name_of(m, mjOBJ_JOINT, joint) + "_" + kParts[part];
+    DrivenJoint driven_joint = driven(m, joint, 1.0);
+    driven_joint.part = static_cast<int>(part);
+    driven_joint.dof += driven_joint.part;
+    found[part].joints = {driven_joint};
+    found[part].lower = -kInfinity;
+    found[part].upper = found[part].max_velocity = kInfinity;
+  }
+  return found;
+}
+
+// the free joint at the root of the tree of the coordinates
+int free_joint_of(const mjModel& m, const std::vector<Coordinate>& coordinates) {
+  require(!coordinates.empty(), "a robot that floats wants a joint beside its root");
+  const int root = m.body_rootid[m.jnt_bodyid[coordinates.front().joints.front().joint]];
+  const int joint = m.body_jntnum[root] > 0 ? m.body_jntadr[root] : -1;
+  require(joint >= 0 && m.jnt_type[joint] == mjJNT_FREE,
+          "a robot that floats wants a free joint at its root; body '" +
+              name_of(m, mjOBJ_BODY, root) + "' has none");
+  return joint;
+}
+
+// takes the names of a root's coordinates off the front
+bool take_root(const mjModel& m, std::vector<std::string>& names) {
+  for (int j = 0; j < m.njnt; ++j) {
+    if (m.jnt_type[j] != mjJNT_FREE) continue;
+    const std::vector<Coordinate> root = from_free_joint(m, j);
+    const auto same = [](const Coordinate& part, const std::string& name) {
+      return part.name == name;
+    };
+    if (names.size() < root.size() || !std::equal(root.begin(), root.end(), names.begin(), same))
+      continue;
+    names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(root.size()));
+    return true;
+  }
+  return false;
 }
 
 // each name among the tuples' coordinates, then among the joints
@@ -242,7 +286,10 @@ bool names_coordinates(const mjModel& m) {
   return false;
 }
 
-std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std::string>& names) {
+std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std::string>& asked,
+                                         bool floating) {
+  std::vector<std::string> names = asked;
+  floating = take_root(m, names) || floating;
   std::vector<Coordinate> found = from_tuples(m);
   if (!names.empty()) {
     found = chosen(m, std::move(found), names);
@@ -253,7 +300,10 @@ std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std
   if (!names_coordinates(m)) couple(m, found);
   for (Coordinate& coordinate : found) set_limits(m, coordinate);
   require_distinct(m, found);
-  return found;
+  if (!floating) return found;
+  std::vector<Coordinate> all = from_free_joint(m, free_joint_of(m, found));
+  all.insert(all.end(), found.begin(), found.end());
+  return all;
 }
 
 }  // namespace hurcules

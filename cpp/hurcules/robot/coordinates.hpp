@@ -22,8 +22,11 @@ namespace hurcules {
 // coupled joints that do not meet, and two coordinates of one name.
 // With names: these alone, in this order, each a tuple's coordinate or a hinge or slide joint. Throws
 // Error for a name that does not exist.
+// With `floating`, or with their names, the six coordinates of the free joint that their tree has at
+// its root come first: NAME_x, y, z, rx, ry, rz. Throws Error where it has none.
 [[nodiscard]] std::vector<Coordinate> find_coordinates(const mjModel_& model,
-                                                       const std::vector<std::string>& names = {});
+                                                       const std::vector<std::string>& names = {},
+                                                       bool floating = false);
 
 // the model has tuples that say what its coordinates are
 [[nodiscard]] bool names_coordinates(const mjModel_& model);

@@ -109,6 +109,10 @@ Vector3 Robot::rotation_drift(Frame frame) const {
   return screws_->rotation_drift(body_of(*model_, frame));
 }
 
+Vector3 Robot::point_drift(const Vector3& point, int body) const {
+  return screws_->point_drift(point, body);
+}
+
 Vector3 Robot::com() const {
   need_com();
   return vector(data_->subtree_com + 3 * tree_);

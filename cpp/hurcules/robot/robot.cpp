@@ -3,10 +3,12 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
 #include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
@@ -55,10 +57,11 @@ std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjM
 
 }  // namespace
 
-Robot::Robot(ModelPtr model, const std::vector<std::string>& joints)
+Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floating)
     : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;
-  coordinates_ = find_coordinates(m, joints);
+  coordinates_ = find_coordinates(m, joints, floating);
+  floating_ = size() > 0 && coordinates_[0].joints[0].part == 0;
   data_.reset(mj_makeData(&m));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
@@ -135,9 +138,13 @@ void Robot::set_qpos(const ConstVectorRef& qpos) {
 
 void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
-  for (Index i = 0; i < size(); ++i)
+  for (Index i = floating_ ? 6 : 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
+  if (floating_) {
+    const Eigen::Quaterniond turn(rotation_exp(Vector3(q.segment<3>(3))));
+    qpos_.segment<7>(root_qpos_) << q.head<3>(), turn.w(), turn.vec();
+  }
   keep_support();
   screws_->place(qpos_.data());
   note_motion();
@@ -165,9 +172,25 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
     throw Error("coordinates_of wants qpos of " + std::to_string(model_->nq) + " and q of " +
                 std::to_string(size()) + " values, " + std::to_string(qpos.size()) + " and " +
                 std::to_string(q.size()) + " came");
-  for (Index i = 0; i < size(); ++i) {
+  for (Index i = floating_ ? 6 : 0; i < size(); ++i) {
     const DrivenJoint& first = coordinates_[i].joints.front();
     q[i] = (qpos[first.qpos] - first.offset) / first.factor;
+  }
+  if (!floating_) return;
+  const auto root = qpos.segment<7>(root_qpos_);
+  q.head<3>() = root.head<3>();
+  const Eigen::Quaterniond turn(root[3], root[4], root[5], root[6]);
+  q.segment<3>(3) = rotation_log(turn.normalized().toRotationMatrix());
+}
+
+void Robot::velocities_of(const ConstVectorRef& qvel, VectorRef velocity) const {
+  if (qvel.size() != model_->nv || velocity.size() != size())
+    throw Error("velocities_of wants qvel of " + std::to_string(model_->nv) +
+                " and velocity of " + std::to_string(size()) + " values, " +
+                std::to_string(qvel.size()) + " and " + std::to_string(velocity.size()) + " came");
+  for (Index i = 0; i < size(); ++i) {
+    const DrivenJoint& first = coordinates_[i].joints.front();
+    velocity[i] = qvel[first.dof] / first.factor;
   }
 }
 

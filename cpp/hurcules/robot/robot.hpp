@@ -6,6 +6,9 @@
 // actuators every hinge or slide joint; joints that an equality constraint of the model couples
 // linearly (the mimic joints of a URDF) are one. All other joints are held: free, ball, belts, other
 // bodies (left_out.hpp).
+// With `floating` the free joint at the root is six coordinates more, in front: its position in W and
+// its rotation vector in W [m], [rad]; their velocities are those of MuJoCo's free joint, [m/s] in W
+// and [rad/s] in the axes of the root. Nothing drives them but contacts (contact_task.hpp).
 // A Robot has its own mjData: asking it never disturbs a simulation. It keeps scratch memory
 // between questions, so one thread asks one Robot.
 #pragma once
@@ -36,11 +39,12 @@ void check_mujoco_version();
 // One joint of a coordinate: joint position = factor * coordinate + offset.
 struct DrivenJoint {
   int joint = 0;      // mjModel joint id
-  int qpos = 0;       // address in qpos
+  int qpos = 0;       // address in qpos; of all parts of a free joint its first
   int dof = 0;        // address in qvel
   int actuator = -1;  // actuator id, -1 for none
   double factor = 1.0;
   double offset = 0.0;  // [rad] or [m]; 0 for the first joint of a coordinate
+  int part = -1;        // 0 to 5 of a free joint, else -1
 };
 
 struct Coordinate {
@@ -49,7 +53,7 @@ struct Coordinate {
   double lower = 0.0;               // [rad] or [m], -inf when unlimited
   double upper = 0.0;               // [rad] or [m]
   double max_velocity = 0.0;        // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
-  double max_effort = 0.0;  // [N m] or [N], sum over its actuators; inf without force ranges
+  double max_effort = 0.0;  // [N m] or [N], sum over its actuators; inf without force ranges, 0 of a root
 };
 
 // A site, body, camera or geom of the model, by number (mjtObj type and id).
@@ -75,8 +79,9 @@ struct ModelIdentity {
 class Robot {
  public:
   // joints: the names of its coordinates (joints or tuples), none for those of the rule above; throws
-  // Error for a name that does not exist
-  explicit Robot(ModelPtr model, const std::vector<std::string>& joints = {});
+  // Error for a name that does not exist, and for a robot without a free root that shall float
+  explicit Robot(ModelPtr model, const std::vector<std::string>& joints = {},
+                 bool floating = false);
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
@@ -123,6 +128,8 @@ class Robot {
   [[nodiscard]] const Vector& qpos() const { return qpos_; }        // (nq)
   // coordinates (n) out of a whole qpos (nq)
   void coordinates_of(const ConstVectorRef& qpos, VectorRef q) const;
+  // their velocities (n) out of a whole qvel (nv)
+  void velocities_of(const ConstVectorRef& qvel, VectorRef velocity) const;
 
   // velocity of a frame for a whole qvel (nv) as sensed, whatever the coordinates do
   [[nodiscard]] Twist twist(Frame frame, const ConstVectorRef& qvel) const;
@@ -139,6 +146,7 @@ class Robot {
   // Jdot v of both, (3): what the frame accelerates with when the coordinates do not
   [[nodiscard]] Vector3 position_drift(Frame frame) const;
   [[nodiscard]] Vector3 rotation_drift(Frame frame) const;
+  [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;  // of point_jacobian
   // centre of mass of the tree that holds the first coordinate: [m] in W, (3, n), [m/s^2]
   [[nodiscard]] Vector3 com() const;
   void com_jacobian(MatrixRef J) const;
@@ -149,8 +157,10 @@ class Robot {
   // standing as stand_on says: inertia with armature, gravity, centrifugal and Coriolis terms,
   // springs and dampers of the model; without dry friction and contacts. [rad/s^2] (n) -> [N m] (n)
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
-  // its root is free and it stands on nothing: what holds the root in the plan, no ground does
-  [[nodiscard]] bool floats() const { return root_dof_ >= 0 && support_ < 0; }
+  // its first six coordinates are those of the root
+  [[nodiscard]] bool floating() const { return floating_; }
+  // its root is free, no coordinate, and stands on nothing: what holds it in the plan, no ground does
+  [[nodiscard]] bool floats() const { return root_dof_ >= 0 && support_ < 0 && !floating_; }
   // torque that this acceleration takes by inertia alone when the root gives way to it:
   //   (M_cc - M_cb M_bb^-1 M_bc) a,   b: the root.   [rad/s^2] (n) -> [N m] (n); for one that floats
   void floating_inertia(const ConstVectorRef& acceleration, VectorRef torque) const;
@@ -177,6 +187,7 @@ class Robot {
   int tree_ = 0;      // body at the root of the tree that holds the first coordinate
   int support_ = -1;  // body that stands, -1 for the root
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
+  bool floating_ = false;
   Vector3 p_WS_ = Vector3::Zero();      // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
   mutable bool fresh_ = false, com_ = false;  // need_kinematics, need_com were there

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "hurcules/robot/robot.hpp"
 
@@ -47,9 +48,12 @@ std::vector<Screws::Driven> Screws::driven_of(const mjModel& model,
       driven.push_back({.coordinate = static_cast<Index>(i),
                         .joint = joint.joint,
                         .body = model.jnt_bodyid[joint.joint],
-                        .factor = joint.factor});
+                        .factor = joint.factor,
+                        .part = joint.part});
   std::sort(driven.begin(), driven.end(),
-            [](const Driven& a, const Driven& b) { return a.joint < b.joint; });
+            [](const Driven& a, const Driven& b) {
+              return std::pair(a.joint, a.part) < std::pair(b.joint, b.part);
+            });
   return driven;
 }
 
@@ -79,7 +83,14 @@ void Screws::place(const double* qpos) {
     Driven& joint = driven_[j];
     const Vector3& axis = skeleton_.axis(static_cast<Index>(j));
     const Vector3& anchor = skeleton_.anchor(static_cast<Index>(j));
-    if (model_->jnt_type[joint.joint] == mjJNT_SLIDE) {
+    if (joint.part >= 0) {
+      joint.screw.setZero();
+      if (joint.part < 3) {
+        joint.screw[3 + joint.part] = 1.0;
+      } else {
+        joint.screw.head<3>() = pose(joint.body).R.col(joint.part - 3);
+      }
+    } else if (model_->jnt_type[joint.joint] == mjJNT_SLIDE) {
       joint.screw << Vector3::Zero(), joint.factor * axis;
     } else {
       joint.screw << joint.factor * axis, joint.factor * (anchor - origin(joint.body)).cross(axis);
@@ -111,8 +122,11 @@ void Screws::set_velocity(const Vector& velocity) {
   for (std::size_t i = 0; i < driven_.size(); ++i) {
     Driven& joint = driven_[i];
     Screw before = stands(joint.body) ? root_velocity_ : Screw::Zero();
-    for (const Index j : above(joint.body))
-      if (j < static_cast<Index>(i)) before += velocity_[driven(j).coordinate] * driven(j).screw;
+    for (const Index j : above(joint.body)) {
+      const bool at_once = joint.part >= 3 && driven(j).part >= 3;
+      if (j < static_cast<Index>(i) && !at_once)
+        before += velocity_[driven(j).coordinate] * driven(j).screw;
+    }
     joint.rate = cross(before, joint.screw) * velocity_[joint.coordinate];
   }
   if (support_ < 0) return;

@@ -3,6 +3,7 @@
 //   V_b = sum S_j qdot_j       of the driven joints j that move body b
 //   A_b = sum V_<j x S_j qdot_j                  at constant coordinate velocities; V_<j: without j
 //   a point: v = V.lin + w x r,  a = A.lin + A.rot x r + w x v        r: from the tree's origin
+// A free joint is six of them: three slides in W, and three turns at once about the axes of its body.
 // A root that stands on another body s moves by -V_s and accelerates by -A_s: then s does not.
 #pragma once
 
@@ -56,6 +57,7 @@ class Screws {
     Index coordinate;
     int joint, body;
     double factor;
+    int part;  // of a free joint, else -1
     Screw screw = Screw::Zero();  // at the coordinate's velocity 1
     Screw rate = Screw::Zero();   // at its velocity
   };

@@ -25,6 +25,8 @@ void Robot::stand_on(Frame frame) {
   const int root = m.body_rootid[frame.id];
   require(size() > 0 && root == tree_,
           "'" + body + "' belongs to another tree than the coordinates");
+  require(!floating_, "a robot whose root is a coordinate stands by its contacts (ContactTask); '" +
+                          body + "' cannot hold it");
   require(root_qpos_ >= 0, "a robot stands on a body of a tree with a free joint; '" + body +
                                "' is bolted to the world");
   const bool stood = support_ >= 0;

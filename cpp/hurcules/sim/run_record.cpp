@@ -16,13 +16,14 @@ Index find(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // level and task names of a stack, after those that are there
-void add_names(const Stack& stack, TelemetryNames& names) {
+// limits, and what a law adds on its own, have no errors
+void add_names(const Stack& stack, const std::vector<Task*>& tasks, TelemetryNames& names) {
   for (const StackLevel& level : stack.levels()) {
     if (find(names.levels, level.name) == static_cast<Index>(names.levels.size())) {
       names.levels.push_back(level.name);
     }
     for (const Task* task : level.tasks) {
-      if (task->bounds_coordinates()) continue;
+      if (std::find(tasks.begin(), tasks.end(), task) == tasks.end()) continue;
       if (find(names.task_rows, task->name() + "/0") < static_cast<Index>(names.task_rows.size())) {
         continue;
       }
@@ -38,7 +39,7 @@ TelemetryNames names_of(const WholeBodyController& controller) {
   names.coordinates = controller.plan().coordinate_names();
   names.joints = controller.servo().names();
   for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
-    add_names(controller.law(i).stack(), names);
+    add_names(controller.law(i).stack(), controller.tasks(), names);
   }
   names.commands = controller.command_names();
   return names;
@@ -72,12 +73,12 @@ RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::str
       places.tasks.emplace_back();
       places.first_row.push_back(0);
       for (const Task* task : level.tasks) {
-        if (task->bounds_coordinates()) continue;
+        const auto at = std::find(planned_.begin(), planned_.end(), task);
+        if (at == planned_.end()) continue;
         if (places.tasks.back().empty()) {
           places.first_row.back() = find(names_.task_rows, task->name() + "/0");
         }
-        const auto at = std::find(planned_.begin(), planned_.end(), task) - planned_.begin();
-        places.tasks.back().push_back(static_cast<std::size_t>(at));
+        places.tasks.back().push_back(static_cast<std::size_t>(at - planned_.begin()));
       }
     }
     places_.push_back(std::move(places));
@@ -98,11 +99,8 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
   const Robot &world = sensed.world, &seen = sensed.seen;
   t.q = world.configuration();
   t.seen_q = seen.configuration();
-  for (Index i = 0; i < world.size(); ++i) {
-    const DrivenJoint& joint = world.coordinates()[static_cast<std::size_t>(i)].joints.front();
-    t.qd[i] = sensed.qvel[joint.dof] / joint.factor;
-    t.seen_qd[i] = sensed.seen_qvel[joint.dof] / joint.factor;
-  }
+  world.velocities_of(sensed.qvel, t.qd);
+  world.velocities_of(sensed.seen_qvel, t.seen_qd);
   t.q_des = controller.q_des();
   const Task* const limits = controller.law().limits();
   if (controller.moves_joints()) {  // no mode: the ranges of the joints

@@ -12,7 +12,7 @@ namespace hurcules {
 
 class PostureTask : public ValueTask {
  public:
-  // coordinates by name, in this order; none = all of the robot
+  // coordinates by name, in this order; none = all of the robot but those of a free root
   PostureTask(std::string name, const Robot& robot,
               const std::vector<std::string>& coordinates = {});
   [[nodiscard]] std::unique_ptr<Task> clone() const override {

@@ -1,0 +1,108 @@
+#include "hurcules/control/contact_forces.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <limits>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+double weight_of(const Robot& robot) {
+  const mjModel& m = *robot.model();
+  const double weight = m.body_subtreemass[robot.root_body()] * mju_norm3(m.opt.gravity);
+  return weight > 0.0 ? weight : 1.0;
+}
+
+const ContactTask* contact_of(const Task* task) {
+  return dynamic_cast<const ContactTask*>(task);
+}
+
+bool has_contacts(const StackLevel& level) {
+  for (const Task* task : level.tasks)
+    if (contact_of(task)) return true;
+  return false;
+}
+
+}  // namespace
+
+ContactForces::ContactForces(const Robot& robot)
+    : n_(robot.size()),
+      floating_(robot.floating()),
+      unit_(weight_of(robot)),
+      torques_("torque limits", robot) {
+  torques_.set_weights(Vector::Constant(n_, 1.0 / unit_));
+}
+
+Stack ContactForces::completed(const Stack& stack) {
+  contacts_.clear();
+  size_ = 0;
+  std::vector<StackLevel> levels;
+  for (const StackLevel& level : stack.levels()) {
+    levels.push_back(level);
+    if (!has_contacts(level)) continue;
+    require(contacts_.empty(), "a stack wants its contacts on one level; '" + level.name +
+                                   "' is the second");
+    for (const Task* task : level.tasks) {
+      const ContactTask* const contact = contact_of(task);
+      require(contact, "a level of contacts wants nothing beside them; '" + task->name() +
+                           "' is no contact");
+      contacts_.push_back(contact);
+      size_ += contact->edges();
+    }
+    levels.push_back(StackLevel("torque limits", {&torques_}, 0.0));
+  }
+  require(size_ > 0 || !floating_,
+          "the root of the robot floats: a stack wants contacts (ContactTask) that carry it");
+  lambda_ = Vector::Zero(size_);
+  if (size_ == 0) return stack;
+  least_.emplace(size_, n_);
+  levels.push_back(StackLevel("least forces", {&*least_}));
+  return Stack(std::move(levels));
+}
+
+void ContactForces::place(StackProblem& problem) {
+  if (size_ == 0) return;
+  require(problem.bounds_task() != nullptr, "contacts want the limits of the coordinates in the stack: enforce_limits");
+  problem.bounds().lower.tail(size_).setZero();
+  problem.bounds().upper.tail(size_).setConstant(std::numeric_limits<double>::infinity());
+  const std::vector<StackLevel>& levels = problem.stack().levels();
+  level_ = 0;
+  while (levels[level_].tasks.front() != &torques_) ++level_;
+}
+
+void ContactForces::fill(Hierarchy& hierarchy) const {
+  if (size_ == 0) return;
+  Matrix& A = hierarchy[level_].A;
+  Index column = n_;
+  for (const ContactTask* contact : contacts_) {
+    A.middleCols(column, contact->edges()) = -contact->efforts();  // E lambda / (m g)
+    column += contact->edges();
+  }
+  hierarchy.back().A.rightCols(size_).setIdentity();
+}
+
+void ContactForces::read(const Vector& x) {
+  lambda_ = unit_ * x.tail(size_);
+}
+
+void ContactForces::relieve(VectorRef torque) const {
+  Index first = 0;
+  for (const ContactTask* contact : contacts_) {
+    torque.noalias() -= contact->efforts() * lambda_.segment(first, contact->edges());
+    first += contact->edges();
+  }
+}
+
+Vector3 ContactForces::force(const Task& task) const {
+  Index first = 0;
+  for (const ContactTask* contact : contacts_) {
+    if (contact == &task) return contact->force(lambda_.segment(first, contact->edges()));
+    first += contact->edges();
+  }
+  return Vector3::Zero();
+}
+
+}  // namespace hurcules
