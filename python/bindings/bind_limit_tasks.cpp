@@ -45,7 +45,8 @@ Args:
   robot: Robot; with floating=True for one that nothing else carries.
   body: name of the body, a foot, say.
   points: (k, 3) [m] in the body's frame; None: the lowest points of its collision geoms as the robot
-    stands, four at most (sole_points). Three or more hold the body in 6-D, one or two themselves.
+    stands, four at most (sole_points), drawn in by a tenth so that it does not tip over its edge.
+    Three or more hold the body in 6-D, one or two themselves.
   friction: Coulomb's coefficient, > 0.
   normal: (3,) in W, out of what it stands on.
 

@@ -111,6 +111,7 @@ Args:
   belts: names of the left and right joint of the driven belts.
   velocity: VelocityControllerOptions; its dt is not read.
   acceleration: AccelerationControllerOptions; its dt is not read.
+  torque: the same for stacks by torques; by default with max_acceleration=200.
 
 Raises:
   Error: no level, an unknown name, a joint that cannot be servoed; the text says which.
@@ -219,7 +220,8 @@ std::shared_ptr<WholeBodyController> make(
     std::optional<bool> decoupled, bool torque_scaling, const std::optional<DriveOptions>& drive,
     const std::pair<std::string, std::string>& belts,
     const std::optional<VelocityControllerOptions>& velocity,
-    const std::optional<AccelerationControllerOptions>& acceleration) {
+    const std::optional<AccelerationControllerOptions>& acceleration,
+    const std::optional<AccelerationControllerOptions>& torque) {
   auto held = std::make_shared<Held>();
   std::vector<NamedStack> all;
   const auto add = [&](const std::string& name, const py::object& source, ControlOrder how) {
@@ -249,6 +251,7 @@ std::shared_ptr<WholeBodyController> make(
   WholeBodyControllerOptions options;
   if (velocity) options.velocity = *velocity;
   if (acceleration) options.acceleration = *acceleration;
+  if (torque) options.torque = *torque;
   options.dt = dt.value_or(robot.timestep());
   options.base = base_of(base);
   options.support = support;
@@ -331,7 +334,7 @@ void bind_whole_body(py::module_& module) {
                  "servo"_a = std::map<std::string, std::pair<double, double>>{},
                  "feed_forward"_a = true, "decoupled"_a = py::none(), "torque_scaling"_a = true, "drive"_a = py::none(),
                  "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
-                 "velocity"_a = py::none(), "acceleration"_a = py::none());
+                 "velocity"_a = py::none(), "acceleration"_a = py::none(), "torque"_a = py::none());
   const auto solution = [](const WholeBodyController& self) { return self.law().solution(); };
   const auto active = [](const WholeBodyController& self) -> std::optional<std::string> {
     if (self.moves_joints()) return std::nullopt;

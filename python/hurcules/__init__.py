@@ -122,7 +122,7 @@ from hurcules._core import (  # noqa: E402
 from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
-from hurcules.urdf import load_urdf  # noqa: E402
+from hurcules.urdf import load_urdf, on_floor  # noqa: E402
 
 _reprs.install()
 
@@ -237,6 +237,7 @@ __all__ = [
     "mode_ranges",
     "models",
     "obstacles",
+    "on_floor",
     "postures",
     "rhqp",
     "scenes",

@@ -28,7 +28,9 @@ _COMPILER = {
 }
 
 
-def load_urdf(path: str | Path, *, shapes: bool = True) -> mujoco.MjModel:
+def load_urdf(
+    path: str | Path, *, shapes: bool = True, floating: bool = False
+) -> mujoco.MjModel:
     """A URDF as a model that `Robot` and `Simulation` take.
 
     All links stay frames, fixed ones too. The limits of position and effort are MuJoCo's, those of
@@ -40,6 +42,8 @@ def load_urdf(path: str | Path, *, shapes: bool = True) -> mujoco.MjModel:
         path: of the file. Meshes are looked for as it names them, `package://NAME/...` in a folder
             NAME above the file.
         shapes: False leaves out everything to see and to touch.
+        floating: the root moves freely (joint "root") above a plane "floor", on which the robot
+            stands in its first posture: `on_floor` for any other.
 
     Raises:
         Error: a file that cannot be read, is no URDF, or is one that MuJoCo refuses.
@@ -80,9 +84,57 @@ def load_urdf(path: str | Path, *, shapes: bool = True) -> mujoco.MjModel:
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     try:
         _exclude_overlaps(spec, spec.compile())
-        return with_motors(spec)
+        if not floating:
+            return with_motors(spec)
+        spec.worldbody.first_body().add_freejoint(name="root")
+        spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10, 10, 0.1])
+        model = with_motors(spec)
+        model.qpos0[:] = on_floor(model, model.qpos0)
+        return model
     except (ValueError, Error) as error:
         raise Error(f"{path}: {error}") from error
+
+
+def on_floor(
+    model: mujoco.MjModel, qpos: NDArray[np.float64], floor: str = "floor", depth: float = 5e-4
+) -> NDArray[np.float64]:
+    """A configuration whose free root is as high as the robot stands on a plane.
+
+    Args:
+        model: with a free joint at the root of its first body.
+        qpos: (nq,) what the robot's posture is.
+        floor: name of a plane.
+        depth: [m] that the lowest geom is in it: feet that only touch carry nothing in the first step.
+
+    Returns:
+        (nq,) the same with another height: the lowest of the geoms that can touch the plane does.
+
+    Raises:
+        Error: no such plane, or no free root.
+    """
+    plane = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, floor)
+    if plane < 0 or model.geom_type[plane] != mujoco.mjtGeom.mjGEOM_PLANE:
+        raise Error(f"on_floor wants the name of a plane, {floor!r} is none")
+    if model.njnt == 0 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
+        raise Error("on_floor wants a robot whose first joint is free")
+    data = mujoco.MjData(model)
+    data.qpos[:] = qpos
+    mujoco.mj_forward(model, data)
+    root = model.body_rootid[model.jnt_bodyid[0]]
+    own = np.flatnonzero(model.body_rootid[model.geom_bodyid] == root)
+    touch = [
+        geom
+        for geom in own
+        if model.geom_contype[geom] & model.geom_conaffinity[plane]
+        or model.geom_contype[plane] & model.geom_conaffinity[geom]
+    ]
+    if not touch:
+        raise Error(f"no geom of the robot can touch {floor!r}")
+    placed = np.array(qpos, dtype=float)
+    far = 1e3
+    gap = min(mujoco.mj_geomDistance(model, data, geom, plane, far, None) for geom in touch)
+    placed[:3] -= (gap + depth) * data.geom_xmat[plane].reshape(3, 3)[:, 2]
+    return placed
 
 
 def _exclude_overlaps(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:

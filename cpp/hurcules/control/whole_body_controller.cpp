@@ -39,7 +39,7 @@ void require_distinct(const std::vector<Named>& all, const char* kind) {
 }
 
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
-  options.velocity.dt = options.acceleration.dt = options.dt;
+  options.velocity.dt = options.acceleration.dt = options.torque.dt = options.dt;
   options.decoupled = options.decoupled.value_or(options.servo.empty() && options.feed_forward);
   require(!*options.decoupled || options.feed_forward, "decoupled servos want feed_forward");
   if (options.servo.empty()) {
@@ -53,7 +53,7 @@ WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOpti
 std::unique_ptr<MotionLaw> law_of(const Robot& plan, const NamedStack& stack,
                                   const WholeBodyControllerOptions& options) {
   if (stack.order == ControlOrder::Torque)
-    return make_torque_law(plan, stack.stack, options.acceleration);
+    return make_torque_law(plan, stack.stack, options.torque);
   require(!plan.floating(),
           "no reference can lead the free root of the robot: stack '" + stack.name +
               "' wants the order 'torque'");

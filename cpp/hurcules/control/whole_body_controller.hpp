@@ -50,6 +50,8 @@ struct WholeBodyControllerOptions {
   double dt = 1e-3;                         // [s] control period; also of all others
   VelocityControllerOptions velocity = {};  // of stacks by velocities; their dt is not read
   AccelerationControllerOptions acceleration = {};
+  // of stacks by torques: a foot that the ground stops at once must be able to
+  AccelerationControllerOptions torque = {.max_acceleration = 200.0};
   std::string support = "";  // body that stands, "" for the root
   BaseSource base = BaseSource::Held;
   std::vector<ServoGains> servo = {};  // none: default_servo_gains

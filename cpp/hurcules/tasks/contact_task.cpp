@@ -12,9 +12,18 @@ namespace {
 
 constexpr std::size_t kHoldsBody = 3;  // points from which on the whole body is held
 
+constexpr double kInside = 0.9;       // of the way from the middle: a foot tips over its edge
+
+std::vector<Vector3> drawn_in(std::vector<Vector3> points) {
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& point : points) middle += point / static_cast<double>(points.size());
+  for (Vector3& point : points) point = middle + kInside * (point - middle);
+  return points;
+}
+
 ContactTaskOptions completed(const Robot& robot, const std::string& body,
                              ContactTaskOptions options) {
-  if (options.points.empty()) options.points = sole_points(robot, body);
+  if (options.points.empty()) options.points = drawn_in(sole_points(robot, body));
   for (const Vector3& point : options.points)
     require(point.allFinite(), "a contact wants points of finite numbers [m]");
   require(std::isfinite(options.friction) && options.friction > 0.0,

@@ -17,7 +17,8 @@
 namespace hurcules {
 
 struct ContactTaskOptions {
-  // [m] in the body's frame; none: its sole_points as the robot stands
+  // [m] in the body's frame; none: its sole_points as the robot stands, drawn in by a tenth so that
+  // it does not tip over its edge
   std::vector<Vector3> points = {};
   double friction = 0.6;              // Coulomb's coefficient
   Vector3 normal = Vector3::UnitZ();  // in W, out of what it stands on
