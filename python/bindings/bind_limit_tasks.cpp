@@ -61,7 +61,8 @@ Args:
   body: name of a body.
 
 Returns:
-  (k, 3) [m] in the body's frame, the outermost four at most within 10 mm of the lowest.
+  (k, 3) [m] in the body's frame, the outermost four at most within 3 mm of the lowest; the lowest
+  alone where these are less than 5 cm apart, as on a round foot.
 
 Raises:
   Error: no such body, or one without collision geoms.

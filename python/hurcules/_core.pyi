@@ -434,19 +434,27 @@ class Robot:
       model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
       joints: names of the coordinates (joints, or tuples without their prefix), in this order; None: by
         the rule above.
+      floating: the free joint at the root is six coordinates more, in front: its position [m] and its
+        rotation vector [rad] in W; their velocities are those of MuJoCo's free joint. For a robot that
+        stands by contacts, with stacks by torques.
 
     Raises:
-      Error: the file cannot be read, or the tuples name no proper coordinates."""
+      Error: the file cannot be read, the tuples name no proper coordinates, or a robot without a free
+        root shall float."""
 
     @overload
     def __init__(
         self,
         model: os.PathLike[str] | str | bytes,
         joints: collections.abc.Sequence[str] | None = None,
+        floating: bool = False,
     ) -> None: ...
     @overload
     def __init__(
-        self, model: mujoco.MjModel, joints: collections.abc.Sequence[str] | None = None
+        self,
+        model: mujoco.MjModel,
+        joints: collections.abc.Sequence[str] | None = None,
+        floating: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def com_drift(self) -> NDArray[np.float64]:
@@ -511,6 +519,9 @@ class Robot:
         Raises:
           Error: no such body, a body of another tree, or a tree without a free joint."""
 
+    def velocities_of(self, qvel: ArrayLike) -> NDArray[np.float64]:
+        """Velocities of the coordinates (n,) out of a whole qvel (nv,)."""
+
     def view_orientation(self, frame: str) -> NDArray[np.float64]:
         """R_WF (3, 3) with x along the line of sight of a camera and z up; else like orientation."""
 
@@ -529,8 +540,12 @@ class Robot:
         """list of Coordinate, n of them"""
 
     @property
+    def floating(self) -> bool:
+        """its first six coordinates are those of the root"""
+
+    @property
     def floats(self) -> bool:
-        """its root is free and it stands on nothing: stand_on was not called"""
+        """its root is free, no coordinate, and stands on nothing"""
 
     @property
     def left_out(self) -> str:
@@ -960,6 +975,39 @@ class TorqueLimits(Task):
       robot: Robot, whose efforts it starts with (inf where it has none)."""
 
     def __init__(self, name: str, robot: Robot) -> None: ...
+
+class ContactTask(Task):
+    """A body that keeps its place on what it stands on, and the forces that this may take.
+
+    For stacks by torques (AccelerationController.torque). Its points neither slide nor lift; the forces at
+    them are unknowns of the hierarchy, inside pyramids within the friction cones. A stack has its contacts
+    on one level; the torque limits of the robot follow by themselves, and at the end the least forces.
+
+    Args:
+      name: shown in plots and messages.
+      robot: Robot; with floating=True for one that nothing else carries.
+      body: name of the body, a foot, say.
+      points: (k, 3) [m] in the body's frame; None: the lowest points of its collision geoms as the robot
+        stands, four at most (sole_points), drawn in by a tenth so that it does not tip over its edge.
+        Three or more hold the body in 6-D, one or two themselves.
+      friction: Coulomb's coefficient, > 0.
+      normal: (3,) in W, out of what it stands on.
+
+    Raises:
+      Error: no such body, a body without collision geoms, a friction that is not positive."""
+
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        body: str,
+        points: ArrayLike | None = None,
+        friction: float = 0.6,
+        normal: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(k, 3) [m] in the body's frame"""
 
 class BalanceTask(Task):
     """The centre of mass stays over a polygon: e (k,) [m], distances from its sides, margin <= e.
@@ -1703,6 +1751,9 @@ class AccelerationController:
         Returns:
           qddot* (n,) [rad/s^2] or [m/s^2]. Releases the interpreter lock."""
 
+    def contact_force(self, contact: Task) -> NDArray[np.float64]:
+        """F (3,) [N] in W on the robot at a ContactTask of the stack, of the last solution."""
+
     def notes(self, robot: Robot) -> list[LevelNote]:
         """What each level fell short of at the last compute, and why.
 
@@ -2351,9 +2402,11 @@ class WholeBodyController:
       levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
       channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate,
         JointRates.
-      stacks: by name further stacks for `use`, each levels as above or (levels, "acceleration"); the
-        first one rules at the start if no `levels` are given.
-      control: by what `levels` rule, "velocity" or "acceleration".
+      stacks: by name further stacks for `use`, each levels as above or (levels, control); the first one
+        rules at the start if no `levels` are given.
+      control: by what `levels` rule: "velocity", "acceleration", or "torque": then the accelerations are
+        those of the robot as it is sensed, and its drives get what inverse dynamics says. Contacts
+        (ContactTask) carry a robot that floats.
       dt: control period [s]; by default the time step of the model.
       base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
         now: targets in the world stay where they are while the robot drives).
@@ -2361,11 +2414,13 @@ class WholeBodyController:
       servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
         default reckoned from the model, and decoupled by the mass matrix where feed_forward is on.
       feed_forward: servos are told the torques that the model says.
+      decoupled: what the servos ask for is given by the mass matrix; None: where `servo` is not given.
       torque_scaling: the motion slows down where a motor would be asked for more than its peak.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.
       belts: names of the left and right joint of the driven belts.
       velocity: VelocityControllerOptions; its dt is not read.
       acceleration: AccelerationControllerOptions; its dt is not read.
+      torque: the same for stacks by torques; by default with max_acceleration=200.
 
     Raises:
       Error: no level, an unknown name, a joint that cannot be servoed; the text says which."""
@@ -2383,13 +2438,18 @@ class WholeBodyController:
         support: str = "",
         servo: collections.abc.Mapping[str, tuple[float, float]] = {},
         feed_forward: bool = True,
+        decoupled: bool | None = None,
         torque_scaling: bool = True,
         drive: DriveOptions | None = None,
         belts: tuple[str, str] = ("L_lower_belt", "R_lower_belt"),
         velocity: VelocityControllerOptions | None = None,
         acceleration: AccelerationControllerOptions | None = None,
+        torque: AccelerationControllerOptions | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def contact_force(self, contact: str) -> NDArray[np.float64]:
+        """F (3,) [N] in W on the robot at a ContactTask of the stack that rules, as it was wanted last."""
+
     def diagnostics(self) -> list[LevelNote]:
         """What each level falls short of and why: list of LevelNote, decreasing priority."""
 
@@ -3824,6 +3884,20 @@ def servo_table(robot: str) -> dict[str, Any]:
 
     Raises:
       Error: an unknown robot."""
+
+def sole_points(robot: Robot, body: str) -> NDArray[np.float64]:
+    """The lowest points of the collision geoms of a body, and of what is welded to it, as the robot stands.
+
+    Args:
+      robot: Robot.
+      body: name of a body.
+
+    Returns:
+      (k, 3) [m] in the body's frame, the outermost four at most within 3 mm of the lowest; the lowest
+      alone where these are less than 5 cm apart, as on a round foot.
+
+    Raises:
+      Error: no such body, or one without collision geoms."""
 
 def solve_batch(
     problems: collections.abc.Sequence[collections.abc.Sequence[Level]]

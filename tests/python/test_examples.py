@@ -83,6 +83,17 @@ def clones(said: str) -> None:
     assert {line.partition(":")[0] for line in said.splitlines()} >= {"fast", "exact"}
 
 
+def stands(said: str) -> None:
+    places = re.findall(r"\[(.*?)\]", said)[:2]
+    wanted, moved = ([float(x) for x in part.split()] for part in places)
+    assert all(abs(a - b) < 1e-3 for a, b in zip(wanted, moved, strict=True))
+    carried, weight = numbers(r"(\d+\.\d) N", said)
+    assert abs(carried - weight) < 2.0
+    assert numbers(r"pushed: (\S+) m/s", said)[0] > 0.1
+    assert numbers(r"later: (\S+) mm", said)[0] < 2.0
+    assert numbers(r"away, (\S+) rad/s", said)[0] < 1e-2
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -97,6 +108,7 @@ RESULTS = {
     "10": drives_and_reaches,
     "11": follows_the_point,
     "12": clones,
+    "13": stands,
 }
 
 

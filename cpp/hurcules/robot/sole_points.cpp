@@ -11,7 +11,8 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kLevel = 0.01;  // [m] above the lowest point that still counts
+constexpr double kLevel = 0.003;  // [m] above the lowest point that still counts
+constexpr double kSole = 0.05;    // [m] a round foot is shorter, and stands on a point
 constexpr double kApart = 0.005;  // [m] nearer points are one
 constexpr int kRim = 8;          // points round a cylinder
 
@@ -100,10 +101,11 @@ std::vector<Vector3> sole_points(const Robot& robot, const std::string& body) {
   Points points = candidates(robot, frame.id);
   require(!points.empty(), "body '" + body + "' has no collision geoms that could stand on "
                                "something; say its points");
-  const double lowest = furthest(points, -Vector3::UnitZ()).z();
-  std::erase_if(points, [&](const Vector3& point) { return point.z() > lowest + kLevel; });
-  const Vector3 along = longest(points), across(-along.y(), along.x(), 0.0);
   const Skeleton::Pose pose = robot.pose(frame);
+  const Vector3 lowest = furthest(points, -Vector3::UnitZ());
+  std::erase_if(points, [&](const Vector3& point) { return point.z() > lowest.z() + kLevel; });
+  const Vector3 along = longest(points), across(-along.y(), along.x(), 0.0);
+  if (along.norm() < kSole) return {pose.R.transpose() * (lowest - pose.p)};
   Points outermost;
   for (const Vector3& direction : {along, across, Vector3(-along), Vector3(-across)}) {
     const Vector3 point = pose.R.transpose() * (furthest(points, direction) - pose.p);

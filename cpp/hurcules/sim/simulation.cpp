@@ -76,6 +76,9 @@ std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController
   require(!physics || controller->servo().coordinate_joints() > 0,
           "no joint of the robot has an actuator: in the physics nothing would move it; "
           "hurcules.with_motors and load_urdf (Python) give each joint a motor");
+  for (const NamedStack& stack : controller->stacks())
+    require(physics || stack.order != ControlOrder::Torque,
+            "stack '" + stack.name + "' goes by torques: without physics they move nothing");
   return controller;
 }
 
