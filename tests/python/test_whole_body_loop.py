@@ -142,7 +142,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "nan": (lambda: simulate(twist).step(1, [np.nan, 0.0, 0.0]), "3 finite numbers"),
     "joint": (lambda: hurcules.Robot(mujoco.MjModel.from_xml_string(ARM), joints=["j9"]), "'j9'"),
     "stack": (lambda: simulate(twist).controller.use("walk"), "'walk' does not exist"),
-    "control": (lambda: simulate(twist, control="torque"), "'torque' does not exist"),
+    "control": (lambda: simulate(twist, control="force"), "'force' does not exist"),
     "base": (lambda: simulate(twist, base="flying"), "'flying' does not exist"),
     "spec": (lambda: simulate(lambda tip: {"tip": tip}), "wants Twist, Delta"),
     "coordinate": (

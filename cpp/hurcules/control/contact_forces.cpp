@@ -1,7 +1,5 @@
 #include "hurcules/control/contact_forces.hpp"
 
-#include <mujoco/mujoco.h>
-
 #include <limits>
 
 #include "hurcules/base/error.hpp"
@@ -9,12 +7,6 @@
 namespace hurcules {
 
 namespace {
-
-double weight_of(const Robot& robot) {
-  const mjModel& m = *robot.model();
-  const double weight = m.body_subtreemass[robot.root_body()] * mju_norm3(m.opt.gravity);
-  return weight > 0.0 ? weight : 1.0;
-}
 
 const ContactTask* contact_of(const Task* task) {
   return dynamic_cast<const ContactTask*>(task);
@@ -31,7 +23,7 @@ bool has_contacts(const StackLevel& level) {
 ContactForces::ContactForces(const Robot& robot)
     : n_(robot.size()),
       floating_(robot.floating()),
-      unit_(weight_of(robot)),
+      unit_(robot.weight() > 0.0 ? robot.weight() : 1.0),
       torques_("torque limits", robot) {
   torques_.set_weights(Vector::Constant(n_, 1.0 / unit_));
 }

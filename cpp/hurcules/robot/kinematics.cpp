@@ -136,6 +136,10 @@ Vector3 Robot::com_drift() const {
   return force / m.body_subtreemass[tree_];
 }
 
+double Robot::weight() const {
+  return model_->body_subtreemass[tree_] * mju_norm3(model_->opt.gravity);
+}
+
 void Robot::mass_matrix(MatrixRef M) const {
   assert(M.rows() == size() && M.cols() == size());
   need_com();

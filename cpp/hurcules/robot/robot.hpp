@@ -151,6 +151,7 @@ class Robot {
   [[nodiscard]] Vector3 com() const;
   void com_jacobian(MatrixRef J) const;
   [[nodiscard]] Vector3 com_drift() const;
+  [[nodiscard]] double weight() const;  // [N] of the same tree
   // inertia of the coordinates with armature, standing as stand_on says: (n, n) [kg m^2] (hinges)
   void mass_matrix(MatrixRef M) const;
   // torque that the coordinates take at this acceleration and the velocity of set_velocity,

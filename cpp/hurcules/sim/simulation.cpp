@@ -40,10 +40,8 @@ std::size_t room_of_working_sets(const WholeBodyController& controller) {
   std::size_t room = 0;
   for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
     room += kPerSolver;
-    for (const StackLevel& level : controller.law(i).stack().levels()) {
-      for (const Task* task : level.tasks) {
-        room += kPerRow * static_cast<std::size_t>(task->rows());
-      }
+    for (const Level& level : controller.law(i).hierarchy()) {
+      room += kPerRow * static_cast<std::size_t>(level.rows());
     }
   }
   return room;
