@@ -64,11 +64,13 @@ void bind_acceleration_options(py::module_& module) {
        field("damping", &Options::damping, "[1/s]"), field("horizon", &Options::horizon, "[s]"),
        field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
        field("enforce_limits", &Options::enforce_limits, "limits before all levels"),
-        field("return_speed", &Options::return_speed, "[rad/s]"),
-       field("rest", &Options::rest, "[1/s]"), text_field<Options>("law", [](const Options& self) { return to_string(self.law); },
-                            [](Options& self, const std::string& law) { self.law = law_named(law); },
-                            "'arrive' or 'thesis'"),
-        field("solver", &Options::solver, "SolverOptions")});
+       field("return_speed", &Options::return_speed, "[rad/s]"),
+       field("rest", &Options::rest, "[1/s]"),
+       text_field<Options>(
+           "law", [](const Options& self) { return to_string(self.law); },
+           [](Options& self, const std::string& law) { self.law = law_named(law); },
+           "'arrive' or 'thesis'"),
+       field("solver", &Options::solver, "SolverOptions")});
 }
 
 }  // namespace

@@ -214,7 +214,8 @@ void bind_limit_tasks(py::module_& module) {
       [](const Robot& robot, const std::string& body) {
         const std::vector<Vector3> found = sole_points(robot, body);
         Points points(static_cast<Index>(found.size()), 3);
-        for (Index i = 0; i < points.rows(); ++i) points.row(i) = found[static_cast<std::size_t>(i)];
+        for (Index i = 0; i < points.rows(); ++i)
+          points.row(i) = found[static_cast<std::size_t>(i)];
         return points;
       },
       "robot"_a, "body"_a, kSolePoints);

@@ -126,21 +126,19 @@ void warn(const std::string& text) {
 
 using Names = std::vector<std::string>;
 
-std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints,
-                               bool floating) {
+std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints, bool floating) {
   auto robot = std::make_unique<Robot>(std::move(model), joints.value_or(Names{}), floating);
   warn(implausible_ranges(*robot));
   return robot;
 }
 
-std::unique_ptr<Robot> robot_of_object(const ModelObject& model,
-                                       const std::optional<Names>& joints, bool floating) {
+std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const std::optional<Names>& joints,
+                                       bool floating) {
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
   const auto address = model.attr("_address").cast<std::uintptr_t>();
-  return checked(borrow_model(reinterpret_cast<const mjModel_*>(address)), joints,
-                 floating);
+  return checked(borrow_model(reinterpret_cast<const mjModel_*>(address)), joints, floating);
 }
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
@@ -266,8 +264,9 @@ void bind_robot(py::module_& module);
 void bind_robot(py::module_& module) {
   bind_coordinate(module);
   py::class_<Robot> robot(module, "Robot", kRobot);
-  robot.def(py::init(&robot_of_path), py::arg("model"), py::arg("joints") = py::none(),
-            py::arg("floating") = false)
+  robot
+      .def(py::init(&robot_of_path), py::arg("model"), py::arg("joints") = py::none(),
+           py::arg("floating") = false)
       .def(py::init(&robot_of_object), py::arg("model"), py::arg("joints") = py::none(),
            py::arg("floating") = false, py::keep_alive<1, 2>())
       .def("__repr__", [](const Robot& self) {

@@ -332,7 +332,8 @@ void bind_whole_body(py::module_& module) {
                  py::kw_only(), "stacks"_a = py::dict(), "control"_a = "velocity",
                  "dt"_a = py::none(), "base"_a = "held", "support"_a = "",
                  "servo"_a = std::map<std::string, std::pair<double, double>>{},
-                 "feed_forward"_a = true, "decoupled"_a = py::none(), "torque_scaling"_a = true, "drive"_a = py::none(),
+                 "feed_forward"_a = true, "decoupled"_a = py::none(), "torque_scaling"_a = true,
+                 "drive"_a = py::none(),
                  "belts"_a = std::pair<std::string, std::string>{"L_lower_belt", "R_lower_belt"},
                  "velocity"_a = py::none(), "acceleration"_a = py::none(), "torque"_a = py::none());
   const auto solution = [](const WholeBodyController& self) { return self.law().solution(); };
@@ -383,7 +384,8 @@ void bind_whole_body(py::module_& module) {
             return self.law().contact_force(self.task(contact));
           },
           "contact"_a,
-          "F (3,) [N] in W on the robot at a ContactTask of the stack that rules, as it was wanted last.")
+          "F (3,) [N] in W on the robot at a ContactTask of the stack that rules, as it was wanted "
+          "last.")
       .def_property_readonly("dt", &WholeBodyController::dt, "[s]")
       .def_property_readonly("plan", &WholeBodyController::plan,
                              py::return_value_policy::reference_internal,

@@ -1,8 +1,8 @@
 """A quadruped that nothing holds stands by torques, reaches with its arm, and is pushed.
 
-Contacts are tasks of the stack: their forces stay inside friction cones, torques inside the motors'
-limits, and both come before the centre of mass, the hand and the posture. A humanoid from a URDF does
-the same, on `hurcules.load_urdf(path, floating=True)`.
+Contacts are tasks of the stack: their forces stay inside friction cones, torques inside the limits
+of the motors, and both come before the centre of mass, the hand and the posture. A humanoid from a
+URDF does the same, on `hurcules.load_urdf(path, floating=True)`.
 
 Run:  python python/examples/13_stand_by_torques.py
 """

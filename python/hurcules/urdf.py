@@ -28,9 +28,7 @@ _COMPILER = {
 }
 
 
-def load_urdf(
-    path: str | Path, *, shapes: bool = True, floating: bool = False
-) -> mujoco.MjModel:
+def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) -> mujoco.MjModel:
     """A URDF as a model that `Robot` and `Simulation` take.
 
     All links stay frames, fixed ones too. The limits of position and effort are MuJoCo's, those of
@@ -86,7 +84,10 @@ def load_urdf(
         _exclude_overlaps(spec, spec.compile())
         if not floating:
             return with_motors(spec)
-        spec.worldbody.first_body().add_freejoint(name="root")
+        base = spec.worldbody.first_body()
+        if base is None or spec.worldbody.next_body(base) is not None or spec.worldbody.geoms:
+            raise Error("its root link is fixed to the world, or is empty: it cannot float")
+        base.add_freejoint(name="root")
         spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10, 10, 0.1])
         model = with_motors(spec)
         model.qpos0[:] = on_floor(model, model.qpos0)
@@ -104,7 +105,8 @@ def on_floor(
         model: with a free joint at the root of its first body.
         qpos: (nq,) what the robot's posture is.
         floor: name of a plane.
-        depth: [m] that the lowest geom is in it: feet that only touch carry nothing in the first step.
+        depth: [m] that the lowest geom is in it: feet that only touch carry nothing in the first
+            step.
 
     Returns:
         (nq,) the same with another height: the lowest of the geoms that can touch the plane does.

@@ -56,8 +56,7 @@ AccelerationController::AccelerationController(const Robot& robot,
 
 void AccelerationController::set_stack(const Stack& stack) {
   const Stack completed = contacts_.completed(stack);
-  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr,
-                     contacts_.size());
+  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, contacts_.size());
   contacts_.place(problem_);
   has_zone_ = options_.law == Law::Arrive && contacts_.size() == 0;
   Index rows = 0;
@@ -159,8 +158,7 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
 }
 
 void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
-  if (floating_)
-    throw Error("integrate: no reference can lead a free root; it wants torques");
+  if (floating_) throw Error("integrate: no reference can lead a free root; it wants torques");
   const double dt = options_.dt;
   for (Index i = 0; i < q.size(); ++i) {
     const double next = velocity[i] + acceleration_[i] * dt;

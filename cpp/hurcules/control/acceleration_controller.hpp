@@ -69,7 +69,9 @@ class AccelerationController {
   // (n) [N m]
   void torque(const Robot& robot, VectorRef torque) const;
   // F in W [N] that the last solution wants of a contact of the stack
-  [[nodiscard]] Vector3 contact_force(const Task& contact) const { return contacts_.force(contact); }
+  [[nodiscard]] Vector3 contact_force(const Task& contact) const {
+    return contacts_.force(contact);
+  }
 
   [[nodiscard]] const Stack& stack() const { return problem_.stack(); }
   [[nodiscard]] const Hierarchy& hierarchy() const { return problem_.hierarchy(); }

@@ -35,8 +35,8 @@ Stack ContactForces::completed(const Stack& stack) {
   for (const StackLevel& level : stack.levels()) {
     levels.push_back(level);
     if (!has_contacts(level)) continue;
-    require(contacts_.empty(), "a stack wants its contacts on one level; '" + level.name +
-                                   "' is the second");
+    require(contacts_.empty(),
+            "a stack wants its contacts on one level; '" + level.name + "' is the second");
     for (const Task* task : level.tasks) {
       const ContactTask* const contact = contact_of(task);
       require(contact, "a level of contacts wants nothing beside them; '" + task->name() +
@@ -57,7 +57,8 @@ Stack ContactForces::completed(const Stack& stack) {
 
 void ContactForces::place(StackProblem& problem) {
   if (size_ == 0) return;
-  require(problem.bounds_task() != nullptr, "contacts want the limits of the coordinates in the stack: enforce_limits");
+  require(problem.bounds_task() != nullptr,
+          "contacts want the limits of the coordinates in the stack: enforce_limits");
   problem.bounds().lower.tail(size_).setZero();
   problem.bounds().upper.tail(size_).setConstant(std::numeric_limits<double>::infinity());
   const std::vector<StackLevel>& levels = problem.stack().levels();

@@ -53,7 +53,8 @@ void find_held(const Solution& solution, int bounds_level, const IsLimit& is_lim
   held.setZero();
   for (const ActiveRow& active : solution.working_set) {
     const bool upper = active.side == Side::Upper;
-    if (active.level == bounds_level && active.row < held.size() && is_limit(static_cast<std::size_t>(active.row), upper))
+    if (active.level == bounds_level && active.row < held.size() &&
+        is_limit(static_cast<std::size_t>(active.row), upper))
       held[active.row] = upper ? 1 : -1;
   }
 }

@@ -54,11 +54,9 @@ std::unique_ptr<MotionLaw> law_of(const Robot& plan, const NamedStack& stack,
                                   const WholeBodyControllerOptions& options) {
   if (stack.order == ControlOrder::Torque)
     return make_torque_law(plan, stack.stack, options.torque);
-  require(!plan.floating(),
-          "no reference can lead the free root of the robot: stack '" + stack.name +
-              "' wants the order 'torque'");
-  if (stack.order == ControlOrder::Velocity)
-    return make_law(plan, stack.stack, options.velocity);
+  require(!plan.floating(), "no reference can lead the free root of the robot: stack '" +
+                                stack.name + "' wants the order 'torque'");
+  if (stack.order == ControlOrder::Velocity) return make_law(plan, stack.stack, options.velocity);
   return make_law(plan, stack.stack, options.acceleration);
 }
 

@@ -130,7 +130,7 @@ class WholeBodyController {
   [[nodiscard]] const std::vector<NamedStack>& stacks() const { return stacks_; }
   [[nodiscard]] std::size_t active() const { return active_; }       // of the stacks
   [[nodiscard]] bool moves_joints() const { return moves_joints_; }  // no stack rules
-  [[nodiscard]] bool by_torques() const {  // so goes the stack that rules
+  [[nodiscard]] bool by_torques() const {                            // so goes the stack that rules
     return stacks_[active_].order == ControlOrder::Torque;
   }
   [[nodiscard]] const MotionLaw& law() const { return *laws_[active_]; }

@@ -185,9 +185,9 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
 
 void Robot::velocities_of(const ConstVectorRef& qvel, VectorRef velocity) const {
   if (qvel.size() != model_->nv || velocity.size() != size())
-    throw Error("velocities_of wants qvel of " + std::to_string(model_->nv) +
-                " and velocity of " + std::to_string(size()) + " values, " +
-                std::to_string(qvel.size()) + " and " + std::to_string(velocity.size()) + " came");
+    throw Error("velocities_of wants qvel of " + std::to_string(model_->nv) + " and velocity of " +
+                std::to_string(size()) + " values, " + std::to_string(qvel.size()) + " and " +
+                std::to_string(velocity.size()) + " came");
   for (Index i = 0; i < size(); ++i) {
     const DrivenJoint& first = coordinates_[i].joints.front();
     velocity[i] = qvel[first.dof] / first.factor;

@@ -53,7 +53,8 @@ struct Coordinate {
   double lower = 0.0;               // [rad] or [m], -inf when unlimited
   double upper = 0.0;               // [rad] or [m]
   double max_velocity = 0.0;        // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
-  double max_effort = 0.0;  // [N m] or [N], sum over its actuators; inf without force ranges, 0 of a root
+  double max_effort =
+      0.0;  // [N m] or [N], sum over its actuators; inf without force ranges, 0 of a root
 };
 
 // A site, body, camera or geom of the model, by number (mjtObj type and id).
@@ -189,7 +190,7 @@ class Robot {
   int support_ = -1;  // body that stands, -1 for the root
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
   bool floating_ = false;
-  Vector3 p_WS_ = Vector3::Zero();      // [m] where the support stands
+  Vector3 p_WS_ = Vector3::Zero();  // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
   mutable bool fresh_ = false, com_ = false;  // need_kinematics, need_com were there
   mutable Matrix full_;                       // scratch for Jacobians, (3, nv)

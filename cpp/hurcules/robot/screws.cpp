@@ -50,10 +50,9 @@ std::vector<Screws::Driven> Screws::driven_of(const mjModel& model,
                         .body = model.jnt_bodyid[joint.joint],
                         .factor = joint.factor,
                         .part = joint.part});
-  std::sort(driven.begin(), driven.end(),
-            [](const Driven& a, const Driven& b) {
-              return std::pair(a.joint, a.part) < std::pair(b.joint, b.part);
-            });
+  std::sort(driven.begin(), driven.end(), [](const Driven& a, const Driven& b) {
+    return std::pair(a.joint, a.part) < std::pair(b.joint, b.part);
+  });
   return driven;
 }
 

@@ -57,7 +57,7 @@ class Screws {
     Index coordinate;
     int joint, body;
     double factor;
-    int part;  // of a free joint, else -1
+    int part;                     // of a free joint, else -1
     Screw screw = Screw::Zero();  // at the coordinate's velocity 1
     Screw rate = Screw::Zero();   // at its velocity
   };

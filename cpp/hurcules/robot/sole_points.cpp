@@ -14,7 +14,7 @@ namespace {
 constexpr double kLevel = 0.003;  // [m] above the lowest point that still counts
 constexpr double kSole = 0.05;    // [m] a round foot is shorter, and stands on a point
 constexpr double kApart = 0.005;  // [m] nearer points are one
-constexpr int kRim = 8;          // points round a cylinder
+constexpr int kRim = 8;           // points round a cylinder
 
 using Points = std::vector<Vector3>;
 
@@ -86,8 +86,9 @@ Vector3 level(const Vector3& way) {
 // the horizontal way between the two that are furthest apart, from one of the outermost
 Vector3 longest(const Points& points) {
   Vector3 best = Vector3::Zero();
-  for (const Vector3& from : {furthest(points, Vector3(1, 0, 0)), furthest(points, Vector3(0, 1, 0)),
-                              furthest(points, Vector3(1, 1, 0)), furthest(points, Vector3(1, -1, 0))})
+  for (const Vector3& from :
+       {furthest(points, Vector3(1, 0, 0)), furthest(points, Vector3(0, 1, 0)),
+        furthest(points, Vector3(1, 1, 0)), furthest(points, Vector3(1, -1, 0))})
     for (const Vector3& to : points)
       if (level(to - from).norm() > best.norm()) best = level(to - from);
   return best;
@@ -99,7 +100,8 @@ std::vector<Vector3> sole_points(const Robot& robot, const std::string& body) {
   const Frame frame = robot.frame(body);
   require(robot.is_body(frame), "sole_points wants a body; '" + body + "' is none");
   Points points = candidates(robot, frame.id);
-  require(!points.empty(), "body '" + body + "' has no collision geoms that could stand on "
+  require(!points.empty(), "body '" + body +
+                               "' has no collision geoms that could stand on "
                                "something; say its points");
   const Skeleton::Pose pose = robot.pose(frame);
   const Vector3 lowest = furthest(points, -Vector3::UnitZ());

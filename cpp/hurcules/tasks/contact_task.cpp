@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHoldsBody = 3;  // points from which on the whole body is held
 
-constexpr double kInside = 0.9;       // of the way from the middle: a foot tips over its edge
+constexpr double kInside = 0.9;  // of the way from the middle: a foot tips over its edge
 
 std::vector<Vector3> drawn_in(std::vector<Vector3> points) {
   Vector3 middle = Vector3::Zero();

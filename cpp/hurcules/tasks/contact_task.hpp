@@ -43,9 +43,7 @@ class ContactTask : public Task {
 
   [[nodiscard]] const ContactTaskOptions& options() const { return options_; }
   // f: how many edges all its points have
-  [[nodiscard]] Index edges() const {
-    return kEdges * static_cast<Index>(options_.points.size());
-  }
+  [[nodiscard]] Index edges() const { return kEdges * static_cast<Index>(options_.points.size()); }
   // J_p' e: efforts of the coordinates for a force of 1 N along each edge, (n, f), of the last update
   [[nodiscard]] const Matrix& efforts() const { return efforts_; }
   // F in W [N] of lambda (f), over all points
@@ -56,9 +54,9 @@ class ContactTask : public Task {
 
   ContactTaskOptions options_;  // complete
   Frame body_;
-  Vector3 centre_ = Vector3::Zero();         // [m] of the points, in the body's frame
-  Eigen::Matrix<double, 3, kEdges> along_;   // edges in W
-  Matrix efforts_, point_;                   // (n, f); scratch (3, n)
+  Vector3 centre_ = Vector3::Zero();        // [m] of the points, in the body's frame
+  Eigen::Matrix<double, 3, kEdges> along_;  // edges in W
+  Matrix efforts_, point_;                  // (n, f); scratch (3, n)
 };
 
 }  // namespace hurcules

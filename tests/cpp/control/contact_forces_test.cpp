@@ -83,13 +83,15 @@ TEST_F(Contacts, AreTheRateOfMomentumInsideTheirCones) {
       const Vector3 force = controller_.contact_force(*foot);
       EXPECT_GE(force.z(), -1e-9);
       // a pyramid with its edges on the cone
-      EXPECT_LE(std::abs(force.x()) + std::abs(force.y()), kFriction * std::sqrt(2.0) * force.z() + 1e-9);
+      EXPECT_LE(std::abs(force.x()) + std::abs(force.y()),
+                kFriction * std::sqrt(2.0) * force.z() + 1e-9);
       EXPECT_LE(force.head<2>().norm(), kFriction * force.z() + 1e-9);
       EXPECT_TRUE(near(foot->jacobian() * acceleration, Vector::Zero(3), 1e-4));
     }
     const Vector given = torque(controller_);
     for (Index i = 0; i < robot_.size(); ++i)
-      EXPECT_LE(std::abs(given[i]), robot_.coordinates()[static_cast<std::size_t>(i)].max_effort + 1e-6);
+      EXPECT_LE(std::abs(given[i]),
+                robot_.coordinates()[static_cast<std::size_t>(i)].max_effort + 1e-6);
   }
 }
 
@@ -122,9 +124,8 @@ TEST_F(Contacts, RefuseStacksThatCannotBe) {
   Vector q = robot_.configuration(), v = robot_.velocity();
   EXPECT_TRUE(contains(error_text([&] { controller_.integrate(q, v); }), "torques"));
   const auto contact = [&](double friction, const Vector3& normal) {
-    return error_text([&] {
-      ContactTask("c", robot_, "FL_shank", {.friction = friction, .normal = normal});
-    });
+    return error_text(
+        [&] { ContactTask("c", robot_, "FL_shank", {.friction = friction, .normal = normal}); });
   };
   EXPECT_TRUE(contains(contact(-0.1, Vector3::UnitZ()), "friction > 0"));
   EXPECT_TRUE(contains(contact(0.5, Vector3::Zero()), "normal"));

@@ -38,8 +38,7 @@ std::shared_ptr<WholeBodyController> standing(const ModelPtr& model) {
   options.dt = 0.002;
   const Stack stack =
       StackLevel("contacts", feet) < StackLevel(*com) + StackLevel(*trunk) < *hand < *posture;
-  std::vector<Channel> channels = {
-      {"hand", ChannelKind::Twist, *hand, Vector::Constant(1, 0.3)}};
+  std::vector<Channel> channels = {{"hand", ChannelKind::Twist, *hand, Vector::Constant(1, 0.3)}};
   auto controller = std::make_shared<WholeBodyController>(
       robot, std::vector<NamedStack>{{"stand", stack, ControlOrder::Torque}}, std::move(channels),
       options);
@@ -122,12 +121,14 @@ TEST(Standing, WantsPhysicsAndNoReferences) {
   const ModelPtr model = quadruped();
   SimulationOptions ideal;
   ideal.physics = false;
-  EXPECT_TRUE(contains(error_text([&] { Simulation(model, standing(model), ideal); }),
-                       "without physics"));
+  EXPECT_TRUE(
+      contains(error_text([&] { Simulation(model, standing(model), ideal); }), "without physics"));
   Robot robot(model, {}, true);
   PostureTask posture("posture", robot);
-  EXPECT_TRUE(contains(
-      error_text([&] { WholeBodyController(robot, {{"a", Stack({posture})}}); }), "'torque'"));
+  EXPECT_TRUE(contains(error_text([&] {
+                         WholeBodyController(robot, {{"a", Stack({posture})}});
+                       }),
+                       "'torque'"));
 }
 
 // the same arm by references, by torques and back: neither the place nor the torque jumps
@@ -143,8 +144,7 @@ TEST(Torques, AnArmGoesFromReferencesToTorquesAndBack) {
   WholeBodyControllerOptions options;
   options.dt = model->opt.timestep;
   auto controller = std::make_shared<WholeBodyController>(
-      robot,
-      std::vector<NamedStack>{{"lead", stack}, {"torques", stack, ControlOrder::Torque}},
+      robot, std::vector<NamedStack>{{"lead", stack}, {"torques", stack, ControlOrder::Torque}},
       std::move(channels), options);
   controller->keep(std::move(tip));
   controller->keep(std::move(posture));
