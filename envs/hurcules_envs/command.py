@@ -90,7 +90,7 @@ def _on_cluster(
 
 def evaluate(
     policy: Annotated[
-        str, typer.Argument(help="An ONNX file, a folder that train wrote, or Reach-v0, Drive-v0.")
+        str, typer.Argument(help="An ONNX file, a folder that train wrote, or Reach-v0.")
     ],
     environment: Annotated[
         str | None, typer.Argument(help="For files that do not say it.", show_default="its own")

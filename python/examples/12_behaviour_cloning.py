@@ -20,10 +20,10 @@ from hurcules_envs.onnx_file import Graph, Node, write
 from hurcules_envs.policy import Policy
 
 WIDTH, BATCH, RATE = 128, 256, 2e-3  # of the hidden layers, samples a step, learning rate
-NOISE, KEPT = 0.3, 0.8  # standard deviation of the pushes, how much of one is left a step later
+KEPT = 0.8  # how much of a push is left a step later
 
 
-def demonstrate(name, episodes, seed, fidelity):
+def demonstrate(name, episodes, seed, fidelity, noise):
     """Observations (m, o) and the expert's actions (m, k), side by side from all episodes."""
     vector = gymnasium.make_vec(name, num_envs=episodes, fidelity=fidelity)
     generator = np.random.default_rng(seed)
@@ -35,7 +35,7 @@ def demonstrate(name, episodes, seed, fidelity):
         wanted = vector.environment.expert(vector.numbers)
         observations.append(seen[going])
         actions.append(wanted[going])
-        fresh = generator.normal(0.0, NOISE, push.shape)
+        fresh = generator.normal(0.0, noise, push.shape)
         push = KEPT * push + np.sqrt(1.0 - KEPT**2) * fresh
         pushed = np.clip(wanted + push * (wanted != 0.0), -1.0, 1.0)
         seen, _, terminated, truncated, info = vector.step(pushed)
@@ -82,11 +82,12 @@ def main() -> None:
     parser.add_argument("--epochs", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--fidelity", default="fast")
+    parser.add_argument("--noise", type=float, default=0.3, help="standard deviation of the pushes")
     parser.add_argument("--judge", type=int, default=50, help="episodes in each fidelity")
     parser.add_argument("--out", type=Path, default=Path("out/clone"))
     given = parser.parse_args()
     name = f"Hurcules/{given.environment}"
-    seen, wanted = demonstrate(name, given.episodes, given.seed, given.fidelity)
+    seen, wanted = demonstrate(name, given.episodes, given.seed, given.fidelity, given.noise)
     mean, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-3
     generator = np.random.default_rng(given.seed)
     layers = clone((seen - mean) / scale, wanted, given.epochs, generator)
