@@ -144,7 +144,7 @@ def main() -> None:
     pairs(axes[1, 0], rows, "Over a limit, measured [mrad]", ("training", "exact"), excess)
     pairs(axes[1, 1], rows, "Steps with self-contact [%]", ("training", "exact"), contact)
     axes[1, 0].set_yscale("symlog", linthresh=1.0)
-    axes[1, 0].set_ylim(bottom=0.0)
+    axes[1, 0].set_ylim(0.0, 1000.0)
     for one in axes.flat:
         one.grid(alpha=0.2)
         one.set_axisbelow(True)
