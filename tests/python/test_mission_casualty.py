@@ -103,6 +103,19 @@ def test_the_robot_does_not_tip_and_drives_home_on_its_folded_tracks(run) -> Non
     assert driven == pytest.approx(-3.0, abs=0.2)
 
 
+@pytest.mark.parametrize("pose", ["front", "left", "right"])
+def test_a_person_who_does_not_lie_on_the_back_is_refused_before_he_is_touched(pose: str) -> None:
+    model = lift.model(lift.Person(pose=pose))
+    simulation = hurcules.Simulation(
+        lift.mission("casualty"), model=model, controller=lift.controller(model), variation=0.0
+    )
+    simulation.step(3000)
+    assert simulation.finished
+    assert simulation.phase == "settle"
+    assert "casualty/face_up" in simulation.reason
+    assert simulation.figures()["contact_share"] == 0.0
+
+
 def test_every_part_of_the_story_has_its_way_to_safety() -> None:
     rows = {row.name: row for row in lift.mission("casualty").rows.phases}
     names = list(rows)

@@ -49,13 +49,13 @@ Vector3 at(const mjtNum* values, int i) {
 }  // namespace
 
 const std::vector<std::string>& CasualtyWatch::names() {
-  static const std::vector<std::string> all = {"on_ground",   "on_left_arm",      "on_right_arm",
-                                               "on_bed",      "on_rest",          "behind_tips_m",
-                                               "aside_m",     "height_m",         "moved_m",
-                                               "bed_ahead_m", "bed_aside_m",      "sag_m",
-                                               "heading_rad", "stand_ahead_m",    "stand_rad",
-                                               "push_n",      "neck_flexion_rad", "neck_turn_rad",
-                                               "head_mps2",   "contact_share",    "support_n"};
+  static const std::vector<std::string> all = {
+      "on_ground",        "on_left_arm",   "on_right_arm", "on_bed",
+      "on_rest",          "behind_tips_m", "aside_m",      "height_m",
+      "moved_m",          "bed_ahead_m",   "bed_aside_m",  "sag_m",
+      "heading_rad",      "stand_ahead_m", "stand_rad",    "push_n",
+      "neck_flexion_rad", "neck_turn_rad", "head_mps2",    "contact_share",
+      "support_n",        "face_up"};
   return all;
 }
 
@@ -139,6 +139,7 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
   values_[kAside] = from_tips.dot(aside);
   values_[kHeight] = centre.z() - origin_.z();
   values_[kMoved] = (centre - origin_).head<2>().norm();
+  values_[kFaceUp] = d->xmat[9 * chest_ + 6];  // the chest's x axis, out of its front, along z
   values_[kSag] = at(d->xpos, chest_).z() - at(d->xpos, pelvis_).z();
   if (bed_ >= 0) {
     const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> R(d->xmat + 9 * bed_);

@@ -56,6 +56,7 @@ class CasualtyWatch {
     kHead,          // [m/s^2] of the head, gravity included
     kContactShare,  // largest force of a contact by the robot, over its region's limit
     kSupport,       // [N] largest force that a region is carried by
+    kFaceUp,        // how far the front of the chest looks up: 1 on the back, -1 on the front
     kQuantities
   };
   [[nodiscard]] static const std::vector<std::string>& names();
