@@ -82,7 +82,7 @@ def test_stacks_hold_their_arrays_and_read_them_anew() -> None:
     given = [rhqp.LevelStack(np.ones((1, 1)), y, y)]
     y[2] = 7.0
     assert [s.x[0] for s in rhqp.solve_batch(given)] == [0.0, 0.0, 7.0]
-    y.shape = (1, 3)
+    y.resize((1, 3), refcheck=False)  # in place
     with pytest.raises(hurcules.Error, match=r"A must be \(3, 1\)"):
         rhqp.solve_batch(given)
 
