@@ -106,17 +106,29 @@ def thrown(random: np.random.Generator) -> Trial:
     return shove(random, STANDING, "casualty_thorax", 300.0)
 
 
+def weakened(joint: str, share: float) -> mujoco.MjModel:
+    """The scene, in which the motor of a joint gives a share of its torque."""
+    model = lift.model(lift.Person())
+    motor = model.actuator_trnid[: model.nu, 0].tolist().index(model.joint(joint).id)
+    model.actuator_forcerange[motor] *= share
+    return model
+
+
 def weak(random: np.random.Generator, share: float = 0.7) -> Trial:
     """A motor gives 70 % of its torque from the lift on."""
-    motor, model = str(random.choice(MOTORS)), lift.model(lift.Person())
-    ids = model.actuator_trnid[: model.nu, 0].tolist()
-    model.actuator_forcerange[ids.index(model.joint(motor).id)] *= share
-    return Trial(simulate(model), "lift", what=motor)
+    motor = str(random.choice(MOTORS))
+    return Trial(simulate(weakened(motor, share)), "lift", what=motor)
 
 
 def failing(random: np.random.Generator) -> Trial:
     """30 %."""
     return weak(random, 0.3)
+
+
+def deafen(simulation: hurcules.Simulation, side: str) -> None:
+    """The force sensor of the arm "L" or "R" reads 0 from now on."""
+    controller = simulation.controller
+    controller.sense(controller.task(f"{side}_press"), DEAD_CELL)
 
 
 def deaf(random: np.random.Generator) -> Trial:
@@ -130,8 +142,7 @@ def deaf(random: np.random.Generator) -> Trial:
         nonlocal lost
         if time >= start and not lost:
             lost = True
-            controller = simulation.controller
-            controller.sense(controller.task(f"{side}_press"), DEAD_CELL)
+            deafen(simulation, side)
 
     return Trial(simulation, phase, act, f"{side} at {start:.1f} s")
 
@@ -147,8 +158,8 @@ def slip(random: np.random.Generator) -> Trial:
     return Trial(simulation, phase, act, f"at {start:.1f} s", seconds=18.0)
 
 
-def empty(random: np.random.Generator) -> Trial:
-    """The battery is as good as empty: what counts as that is raised to what it still has."""
+def emptied() -> Mission:
+    """The mission with a battery as good as empty: what counts as that is all that it can have."""
     mission = lift.mission("casualty")
     phases = mission.rows.phases
     for row in phases:
@@ -161,8 +172,13 @@ def empty(random: np.random.Generator) -> Trial:
     table = hurcules.MissionTable(
         phases=phases, safety=mission.rows.safety, measures=mission.rows.measures
     )
+    return Mission(mission.setup, table)
+
+
+def empty(random: np.random.Generator) -> Trial:
+    """The battery counts as empty."""
     phase = str(random.choice(("settle", "stand", "lift", "raise", "carry", "lay down")))
-    return Trial(simulate(mission=Mission(mission.setup, table)), phase)
+    return Trial(simulate(mission=emptied()), phase)
 
 
 FAULTS: dict[str, Callable[[np.random.Generator], Trial]] = {

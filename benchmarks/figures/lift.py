@@ -54,7 +54,7 @@ SHEETS = {
 def camera(model: mujoco.MjModel, follows: bool) -> mujoco.MjvCamera:
     """From the front, on the side of the legs."""
     if follows:
-        return following_camera(model, "casualty_pelvis", 3.8, 150.0, -16.0)
+        return following_camera(model, "casualty_pelvis")
     view = mujoco.MjvCamera()
     view.lookat[:], view.distance = (2.4, -0.2, 0.55), 4.2
     view.azimuth, view.elevation = 128, -16

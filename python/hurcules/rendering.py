@@ -90,9 +90,9 @@ def overview_camera() -> mujoco.MjvCamera:
 def following_camera(
     model: mujoco.MjModel,
     body: str,
-    distance: float = 6.0,
-    azimuth: float = 122.0,
-    elevation: float = -14.0,
+    distance: float = 3.8,
+    azimuth: float = 150.0,
+    elevation: float = -16.0,
 ) -> mujoco.MjvCamera:
     """A camera that goes with what hangs on this body: distance [m], angles [degrees]."""
     camera = mujoco.MjvCamera()

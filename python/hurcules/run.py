@@ -194,7 +194,7 @@ def _open_painter(simulation: Simulation) -> Painter:
     across = following_camera(model, person, distance=2.3, azimuth=215.0, elevation=-20.0)
     return Painter(
         model,
-        following_camera(model, person, distance=3.8, azimuth=150.0, elevation=-16.0),
+        following_camera(model, person),
         Inset(across, "from his head's side"),
     )
 

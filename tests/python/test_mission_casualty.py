@@ -8,6 +8,10 @@ persons and places, other faults: docs/casualty.md (benchmarks/lift_sweep.py, re
 
 from __future__ import annotations
 
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
 import mujoco
 import numpy as np
 import pytest
@@ -136,16 +140,15 @@ def test_the_casualty_mission_takes_the_persons_parameters() -> None:
     assert "casualty" in hurcules.missions()
 
 
-def going_on(phase: str, model: mujoco.MjModel | None = None) -> hurcules.Simulation:
-    """A simulation of the mission at the start of a phase of `run`, maybe with another model."""
-    model = model or lift.model(lift.Person())
-    simulation = hurcules.Simulation(
-        lift.mission("casualty"),
-        model=model,
-        controller=lift.controller(model),
-        variation=0.0,
-        record=False,
-    )
+@pytest.fixture
+def faults(root: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """What provokes them: benchmarks/rescue_faults.py."""
+    monkeypatch.syspath_prepend(root / "benchmarks")
+    return import_module("rescue_faults")
+
+
+def going_on(simulation: hurcules.Simulation, phase: str) -> hurcules.Simulation:
+    """It, at the start of a phase of `run`."""
     simulation.restore(KEPT[phase])
     return simulation
 
@@ -159,8 +162,8 @@ def until_it_reacts(simulation: hurcules.Simulation, seconds: float) -> str:
 
 
 @pytest.mark.slow
-def test_a_push_of_200_N_changes_nothing(run) -> None:
-    simulation = going_on("carry")
+def test_a_push_of_200_N_changes_nothing(run, faults) -> None:
+    simulation = going_on(faults.simulate(), "carry")
     for force in (200.0, 0.0):
         simulation.data.body("torso").xfrc_applied[:3] = (force, force, 0.0)
         simulation.step(1000)
@@ -170,45 +173,34 @@ def test_a_push_of_200_N_changes_nothing(run) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("share, after", [(0.7, "look"), (0.3, "lower")])
-def test_a_weak_hip_motor_lifts_or_lays_down(run, share: float, after: str) -> None:
-    model = lift.model(lift.Person())
-    motor = model.actuator_trnid[: model.nu, 0].tolist().index(model.joint("HIP").id)
-    model.actuator_forcerange[motor] *= share
-    assert until_it_reacts(going_on("lift", model), 6.0) == after
+def test_a_weak_hip_motor_lifts_or_lays_down(run, faults, share: float, after: str) -> None:
+    simulation = going_on(faults.simulate(faults.weakened("HIP", share)), "lift")
+    assert until_it_reacts(simulation, 6.0) == after
 
 
 @pytest.mark.slow
-def test_a_person_who_slides_off_is_laid_down(run) -> None:
-    simulation = going_on("carry")
+def test_a_person_who_slides_off_is_laid_down(run, faults) -> None:
+    simulation = going_on(faults.simulate(), "carry")
     simulation.data.body("casualty_thorax").xfrc_applied[0] = 250.0  # towards the tips
     assert until_it_reacts(simulation, 2.0) == "lower"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("phase, after", [("press", "torque/LEB"), ("under", "withdraw")])
-def test_a_force_sensor_that_reads_nothing_touches_nobody(run, phase: str, after: str) -> None:
-    simulation = going_on(phase)
-    controller = simulation.controller
-    controller.sense(controller.task("L_press"), "casualty_force_skull")  # which stays at 0
+def test_a_force_sensor_that_reads_nothing_touches_nobody(
+    run, faults, phase: str, after: str
+) -> None:
+    simulation = going_on(faults.simulate(), phase)
+    faults.deafen(simulation, "L")
     assert after in until_it_reacts(simulation, 5.0)
 
 
-def test_an_empty_battery_lifts_nobody() -> None:
-    mission = lift.mission("casualty")
-    phases = mission.rows.phases
-    at = hurcules.Condition(quantity="charge", above=False, value=1.0)  # of a full one
-    for row in phases:
-        row.troubles = [
-            hurcules.Trouble(when=at, reactions=one.reactions)
-            if one.when.quantity == "charge"
-            else one
-            for one in row.troubles
-        ]
-    rows = hurcules.MissionTable(phases=phases, safety=mission.rows.safety)
-    model = lift.model(lift.Person())
-    simulation = hurcules.Simulation(
-        hurcules.Mission(mission.setup, rows), model=model, controller=lift.controller(model)
-    )
-    assert "charge <= 1" in until_it_reacts(simulation, 1.0)
-    watched = {row.name for row in phases if any(t.when.quantity == "charge" for t in row.troubles)}
+def test_an_empty_battery_lifts_nobody(faults) -> None:
+    mission = faults.emptied()
+    assert "charge <= 1" in until_it_reacts(faults.simulate(mission=mission), 1.0)
+    watched = {
+        row.name
+        for row in mission.rows.phases
+        if any(trouble.when.quantity == "charge" for trouble in row.troubles)
+    }
     assert {"settle", "stand", "press", "lift", "carry"} <= watched

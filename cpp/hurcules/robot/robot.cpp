@@ -138,7 +138,7 @@ void Robot::set_qpos(const ConstVectorRef& qpos) {
 
 void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
-  for (Index i = floating_ ? 6 : 0; i < size(); ++i)
+  for (Index i = root_size(); i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
   if (floating_) {
@@ -172,7 +172,7 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
     throw Error("coordinates_of wants qpos of " + std::to_string(model_->nq) + " and q of " +
                 std::to_string(size()) + " values, " + std::to_string(qpos.size()) + " and " +
                 std::to_string(q.size()) + " came");
-  for (Index i = floating_ ? 6 : 0; i < size(); ++i) {
+  for (Index i = root_size(); i < size(); ++i) {
     const DrivenJoint& first = coordinates_[i].joints.front();
     q[i] = (qpos[first.qpos] - first.offset) / first.factor;
   }

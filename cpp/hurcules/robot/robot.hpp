@@ -159,8 +159,9 @@ class Robot {
   // standing as stand_on says: inertia with armature, gravity, centrifugal and Coriolis terms,
   // springs and dampers of the model; without dry friction and contacts. [rad/s^2] (n) -> [N m] (n)
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
-  // its first six coordinates are those of the root
+  // its first coordinates are those of the root
   [[nodiscard]] bool floating() const { return floating_; }
+  [[nodiscard]] Index root_size() const { return floating_ ? 6 : 0; }  // so many
   // its root is free, no coordinate, and stands on nothing: what holds it in the plan, no ground does
   [[nodiscard]] bool floats() const { return root_dof_ >= 0 && support_ < 0 && !floating_; }
   // torque that this acceleration takes by inertia alone when the root gives way to it:

@@ -15,7 +15,7 @@ Index find(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<Index>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// level and task names of a stack, after those that are there
+// level names of a stack, and those of its tasks that are among these, after those that are there:
 // limits, and what a law adds on its own, have no errors
 void add_names(const Stack& stack, const std::vector<Task*>& tasks, TelemetryNames& names) {
   for (const StackLevel& level : stack.levels()) {

@@ -14,9 +14,14 @@ constexpr std::size_t kHoldsBody = 3;  // points from which on the whole body is
 
 constexpr double kInside = 0.9;  // of the way from the middle: a foot tips over its edge
 
-std::vector<Vector3> drawn_in(std::vector<Vector3> points) {
+Vector3 middle_of(const std::vector<Vector3>& points) {
   Vector3 middle = Vector3::Zero();
   for (const Vector3& point : points) middle += point / static_cast<double>(points.size());
+  return middle;
+}
+
+std::vector<Vector3> drawn_in(std::vector<Vector3> points) {
+  const Vector3 middle = middle_of(points);
   for (Vector3& point : points) point = middle + kInside * (point - middle);
   return points;
 }
@@ -55,8 +60,7 @@ ContactTask::ContactTask(std::string name, const Robot& robot, Frame body,
   const Vector3 n = options_.normal, t = n.unitOrthogonal(), b = n.cross(t);
   const double mu = options_.friction;
   along_ << n + mu * t, n + mu * b, n - mu * t, n - mu * b;
-  for (const Vector3& point : options_.points)
-    centre_ += point / static_cast<double>(options_.points.size());
+  centre_ = middle_of(options_.points);
   efforts_ = Matrix::Zero(robot.size(), edges());
   point_ = Matrix::Zero(3, robot.size());
   ContactTask::update(robot);

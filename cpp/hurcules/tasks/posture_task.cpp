@@ -2,24 +2,15 @@
 
 namespace hurcules {
 
-namespace {
-
-// after the root's
-Index first_joint(const Robot& robot) {
-  return robot.floating() ? 6 : 0;
-}
-
-}  // namespace
-
 PostureTask::PostureTask(std::string name, const Robot& robot,
                          const std::vector<std::string>& coordinates)
     : ValueTask(std::move(name),
-                coordinates.empty() ? robot.size() - first_joint(robot)
+                coordinates.empty() ? robot.size() - robot.root_size()
                                     : static_cast<Index>(coordinates.size()),
                 robot) {
   for (const std::string& coordinate : coordinates)
     selected_.push_back(robot.coordinate(coordinate));
-  for (Index i = first_joint(robot); coordinates.empty() && i < robot.size(); ++i)
+  for (Index i = robot.root_size(); coordinates.empty() && i < robot.size(); ++i)
     selected_.push_back(i);
   for (Index row = 0; row < rows(); ++row) jacobian_(row, selected_[row]) = 1;
   max_speed_ = 1.0;
