@@ -22,6 +22,8 @@ Args:
   max_acceleration: [rad/s^2] of every coordinate, inf for none.
   return_speed: [rad/s] at which a coordinate outside its limits is driven back.
   rest: [1/s] rate at which weak and free directions brake; 0: they keep their speed.
+  friction: share of the model's dry friction (0 to 1) that torques add, in the direction of the
+    velocity that the levels want.
   law: "arrive" or "thesis", see VelocityControllerOptions; the speed that an error asks for is
     stiffness / damping times it. "thesis" wants rest=0 and SolverOptions(handover="smooth").
   solver: SolverOptions.
@@ -66,6 +68,7 @@ void bind_acceleration_options(py::module_& module) {
        field("enforce_limits", &Options::enforce_limits, "limits before all levels"),
        field("return_speed", &Options::return_speed, "[rad/s]"),
        field("rest", &Options::rest, "[1/s]"),
+       field("friction", &Options::friction, "share of the model's dry friction in torque"),
        text_field<Options>(
            "law", [](const Options& self) { return to_string(self.law); },
            [](Options& self, const std::string& law) { self.law = law_named(law); },

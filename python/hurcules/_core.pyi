@@ -1644,6 +1644,8 @@ class AccelerationControllerOptions:
       max_acceleration: [rad/s^2] of every coordinate, inf for none.
       return_speed: [rad/s] at which a coordinate outside its limits is driven back.
       rest: [1/s] rate at which weak and free directions brake; 0: they keep their speed.
+      friction: share of the model's dry friction (0 to 1) that torques add, in the direction of the
+        velocity that the levels want.
       law: "arrive" or "thesis", see VelocityControllerOptions; the speed that an error asks for is
         stiffness / damping times it. "thesis" wants rest=0 and SolverOptions(handover="smooth").
       solver: SolverOptions."""
@@ -1664,6 +1666,7 @@ class AccelerationControllerOptions:
         enforce_limits: bool = True,
         return_speed: float = 0.2,
         rest: float = 10.0,
+        friction: float = 1.0,
         law: str = "arrive",
         solver: SolverOptions = ...,
     ) -> None: ...
@@ -1686,6 +1689,12 @@ class AccelerationControllerOptions:
 
     @enforce_limits.setter
     def enforce_limits(self, arg0: bool) -> None: ...
+    @property
+    def friction(self) -> float:
+        """share of the model's dry friction in torque"""
+
+    @friction.setter
+    def friction(self, arg0: float) -> None: ...
     @property
     def horizon(self) -> float:
         """[s]"""

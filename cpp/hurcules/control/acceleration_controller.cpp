@@ -14,6 +14,13 @@ namespace hurcules {
 
 namespace {
 
+// [rad/s] or [m/s] of a wanted velocity from which on all of the dry friction is given, at least:
+// below it a joint may stick
+constexpr double kCreep = 2e-3;
+// where that is so steep that a joint would swing, the band is wider: as a spring of stiffness k on
+// the joint's inertia M it keeps k dt^2 / M below
+constexpr double kSteepest = 0.05;
+
 void check(const AccelerationControllerOptions& options) {
   const double dt = options.dt, K = options.stiffness, L = options.damping;
   require(std::isfinite(dt) && dt > 0.0, "dt wants a positive time [s]");
@@ -30,6 +37,7 @@ void check(const AccelerationControllerOptions& options) {
   require(options.rest >= 0.0 && options.rest * dt < 0.66,
           "rest wants a rate >= 0 [1/s], below 0.66 / dt");
   require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
+  require(options.friction >= 0.0 && options.friction <= 1.0, "friction wants a share from 0 to 1");
 }
 
 }  // namespace
@@ -50,6 +58,7 @@ AccelerationController::AccelerationController(const Robot& robot,
                             root ? kInfinity : options_.max_acceleration, options_.return_speed});
   }
   acceleration_ = braked_ = speed_ = next_ = Vector::Zero(robot.size());
+  inertia_ = Matrix::Zero(robot.size(), robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(rate_limits_.size());
 }
@@ -155,6 +164,20 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
     }
   }
   contacts_.relieve(torque);
+  add_friction(robot, torque);
+}
+
+// towards the velocity that the levels want: a joint that friction holds has none that tells where
+void AccelerationController::add_friction(const Robot& robot, VectorRef torque) const {
+  if (options_.friction == 0.0 || robot.dry_friction().isZero(0.0)) return;
+  const double L = options_.damping, dt = options_.dt;
+  robot.mass_matrix(inertia_);
+  for (Index i = 0; i < torque.size(); ++i) {
+    const double friction = options_.friction * robot.dry_friction()[i];
+    const double wanted = robot.velocity()[i] + acceleration_[i] / L;
+    const double steepest = kSteepest * inertia_(i, i) * L / (options_.stiffness * dt * dt);
+    torque[i] += std::clamp(wanted * std::min(friction / kCreep, steepest), -friction, friction);
+  }
 }
 
 void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {

@@ -40,6 +40,8 @@ struct AccelerationControllerOptions {
   bool enforce_limits = true;
   double return_speed = 0.2;  // [rad/s] of a coordinate that is driven back into its limits
   double rest = 10.0;         // [1/s] D above; sqrt(K) stops a swing, 0 as in the thesis
+  // share of the model's dry friction (0 to 1) that torque adds, the way that qdot + qddot / L leads
+  double friction = 1.0;
   // Thesis: wants rest = 0 and solver.handover = Smooth, so that the acceleration does not jump
   // where a task loses a direction. Arrive wants Strict.
   Law law = Law::Arrive;
@@ -65,8 +67,8 @@ class AccelerationController {
   // throws Error for a robot that floats
   void integrate(VectorRef q, VectorRef velocity) const;
   // inverse dynamics: what the drives must give for qddot* and, in contact, against the forces that
-  // the stack's force tasks read, beside what its contacts carry: M qddot* + h + J' f - E lambda,
-  // (n) [N m]
+  // the stack's force tasks read, beside what its contacts carry, and dry friction on the way to
+  // the velocity v that the levels want: M qddot* + h + J' f - E lambda + c sgn(v), (n) [N m]
   void torque(const Robot& robot, VectorRef torque) const;
   // F in W [N] that the last solution wants of a contact of the stack
   [[nodiscard]] Vector3 contact_force(const Task& contact) const {
@@ -97,6 +99,7 @@ class AccelerationController {
   void fill_rates(std::size_t k);
   void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
   [[nodiscard]] RateLimits row_limits() const;
+  void add_friction(const Robot& robot, VectorRef torque) const;
 
   AccelerationControllerOptions options_;
   bool floating_;                        // its root is a coordinate
@@ -115,6 +118,7 @@ class AccelerationController {
   Vector braked_, speed_;                        // D qdot and qdot, of the last measure
   Vector rate_;                                  // scratch, de/dt of a level
   std::vector<AccelerationInterval> intervals_;  // (n), of the last measure
+  mutable Matrix inertia_;                       // scratch (n, n)
   Eigen::VectorXi active_limits_;
 };
 

@@ -65,7 +65,10 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   data_.reset(mj_makeData(&m));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
-  v_ = Vector::Zero(size());
+  v_ = dry_friction_ = Vector::Zero(size());
+  for (Index i = 0; i < size(); ++i)
+    for (const DrivenJoint& joint : coordinates_[i].joints)
+      dry_friction_[i] += std::abs(joint.factor) * m.dof_frictionloss[joint.dof];
   full_ = Matrix::Zero(3, m.nv);
   turn_ = Matrix::Zero(3, m.nv);
   inertia_ = Matrix::Zero(m.nv, m.nv);

@@ -159,6 +159,8 @@ class Robot {
   // standing as stand_on says: inertia with armature, gravity, centrifugal and Coriolis terms,
   // springs and dampers of the model; without dry friction and contacts. [rad/s^2] (n) -> [N m] (n)
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
+  // what the joints' dry friction takes of a coordinate that moves, (n) [N m], >= 0
+  [[nodiscard]] const Vector& dry_friction() const { return dry_friction_; }
   // its first coordinates are those of the root
   [[nodiscard]] bool floating() const { return floating_; }
   [[nodiscard]] Index root_size() const { return floating_ ? 6 : 0; }  // so many
@@ -187,6 +189,7 @@ class Robot {
   std::unique_ptr<Screws> screws_;  // of the coordinates
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
+  Vector dry_friction_;
   int tree_ = 0;      // body at the root of the tree that holds the first coordinate
   int support_ = -1;  // body that stands, -1 for the root
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint

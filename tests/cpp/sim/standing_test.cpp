@@ -173,4 +173,43 @@ TEST(Torques, AnArmGoesFromReferencesToTorquesAndBack) {
   }
 }
 
+// an arm whose joints stick: how far from its target the tip stays when torques give this share of
+// the joints' dry friction
+double short_of_target(double share) {
+  std::string text = kArm;
+  for (std::string::size_type at = 0; (at = text.find("<joint", at)) != std::string::npos; ++at)
+    text.insert(at + 6, " frictionloss=\"1\"");
+  const ModelPtr model = load_model_text(text);
+  Robot robot(model);
+  robot.set_keyframe("home");
+  auto tip = std::make_unique<PositionTask>("tip", robot, "tip");
+  auto posture = std::make_unique<PostureTask>("posture", robot);
+  std::vector<Channel> channels = {{"tip", ChannelKind::Twist, *tip, Vector::Constant(1, 0.3)}};
+  WholeBodyControllerOptions options;
+  options.dt = model->opt.timestep;
+  options.torque.friction = share;
+  auto controller = std::make_shared<WholeBodyController>(
+      robot, std::vector<NamedStack>{{"torques", *tip < *posture, ControlOrder::Torque}},
+      std::move(channels), options);
+  controller->keep(std::move(tip));
+  controller->keep(std::move(posture));
+  SimulationOptions quiet;
+  quiet.record = false;
+  Simulation simulation(model, controller, quiet);
+  const Frame frame = simulation.world().frame("tip");
+  const Vector3 start = simulation.world().position(frame);
+  const Vector command = Vector3(-0.05, -0.05, 0.05);
+  simulation.step(500, &command);
+  simulation.step(1500);
+  if (share == 1.0) {
+    EXPECT_LT(fastest(simulation), 1e-3);
+  }
+  return (simulation.world().position(frame) - start - command * 500 * options.dt).norm();
+}
+
+TEST(Torques, BearDryFriction) {
+  EXPECT_GT(short_of_target(0.0), 0.01);
+  EXPECT_LT(short_of_target(1.0), 1e-3);
+}
+
 }  // namespace
