@@ -8,6 +8,7 @@
 
 #include "annotated.hpp"
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/left_out.hpp"
 #include "hurcules/robot/plausibility.hpp"
 #include "hurcules/robot/robot.hpp"
@@ -24,7 +25,8 @@ constexpr const char* kRobot =
 The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
 names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
 joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
-that an equality constraint of the model couples linearly (mimic joints) are one. All others are held.
+that an equality constraint of the model couples linearly (mimic joints) are one, and joints that close
+loops follow (`followers`). All others are held.
 It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
 Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
 which joints are held and which constraints are not kept.
@@ -94,11 +96,19 @@ Args:
 constexpr const char* kMassMatrix =
     "(n, n) [kg m^2]: joint-space inertia of the coordinates with armature, base held.";
 
+constexpr const char* kFollowers =
+    R"(list[str]: joints that follow the coordinates, as constraints of the model close loops with them.
+
+Constraints are connect, weld, tendon and joint equalities. Such a joint belongs to the tree of the
+coordinates and has neither an actuator nor a spring. It moves with the coordinates in poses,
+Jacobians and dynamics, and its range is a limit of every stack.
+)";
 constexpr const char* kLeftOut =
     R"(str: joints of the robot that are held, and constraints that the coordinates do not keep.
 
-Constraints are connect, weld, tendon, and joints coupled by a curve. '' where there is neither, or
-where the model says by tuples what its coordinates are.
+A constraint is kept where joints follow the coordinates (`followers`) and the coordinates are no more
+than its loop leaves free. '' where all are kept and none is held, or where the model says by tuples
+what its coordinates are.
 )";
 
 using FrameJacobian = void (Robot::*)(Frame, MatrixRef) const;
@@ -144,6 +154,14 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const std::opti
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
                                      const std::optional<Names>& joints, bool floating) {
   return checked(load_model(model.string()), joints, floating);
+}
+
+std::vector<std::string> followers(const Robot& robot) {
+  std::vector<std::string> names;
+  if (!robot.closures()) return names;
+  for (const Closures::Follower& follower : robot.closures()->followers())
+    if (names.empty() || names.back() != follower.joint) names.push_back(follower.joint);
+  return names;
 }
 
 void bind_coordinate(py::module_& module) {
@@ -216,6 +234,7 @@ void bind_state(py::class_<Robot>& robot) {
 void bind_kinematics(py::class_<Robot>& robot) {
   const py::arg frame("frame");
   robot.def_property_readonly("left_out", &left_out, kLeftOut);
+  robot.def_property_readonly("followers", &followers, kFollowers);
   robot.def("position", by_name(&Robot::position), frame, kPosition)
       .def("orientation", by_name(&Robot::orientation), frame, kOrientation)
       .def("view_orientation", by_name(&Robot::view_orientation), frame, kViewOrientation)

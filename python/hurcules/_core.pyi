@@ -424,7 +424,8 @@ class Robot:
     The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
     names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
     joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
-    that an equality constraint of the model couples linearly (mimic joints) are one. All others are held.
+    that an equality constraint of the model couples linearly (mimic joints) are one, and joints that close
+    loops follow (`followers`). All others are held.
     It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
     Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
     which joints are held and which constraints are not kept.
@@ -548,11 +549,20 @@ class Robot:
         """its root is free, no coordinate, and stands on nothing"""
 
     @property
+    def followers(self) -> list[str]:
+        """list[str]: joints that follow the coordinates, as constraints of the model close loops with them.
+
+        Constraints are connect, weld, tendon and joint equalities. Such a joint belongs to the tree of the
+        coordinates and has neither an actuator nor a spring. It moves with the coordinates in poses,
+        Jacobians and dynamics, and its range is a limit of every stack."""
+
+    @property
     def left_out(self) -> str:
         """str: joints of the robot that are held, and constraints that the coordinates do not keep.
 
-        Constraints are connect, weld, tendon, and joints coupled by a curve. '' where there is neither, or
-        where the model says by tuples what its coordinates are."""
+        A constraint is kept where joints follow the coordinates (`followers`) and the coordinates are no more
+        than its loop leaves free. '' where all are kept and none is held, or where the model says by tuples
+        what its coordinates are."""
 
     @property
     def qpos(self) -> NDArray[np.float64]:

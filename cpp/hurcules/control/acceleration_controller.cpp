@@ -47,6 +47,7 @@ AccelerationController::AccelerationController(const Robot& robot,
     : options_(std::move(options)),
       floating_(robot.floating()),
       own_limits_("limits", robot),
+      loop_limits_("limits of loops", robot),
       problem_(robot.size()),
       contacts_(robot),
       solver_(robot.size(), options_.solver) {
@@ -65,7 +66,8 @@ AccelerationController::AccelerationController(const Robot& robot,
 
 void AccelerationController::set_stack(const Stack& stack) {
   const Stack completed = contacts_.completed(stack);
-  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, contacts_.size());
+  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, &loop_limits_,
+                     contacts_.size());
   contacts_.place(problem_);
   has_zone_ = options_.law == Law::Arrive && contacts_.size() == 0;
   Index rows = 0;

@@ -26,6 +26,7 @@
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
+#include "hurcules/tasks/loop_limits.hpp"
 
 namespace hurcules {
 
@@ -105,6 +106,7 @@ class AccelerationController {
   bool floating_;                        // its root is a coordinate
   std::vector<RateLimits> rate_limits_;  // (n)
   JointLimits own_limits_;               // those of the robot
+  LoopLimits loop_limits_;               // the same
   StackProblem problem_;
   ContactForces contacts_;
   Solver solver_;

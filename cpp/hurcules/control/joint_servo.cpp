@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/closures.hpp"
 
 namespace hurcules {
 
@@ -26,6 +27,8 @@ const ServoGains& row_of(const std::vector<ServoGains>& table, const std::string
   }
   throw Error(unknown_name("servo of joint", joint, names));
 }
+
+constexpr double kOpen = 1e-9;  // [m] or [rad] of a loop
 
 // the i-th point of an even, never repeating sequence in 0 .. 1, another one for each coordinate
 double spread(int i, Index coordinate) {
@@ -52,6 +55,10 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       q[k] = lower + spread(i, k) * (upper - lower);
     }
     sampled.set_configuration(q);
+    if (sampled.closures() && sampled.closures()->error() > kOpen) {
+      sampled.set_qpos(robot.qpos());  // no posture of this robot: its loops do not close
+      continue;
+    }
     sampled.mass_matrix(M);
     const Matrix inverse = M.inverse();
     most = most.cwiseMax(M.diagonal());

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
+#include "hurcules/tasks/loop_limits.hpp"
 
 namespace hurcules {
 
@@ -18,12 +19,12 @@ bool is_bounds(const StackLevel& level) {
   return level.tasks.size() == 1 && level.tasks.front()->bounds_coordinates();
 }
 
-Stack with_limits(const Stack& stack, JointLimits& limits) {
-  const std::vector<StackLevel>& levels = stack.levels();
-  if (std::any_of(levels.begin(), levels.end(), is_bounds)) return stack;
-  std::vector<StackLevel> all = {StackLevel(limits)};
-  all.insert(all.end(), levels.begin(), levels.end());
-  return Stack(std::move(all));
+Stack with_limits(const Stack& stack, JointLimits& limits, LoopLimits* loops) {
+  std::vector<StackLevel> levels = stack.levels();
+  auto bounds = std::find_if(levels.begin(), levels.end(), is_bounds);
+  if (bounds == levels.end()) bounds = levels.insert(levels.begin(), StackLevel(limits));
+  if (loops && loops->rows() > 0) levels.insert(bounds + 1, StackLevel(*loops));
+  return Stack(std::move(levels));
 }
 
 Level sized_level(const StackLevel& source, Index n) {
@@ -41,8 +42,9 @@ Level sized_level(const StackLevel& source, Index n) {
 
 }  // namespace
 
-void StackProblem::set_stack(const Stack& asked, JointLimits* own, Index others) {
-  const Stack stack = own ? with_limits(asked, *own) : asked;
+void StackProblem::set_stack(const Stack& asked, JointLimits* own, LoopLimits* loops,
+                             Index others) {
+  const Stack stack = own ? with_limits(asked, *own, loops) : asked;
   Hierarchy hierarchy;
   Task* bounds_task = nullptr;
   int bounds_level = -1;

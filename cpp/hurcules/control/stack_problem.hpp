@@ -13,15 +13,17 @@
 namespace hurcules {
 
 class JointLimits;
+class LoopLimits;
 
 class StackProblem {
  public:
   // n unknowns
   explicit StackProblem(Index n) : n_(n) {}
-  // With `own` these limits come first where the stack names none. `others`: unknowns after those of
-  // the tasks, whose columns are left at zero. Throws Error for tasks of another robot and for a
-  // second level of limits.
-  void set_stack(const Stack& stack, JointLimits* own = nullptr, Index others = 0);
+  // With `own` these limits come first where the stack names none; `loops`, if it has rows, next to
+  // them. `others`: unknowns after those of the tasks, whose columns are left at zero. Throws Error
+  // for tasks of another robot and for a second level of limits.
+  void set_stack(const Stack& stack, JointLimits* own = nullptr, LoopLimits* loops = nullptr,
+                 Index others = 0);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }
   [[nodiscard]] Hierarchy& hierarchy() { return hierarchy_; }

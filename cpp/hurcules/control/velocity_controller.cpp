@@ -51,6 +51,7 @@ void limit_change(const Vector& before, double allowed, const std::vector<RateIn
 VelocityController::VelocityController(const Robot& robot, VelocityControllerOptions options)
     : options_(std::move(options)),
       own_limits_("limits", robot),
+      loop_limits_("limits of loops", robot),
       problem_(robot.size()),
       solver_(robot.size(), options_.solver) {
   check(options_);
@@ -75,7 +76,7 @@ void VelocityController::set_stack(const Stack& stack) {
                   "' commands accelerations: it wants an acceleration controller");
     }
   }
-  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr);
+  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr, &loop_limits_);
   begin_transition();
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;

@@ -21,6 +21,7 @@
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
 #include "hurcules/tasks/joint_limits.hpp"
+#include "hurcules/tasks/loop_limits.hpp"
 
 namespace hurcules {
 
@@ -92,6 +93,7 @@ class VelocityController {
   VelocityControllerOptions options_;
   std::vector<RateLimits> rate_limits_;  // (n)
   JointLimits own_limits_;               // those of the robot
+  LoopLimits loop_limits_;               // the same
   StackProblem problem_;
   Solver solver_;
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)

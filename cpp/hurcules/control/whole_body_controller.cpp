@@ -505,7 +505,9 @@ void WholeBodyController::save(StateWriter& writer) const {
   writer.put(static_cast<double>(active_));
   writer.put(moves_joints_ ? 1.0 : 0.0);
   writer.put(static_cast<double>(support_.id));
-  for (const Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
+  // joints that follow the coordinates go on from where they are
+  writer.put(plan_.closures() ? plan_.qpos() : start_);
+  for (const Vector* vector : {&ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     writer.put(*vector);
   }
   for (const Task* task : tasks_) task->save(writer);

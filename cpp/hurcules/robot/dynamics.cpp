@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "hurcules/robot/robot.hpp"
+#include "hurcules/robot/each_dof.hpp"
 
 namespace hurcules {
 
@@ -20,11 +20,12 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   std::fill_n(d->qacc, m.nv, 0.0);
   Eigen::Map<Vector> qacc(d->qacc, m.nv);
   for (Index i = 0; i < size(); ++i) {
-    for (const DrivenJoint& joint : coordinates_[i].joints)
-      qacc[joint.dof] = joint.factor * acceleration[i];
+    each_dof(i, [&](int dof, double factor) { qacc[dof] += factor * acceleration[i]; });
     if (support_ >= 0)
       qacc.segment<6>(root_dof_) += acceleration[i] * screws_->root_motion().col(i);
   }
+  for (Index f = 0; closures_ && f < closures_->size(); ++f)
+    qacc[closures_->dof(f)] += closures_->drift()[f];
   if (support_ >= 0 && screws_->moving()) {
     // what the root accelerates with when the coordinates do not
     const Frame root{mjOBJ_BODY, tree_};
@@ -40,8 +41,7 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   for (Index i = 0; i < size(); ++i) {
     torque[i] =
         support_ >= 0 ? screws_->root_motion().col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
-    for (const DrivenJoint& joint : coordinates_[i].joints)
-      torque[i] += joint.factor * efforts_[joint.dof];
+    each_dof(i, [&](int dof, double factor) { torque[i] += factor * efforts_[dof]; });
   }
 }
 
@@ -61,15 +61,13 @@ void Robot::floating_inertia(const ConstVectorRef& acceleration, VectorRef torqu
     qacc[root_dof_ + r] = 0.0;
   }
   for (Index i = 0; i < size(); ++i)
-    for (const DrivenJoint& joint : coordinates_[i].joints)
-      qacc[joint.dof] = joint.factor * acceleration[i];
+    each_dof(i, [&](int dof, double factor) { qacc[dof] += factor * acceleration[i]; });
   mj_mulM(&m, d, efforts_.data(), qacc.data());
   qacc.segment<6>(root_dof_) = -root.ldlt().solve(efforts_.segment<6>(root_dof_));
   mj_mulM(&m, d, efforts_.data(), qacc.data());
   for (Index i = 0; i < size(); ++i) {
     torque[i] = 0.0;
-    for (const DrivenJoint& joint : coordinates_[i].joints)
-      torque[i] += joint.factor * efforts_[joint.dof];
+    each_dof(i, [&](int dof, double factor) { torque[i] += factor * efforts_[dof]; });
   }
 }
 

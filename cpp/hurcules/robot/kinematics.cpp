@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-#include "hurcules/robot/robot.hpp"
+#include "hurcules/robot/each_dof.hpp"
 
 namespace hurcules {
 namespace {
@@ -148,15 +148,13 @@ void Robot::mass_matrix(MatrixRef M) const {
   // M = S' inertia S, S the motion of all joints by coordinate
   for (Index k = 0; k < size(); ++k) {
     momentum_.setZero();
-    for (const DrivenJoint& joint : coordinates_[k].joints)
-      momentum_ += joint.factor * inertia_.col(joint.dof);
+    each_dof(k, [&](int dof, double factor) { momentum_ += factor * inertia_.col(dof); });
     if (support_ >= 0)
       for (Index r = 0; r < 6; ++r)
         momentum_ += screws_->root_motion()(r, k) * inertia_.col(root_dof_ + r);
     for (Index i = 0; i < size(); ++i) {
       M(i, k) = 0;
-      for (const DrivenJoint& joint : coordinates_[i].joints)
-        M(i, k) += joint.factor * momentum_[joint.dof];
+      each_dof(i, [&](int dof, double factor) { M(i, k) += factor * momentum_[dof]; });
       if (support_ >= 0)
         M(i, k) += screws_->root_motion().col(i).dot(momentum_.segment<6>(root_dof_));
     }
@@ -170,8 +168,7 @@ void Robot::reduce(const Matrix& full, MatrixRef J) const {
   for (Index i = 0; i < size(); ++i) {
     Vector3 column = Vector3::Zero();
     if (support_ >= 0) column = root * screws_->root_motion().col(i);
-    for (const DrivenJoint& joint : coordinates_[static_cast<std::size_t>(i)].joints)
-      column += joint.factor * full.col(joint.dof);
+    each_dof(i, [&](int dof, double factor) { column += factor * full.col(dof); });
     J.col(i) = column;
   }
 }

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
 namespace {
 
+constexpr double kTight = 1e-6;    // of a loop that stays closed
 constexpr std::size_t kShown = 8;  // names, then how many more
 
 std::string listed(const std::vector<std::string>& names) {
@@ -29,7 +31,11 @@ std::string name_of(const mjModel& m, int type, int id) {
 class Kept {
  public:
   explicit Kept(const Robot& robot)
-      : m_(*robot.model()), joints_(static_cast<std::size_t>(m_.njnt), false) {
+      : m_(*robot.model()),
+        closures_(robot.closures()),
+        joints_(static_cast<std::size_t>(m_.njnt), false) {
+    for (Index f = 0; closures_ && f < closures_->size(); ++f)
+      joints_[static_cast<std::size_t>(m_.dof_jntid[closures_->dof(f)])] = true;
     for (const Coordinate& coordinate : robot.coordinates()) {
       for (const DrivenJoint& joint : coordinate.joints) {
         joints_[static_cast<std::size_t>(joint.joint)] = true;
@@ -61,6 +67,7 @@ class Kept {
   }
   // or it has nothing to do with the coordinates
   [[nodiscard]] bool keeps(int equality) const {
+    if (closures_ && closures_->keeps(equality)) return closures_->slack() < kTight;
     const int first = m_.eq_obj1id[equality], second = m_.eq_obj2id[equality];
     switch (m_.eq_type[equality]) {
       case mjEQ_JOINT: {
@@ -82,6 +89,7 @@ class Kept {
   }
 
   const mjModel& m_;
+  const Closures* closures_;
   std::vector<bool> joints_;
   std::vector<int> trees_;
 };

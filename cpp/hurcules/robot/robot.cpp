@@ -9,6 +9,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
@@ -62,10 +63,12 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   const mjModel& m = *model_;
   coordinates_ = find_coordinates(m, joints, floating);
   floating_ = size() > 0 && coordinates_[0].joints[0].part == 0;
+  if (!names_coordinates(m)) closures_ = std::make_unique<Closures>(m, coordinates_);
+  if (closures_ && closures_->size() == 0) closures_.reset();
   data_.reset(mj_makeData(&m));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
-  v_ = dry_friction_ = Vector::Zero(size());
+  v_ = dry_friction_ = change_ = Vector::Zero(size());
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       dry_friction_[i] += std::abs(joint.factor) * m.dof_frictionloss[joint.dof];
@@ -141,6 +144,7 @@ void Robot::set_qpos(const ConstVectorRef& qpos) {
 
 void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
+  change_ = q - q_;
   for (Index i = root_size(); i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
@@ -148,6 +152,7 @@ void Robot::set_configuration(const ConstVectorRef& q) {
     const Eigen::Quaterniond turn(rotation_exp(Vector3(q.segment<3>(3))));
     qpos_.segment<7>(root_qpos_) << q.head<3>(), turn.w(), turn.vec();
   }
+  if (closures_) closures_->close(qpos_.data(), change_);
   keep_support();
   screws_->place(qpos_.data());
   note_motion();
@@ -159,6 +164,11 @@ void Robot::set_velocity(const ConstVectorRef& velocity) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       data_->qvel[joint.dof] = joint.factor * v_[i];
+  if (closures_) {
+    for (Index f = 0; f < closures_->size(); ++f)
+      data_->qvel[closures_->dof(f)] = closures_->share().row(f).dot(v_);
+    closures_->set_velocity(qpos_.data(), data_->qvel);
+  }
   note_velocity();
 }
 
@@ -198,10 +208,11 @@ void Robot::velocities_of(const ConstVectorRef& qvel, VectorRef velocity) const 
 }
 
 void Robot::find_screws() {
-  screws_ = std::make_unique<Screws>(*model_, coordinates_, tree_, support_);
+  screws_ = std::make_unique<Screws>(*model_, coordinates_, closures_.get(), tree_, support_);
 }
 
 void Robot::read_qpos() {
+  if (closures_) closures_->measure(qpos_.data());
   screws_->note(qpos_.data());
   screws_->place(qpos_.data());
   note_support();

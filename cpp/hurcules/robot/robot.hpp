@@ -4,8 +4,9 @@
 // of Hurcules are one); the MJCF names them by tuples `coordinate_NAME` of (joint, factor). Without
 // such tuples every hinge or slide joint that has an actuator is a coordinate, and without
 // actuators every hinge or slide joint; joints that an equality constraint of the model couples
-// linearly (the mimic joints of a URDF) are one. All other joints are held: free, ball, belts, other
-// bodies (left_out.hpp).
+// linearly (the mimic joints of a URDF) are one. Joints that other constraints tie to coordinates
+// follow them (closures.hpp). All other joints are held: free, ball, belts, other bodies
+// (left_out.hpp).
 // With `floating` the free joint at the root is six coordinates more, in front: its position in W and
 // its rotation vector in W [m], [rad]; their velocities are those of MuJoCo's free joint, [m/s] in W
 // and [rad/s] in the axes of the root. Nothing drives them but contacts (contact_task.hpp).
@@ -24,6 +25,8 @@ struct mjModel_;
 struct mjData_;
 
 namespace hurcules {
+
+class Closures;
 
 using ModelPtr = std::shared_ptr<const mjModel_>;
 
@@ -161,6 +164,8 @@ class Robot {
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
   // what the joints' dry friction takes of a coordinate that moves, (n) [N m], >= 0
   [[nodiscard]] const Vector& dry_friction() const { return dry_friction_; }
+  // the joints that follow the coordinates because loops close, null without
+  [[nodiscard]] const Closures* closures() const { return closures_.get(); }
   // its first coordinates are those of the root
   [[nodiscard]] bool floating() const { return floating_; }
   [[nodiscard]] Index root_size() const { return floating_ ? 6 : 0; }  // so many
@@ -180,18 +185,22 @@ class Robot {
   // what MuJoCo keeps about the configuration: poses of all bodies; centres of mass
   void need_kinematics() const;
   void need_com() const;
+  // each joint that coordinate i moves, by its address in qvel and its velocity at that of 1
+  template <class Act>
+  void each_dof(Index i, Act&& act) const;
   // (3, nv) of the model -> (3, n) of the coordinates
   void reduce(const Matrix& full, MatrixRef J) const;
 
   ModelPtr model_;
   std::unique_ptr<const mjModel_, void (*)(const mjModel_*)> lean_;  // the same without geoms
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
+  std::unique_ptr<Closures> closures_;
   std::unique_ptr<Screws> screws_;  // of the coordinates
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
-  Vector dry_friction_;
-  int tree_ = 0;      // body at the root of the tree that holds the first coordinate
-  int support_ = -1;  // body that stands, -1 for the root
+  Vector dry_friction_, change_;  // (n), the latter scratch
+  int tree_ = 0;                  // body at the root of the tree that holds the first coordinate
+  int support_ = -1;              // body that stands, -1 for the root
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
   bool floating_ = false;
   Vector3 p_WS_ = Vector3::Zero();  // [m] where the support stands

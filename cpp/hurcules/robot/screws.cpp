@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
@@ -28,12 +29,13 @@ std::vector<int> joints_of(const std::vector<Driven>& driven) {
 
 }  // namespace
 
-Screws::Screws(const mjModel& model, const std::vector<Coordinate>& coordinates, int root,
-               int support)
+Screws::Screws(const mjModel& model, const std::vector<Coordinate>& coordinates,
+               const Closures* closures, int root, int support)
     : model_(&model),
+      closures_(closures),
       root_(root),
       support_(support),
-      driven_(driven_of(model, coordinates)),
+      driven_(driven_of(model, coordinates, closures)),
       skeleton_(model, joints_of(driven_), support < 0 ? -1 : root),
       velocity_(Vector::Zero(static_cast<Index>(coordinates.size()))) {
   find_above();
@@ -41,15 +43,27 @@ Screws::Screws(const mjModel& model, const std::vector<Coordinate>& coordinates,
 }
 
 std::vector<Screws::Driven> Screws::driven_of(const mjModel& model,
-                                              const std::vector<Coordinate>& coordinates) {
+                                              const std::vector<Coordinate>& coordinates,
+                                              const Closures* closures) {
   std::vector<Driven> driven;
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     for (const DrivenJoint& joint : coordinates[i].joints)
       driven.push_back({.coordinate = static_cast<Index>(i),
+                        .follower = -1,
                         .joint = joint.joint,
                         .body = model.jnt_bodyid[joint.joint],
                         .factor = joint.factor,
                         .part = joint.part});
+  for (Index f = 0; closures && f < closures->size(); ++f) {
+    const int dof = closures->dof(f), joint = model.dof_jntid[dof];
+    const bool ball = model.jnt_type[joint] == mjJNT_BALL;
+    driven.push_back({.coordinate = -1,
+                      .follower = f,
+                      .joint = joint,
+                      .body = model.dof_bodyid[dof],
+                      .factor = 1.0,
+                      .part = ball ? 3 + dof - model.jnt_dofadr[joint] : -1});
+  }
   std::sort(driven.begin(), driven.end(), [](const Driven& a, const Driven& b) {
     return std::pair(a.joint, a.part) < std::pair(b.joint, b.part);
   });
@@ -66,6 +80,18 @@ void Screws::find_above() {
     for (std::size_t j = 0; j < driven_.size(); ++j)
       if (driven_[j].body == body) joints.push_back(static_cast<Index>(j));
   }
+}
+
+template <class Act>
+void Screws::each_coordinate(const Driven& joint, Act&& act) const {
+  if (joint.coordinate >= 0) return act(joint.coordinate, 1.0);
+  for (Index i = 0; i < velocity_.size(); ++i) act(i, closures_->share()(joint.follower, i));
+}
+
+double Screws::speed(const Driven& joint) const {
+  double sum = 0.0;
+  each_coordinate(joint, [&](Index i, double share) { sum += share * velocity_[i]; });
+  return sum;
 }
 
 Vector3 Screws::origin(int body) const {
@@ -87,7 +113,13 @@ void Screws::place(const double* qpos) {
       if (joint.part < 3) {
         joint.screw[3 + joint.part] = 1.0;
       } else {
-        joint.screw.head<3>() = pose(joint.body).R.col(joint.part - 3);
+        const Vector3 own = pose(joint.body).R.col(joint.part - 3);
+        joint.screw.head<3>() = own;
+        if (model_->jnt_type[joint.joint] == mjJNT_BALL) {
+          // the last of its parts keeps the anchor
+          const Vector3& centre = skeleton_.anchor(static_cast<Index>(j) + 5 - joint.part);
+          joint.screw.tail<3>() = (centre - origin(joint.body)).cross(own);
+        }
       }
     } else if (model_->jnt_type[joint.joint] == mjJNT_SLIDE) {
       joint.screw << Vector3::Zero(), joint.factor * axis;
@@ -100,7 +132,9 @@ void Screws::place(const double* qpos) {
 
 void Screws::note_root() {
   root_motion_.setZero();
-  for (const Index j : above(support_)) root_motion_.col(driven(j).coordinate) -= driven(j).screw;
+  for (const Index j : above(support_))
+    each_coordinate(driven(j),
+                    [&](Index i, double share) { root_motion_.col(i) -= share * driven(j).screw; });
   // a free joint's qvel: velocity of the origin in W, angular velocity in its own axes
   const Matrix3 R = pose(root_).R;
   for (Index i = 0; i < root_motion_.cols(); ++i) {
@@ -116,17 +150,16 @@ void Screws::set_velocity(const Vector& velocity) {
   root_rate_.setZero();
   if (!moving_) return;
   if (support_ >= 0)
-    for (const Index j : above(support_))
-      root_velocity_ -= velocity_[driven(j).coordinate] * driven(j).screw;
+    for (const Index j : above(support_)) root_velocity_ -= speed(driven(j)) * driven(j).screw;
   for (std::size_t i = 0; i < driven_.size(); ++i) {
     Driven& joint = driven_[i];
     Screw before = stands(joint.body) ? root_velocity_ : Screw::Zero();
     for (const Index j : above(joint.body)) {
-      const bool at_once = joint.part >= 3 && driven(j).part >= 3;
-      if (j < static_cast<Index>(i) && !at_once)
-        before += velocity_[driven(j).coordinate] * driven(j).screw;
+      const bool at_once = joint.part >= 3 && driven(j).part >= 3 && driven(j).joint == joint.joint;
+      if (j < static_cast<Index>(i) && !at_once) before += speed(driven(j)) * driven(j).screw;
     }
-    joint.rate = cross(before, joint.screw) * velocity_[joint.coordinate];
+    joint.rate = cross(before, joint.screw) * speed(joint);
+    if (joint.follower >= 0) joint.rate += closures_->drift()[joint.follower] * joint.screw;
   }
   if (support_ < 0) return;
   for (const Index j : above(support_)) root_rate_ -= driven(j).rate;
@@ -135,9 +168,13 @@ void Screws::set_velocity(const Vector& velocity) {
 template <class Of>
 void Screws::fill(int body, MatrixRef J, Of&& of) const {
   J.setZero();
-  for (const Index j : above(body)) J.col(driven(j).coordinate) += of(driven(j).screw);
+  for (const Index j : above(body))
+    each_coordinate(driven(j),
+                    [&](Index i, double share) { J.col(i) += share * of(driven(j).screw); });
   if (!stands(body)) return;
-  for (const Index j : above(support_)) J.col(driven(j).coordinate) -= of(driven(j).screw);
+  for (const Index j : above(support_))
+    each_coordinate(driven(j),
+                    [&](Index i, double share) { J.col(i) -= share * of(driven(j).screw); });
 }
 
 void Screws::point_jacobian(const Vector3& point, int body, MatrixRef J) const {
@@ -153,7 +190,7 @@ void Screws::rotation_jacobian(int body, MatrixRef J) const {
 
 Screw Screws::velocity_of(int body) const {
   Screw twist = stands(body) ? root_velocity_ : Screw::Zero();
-  for (const Index j : above(body)) twist += velocity_[driven(j).coordinate] * driven(j).screw;
+  for (const Index j : above(body)) twist += speed(driven(j)) * driven(j).screw;
   return twist;
 }
 

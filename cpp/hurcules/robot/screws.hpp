@@ -3,7 +3,8 @@
 //   V_b = sum S_j qdot_j       of the driven joints j that move body b
 //   A_b = sum V_<j x S_j qdot_j                  at constant coordinate velocities; V_<j: without j
 //   a point: v = V.lin + w x r,  a = A.lin + A.rot x r + w x v        r: from the tree's origin
-// A free joint is six of them: three slides in W, and three turns at once about the axes of its body.
+// A free joint is six of them: three slides in W, and three turns at once about the axes of its body; a
+// ball joint is the turns. A joint that follows (closures.hpp) moves by G qdot, its rate has S g too.
 // A root that stands on another body s moves by -V_s and accelerates by -A_s: then s does not.
 #pragma once
 
@@ -16,6 +17,7 @@ struct mjModel_;
 
 namespace hurcules {
 
+class Closures;
 struct Coordinate;
 
 // Angular and linear velocity in W of what is fixed to a body, the linear one of the point that is
@@ -24,8 +26,10 @@ using Screw = Eigen::Matrix<double, 6, 1>;
 
 class Screws {
  public:
-  // `support`: the body that stands, of the tree with this root; -1: every root does
-  Screws(const mjModel_& model, const std::vector<Coordinate>& coordinates, int root, int support);
+  // `support`: the body that stands, of the tree with this root; -1: every root does. `closures` may
+  // be null; it is asked for what it measured last.
+  Screws(const mjModel_& model, const std::vector<Coordinate>& coordinates,
+         const Closures* closures, int root, int support);
 
   // another body of the tree stands; not for a tree whose root stood
   void stand_on(int support) { support_ = support; }
@@ -52,23 +56,29 @@ class Screws {
   }
 
  private:
-  // one joint of one coordinate
+  // one joint of one coordinate, or one that follows
   struct Driven {
-    Index coordinate;
+    Index coordinate;  // -1: it follows
+    Index follower;    // among those, else -1
     int joint, body;
     double factor;
-    int part;                     // of a free joint, else -1
+    int part;                     // of a free or a ball joint, else -1
     Screw screw = Screw::Zero();  // at the coordinate's velocity 1
     Screw rate = Screw::Zero();   // at its velocity
   };
 
   [[nodiscard]] static std::vector<Driven> driven_of(const mjModel_& model,
-                                                     const std::vector<Coordinate>& coordinates);
+                                                     const std::vector<Coordinate>& coordinates,
+                                                     const Closures* closures);
   void find_above();
   [[nodiscard]] const std::vector<Index>& above(int body) const {
     return above_[static_cast<std::size_t>(body)];
   }
   [[nodiscard]] const Driven& driven(Index j) const { return driven_[static_cast<std::size_t>(j)]; }
+  // the coordinates that move a joint, each with the joint's velocity at its velocity 1
+  template <class Act>
+  void each_coordinate(const Driven& joint, Act&& act) const;
+  [[nodiscard]] double speed(const Driven& joint) const;
   [[nodiscard]] Vector3 origin(int body) const;  // of its tree
   // its tree stands on something else than the root
   [[nodiscard]] bool stands(int body) const;
@@ -80,6 +90,7 @@ class Screws {
   void note_root();
 
   const mjModel_* model_;
+  const Closures* closures_;
   int root_, support_;
   std::vector<Driven> driven_;             // in the order of the model's joints
   std::vector<std::vector<Index>> above_;  // (nbody) which of them move a body
