@@ -18,6 +18,7 @@ _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
     "Hurcules/Valve-v0": ("hurcules_envs.valve:Valve", 200, {}),
     "Hurcules/Door-v0": ("hurcules_envs.door:Door", 240, {}),
     "Hurcules/Carry-v0": ("hurcules_envs.carry:Carry", 300, {}),
+    "Hurcules/Stretch-v1": ("hurcules_envs.stretch_goal:Stretch", 300, {}),
     "Hurcules/Lift-v0": ("hurcules_envs.lift:Lift", 600, {}),
 }
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules.rendering import make_renderer, overview_camera, pose
+from hurcules.validation import require_known
 from hurcules_envs.observations import observation_space
 
 __all__ = ["HurculesEnv"]
@@ -44,16 +45,21 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
     mission: ClassVar[str]
     terms: ClassVar[tuple[str, ...]]  # of the reward, in the order in which they are added
 
-    def __init__(self, render_mode: str | None = None, variation: float = 1.0) -> None:
+    def __init__(
+        self, render_mode: str | None = None, variation: float = 1.0, **options: Any
+    ) -> None:
         """Loads the mission's scene.
 
         Args:
             render_mode: None or "rgb_array"; "human" is Gymnasium's own, when pygame is there.
             variation: how much differs between seeds: 1 as the mission says, 0 nothing.
+            options: there are no others.
 
         Raises:
-            hurcules.Error: an unknown render mode or a bad number.
+            hurcules.Error: an unknown render mode or option, or a bad number.
         """
+        for option in options:
+            require_known("option", option, ("render_mode", "variation"))
         EzPickle.__init__(self, render_mode=render_mode, variation=variation)
         modes = self.metadata["render_modes"]
         if render_mode is not None and render_mode not in modes:

@@ -150,6 +150,10 @@ class Environment(ABC):
         """Which episodes success ends, (n,); by default none: they go on to their time limit."""
         return np.zeros(len(numbers.action), dtype=bool)
 
+    def tell(self, numbers: Numbers) -> Mapping[str, Array]:
+        """More for `info`: by name (n,), the same names always."""
+        return {}
+
     def remember(self, numbers: Numbers) -> None:  # noqa: B027  most remember nothing
         """Updates `numbers.memory` in place after a step, before all else is asked."""
 

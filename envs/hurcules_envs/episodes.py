@@ -5,14 +5,17 @@ from __future__ import annotations
 import copy
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
+import mujoco
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs.environment import Array, Environment, Numbers, Start
+from hurcules_envs.randomisation import Randomisation
 
 __all__ = ["Episodes", "Step", "numbers_of"]
 
@@ -49,12 +52,19 @@ class Episodes:
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 means [SI].
         memory: by name what each remembers, (n, size).
+        randomisation: what differs between them beside the task.
         single_action_space: Box(-1, 1, (k,), float32).
         single_observation_space: a Box, or a Dict of a goal environment.
     """
 
     def __init__(
-        self, environment: Environment, n: int, threads: int, *, flat: bool = False
+        self,
+        environment: Environment,
+        n: int,
+        threads: int,
+        *,
+        flat: bool = False,
+        ranges: Mapping[str, Any] = MappingProxyType({}),
     ) -> None:
         """Copies the environment's simulation n times.
 
@@ -64,14 +74,21 @@ class Episodes:
             threads: 0 for one a processor.
             flat: of a goal environment: one array of the observation and the way from what is
                 achieved to what is desired, in place of a dictionary.
+            ranges: from which the values of `randomisation` are drawn.
+
+        Raises:
+            hurcules.Error: ranges that are none.
         """
         self.environment = environment
         self.n = n
         self._flat = flat and environment.goal > 0
         simulation = environment.simulation
-        own = n if environment.parameters else 0
-        self._models = [copy.copy(simulation.model) for _ in range(own)]
-        self.batch = hurcules.SimulationBatch(simulation, n, threads, self._models)
+        self.randomisation = Randomisation(environment, n, ranges)
+        self._threads = threads
+        self._models: list[mujoco.MjModel] = []
+        self._pushed = False  # forces act since the last step
+        own = bool(environment.parameters) or self.randomisation.wants_models
+        self._copy_simulation(own_models=own)
         self.generators = [np.random.default_rng() for _ in range(n)]
         names = [*environment.quantities, *_WATCHED]
         self._quantities = hurcules.Quantities(simulation, names)
@@ -106,10 +123,14 @@ class Episodes:
         for i in np.flatnonzero(chosen):
             generator = self.generators[i]
             seeds[i] = int(generator.integers(2**31))
+            self.randomisation.draw(int(i), seeds[i])
             start = self.environment.start(generator)
             if start.qpos is not None:
                 starts[i] = start.qpos
-            self._begin(int(i), start)
+            self._remember_start(int(i), start)
+        self._give_models()
+        for i in np.flatnonzero(chosen):
+            self._configure(int(i))
         self.batch.reset(seeds, chosen.tolist(), starts)
         self._action[chosen] = 0.0
         self._worst[chosen] = 0.0
@@ -122,7 +143,13 @@ class Episodes:
             mask: (n,) which episodes go on; None: all.
         """
         self._action = action if mask is None else np.where(mask[:, None], action, 0.0)
-        commands = self._commands.of(self._action, self._numbers)
+        forces = self.randomisation.pushes(self.period)
+        taken = self.randomisation.delayed(self._action, mask)
+        commands = self._commands.of(taken, self._numbers)
+        if forces is not None or self._pushed:
+            self._pushed = forces is not None
+            still = np.zeros((self.n, 3))
+            self.batch.push(self.randomisation.pushed, still if forces is None else forces)
         self.batch.step(self._ticks, commands, mask)
 
     def look(self, *, remember: NDArray[np.bool_] | None) -> Step:
@@ -149,11 +176,13 @@ class Episodes:
         step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
         step.terminated = failure | environment.ended(numbers)
         step.info = self._describe(terms, success, failure, views)
+        step.info |= {name: np.array(row) for name, row in environment.tell(numbers).items()}
         return step
 
     def state(self) -> Array:
         """(n, s) everything that decides how the episodes go on, generators excepted."""
         parts = [self.batch.state(), self._action, self._worst[:, None]]
+        parts += [self.randomisation.state(self._action.shape[1])]
         parts += [self.memory[name] for name in self.memory]
         parts += [entry[:, None] for entry in self._info.values()]
         return np.concatenate(parts, axis=1)
@@ -165,7 +194,8 @@ class Episodes:
             hurcules.Error: it is no state, or belongs to another environment or version.
         """
         values = numbers_of("state", state)
-        rest = self._action.shape[1] + 1 + len(self._info)
+        drawn = self.randomisation.state(self._action.shape[1]).shape[1]
+        rest = self._action.shape[1] + 1 + drawn + len(self._info)
         rest += sum(entry.shape[1] for entry in self.memory.values())
         own = self.batch.state().shape[1]
         if values.shape != (self.n, own + rest):
@@ -176,12 +206,19 @@ class Episodes:
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
         self.batch.restore(values[:, :own], chosen.tolist())
         place = own
-        for entry in (self._action, self._worst[:, None], *self.memory.values()):
+        entries = [self._action, self._worst[:, None]]
+        for entry in entries:
+            entry[chosen] = values[chosen, place : place + entry.shape[1]]
+            place += entry.shape[1]
+        self.randomisation.restore(values[:, place : place + drawn], chosen, self._action.shape[1])
+        place += drawn
+        for entry in self.memory.values():
             entry[chosen] = values[chosen, place : place + entry.shape[1]]
             place += entry.shape[1]
         for entry in self._info.values():
             entry[chosen] = values[chosen, place]
             place += 1
+        self._give_models()
         if self._models:  # the first time it was checked, now it meets the model that it had
             for i in np.flatnonzero(chosen):
                 self._configure(int(i))
@@ -201,17 +238,36 @@ class Episodes:
             raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
         return np.clip(values, -1.0, 1.0)
 
-    def _begin(self, i: int, start: Start) -> None:
+    def _copy_simulation(self, *, own_models: bool) -> None:
+        """A batch of copies of the environment's simulation."""
+        simulation = self.environment.simulation
+        count = self.n if own_models else 0
+        self._models = [copy.copy(simulation.model) for _ in range(count)]
+        self.batch = hurcules.SimulationBatch(simulation, self.n, self._threads, self._models)
+        self._pushed = False
+
+    def _give_models(self) -> None:
+        """A model of its own for each episode, from when one is to differ."""
+        if self._models or not self.randomisation.wants_models:
+            return
+        state = self.batch.state()
+        self._copy_simulation(own_models=True)
+        self.batch.restore(state)
+
+    def _remember_start(self, i: int, start: Start) -> None:
         for name, entry in self.memory.items():
             entry[i] = start.memory.get(name, 0.0)
         for name, value in start.info.items():
             self._info.setdefault(name, np.zeros(self.n))[i] = value
-        self._configure(i)
 
     def _configure(self, i: int) -> None:
-        if self._models:
+        if not self._models:
+            return
+        self.randomisation.restore_model(i, self._models[i])
+        if self.environment.parameters:
             values = {name: self.memory[name][i] for name in self.environment.parameters}
             self.environment.configure(self._models[i], values)
+        self.randomisation.vary_model(i, self._models[i])
 
     def _read(self) -> dict[str, Array]:
         values = self.batch.read(self._quantities)
@@ -241,11 +297,16 @@ class Episodes:
     def _observe(self, numbers: Numbers) -> dict[str, NDArray[np.float32]]:
         groups = self.environment.observe(numbers)
         parts = [groups[group.name] for group in self.environment.observation]
+        errors = self.randomisation.errors()
         values = np.concatenate(parts, axis=1, dtype=np.float32)
+        if errors is not None:
+            values += errors[:, : values.shape[1]].astype(np.float32)
         np.minimum(values, self._high, out=values)
         result = {"observation": np.maximum(values, -self._high, out=values)}
         if self.environment.goal:
             achieved, desired = self.environment.goals(numbers)
+            if errors is not None:
+                achieved = achieved + errors[:, values.shape[1] :]
             if self._flat:
                 way = (desired - achieved).astype(np.float32)
                 return {"observation": np.concatenate([result["observation"], way], axis=1)}
@@ -269,6 +330,7 @@ class Episodes:
         info |= {_WATCHED[name]: values for name, values in watched.items()}
         info["time"] = self.batch.time
         info |= {name: entry.copy() for name, entry in self._info.items()}
+        info |= self.randomisation.info()
         return info
 
 

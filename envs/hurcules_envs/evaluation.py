@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.policy import Policy
+from hurcules_envs.randomisation import split
 from hurcules_envs.registry import make_environment
 
 __all__ = ["Evaluation", "evaluate", "wilson"]
@@ -63,16 +64,16 @@ def evaluate(
         episodes: how many, side by side.
         seed: of the first; they are not those of training.
         threads: 0 for one a processor.
-        options: of the environment.
+        options: of the environment, and ranges of what differs between episodes.
     """
     spec = gymnasium.spec(environment)
     given = {**spec.kwargs, **options}
     if "environment" not in given:
         raise hurcules.Error(f"{environment} cannot be evaluated: it has no native vector")
     flat = bool(given.pop("flat", False))
-    batch = Episodes(
-        make_environment(given.pop("environment"), given), episodes, threads, flat=flat
-    )
+    ranges, given = split(given)
+    made = make_environment(given.pop("environment"), given)
+    batch = Episodes(made, episodes, threads, flat=flat, ranges=ranges)
     if isinstance(act, Policy):
         act.check(environment, batch.single_observation_space, batch.single_action_space)
     batch.generators = [np.random.default_rng(seed + i) for i in range(episodes)]

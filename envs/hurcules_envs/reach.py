@@ -25,6 +25,7 @@ NEAR = 0.1  # [m] over which nearness grows
 EFFORT = 0.1
 STIFF = 60.0  # [rad/s] a spring of a higher frequency is not felt at the policy's rate
 TURN = 0.3  # [m/rad] what an angle counts in the reward
+TILT = 0.35  # [rad] of what it stands on: it falls
 
 
 class Reach(Environment):
@@ -238,6 +239,7 @@ class Reach(Environment):
             controller=controller,
             record=False,
             physics=fidelity != "kinematic",
+            fall=hurcules.FallOptions(setup.support, max_tilt=TILT) if setup.support else None,
         )
 
     def _free_swing(self, dt: float) -> Array | None:

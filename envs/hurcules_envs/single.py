@@ -15,6 +15,7 @@ from hurcules import _core
 from hurcules.rendering import make_renderer, pose
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step
+from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment
 
 __all__ = ["SingleEnv"]
@@ -50,7 +51,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             environment: "module:Class" of an `Environment`.
             render_mode: None, "rgb_array", or "human" (a window).
             flat: of a goal environment: one array, the observation and the way to the goal.
-            options: of the environment, by keyword.
+            options: of the environment, by keyword, and ranges of what differs between episodes:
+                see `randomisation`.
 
         Raises:
             hurcules.Error: an unknown render mode or option, or a bad value.
@@ -60,8 +62,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             "render mode", render_mode or "rgb_array", self.metadata["render_modes"]
         )
         self.render_mode = render_mode
+        ranges, options = split(options)
         self.environment = make_environment(environment, options)
-        self._episodes = Episodes(self.environment, 1, threads=1, flat=flat)
+        self._episodes = Episodes(self.environment, 1, threads=1, flat=flat, ranges=ranges)
         self.metadata = self.metadata | {"render_fps": round(1.0 / self._episodes.period)}
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
@@ -93,14 +96,14 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
 
         Args:
             seed: of the generator that draws it; None: it goes on.
-            options: none are known.
+            options: ranges of what differs between episodes, see `randomisation`; they hold for
+                this episode and those after it.
 
         Raises:
-            hurcules.Error: an option that does not exist.
+            hurcules.Error: an option that does not exist, or a range that is none.
         """
         super().reset(seed=seed)
-        if options:
-            raise hurcules.Error(f"reset: no options exist, got {', '.join(map(str, options))}")
+        self._episodes.randomisation.set_ranges(known_ranges(options or {}))
         self._episodes.generators[0] = self.np_random
         self._episodes.reset()
         step = self._episodes.look(remember=None)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of
+from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment
 
 __all__ = ["NativeVectorEnv"]
@@ -46,7 +47,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             autoreset_mode: NextStep (default), SameStep or Disabled, see Gymnasium.
             render_mode: None; pictures are drawn by the single environment.
             flat: of a goal environment: one array, the observation and the way to the goal.
-            options: of the environment, by keyword.
+            options: of the environment, by keyword, and ranges of what differs between episodes:
+                see `randomisation`.
 
         Raises:
             hurcules.Error: an unknown option, or a bad value.
@@ -56,8 +58,9 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         if render_mode is not None:
             raise hurcules.Error("render_mode: a vector of environments draws no pictures")
         self.num_envs = num_envs
+        ranges, options = split(options)
         self.environment = make_environment(environment, options)
-        self._episodes = Episodes(self.environment, num_envs, threads, flat=flat)
+        self._episodes = Episodes(self.environment, num_envs, threads, flat=flat, ranges=ranges)
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {
             "autoreset_mode": self.autoreset_mode,
@@ -96,22 +99,21 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
 
         Args:
             seed: a number (episode i gets seed + i), one each, or None: their generators go on.
-            options: "reset_mask": (num_envs,) bool, which.
+            options: "reset_mask": (num_envs,) bool, which; and ranges of what differs between
+                episodes, see `randomisation`, which hold for all that begin from now on.
 
         Raises:
-            hurcules.Error: an unknown option, or a mask of another shape.
+            hurcules.Error: an unknown option, a range that is none, or a mask of another shape.
         """
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
-        if options:
-            raise hurcules.Error(
-                f"reset: the only option is reset_mask, got {', '.join(map(str, options))}"
-            )
+        ranges = known_ranges(options, "reset_mask")
         chosen = np.ones(self.num_envs, dtype=bool) if mask is None else np.asarray(mask)
         if chosen.shape != (self.num_envs,) or chosen.dtype != bool or not chosen.any():
             raise hurcules.Error(
                 f"reset_mask: wanted ({self.num_envs},) bool, at least one true, got {mask!r}"
             )
+        self._episodes.randomisation.set_ranges(ranges)
         for i, one in enumerate(seeds_of(seed, self.num_envs)):
             if one is not None and chosen[i]:
                 self._episodes.generators[i] = np.random.default_rng(one)

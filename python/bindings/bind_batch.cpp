@@ -32,10 +32,21 @@ Args:
   simulation: Simulation to copy, in its present state.
   n: how many.
   threads: 0 for one a processor.
-  models: one mujoco.MjModel each, of the same names and shapes, or none.
+  models: one mujoco.MjModel each, of the same names and shapes, or none. Their controllers go on
+    reckoning with the model of `simulation`.
 
 Raises:
   Error: n < 1, or models that do not fit.
+)";
+
+constexpr const char* kPush = R"(Forces on a body of each, from now on; zero ends them.
+
+Args:
+  body: number of the body in the model.
+  forces: (n, 3) [N] in the world, at its centre of mass.
+
+Raises:
+  Error: an array of another shape, not finite, or no such body.
 )";
 
 constexpr const char* kBatchStep = R"(Control ticks of all. Releases the interpreter lock.
@@ -53,7 +64,7 @@ std::unique_ptr<SimulationBatch> make_batch(const Simulation& original, std::siz
                                             const std::vector<ModelObject>& models) {
   std::vector<ModelPtr> own;
   for (const ModelObject& model : models) {
-    own.push_back(borrow_model(pointer<const mjModel_>(model, "mujoco.MjModel")));
+    own.push_back(held_model(model));
   }
   return std::make_unique<SimulationBatch>(original, n, threads, own);
 }
@@ -62,6 +73,16 @@ void step_batch(SimulationBatch& self, int ticks, const std::optional<Matrix>& c
                 const std::optional<std::vector<bool>>& mask) {
   py::gil_scoped_release release;
   self.step(ticks, commands ? &*commands : nullptr, mask ? &*mask : nullptr);
+}
+
+void push_batch(SimulationBatch& self, int body, const Matrix& forces) {
+  require(forces.rows() == static_cast<Index>(self.size()) && forces.cols() == 3,
+          "push wants forces of shape (" + std::to_string(self.size()) + ", 3), (" +
+              std::to_string(forces.rows()) + ", " + std::to_string(forces.cols()) + ") came");
+  require(forces.allFinite(), "push wants finite forces");
+  for (std::size_t i = 0; i < self.size(); ++i) {
+    self[i].plant().push(body, forces.row(static_cast<Index>(i)).transpose());
+  }
 }
 
 // one row a simulation
@@ -120,6 +141,7 @@ void bind_batch(py::module_& module) {
            "models"_a = std::vector<ModelObject>{}, py::keep_alive<1, 2>(), py::keep_alive<1, 5>())
       .def("step", &step_batch, "ticks"_a, "commands"_a = py::none(), "mask"_a = py::none(),
            kBatchStep)
+      .def("push", &push_batch, "body"_a, "forces"_a, kPush)
       .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(), "starts"_a = py::none(),
            "Back to the start; seeds (n,), mask (n,) bool: which, starts (n, nq): where that is.")
       .def(

@@ -84,8 +84,7 @@ Returns:
   Lowest and highest torque at the joint [N m].
 )";
 
-std::pair<double, double> effort_range(const Plant& self, const std::string& joint,
-                                       double speed) {
+std::pair<double, double> effort_range(const Plant& self, const std::string& joint, double speed) {
   const int actuator = self.brakes().find(joint);
   require(self.drive_train().exists(actuator), "joint '" + joint + "' has no transmission");
   const EffortRange range = self.drive_train().range(actuator, speed);
@@ -137,7 +136,7 @@ void bind_plant(py::module_& module) {
   py::class_<Plant>(module, "Plant", kPlant)
       .def(py::init([](const ModelObject& model, const DataObject& data) {
              const Scene scene = scene_of(model, data);
-             return std::make_unique<Plant>(borrow_model(scene.model), scene.data);
+             return std::make_unique<Plant>(held_model(model), scene.data);
            }),
            "model"_a, "data"_a, py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
       .def("step", &step_physics, "n"_a = 1, kStep)

@@ -12,9 +12,11 @@
 #include "hurcules/robot/left_out.hpp"
 #include "hurcules/robot/plausibility.hpp"
 #include "hurcules/robot/robot.hpp"
+#include "mujoco_pointer.hpp"
 
 namespace py = pybind11;
 using namespace hurcules;
+using hurcules_bindings::held_model;
 using hurcules_bindings::ModelObject;
 
 namespace {
@@ -147,8 +149,7 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const std::opti
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
-  const auto address = model.attr("_address").cast<std::uintptr_t>();
-  return checked(borrow_model(reinterpret_cast<const mjModel_*>(address)), joints, floating);
+  return checked(held_model(model), joints, floating);
 }
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,

@@ -46,8 +46,7 @@ std::unique_ptr<Simulation> make_simulation(const ModelObject& model, const Data
                                             const std::string& mission,
                                             const MissionOptions& options) {
   const Scene scene = scene_of(model, data);
-  return std::make_unique<MissionSimulation>(borrow_model(scene.model), mission, options,
-                                             scene.data);
+  return std::make_unique<MissionSimulation>(held_model(model), mission, options, scene.data);
 }
 
 std::unique_ptr<Simulation> make_table(const ModelObject& model, const DataObject& data,
@@ -56,16 +55,15 @@ std::unique_ptr<Simulation> make_table(const ModelObject& model, const DataObjec
                                        const MissionOptions& options) {
   const Scene scene = scene_of(model, data);
   auto mission = std::make_unique<Mission>(setup, table, *controller, options.variation);
-  return std::make_unique<MissionSimulation>(borrow_model(scene.model), controller,
-                                             std::move(mission), options, scene.data);
+  return std::make_unique<MissionSimulation>(held_model(model), controller, std::move(mission),
+                                             options, scene.data);
 }
 
 std::unique_ptr<Simulation> make_own(const ModelObject& model, const DataObject& data,
                                      const std::shared_ptr<WholeBodyController>& controller,
                                      const MissionOptions& options) {
   const Scene scene = scene_of(model, data);
-  return std::make_unique<Simulation>(borrow_model(scene.model), controller, options, nullptr,
-                                      scene.data);
+  return std::make_unique<Simulation>(held_model(model), controller, options, nullptr, scene.data);
 }
 
 // in pieces, so that Ctrl-C is heard
@@ -149,6 +147,13 @@ std::string phase(const Simulation& self) {
   return phase_names(self)[self.supervisor()->phase()];
 }
 
+void go(Simulation& self, const std::string& phase) {
+  const std::vector<std::string> names = phase_names(self);
+  const auto found = std::find(names.begin(), names.end(), phase);
+  require(names.empty() || found != names.end(), unknown_name("phase", phase, names));
+  self.go(static_cast<std::size_t>(found - names.begin()));
+}
+
 const std::vector<std::string>& command_names(const Simulation& self) {
   return self.controller().command_names();
 }
@@ -225,7 +230,7 @@ void bind_options(py::module_& module) {
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
                        bool timed, BaseSource base, SensorOptions sensors,
                        const MonitorOptions& monitors, double max_seconds, bool physics,
-                       const FallOptions& fall) {
+                       const FallOptions& fall, bool adds_command) {
              Options options;
              options.seed = seed;
              options.variation = variation;
@@ -238,6 +243,7 @@ void bind_options(py::module_& module) {
              options.max_seconds = max_seconds;
              options.physics = physics;
              options.fall = fall;
+             options.adds_command = adds_command;
              return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
@@ -245,7 +251,7 @@ void bind_options(py::module_& module) {
            "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
            "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors,
            "max_seconds"_a = defaults.max_seconds, "physics"_a = defaults.physics,
-           "fall"_a = defaults.fall)
+           "fall"_a = defaults.fall, "adds_command"_a = defaults.adds_command)
       .def_readwrite("seed", &Options::seed)
       .def_readwrite("variation", &Options::variation)
       .def_readwrite("method", &Options::method)
@@ -259,7 +265,9 @@ void bind_options(py::module_& module) {
       .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer")
       .def_readwrite("fall", &Options::fall, "when the robot counts as fallen")
       .def_readwrite("physics", &Options::physics,
-                     "false: the robot is where it is commanded to be");
+                     "false: the robot is where it is commanded to be")
+      .def_readwrite("adds_command", &Options::adds_command,
+                     "a command is added to the mission's own");
 }
 
 void bind_run(py::class_<Simulation>& simulation) {
@@ -281,7 +289,9 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def("state", &state, kState)
       .def("restore", &restore, "state"_a, kRestore)
       .def("operator_command", &Simulation::operator_command, kOperatorCommand)
+      .def("go", &go, "phase"_a, kGo)
       .def_property_readonly("dt", &Simulation::dt, "[s]")
+      .def_property_readonly("physics", &Simulation::physics, "False: it moves without forces")
       .def_property_readonly("time", &Simulation::time, "[s] since reset")
       .def_property_readonly("finished", &Simulation::finished)
       .def_property_readonly("success", &Simulation::success)

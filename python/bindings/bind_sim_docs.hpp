@@ -53,6 +53,7 @@ Args:
   base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.
   sensors: SensorOptions; ideal by default.
   monitors: MonitorOptions.
+  adds_command: a command is added to what the mission commands, in place of taking its place.
 )";
 inline constexpr const char* kSimulation =
     R"(The closed loop in C++, on a model and data that Python owns.
@@ -95,7 +96,16 @@ Returns:
 Raises:
   Error: an unknown joint, or arrays that do not fit.
 )";
-inline constexpr const char* kReset = "Back to the start of the mission, varied by this seed.";
+inline constexpr const char* kReset =
+    "Back to the start, of a mission varied by this seed; start (nq,): where that is this time.";
+inline constexpr const char* kGo = R"(Begins a phase of the mission now, out of its order.
+
+Args:
+  phase: its name.
+
+Raises:
+  Error: no such phase, or no mission.
+)";
 inline constexpr const char* kState =
     "All that decides how the run goes on, as one array; the log and the events are not in it.";
 inline constexpr const char* kRestore =

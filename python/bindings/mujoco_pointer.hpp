@@ -7,9 +7,7 @@
 #include <string>
 
 #include "hurcules/base/error.hpp"
-
-struct mjModel_;
-struct mjData_;
+#include "hurcules/robot/robot.hpp"
 
 namespace hurcules_bindings {
 
@@ -21,6 +19,17 @@ Struct* pointer(const pybind11::object& object, const char* wanted) {
         pybind11::str(pybind11::type::of(object).attr("__name__")).cast<std::string>() + " came");
   }
   return reinterpret_cast<Struct*>(object.attr("_address").cast<std::uintptr_t>());
+}
+
+// A model of Python's, which lives as long as anybody in C++ has it.
+inline hurcules::ModelPtr held_model(const pybind11::object& object) {
+  const auto* const model = pointer<const mjModel_>(object, "mujoco.MjModel");
+  PyObject* const owner = pybind11::object(object).release().ptr();
+  return {model, [owner](const mjModel_*) {
+            if (!Py_IsInitialized()) return;
+            const pybind11::gil_scoped_acquire lock;
+            Py_DECREF(owner);
+          }};
 }
 
 struct Scene {

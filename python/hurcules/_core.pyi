@@ -3321,7 +3321,8 @@ class SimulationOptions:
       timed: keep the time of each stage of each tick.
       base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.
       sensors: SensorOptions; ideal by default.
-      monitors: MonitorOptions."""
+      monitors: MonitorOptions.
+      adds_command: a command is added to what the mission commands, in place of taking its place."""
 
     base: BaseSource
     method: str
@@ -3344,7 +3345,14 @@ class SimulationOptions:
         max_seconds: float = ...,
         physics: bool = True,
         fall: FallOptions = ...,
+        adds_command: bool = False,
     ) -> None: ...
+    @property
+    def adds_command(self) -> bool:
+        """a command is added to the mission's own"""
+
+    @adds_command.setter
+    def adds_command(self, arg0: bool) -> None: ...
     @property
     def fall(self) -> FallOptions:
         """when the robot counts as fallen"""
@@ -3438,6 +3446,15 @@ class Simulation:
         Raises:
           Error: an unknown joint, or arrays that do not fit."""
 
+    def go(self, phase: str) -> None:
+        """Begins a phase of the mission now, out of its order.
+
+        Args:
+          phase: its name.
+
+        Raises:
+          Error: no such phase, or no mission."""
+
     def level_errors(self) -> NDArray[np.float64]:
         """Norm of the errors of each level in the physics now, in the unit of its tasks."""
 
@@ -3469,7 +3486,7 @@ class Simulation:
         """(m,) their present values."""
 
     def reset(self, seed: int, start: ArrayLike | None = None) -> None:
-        """Back to the start of the mission, varied by this seed."""
+        """Back to the start, of a mission varied by this seed; start (nq,): where that is this time."""
 
     def restore(self, state: ArrayLike) -> None:
         """Goes on from what state() gave, bit for bit, in any simulation of the same mission and model.
@@ -3557,6 +3574,10 @@ class Simulation:
     @property
     def phases(self) -> list[str]: ...
     @property
+    def physics(self) -> bool:
+        """False: it moves without forces"""
+
+    @property
     def plant(self) -> Plant:
         """Plant that it steps"""
 
@@ -3604,7 +3625,8 @@ class SimulationBatch:
       simulation: Simulation to copy, in its present state.
       n: how many.
       threads: 0 for one a processor.
-      models: one mujoco.MjModel each, of the same names and shapes, or none.
+      models: one mujoco.MjModel each, of the same names and shapes, or none. Their controllers go on
+        reckoning with the model of `simulation`.
 
     Raises:
       Error: n < 1, or models that do not fit."""
@@ -3620,6 +3642,16 @@ class SimulationBatch:
     def __len__(self) -> int: ...
     def observation(self) -> NDArray[np.float64]:
         """(n, m) what a policy sees now, see Simulation.observation_names."""
+
+    def push(self, body: int, forces: ArrayLike) -> None:
+        """Forces on a body of each, from now on; zero ends them.
+
+        Args:
+          body: number of the body in the model.
+          forces: (n, 3) [N] in the world, at its centre of mass.
+
+        Raises:
+          Error: an array of another shape, not finite, or no such body."""
 
     def read(self, quantities: Quantities) -> NDArray[np.float64]:
         """(n, m) their present values."""

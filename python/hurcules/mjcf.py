@@ -83,7 +83,7 @@ def compile(source: Path | mujoco.MjSpec) -> mujoco.MjModel:
 
 
 def without_visuals(spec: mujoco.MjSpec) -> mujoco.MjSpec:
-    """Takes away the shapes without mass that nothing can touch, and the meshes of these alone."""
+    """Takes away the shapes without mass that nothing can touch, their meshes, and all textures."""
     for geom in list(spec.geoms):
         if geom.contype == 0 and geom.conaffinity == 0 and geom.mass == 0.0:
             spec.delete(geom)
@@ -91,6 +91,10 @@ def without_visuals(spec: mujoco.MjSpec) -> mujoco.MjSpec:
     for mesh in list(spec.meshes):
         if mesh.name not in used:
             spec.delete(mesh)
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    for texture in list(spec.textures):
+        spec.delete(texture)
     return spec
 
 

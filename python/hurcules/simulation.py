@@ -68,6 +68,7 @@ class Simulation(_core.Simulation):
         physics: bool = True,
         fall: FallOptions | None = None,
         parameters: Mapping[str, Any] | None = None,
+        adds_command: bool = False,
     ) -> None:
         """A mission in its scene, or a controller of your own in any model.
 
@@ -90,6 +91,8 @@ class Simulation(_core.Simulation):
                 touches; nothing else moves and no force acts.
             fall: when a robot without a mission counts as fallen; None: never.
             parameters: of the mission: for "lift" and "casualty" those of `hurcules.lift.Person`.
+            adds_command: of a mission: a command is added to what the mission commands, and does
+                not take its place.
 
         Raises:
             Error: no such mission, method or sensor (the text names those that exist), a bad
@@ -106,6 +109,7 @@ class Simulation(_core.Simulation):
             max_seconds=max_seconds,
             physics=physics,
             fall=fall or FallOptions(),
+            adds_command=adds_command,
         )
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")
@@ -146,7 +150,7 @@ class Simulation(_core.Simulation):
 
         Args:
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
-            start: (nq,) where that is this time; without a mission.
+            start: (nq,) where that is this time, whatever a mission would draw.
 
         Raises:
             Error: another seed, or a start of another shape or not finite.
@@ -197,7 +201,7 @@ class SimulationBatch(_core.SimulationBatch):
             n: how many.
             threads: 0 for one a processor.
             models: one each, of the same names and shapes (masses or friction may differ), or none
-                to share the simulation's.
+                to share the simulation's. The controllers go on reckoning with the simulation's.
 
         Raises:
             Error: n < 1, or models that do not fit.

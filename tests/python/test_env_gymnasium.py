@@ -82,9 +82,9 @@ def test_drawing_does_not_disturb_the_run(env: HurculesEnv) -> None:
 
 
 def test_pictures_are_drawn_where_mujoco_was_imported_first() -> None:
-    program = f"""
+    program = """
 import mujoco, gymnasium
-env = gymnasium.make({IDS[0]!r}, render_mode="rgb_array")
+env = gymnasium.make("hurcules_envs:Hurcules/Stretch-v1", render_mode="rgb_array")
 env.reset(seed=0)
 print(env.render().shape)
 env.close()

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 
@@ -213,6 +214,7 @@ void WholeBodyController::reset(const Vector& qpos) {
   moves_joints_ = scaled_ = false;
   hold_targets();
   for (Task* const task : tasks_) {
+    if (auto* const gaze = dynamic_cast<GazeTask*>(task)) gaze->reset(plan_);
     auto* const force = dynamic_cast<ForceTask*>(task);
     if (!force) continue;
     force->reset(plan_);

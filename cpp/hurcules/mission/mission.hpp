@@ -64,6 +64,9 @@ class Mission : public Supervisor {
   void note_commanded(const WholeBodyController& controller, const TickReport& report) final;
   void note_measured(const TickReport& report) final;
   bool advance(WholeBodyController& controller, double time) override;
+  void go(std::size_t phase, WholeBodyController& controller, double time) override {
+    enter(phase, controller, time);
+  }
   [[nodiscard]] std::vector<std::string> phase_names() const override;
   [[nodiscard]] std::size_t phase() const override { return phase_; }
   [[nodiscard]] const std::vector<Figure>& figures() const override { return figures_; }

@@ -66,7 +66,6 @@ CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix, double
   pelvis_ = body_of(m, prefix + "pelvis");
   chest_ = body_of(m, prefix + "thorax");
   root_ = m->body_rootid[pelvis_];
-  weight_ = m->body_subtreemass[root_] * std::abs(m->opt.gravity[2]);
   arms_[0] = body_of(m, "L_larm");
   arms_[1] = body_of(m, "R_larm");
   robot_ = m->body_rootid[arms_[0]];
@@ -167,6 +166,8 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
 // contacts of the person, by partner and by region
 void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
   forces_.setZero();
+  // now, not once: models of a batch differ, and change between episodes
+  const double weight = m->body_subtreemass[root_] * std::abs(m->opt.gravity[2]);
   Vector3 push = Vector3::Zero();
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
@@ -181,7 +182,7 @@ void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
     const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> frame(contact.frame);
     const Vector3 force =
         (second ? 1.0 : -1.0) * (frame.transpose() * Vector3(wrench[0], wrench[1], wrench[2]));
-    const double share = force.z() / weight_;
+    const double share = force.z() / weight;
     if (m->body_weldid[other] == 0) {
       values_[kOnGround] += share;
       continue;

@@ -68,7 +68,6 @@ class CasualtyWatch {
   int tips_[2] = {0, 0};                               // sites
   std::vector<bool> is_bed_;                           // (nbody)
   int flexion_ = -1, turn_ = -1, head_ = -1;           // rows of the sensors, -1: none
-  double weight_ = 0.0;                                // [N]
   double stand_off_ = 0.0;                             // [m]
   std::vector<int> region_of_;                         // (nbody), -1: none
   std::vector<std::string> regions_;

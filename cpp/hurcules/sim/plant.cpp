@@ -60,6 +60,13 @@ void Plant::move(const Vector& configuration, double dt) {
   data_->time += dt;
 }
 
+void Plant::push(int body, const Vector3& force) {
+  require(body > 0 && body < model_->nbody, "a push wants a body from 1 to " +
+                                                std::to_string(model_->nbody - 1) + ", got " +
+                                                std::to_string(body));
+  std::copy(force.begin(), force.end(), data_->xfrc_applied + 6 * body);
+}
+
 const std::vector<ActuatorStatus>& Plant::actuators() {
   for (const Motor& motor : motors_) {
     actuators_[static_cast<std::size_t>(motor.actuator)] = {motor.limits.at(data_->qvel[motor.dof]),

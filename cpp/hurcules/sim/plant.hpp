@@ -36,6 +36,8 @@ class Plant {
   // n steps, fewer when it ceases to be sound; MuJoCo's sensors are read in the last alone. Returns
   // how many it took.
   int step(int n = 1);
+  // a force [N] in the world at the centre of mass of a body, from now on; zero ends it
+  void push(int body, const Vector3& force);
   // false once a position, a velocity or an acceleration was not finite or huge; such a state is
   // never stepped again
   [[nodiscard]] bool is_sound() const { return sound_; }

@@ -105,6 +105,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       initial_qpos_(controller_->plan().qpos()),
       seen_qpos_(world_.qpos()),
       seen_qvel_(Vector::Zero(plant_.model()->nv)),
+      summed_(Vector::Zero(controller_->scale().size())),
       wished_(Vector::Zero(world_.size())),
       support_(controller_->plan().support()) {
   if (!options_.fall.frame.empty()) fall_frame_ = world_.frame(options_.fall.frame);
@@ -137,7 +138,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
   const ModelPtr own = model ? std::move(model) : plant_.model_ptr();
-  Robot robot(own, world_.coordinate_names());
+  Robot robot(controller_->plan().model(), world_.coordinate_names());
   robot.set_qpos(initial_qpos_);
   std::shared_ptr<WholeBodyController> controller = controller_->clone(robot);
   std::unique_ptr<Supervisor> supervisor;
@@ -203,7 +204,11 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   }
   controller.kinematics(state);
   timer.done(Stage::Kinematics);
-  if (!command && supervisor_) command = &supervisor_->command(dt());
+  if (supervisor_ && (!command || options_.adds_command)) {
+    const Vector& own = supervisor_->command(dt());
+    if (command) summed_ = own + *command;
+    command = command ? &summed_ : &own;
+  }
   controller.apply(command, first, state);
   controller.measure();
   timer.done(Stage::Problem);
@@ -420,7 +425,6 @@ void Simulation::set_brake(const std::string& joint, bool closed) {
 }
 
 void Simulation::reset(std::uint64_t seed, const Vector* start) {
-  require(!start || !supervisor_, "a mission says itself where it starts");
   require(!start || (start->size() == plant_.model()->nq && start->allFinite()),
           "a start wants qpos of " + std::to_string(plant_.model()->nq) + " finite numbers");
   options_.seed = seed;
@@ -446,11 +450,24 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
 
 void Simulation::place(std::uint64_t seed, const Vector* where) {
   Vector start = where ? *where : initial_qpos_;
-  if (supervisor_) start = supervisor_->start(plant_, controller_->plan_to_place(), seed);
+  if (supervisor_ && !where) {
+    start = supervisor_->start(plant_, controller_->plan_to_place(), seed);
+  }
   plant_.reset(-1);
   plant_.place(start);
   controller_->reset(start);
   world_.set_qpos(start);
+}
+
+void Simulation::go(std::size_t phase) {
+  require(supervisor_ != nullptr, "a simulation without a mission has no phases");
+  const std::size_t phases = supervisor_->phase_names().size();
+  require(phase < phases, "go wants a phase from 0 to " + std::to_string(phases - 1) + ", got " +
+                              std::to_string(phase));
+  if (finished()) return;
+  supervisor_->go(phase, *controller_, time());
+  record_.note_phase(phase);
+  stand_on_new_support();
 }
 
 std::vector<double> Simulation::state() const {

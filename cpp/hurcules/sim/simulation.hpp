@@ -39,6 +39,8 @@ struct SimulationOptions {
   // false: the robot is where its references are, at once and whatever it touches; nothing else
   // moves, no force acts, no monitor looks. For learning at a fraction of the time.
   bool physics = true;
+  // a command is added to what the supervisor commands, in place of taking its place
+  bool adds_command = false;
   Clock clock = nullptr;  // [s] for timings; null: none are taken
   double max_seconds = std::numeric_limits<double>::infinity();
   FallOptions fall;
@@ -60,24 +62,30 @@ class Simulation {
              SimulationOptions options = {}, std::unique_ptr<Supervisor> supervisor = nullptr,
              mjData_* data = nullptr);
   // The same loop in the same state, with data, controller and supervisor of its own; `model` may
-  // differ in its numbers, null: this one's. It records nothing.
+  // differ in its numbers, null: this one's. The controller goes on reckoning with the model that
+  // it has, so that it does not know what differs. It records nothing.
   [[nodiscard]] std::unique_ptr<Simulation> clone(ModelPtr model = nullptr) const;
   virtual ~Simulation() = default;
 
   // up to n ticks of the controller; fewer when the run ends. command (k) in SI, held to its scale;
   // null: the supervisor's own operator, and without one all targets hold
   int step(int n = 1, const Vector* command = nullptr);
-  // back to the start; `start` (nq), without a supervisor: where that is this time
+  // back to the start; `start` (nq): where that is this time, whatever a supervisor would draw
   void reset(std::uint64_t seed, const Vector* start = nullptr);
   // The brake of a joint, open after reset. A joint rests behind its shut brake: the plan does not
   // know, so that its coordinate is to be held too. An empty battery closes all.
   void set_brake(const std::string& joint, bool closed);
+
+  // begins this phase of the supervisor's now, out of its order. Throws Error without a supervisor,
+  // and for a phase that it has not.
+  void go(std::size_t phase);
 
   [[nodiscard]] double dt() const { return controller_->dt(); }         // [s]
   [[nodiscard]] double time() const { return record_.telemetry.time; }  // [s] since reset
   [[nodiscard]] Ending ending() const { return ending_; }
   [[nodiscard]] bool finished() const { return ending_ != Ending::Running; }
   [[nodiscard]] bool success() const { return ending_ == Ending::Completed; }
+  [[nodiscard]] bool physics() const { return options_.physics; }
   [[nodiscard]] std::string reason() const;  // "" while running
   // its sensors cannot be believed: it stands behind its brakes until the run ends
   [[nodiscard]] bool held() const { return finding_.trouble != SensorWatch::Trouble::None; }
@@ -156,6 +164,7 @@ class Simulation {
   mutable std::vector<double> task_state_;  // scratch
   Vector initial_qpos_;                     // (nq)
   Vector seen_qpos_, seen_qvel_;            // (nq), (nv) as sensed
+  Vector summed_;                           // (k) the supervisor's command and somebody else's
   Vector wished_;                           // [rad] (n) q* if the motors had held it
   SensorWatch::Finding finding_;            // why it is held
   std::int64_t held_ticks_ = 0;

@@ -21,7 +21,7 @@ namespace hurcules {
 class SimulationBatch {
  public:
   // Copies of a simulation in its present state. models: none to share its model, else one each,
-  // of the same names and shapes. threads: 0 for one a processor. Throws Error for n < 1 and models
+  // of the same names and shapes, whose physics the controllers do not know. threads: 0 for one a processor. Throws Error for n < 1 and models
   // that do not fit.
   SimulationBatch(const Simulation& original, std::size_t n, int threads = 0,
                   const std::vector<ModelPtr>& models = {});

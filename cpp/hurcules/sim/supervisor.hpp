@@ -51,6 +51,9 @@ class Supervisor {
   // goes on to the next phase where one is over; false when the last one is
   virtual bool advance(WholeBodyController& controller, double time) = 0;
 
+  // begins this phase at this time [s]
+  virtual void go(std::size_t phase, WholeBodyController& controller, double time) = 0;
+
   [[nodiscard]] virtual std::vector<std::string> phase_names() const = 0;
   [[nodiscard]] virtual std::size_t phase() const = 0;
   [[nodiscard]] virtual const std::vector<Figure>& figures() const = 0;

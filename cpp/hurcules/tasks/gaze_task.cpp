@@ -22,7 +22,12 @@ GazeTask::GazeTask(std::string name, const Robot& robot, const std::string& fram
       frame_(robot.frame(frame)),
       camera_(robot, frame_),
       seen_(robot) {
+  reset(robot);
+}
+
+void GazeTask::reset(const Robot& robot) {
   target_ = robot.position(frame_) + robot.view_orientation(frame_).col(0);
+  velocity_des_.setZero();
   GazeTask::update(robot);
   error_.setZero();
 }

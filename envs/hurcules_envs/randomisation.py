@@ -1,0 +1,309 @@
+"""What differs between episodes beside the task: robot and world are not as believed.
+
+| name                | unit  | nominal | what is drawn for an episode                             |
+|---------------------|-------|---------|----------------------------------------------------------|
+| `friction`          |       | 1       | factor on the sliding friction of all contacts           |
+| `mass`              |       | 1       | factor on masses and inertias of the robot               |
+| `motor_strength`    |       | 1       | share of the efforts commanded that its motors give      |
+| `observation_noise` |       | 0       | half width of a uniform error of each number seen        |
+| `action_delay`      | steps | 0       | an action takes effect so many steps of the policy later |
+| `push`              | N     | 0       | on its heaviest part for 0.2 s every 2 s, any level way  |
+
+The noise counts in 1 m, 1 rad, 1 m/s, 1 rad/s, 1000 N and 100 kg. The first three are written into
+the model of an episode, of which its controller knows nothing.
+
+Values are drawn uniformly from ranges by a generator of their own, so that an episode starts where
+it would without them. Errors and pushes are functions of a number drawn once and of the count of
+steps: nothing but numbers is remembered.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules_envs.environment import Array, Environment
+
+__all__ = ["NAMES", "PHYSICAL", "Randomisation", "known_ranges", "ranges_of", "split"]
+
+# by name: nominal value, least, most
+_KNOWN: Mapping[str, tuple[float, float, float]] = {
+    "friction": (1.0, 0.05, 20.0),
+    "mass": (1.0, 0.1, 10.0),
+    "motor_strength": (1.0, 0.05, 2.0),
+    "observation_noise": (0.0, 0.0, 10.0),
+    "action_delay": (0.0, 0.0, 5.0),
+    "push": (0.0, 0.0, 1e4),
+}
+NAMES = tuple(_KNOWN)
+IN_MODEL = NAMES[:3]
+PHYSICAL = (*IN_MODEL, "push")
+DELAY = int(_KNOWN["action_delay"][2])  # steps at most
+PUSH_EVERY, PUSH_FOR = 2.0, 0.2  # [s]
+UNITS = {"N": 1000.0, "kg": 100.0}  # what a noise of 1 means; of others 1 of their unit
+STREAM = 0x52414E44  # keeps its draws apart from those of the environment
+
+Range = tuple[float, float]
+
+
+def split(options: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """What belongs here, and the other options."""
+    own = {name: value for name, value in options.items() if name in _KNOWN}
+    return own, {name: value for name, value in options.items() if name not in _KNOWN}
+
+
+def known_ranges(options: Mapping[str, Any], *others: str) -> Mapping[str, Any]:
+    """The options of a reset, all of them ranges.
+
+    Raises:
+        hurcules.Error: another one; the text lists those that exist, `others` too.
+    """
+    for option in options:
+        hurcules.validation.require_known("reset option", str(option), [*others, *NAMES])
+    return options
+
+
+def ranges_of(given: Mapping[str, Any], *, physics: bool) -> dict[str, Range]:
+    """Ranges by name, of values or pairs of them.
+
+    Args:
+        given: by name a number, or (least, most); None: nominal.
+        physics: forces act; without them only what is seen and when is done can differ.
+
+    Raises:
+        hurcules.Error: no pair of numbers in order, one out of range, no whole steps, or a name
+            that wants physics where there is none.
+    """
+    ranges = {}
+    for name, value in given.items():
+        nominal, least, most = _KNOWN[name]
+        if value is None:
+            ranges[name] = (nominal, nominal)
+            continue
+        try:
+            pair = np.broadcast_to(np.asarray(value, dtype=np.float64), 2)
+        except (TypeError, ValueError):
+            pair = np.full(2, np.nan)
+        low, high = float(pair[0]), float(pair[1])
+        if not least <= low <= high <= most:
+            raise hurcules.Error(
+                f"{name}: wanted a number or (least, most) from {least:g} to {most:g}, "
+                f"got {value!r}"
+            )
+        if name == "action_delay" and (low % 1.0 or high % 1.0):
+            raise hurcules.Error(f"{name}: wanted whole steps of the policy, got {value!r}")
+        if name in PHYSICAL and not physics and (low, high) != (nominal, nominal):
+            raise hurcules.Error(
+                f"{name}: wants physics; fidelity 'kinematic' has none, there are: "
+                + ", ".join(word for word in NAMES if word not in PHYSICAL)
+            )
+        ranges[name] = (low, high)
+    return ranges
+
+
+class Randomisation:
+    """The values of n episodes of an environment.
+
+    Attributes:
+        ranges: by name, from which the next episodes draw.
+        drawn: by name, (n,) what each has.
+    """
+
+    def __init__(self, environment: Environment, n: int, given: Mapping[str, Any]) -> None:
+        """Nothing is drawn yet.
+
+        Args:
+            environment: of the episodes.
+            n: how many.
+            given: as for `ranges_of`.
+
+        Raises:
+            hurcules.Error: see there.
+        """
+        self._environment = environment
+        self._simulation = environment.simulation
+        model = self._simulation.model
+        self.ranges: dict[str, Range] = {name: (row[0],) * 2 for name, row in _KNOWN.items()}
+        self.drawn = {name: np.full(n, row[0]) for name, row in _KNOWN.items()}
+        self.set_ranges(given)
+        self._seed, self._count = np.zeros(n), np.zeros(n)
+        self._past = np.zeros((n, 0, 0))
+        root = self._root(model)
+        self._robot = np.flatnonzero(model.body_rootid == root)
+        # of several as heavy the first
+        self.pushed = int(self._robot[np.argmax(model.body_mass[self._robot])])
+        groups = environment.observation
+        scales = [np.full(group.size, UNITS.get(group.unit, 1.0)) for group in groups]
+        self._scale = np.concatenate([*scales, np.ones(environment.goal)])
+        self._scratch: mujoco.MjData | None = None
+        self._varied = np.zeros(n, dtype=bool)
+        self._fields = _numbers_of(model)
+
+    def set_ranges(self, given: Mapping[str, Any]) -> None:
+        """Other ranges from the next episode on; names that are not given keep theirs."""
+        self.ranges |= ranges_of(given, physics=self._simulation.physics)
+
+    def draw(self, i: int, seed: int) -> None:
+        """Values of a new episode."""
+        generator = np.random.default_rng((seed, STREAM))
+        self._seed[i] = float(generator.integers(2**53))
+        self._count[i] = 0.0
+        for name, (low, high) in self.ranges.items():
+            share = generator.random()  # always, so that one range changes no other value
+            value = low + share * (high - low)
+            if name == "action_delay":
+                value = min(low + math.floor(share * (high - low + 1.0)), high)
+            self.drawn[name][i] = value
+        if self._past.size:
+            self._past[i] = 0.0
+
+    @property
+    def wants_models(self) -> bool:
+        """Some episode has a model that differs from the environment's, or the next one may."""
+        return any(
+            (self.drawn[name] != _KNOWN[name][0]).any()
+            or self.ranges[name] != (_KNOWN[name][0],) * 2
+            for name in IN_MODEL
+        )
+
+    def restore_model(self, i: int, model: mujoco.MjModel) -> None:
+        """Writes back what `vary_model` changed, all that MuJoCo derived from it too."""
+        if not self._varied[i]:
+            return
+        self._varied[i] = False
+        own = self._simulation.model
+        for name in self._fields:
+            getattr(model, name)[:] = getattr(own, name)
+        for name in _STATISTICS:
+            setattr(model.stat, name, getattr(own.stat, name))
+
+    def vary_model(self, i: int, model: mujoco.MjModel) -> None:
+        """Writes the values of an episode into its model."""
+        friction, mass, strength = (self.drawn[name][i] for name in IN_MODEL)
+        self._varied[i] = (friction, mass, strength) != (1.0, 1.0, 1.0)
+        if friction != 1.0:
+            model.geom_friction[:, 0] *= friction
+            model.pair_friction[:, :2] *= friction
+        if strength != 1.0:
+            model.actuator_gainprm[:, 0] *= strength
+            model.actuator_biasprm[:, :3] *= strength
+            model.actuator_forcerange[:] *= strength
+        if mass != 1.0:
+            model.body_mass[self._robot] *= mass
+            model.body_inertia[self._robot] *= mass
+            if self._scratch is None:
+                self._scratch = mujoco.MjData(model)
+            mujoco.mj_setConst(model, self._scratch)
+
+    def delayed(self, action: Array, mask: NDArray[np.bool_] | None) -> Array:
+        """The actions that take effect now; those given join the queues of their episodes.
+
+        Args:
+            action: (n, k).
+            mask: (n,) which episodes go on; None: all.
+        """
+        self._count += 1.0 if mask is None else mask
+        delay = self.drawn["action_delay"].astype(int)
+        if not delay.any():
+            return action
+        past = self._queues(action.shape[1])
+        row = np.concatenate([action[:, None], past], axis=1)
+        if mask is None:
+            past[:] = row[:, :-1]
+        else:
+            past[mask] = row[mask, :-1]
+        return np.ascontiguousarray(row[np.arange(len(action)), delay])
+
+    def pushes(self, period: float) -> Array | None:
+        """(n, 3) [N] on body `pushed` in the next step of `period` [s]; None: nobody is pushed."""
+        force = self.drawn["push"]
+        if not force.any():
+            return None
+        result = np.zeros((len(force), 3))
+        for i in np.flatnonzero(force):
+            seed = int(self._seed[i])
+            since = self._count[i] * period + PUSH_EVERY * _uniform(seed, 0)
+            number, since = divmod(since, PUSH_EVERY)
+            if since < PUSH_FOR:
+                angle = 2.0 * math.pi * _uniform(seed, 1 + int(number))
+                result[i] = force[i] * math.cos(angle), force[i] * math.sin(angle), 0.0
+        return result
+
+    def errors(self) -> Array | None:
+        """(n, m) of what is seen now, then of the goal that is achieved; None: there are none."""
+        noise = self.drawn["observation_noise"]
+        if not noise.any():
+            return None
+        keys = np.arange(1, len(self._scale) + 1, dtype=np.uint64)
+        seeds = _mixed(self._seed.astype(np.uint64) ^ _mixed(self._count.astype(np.uint64)))
+        share = (_mixed(seeds[:, None] + _STEP * keys) >> np.uint64(11)) * 2.0**-53
+        return np.asarray(noise[:, None] * self._scale * (2.0 * share - 1.0))
+
+    def info(self) -> dict[str, Array]:
+        """The values, for `info`."""
+        return {f"drawn_{name}": values.copy() for name, values in self.drawn.items()}
+
+    def state(self, actions: int) -> Array:
+        """(n, s) all of it, with queues of so many numbers."""
+        past = self._queues(actions)
+        columns = [self._seed, self._count, *self.drawn.values()]
+        return np.concatenate([np.stack(columns, axis=1), past.reshape(len(past), -1)], axis=1)
+
+    def restore(self, state: Array, mask: NDArray[np.bool_], actions: int) -> None:
+        """Takes back what `state` gave."""
+        columns = [self._seed, self._count, *self.drawn.values()]
+        for place, column in enumerate(columns):
+            column[mask] = state[mask, place]
+        past = self._queues(actions)
+        past[mask] = state[mask, len(columns) :].reshape(-1, *past.shape[1:])
+
+    def _queues(self, actions: int) -> Array:
+        """(n, DELAY, k) the last actions, the newest first."""
+        if not self._past.size:
+            self._past = np.zeros((len(self._seed), DELAY, actions))
+        return self._past
+
+    def _root(self, model: mujoco.MjModel) -> int:
+        """The root body of the robot: that of its first driven joint."""
+        joint = int(model.actuator_trnid[0, 0])
+        return int(model.body_rootid[model.jnt_bodyid[joint]])
+
+
+_STATISTICS = ("meaninertia", "meanmass", "meansize", "extent")
+# large, and no matter of physics or never written
+_SHAPES = ("mesh_", "hfield_", "tex_", "skin_", "flex", "mat_", "key_")
+
+
+def _numbers_of(model: mujoco.MjModel) -> list[str]:
+    """The arrays of numbers of a model, but for shapes and looks."""
+    names = [name for name in dir(model) if not name.startswith(("_", *_SHAPES))]
+    found = []
+    for name in names:
+        value = getattr(model, name)
+        if isinstance(value, np.ndarray) and value.dtype == np.float64 and value.size:
+            found.append(name)
+    return found
+
+
+_STEP = np.uint64(0x9E3779B97F4A7C15)
+
+
+def _mixed(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """The finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), number by number."""
+    with np.errstate(over="ignore"):
+        z = values + _STEP
+        z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+        z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return z ^ (z >> np.uint64(31))
+
+
+def _uniform(seed: int, number: int) -> float:
+    """In [0, 1), by two whole numbers."""
+    mixed = _mixed(_mixed(np.array([seed], np.uint64)) + np.uint64(number))
+    return float((mixed[0] >> np.uint64(11)) * 2.0**-53)
