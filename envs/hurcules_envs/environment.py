@@ -8,7 +8,7 @@ step, and turns them into observation, reward and success with functions over ar
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -77,12 +77,20 @@ class Numbers:
         action: Array,
         dt: float,
         finished: NDArray[np.bool_],
+        endings: Callable[[], Sequence[hurcules.Ending]] = tuple,
     ) -> None:
         self._values = values
         self.memory = memory
         self.action = action
         self.dt = dt
         self.finished = finished
+        self._endings = endings
+
+    def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
+        """(n,) whose simulation is over in this way."""
+        if not self.finished.any():
+            return np.zeros(len(self.finished), dtype=bool)
+        return np.array([one == ending for one in self._endings()])
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""
@@ -182,6 +190,15 @@ class Environment(ABC):
             By channel, (n, size) [SI]; a channel that is not named gets zero.
         """
         return action
+
+    def phases(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[int, str]:
+        """Of a mission: by episode the phase that it begins now; by default it goes on.
+
+        Args:
+            action: as for `command`, which is asked next.
+            numbers: as they were before this step.
+        """
+        return {}
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
         """Of a goal environment: the reward of other goals, any leading axes."""

@@ -145,7 +145,7 @@ class Episodes:
         self._action = action if mask is None else np.where(mask[:, None], action, 0.0)
         forces = self.randomisation.pushes(self.period)
         taken = self.randomisation.delayed(self._action, mask)
-        commands = self._commands.of(taken, self._numbers)
+        commands = self._commands.of(taken, self._numbers, self._go)
         if forces is not None or self._pushed:
             self._pushed = forces is not None
             still = np.zeros((self.n, 3))
@@ -170,7 +170,7 @@ class Episodes:
                 self.memory[name][~remember] = values
         terms = environment.reward(numbers)
         success = environment.succeeded(numbers)
-        failure = environment.failed(numbers) | over
+        failure = environment.failed(numbers) | over & ~numbers.ended_as(hurcules.Ending.Completed)
         step = Step()
         step.observation = self._observe(numbers)
         step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
@@ -275,7 +275,14 @@ class Episodes:
 
     def _numbers(self, views: Mapping[str, Array] | None = None) -> Numbers:
         read = self._read() if views is None else views
-        return Numbers(read, self.memory, self._action, self.period, self.batch.finished)
+        over = self.batch.finished
+        return Numbers(
+            read, self.memory, self._action, self.period, over, lambda: self.batch.endings
+        )
+
+    def _go(self, phases: Mapping[int, str]) -> None:
+        for i, phase in phases.items():
+            self.batch[i].go(phase)
 
     def _make_spaces(self) -> None:
         environment = self.environment
@@ -364,12 +371,19 @@ class _Commands:
             scales.append(np.broadcast_to(most, len(components)))
         self.scale = np.concatenate(scales).astype(np.float64)
 
-    def of(self, action: Array, numbers: Callable[[], Numbers]) -> Array:
+    def of(
+        self,
+        action: Array,
+        numbers: Callable[[], Numbers],
+        go: Callable[[Mapping[int, str]], None],
+    ) -> Array:
         """(n, k) commands; the numbers are read only where an environment turns its action."""
         parts = {name: (action * self.scale)[:, part] for name, part in self._parts.items()}
         given: Mapping[str, Array] = parts
         if type(self._environment).command is not Environment.command:
-            given = self._environment.command(parts, numbers())
+            read = numbers()
+            go(self._environment.phases(parts, read))
+            given = self._environment.command(parts, read)
         commands = np.zeros((len(action), self._size))
         for name, values in given.items():
             commands[:, self._channels[name]] = values

@@ -15,11 +15,11 @@ import hurcules
 from hurcules import lift
 from hurcules_envs.contact import ContactEnvironment, add_force_sensor, contact_tick, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.person import LimpPerson
 
 __all__ = ["Lift"]
 
 PLACE = (2.30, 0.0)  # [m] of the person's centre from the knee axis: tips clear of the nearer hand
-OWN = 75.0  # [kg] of the person that is built; others are as large, and as much denser
 SETTLING = 1.5  # [s] until the robot stands and the person lies still
 SPEED, PITCH_RATE = 0.2, 0.3  # [m/s], [rad/s] full scale of hands, tracks and pitch
 YAW_RATE = 0.2  # [rad/s]
@@ -137,19 +137,7 @@ class Lift(ContactEnvironment):
         start.set_qpos(settled.data.qpos)
         start.stand_on(lift.SUPPORT)
         self.simulation = self._loop(model, start, tick)
-        self._person = model.joint("casualty_root").qposadr[0]
-        self._bodies = [
-            body
-            for body in range(model.nbody)
-            if model.body_rootid[body] == model.body("casualty_pelvis").id
-        ]
-        self._clothes = [
-            geom
-            for geom in range(model.ngeom)
-            if model.geom_bodyid[geom] in self._bodies and model.geom_contype[geom]
-        ]
-        self._scratch = mujoco.MjData(model)
-        self._centre = np.array(settled.data.subtree_com[model.body("casualty_pelvis").id])
+        self._person = LimpPerson(model, settled.data.qpos)
 
     def scene(self) -> mujoco.MjSpec:
         """The robot before a person who lies across its way."""
@@ -201,12 +189,7 @@ class Lift(ContactEnvironment):
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """Mass of the person, friction of his clothes."""
-        own = self.simulation.model
-        ratio = values["mass"][0] / OWN
-        model.body_mass[self._bodies] = ratio * own.body_mass[self._bodies]
-        model.body_inertia[self._bodies] = ratio * own.body_inertia[self._bodies]
-        model.geom_friction[self._clothes, 0] = values["friction"][0]
-        mujoco.mj_setConst(model, self._scratch)
+        self._person.configure(model, float(values["mass"][0]), float(values["friction"][0]))
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """Both hands and blades alike; a press adds what its error wants to the way down."""
@@ -226,18 +209,10 @@ class Lift(ContactEnvironment):
         ahead, left = generator.uniform([-0.05, -0.10], [0.10, 0.10])
         yaw = generator.uniform(-0.10, 0.10)
         qpos = np.array(self.simulation.data.qpos)
-        root = slice(self._person, self._person + 7)
-        turn, quat = np.array([math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)]), np.zeros(4)
-        mujoco.mju_mulQuat(quat, turn, qpos[root][3:])
-        lever = qpos[root][:2] - self._centre[:2]
-        c, s = math.cos(yaw), math.sin(yaw)
-        place = self._centre[:2] + np.array(
-            [c * lever[0] - s * lever[1], s * lever[0] + c * lever[1]]
-        )
-        qpos[root] = [place[0] + ahead, place[1] + left, qpos[root][2] + 0.002, *quat]
+        self._person.place(qpos, ahead, left, yaw)
         drawn = {"mass": generator.uniform(50.0, 120.0), "friction": generator.uniform(0.4, 0.9)}
         places = {"ahead": float(ahead), "left": float(left), "yaw": float(yaw)}
-        return Start(qpos, drawn | {"lay": self._centre[2]}, drawn | places)
+        return Start(qpos, drawn | {"lay": self._person.centre[2]}, drawn | places)
 
     def remember(self, numbers: Numbers) -> None:
         """For how long he has been held."""

@@ -198,6 +198,14 @@ void bind_batch(py::module_& module) {
           },
           "(n,) [s]")
       .def_property_readonly(
+          "endings",
+          [](const Batch& self) {
+            std::vector<Ending> all;
+            for (std::size_t i = 0; i < self.size(); ++i) all.push_back(self[i].ending());
+            return all;
+          },
+          "(n,) list of Ending")
+      .def_property_readonly(
           "finished",
           [](const Batch& self) {
             py::array_t<bool> all(static_cast<py::ssize_t>(self.size()));

@@ -217,6 +217,15 @@ void bind_options(py::module_& module) {
   py::enum_<BaseSource>(module, "BaseSource", "Where the planner's support stands.")
       .value("Held", BaseSource::Held, "where it stood at the start")
       .value("Sensed", BaseSource::Sensed, "where it is now");
+  py::enum_<Ending>(module, "Ending", "Why a run is over.")
+      .value("Running", Ending::Running, "it is not")
+      .value("Completed", Ending::Completed, "the mission, with all figures within their bounds")
+      .value("Missed", Ending::Missed, "the mission, or aborted, with one out of them")
+      .value("TimeUp", Ending::TimeUp)
+      .value("Fell", Ending::Fell)
+      .value("Diverged", Ending::Diverged, "numbers out of range")
+      .value("SolverFailed", Ending::SolverFailed)
+      .value("Held", Ending::Held, "its sensors could not be believed");
   py::class_<FallOptions>(module, "FallOptions", kFall)
       .def(py::init([](std::string frame, double min_height, double max_tilt) {
              return FallOptions{std::move(frame), min_height, max_tilt};

@@ -3286,6 +3286,19 @@ class BaseSource(_Enum):
     Sensed: ClassVar[BaseSource]
     __members__: ClassVar[dict[str, BaseSource]]
 
+class Ending(_Enum):
+    """Why a run is over."""
+
+    Completed: ClassVar[Ending]
+    Diverged: ClassVar[Ending]
+    Fell: ClassVar[Ending]
+    Held: ClassVar[Ending]
+    Missed: ClassVar[Ending]
+    Running: ClassVar[Ending]
+    SolverFailed: ClassVar[Ending]
+    TimeUp: ClassVar[Ending]
+    __members__: ClassVar[dict[str, Ending]]
+
 class FallOptions:
     """When a run ends because the robot fell.
 
@@ -3687,6 +3700,10 @@ class SimulationBatch:
 
         Raises:
           Error: arrays of another shape, or not finite."""
+
+    @property
+    def endings(self) -> list[Ending]:
+        """(n,) list of Ending"""
 
     @property
     def finished(self) -> NDArray[np.bool]:
