@@ -22,6 +22,7 @@ void SaddleProbe::look_at(const Robot& robot, const Stack& stack) {
 }
 
 double SaddleProbe::growth(std::size_t k, const Level& level, const Vector& u, double gain) {
+  if (!u.allFinite()) return 0.0;  // a task measured no numbers; the solver will refuse them
   if (!stands_there_) {
     robot_.set_qpos(looked_at_->qpos());
     if (robot_.support() != looked_at_->support()) robot_.stand_on(looked_at_->support());

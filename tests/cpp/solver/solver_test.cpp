@@ -245,6 +245,26 @@ TEST(Solver, BadNumbersAreAStatusNotAnException) {
   EXPECT_EQ(solver.solve(levels).status, SolverStatus::InvalidInput);
 }
 
+// more levels than before, and their first numbers are none: nothing of before may be asked for
+TEST(Solver, BadNumbersInANewPatternLeaveNothingBehind) {
+  Solver solver(12);
+  Hierarchy few = RandomHierarchy(1).conflicting(12, 0.1);
+  few.resize(1);
+  Hierarchy many = RandomHierarchy(2).conflicting(12, 0.1);
+  for (Level& level : many) level.rho = 0.0;
+  ASSERT_GT(many.size(), few.size());
+  Solver fresh(12);
+  (void)fresh.solve(many);
+  (void)solver.solve(many);
+  EXPECT_EQ(solver.solve(few).status, SolverStatus::Solved);
+  Hierarchy bad = many;
+  bad.back().A(0, 0) = std::nan("");
+  EXPECT_EQ(solver.solve(bad).status, SolverStatus::InvalidInput);
+  EXPECT_EQ(solver.solve(many).status, SolverStatus::Solved);
+  EXPECT_EQ(solver.solution().x, fresh.solution().x);
+  EXPECT_EQ(solver.solution().changes, fresh.solution().changes);  // cold
+}
+
 TEST(Solver, HugeNumbersEndWithAFiniteAnswer) {
   Solver solver(2);
   const Solution& solution = solver.solve({equal(Matrix{{1e300, 1e300}}, vector({1e19}), 0.1),

@@ -23,8 +23,10 @@ void WorkingSetCache::clear() {
 }
 
 void WorkingSetCache::check(const RowTable& rows) {
-  if (rows.same_pattern() && !restored_) return;
   const int levels = rows.levels();
+  // the rows were refused, for numbers that are none, in the solve that brought this pattern
+  const bool unread = static_cast<int>(begin_.size()) != levels + 1;
+  if (rows.same_pattern() && !restored_ && !unread) return;
   const auto fits = [&](const KeptRow& kept) {
     return kept.held_by < levels && kept.row < rows.size() && rows[kept.row].candidate >= 0;
   };
