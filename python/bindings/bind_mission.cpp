@@ -51,6 +51,8 @@ Args:
   rate: (k,) SI at which it is led, or
   way: until so much has been given [SI s]; inf: on and on.
   by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
+  to: look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
+    begins; "" adds nothing.
 )";
 constexpr const char* kKey = R"(Angles of coordinates, or places of joints, at a share of a motion.
 
@@ -66,6 +68,7 @@ Args:
   seconds: [s] that ways and postures take, the least duration.
   leads: list of Lead; channels that are not led hold.
   support: body that the robot stands on from here on; "": that of the row before.
+  brakes: joints that rest behind their brakes in this phase, "SP" both; all others are open.
   posture: channel of a PostureTask over all coordinates; of the stack "joints" a JointRates.
   keys: list of PostureKey, where it leads to.
   done: list of Condition, all of them, when all motions have ended.
@@ -103,7 +106,11 @@ Args:
   min_height: [m] of the pelvis above the support; below, the robot fell.
   max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
   casualty: what stands before the names of the person to watch, "" for nobody.
-  stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body.
+  stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body;
+    from the centre of the load likewise.
+  load: body of a thing to carry, with sites LOAD_left and LOAD_right to grasp; "" for none.
+  container: body of what it is put into, "" for none.
+  container_stand: [m] of the robot's centre of mass from its centre where it stands square to it.
 )";
 
 const std::vector<std::pair<std::string, ReactionKind>>& kinds() {
@@ -162,7 +169,7 @@ void bind_rows(py::module_& module) {
       {required("when", &Trouble::when), required("reactions", &Trouble::reactions)});
   bind_options<Lead>(module, "Lead", kLead,
                      {required("channel", &Lead::channel), field("rate", &Lead::rate),
-                      field("way", &Lead::way), field("by", &Lead::by)});
+                      field("way", &Lead::way), field("by", &Lead::by), field("to", &Lead::to)});
   bind_options<PostureKey>(
       module, "PostureKey", kKey,
       {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});
@@ -173,7 +180,7 @@ void bind_rows(py::module_& module) {
        field("posture", &Phase::posture), field("keys", &Phase::keys), field("done", &Phase::done),
        field("within", &Phase::within), field("late", &Phase::late),
        field("troubles", &Phase::troubles), field("support", &Phase::support),
-       field("note", &Phase::note), field("last", &Phase::last)});
+       field("brakes", &Phase::brakes), field("note", &Phase::note), field("last", &Phase::last)});
 }
 
 }  // namespace
@@ -200,5 +207,7 @@ void bind_mission(py::module_& module) {
       {required("name", &MissionSetup::name), field("support", &MissionSetup::support),
        field("max_seconds", &MissionSetup::max_seconds),
        field("min_height", &MissionSetup::min_height), field("max_tilt", &MissionSetup::max_tilt),
-       field("casualty", &MissionSetup::casualty), field("stand_off", &MissionSetup::stand_off)});
+       field("casualty", &MissionSetup::casualty), field("stand_off", &MissionSetup::stand_off),
+       field("load", &MissionSetup::load), field("container", &MissionSetup::container),
+       field("container_stand", &MissionSetup::container_stand)});
 }

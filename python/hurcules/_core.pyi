@@ -2802,7 +2802,9 @@ class Lead:
       channel: of the controller.
       rate: (k,) SI at which it is led, or
       way: until so much has been given [SI s]; inf: on and on.
-      by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly."""
+      by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
+      to: look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
+        begins; "" adds nothing."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     channel: str
@@ -2811,7 +2813,13 @@ class Lead:
     def __deepcopy__(self, memo: dict[str, Any]) -> Lead: ...
     def __eq__(self, other: object) -> bool: ...
     def __init__(
-        self, *, channel: str, rate: ArrayLike = ..., way: float = ..., by: ArrayLike = ...
+        self,
+        *,
+        channel: str,
+        rate: ArrayLike = ...,
+        way: float = ...,
+        by: ArrayLike = ...,
+        to: collections.abc.Sequence[str] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -2822,6 +2830,10 @@ class Lead:
     def rate(self) -> NDArray[np.float64]: ...
     @rate.setter
     def rate(self, arg0: ArrayLike) -> None: ...
+    @property
+    def to(self) -> list[str]: ...
+    @to.setter
+    def to(self, arg0: collections.abc.Sequence[str]) -> None: ...
     @property
     def way(self) -> float: ...
     @way.setter
@@ -2861,6 +2873,7 @@ class Phase:
       seconds: [s] that ways and postures take, the least duration.
       leads: list of Lead; channels that are not led hold.
       support: body that the robot stands on from here on; "": that of the row before.
+      brakes: joints that rest behind their brakes in this phase, "SP" both; all others are open.
       posture: channel of a PostureTask over all coordinates; of the stack "joints" a JointRates.
       keys: list of PostureKey, where it leads to.
       done: list of Condition, all of them, when all motions have ended.
@@ -2895,10 +2908,15 @@ class Phase:
         late: collections.abc.Sequence[Reaction] = [],
         troubles: collections.abc.Sequence[Trouble] = [],
         support: str = "",
+        brakes: collections.abc.Sequence[str] = [],
         note: str = "",
         last: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def brakes(self) -> list[str]: ...
+    @brakes.setter
+    def brakes(self, arg0: collections.abc.Sequence[str]) -> None: ...
     @property
     def done(self) -> list[Condition]: ...
     @done.setter
@@ -3015,10 +3033,16 @@ class MissionSetup:
       min_height: [m] of the pelvis above the support; below, the robot fell.
       max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
       casualty: what stands before the names of the person to watch, "" for nobody.
-      stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body."""
+      stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body;
+        from the centre of the load likewise.
+      load: body of a thing to carry, with sites LOAD_left and LOAD_right to grasp; "" for none.
+      container: body of what it is put into, "" for none.
+      container_stand: [m] of the robot's centre of mass from its centre where it stands square to it."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     casualty: str
+    container: str
+    load: str
     name: str
     support: str
 
@@ -3035,8 +3059,15 @@ class MissionSetup:
         max_tilt: float = 0.0,
         casualty: str = "",
         stand_off: float = 0.0,
+        load: str = "",
+        container: str = "",
+        container_stand: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def container_stand(self) -> float: ...
+    @container_stand.setter
+    def container_stand(self, arg0: float) -> None: ...
     @property
     def max_seconds(self) -> float: ...
     @max_seconds.setter

@@ -13,12 +13,13 @@ from rich.markup import escape
 from rich.table import Table
 
 import hurcules
-from hurcules import lift, plugins
+from hurcules import plugins
 from hurcules._core import Error
 from hurcules.output import WriteError
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
+from hurcules.table_missions import TABLE_MISSIONS
 from hurcules.validation import require_known
 
 __all__ = ["main", "results_in"]
@@ -130,6 +131,8 @@ def run_mission(
 
     - `hurcules run lift --mass 90 --offset 0.05,-0.1 --yaw 0.2 --friction 0.6 --pose back`
 
+    - `hurcules run disposal --mass 20 --offset 0.05,-0.1 --yaw 0.2 --friction 0.8`
+
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
 
     - `hurcules run --policy Drive-v0 --seed 3`
@@ -161,7 +164,8 @@ def run_mission(
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
     require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
-    parameters = lift.parameters_of(context.args) if mission in lift.MISSIONS else {}
+    rows = TABLE_MISSIONS.get(mission)
+    parameters = rows.parameters_of(context.args) if rows else {}
     if context.args and not parameters:
         kind = "no such option" if context.args[0].startswith("-") else "unexpected argument"
         raise Error(f"{kind}: {context.args[0]}")

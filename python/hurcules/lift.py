@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -33,6 +33,7 @@ from hurcules._core import (
     Twist,
     WholeBodyController,
 )
+from hurcules.mission_options import pair, read_options, record
 from hurcules.mission_table import Mission
 
 __all__ = [
@@ -80,11 +81,7 @@ def person(parameters: Mapping[str, Any]) -> Person:
     Raises:
         Error: no such parameter, or an offset that is not two numbers.
     """
-    known = [field.name for field in fields(Person)]
-    for name in parameters:
-        if name not in known:
-            raise Error(f"person: no parameter '{name}'; there are: {', '.join(known)}")
-    made = Person(**parameters)
+    made = record(Person, "person", parameters)
     if len(made.offset) != 2 or not all(math.isfinite(number) for number in made.offset):
         raise Error(f"person: offset wants two numbers, ahead and to the left, got {made.offset!r}")
     return made
@@ -96,27 +93,12 @@ def parameters_of(words: Sequence[str]) -> dict[str, Any]:
     Raises:
         Error: another option, or a value that is none.
     """
-    found: dict[str, Any] = {}
-    rest = list(words)
-    while rest:
-        option, _, value = rest.pop(0).partition("=")
-        if option not in _OPTIONS:
-            raise Error(f"no such option: {option}; there are: {', '.join(_OPTIONS)}")
-        value = value or (rest.pop(0) if rest else "")
-        try:
-            found[option.removeprefix("--")] = _OPTIONS[option](value)
-        except ValueError:
-            raise Error(f"{option}: cannot read {value!r}") from None
-    return found
-
-
-def _pair(text: str) -> tuple[float, ...]:
-    return tuple(float(number) for number in text.split(","))
+    return read_options(words, _OPTIONS)
 
 
 _OPTIONS: Mapping[str, Callable[[str], Any]] = {
     "--mass": int,
-    "--offset": _pair,
+    "--offset": pair,
     "--yaw": float,
     "--friction": float,
     "--pose": str,

@@ -10,6 +10,7 @@
     note = "hands forward"      # for the printed table and the film
     seconds = 2.0               # that ways (`by`) and postures take, the least duration
     lead.hand = { by = [0.1, 0.0, 0.0] }             # or { rate = [...], way = 0.2 }
+    # or { by = [0.0, 0.0, 0.1], to = ["load/left_hand_ahead_m", "", ""] }: and by what is seen then
     done = ["mission/force/hand <= -2.5 for 0.3 s"]  # all of them
     within = 10.0
     late = ["hold 2 s", "back to reach, 2 times", "abort"]
@@ -135,9 +136,12 @@ class Mission:
         return "\n".join(lines) + "\n"
 
 
-_SETUP = ("name", "support", "max_seconds", "min_height", "max_tilt", "casualty", "stand_off")
+_SETUP = (
+    "name", "support", "max_seconds", "min_height", "max_tilt", "casualty", "stand_off", "load",
+    "container", "container_stand",
+)  # fmt: skip
 _MEASURE = ("name", "quantity", "take", "phases", "least", "most")
-_PHASE = ("name", "note", "stack", "seconds", "support", "posture", "within", "last")
+_PHASE = ("name", "note", "stack", "seconds", "support", "brakes", "posture", "within", "last")
 
 
 def condition(text: str) -> Condition:
@@ -267,6 +271,7 @@ def _phase_lines(phase: Phase) -> list[str]:
         parts = [f"rate = {_value(lead.rate.tolist())}"] if lead.rate.size else []
         parts += [f"way = {_value(lead.way)}"] if math.isfinite(lead.way) else []
         parts += [f"by = {_value(lead.by.tolist())}"] if lead.by.size else []
+        parts += [f"to = {_value(list(lead.to))}"] if lead.to else []
         lines.append(f"lead.{lead.channel} = {{ {', '.join(parts)} }}")
     if phase.keys:
         lines.append("keys = [")

@@ -41,6 +41,11 @@ PERSON_CHANNELS = (
     ("casualty/Q", "quantity Q of the person, unit in its name; shares are of his weight"),
     ("casualty/force/R", "[N] of the robot on region R of the body"),
 )
+# and where a thing is carried
+LOAD_CHANNELS = (
+    ("load/Q", "quantity Q of what is carried, unit in its name; shares are of its weight"),
+    ("container/Q", "where the cameras see what it is put into"),
+)
 # What timing.npz holds, (ticks,) each [s]. It is a file of its own: log.npz is the same for a seed.
 STAGES = "time, sense, kinematics, hierarchy, solve, servo, physics, record"
 

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from hurcules import extras, lift
+from hurcules import extras
 from hurcules._core import Error
 from hurcules.figures import describe, readable
 from hurcules.interrupts import Interrupts
@@ -24,6 +24,7 @@ from hurcules.rendering import RendererError, following_camera
 from hurcules.sensors import realistic
 from hurcules.simulation import Simulation
 from hurcules.summary import summarize
+from hurcules.table_missions import TABLE_MISSIONS
 from hurcules.video import Inset, Painter, film
 
 __all__ = [
@@ -182,21 +183,18 @@ def _save(
 
 def _pace(simulation: Simulation) -> Pace:
     """Minutes of driving and turning are shown faster, with fewer pictures."""
-    return Pace(fps=12, speed=6) if simulation.mission in lift.MISSIONS else Pace()
+    return Pace(fps=12, speed=6) if simulation.mission in TABLE_MISSIONS else Pace()
 
 
 def _open_painter(simulation: Simulation) -> Painter:
-    """Two cameras that go with the person where one is carried, else those of the painter."""
+    """Two cameras that go with what is carried, else those of the painter."""
     model = simulation.model
-    if simulation.mission not in lift.MISSIONS:
+    mission = TABLE_MISSIONS.get(simulation.mission or "")
+    if mission is None:
         return Painter(model)
-    person = "casualty_pelvis"
-    across = following_camera(model, person, distance=2.3, azimuth=215.0, elevation=-20.0)
-    return Painter(
-        model,
-        following_camera(model, person),
-        Inset(across, "from his head's side"),
-    )
+    body = mission.followed
+    across = following_camera(model, body, distance=2.3, azimuth=215.0, elevation=-20.0)
+    return Painter(model, following_camera(model, body), Inset(across, mission.beside))
 
 
 def _film(

@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hurcules import _core, lift, models
+from hurcules import _core, models
 from hurcules._core import (
     Error,
     FallOptions,
@@ -25,6 +25,7 @@ from hurcules._core import (
     WholeBodyController,
 )
 from hurcules.mission_table import Mission
+from hurcules.table_missions import TABLE_MISSIONS
 from hurcules.validation import require_known
 
 __all__ = ["Simulation", "SimulationBatch", "missions"]
@@ -37,7 +38,7 @@ Command = Mapping[str, ArrayLike] | ArrayLike
 
 def missions() -> list[str]:
     """Returns the names of the missions."""
-    return [*_core.missions(), *lift.MISSIONS]
+    return [*_core.missions(), *TABLE_MISSIONS]
 
 
 class Simulation(_core.Simulation):
@@ -90,7 +91,8 @@ class Simulation(_core.Simulation):
             physics: False: the robot is where it is commanded to be, at once and whatever it
                 touches; nothing else moves and no force acts.
             fall: when a robot without a mission counts as fallen; None: never.
-            parameters: of the mission: for "lift" and "casualty" those of `hurcules.lift.Person`.
+            parameters: of the mission: for "lift" and "casualty" those of `hurcules.lift.Person`,
+                for "disposal" those of `hurcules.disposal.Job`.
             adds_command: of a mission: a command is added to what the mission commands, and does
                 not take its place.
 
@@ -115,15 +117,15 @@ class Simulation(_core.Simulation):
             raise Error("a simulation without a mission wants both a model and a controller")
         if model is not None and isinstance(mission, str):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
-        lifts = isinstance(mission, str) and mission in lift.MISSIONS
-        if parameters and not lifts:
+        rows = TABLE_MISSIONS.get(mission) if isinstance(mission, str) else None
+        if parameters and rows is None:
             raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
         table = mission if isinstance(mission, Mission) else None
         if table is not None and controller is None:
             raise Error("a table of phases wants a model and a controller")
-        if lifts:
-            table, model = lift.mission(str(mission)), lift.model(lift.person(parameters or {}))
-            controller = lift.controller(model)
+        if rows is not None:
+            table, model = rows.table(), rows.spec(parameters or {}).compile()
+            controller = rows.controller(model)
         self.mission: str | None
         if controller is not None:
             self.mission = table.setup.name if table else None
@@ -135,8 +137,8 @@ class Simulation(_core.Simulation):
             if table is None:
                 super().__init__(self.model, self.data, controller, options)
             else:
-                rows, setup = table.rows, table.setup
-                super().__init__(self.model, self.data, controller, rows, setup, options)
+                phases, setup = table.rows, table.setup
+                super().__init__(self.model, self.data, controller, phases, setup, options)
             return
         name = str(mission or "stretch")
         self.mission = name

@@ -67,8 +67,8 @@ most = -0.4
 """
 
 
-def loop(text: str = ROWS) -> hurcules.Simulation:
-    model = mujoco.MjModel.from_xml_string(ARM)
+def loop(text: str = ROWS, arm: str = ARM) -> hurcules.Simulation:
+    model = mujoco.MjModel.from_xml_string(arm)
     robot = hurcules.Robot(model)
     posture = hurcules.PostureTask("posture", robot)
     controller = hurcules.WholeBodyController(
@@ -105,6 +105,41 @@ def test_the_same_table_gives_the_same_bits_from_a_snapshot() -> None:
     other.step(300)
     assert one.phase == other.phase
     assert (one.state() == other.state()).all()
+
+
+def test_a_lead_goes_by_what_is_seen_as_its_phase_begins() -> None:
+    seen = ROWS.replace(
+        "lead.posture = { rate = [0.5, 0.0], way = 0.2 }",
+        'seconds = 1.0\nlead.posture = { by = [0.1, 0.0], to = ["q/j2", ""] }',
+    )
+    simulation = loop(seen)
+    while simulation.phase == "up":
+        simulation.step(1)
+    j1, j2 = (float(simulation.data.joint(name).qpos[0]) for name in ("j1", "j2"))
+    assert j2 == pytest.approx(0.3, abs=0.02)
+    simulation.step(300)
+    copy = loop(seen)
+    copy.restore(simulation.state())  # what was seen is part of the state
+    for one in (simulation, copy):
+        one.step(5000)
+        assert one.data.joint("j1").qpos[0] == pytest.approx(j1 + 0.1 + j2, abs=0.02)
+    assert copy.data.qpos.tolist() == simulation.data.qpos.tolist()
+
+
+def test_a_joint_rests_behind_its_brake_in_the_phases_that_say_so() -> None:
+    stiff = 'frictionloss="0.1" solimpfriction="0.9999 0.9999 0.001 0.5 2"'
+    rubbing = ARM.replace('axis="0 1 0"', f'axis="0 1 0" {stiff}')
+    rubbing = rubbing.replace('ctrlrange="-1 1"', 'ctrlrange="-1 1" forcerange="-50 50"')
+    braked = ROWS.replace('name = "up"', 'name = "rest"\nstack = "posture"\nseconds = 0.5\n'
+                          'brakes = ["j1", "j2"]\n\n[[phase]]\nname = "up"')  # fmt: skip
+    simulation = loop(braked, rubbing)
+    simulation.step(200)
+    assert simulation.phase == "rest"
+    assert simulation.controller.torque.tolist() == [0.0, 0.0]
+    assert abs(simulation.data.qvel).max() < 0.01
+    simulation.step(300)
+    assert simulation.phase == "up"
+    assert abs(simulation.controller.torque).min() > 0.1
 
 
 def test_what_is_saved_is_what_was_loaded(tmp_path: Path) -> None:
@@ -214,6 +249,13 @@ def test_conditions_and_reactions_are_read_from_text() -> None:
         ("seconds = 1.0", "secnds = 1.0", "no entry 'secnds'"),
         ('safety = "back"', 'safety = "home"', "phase 'home' does not exist"),
         ('take = "smallest"', 'take = "least"', "take 'least' does not exist"),
+        (
+            "rate = [0.5, 0.0], way = 0.2",
+            'by = [0.0, 0.0], to = ["q/j1"]',
+            "quantities to go to, 1",
+        ),
+        ("rate = [0.5, 0.0]", 'rate = [0.5, 0.0], to = ["", "q/j1"]', "quantities to go to, 2"),
+        ("seconds = 1.0", 'seconds = 1.0\nbrakes = ["j1"]', "brake 'j1' does not exist"),
     ],
 )
 def test_a_mistake_is_told_with_its_row(old: str, new: str, wanted: str) -> None:

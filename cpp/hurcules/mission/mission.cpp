@@ -54,6 +54,7 @@ void Mission::compile(const WholeBodyController& controller) {
         way.along = way.speed > 0.0 ? Vector(lead.rate / way.speed) : lead.rate;
         way.length = lead.way;
       }
+      if (!lead.to.empty()) way.by = lead.by;
       row.ways.push_back(std::move(way));
     }
     if (!phase.keys.empty()) {
@@ -97,6 +98,19 @@ void Mission::attach(const Plant& plant, Recorder& log) {
     casualty_ = std::make_unique<CasualtyWatch>(plant.model(), setup_.casualty, setup_.stand_off);
     casualty_->add_log_channels(log);
   }
+  if (!setup_.load.empty()) {
+    load_ = std::make_unique<LoadWatch>(plant.model(), setup_.load, setup_.container);
+    load_->add_log_channels(log, "load");
+    places_.reserve(2);  // the log reads where they are
+    places_.emplace_back("load", PlaceWatch(plant.model(), setup_.load, setup_.stand_off));
+    if (!setup_.container.empty()) {
+      places_.emplace_back("container",
+                           PlaceWatch(plant.model(), setup_.container, setup_.container_stand));
+    }
+    for (const auto& [prefix, place] : places_) place.add_log_channels(log, prefix);
+    errors_.assign(places_.size(), Vector::Zero(4));
+  }
+  find_brakes(plant.brakes());
   const auto find = [&log](const std::string& where, const std::string& quantity) {
     const double* const source = log.source(quantity);
     if (!source) throw Error(where + ": " + unknown_name("quantity", quantity, log.channels()));
@@ -106,6 +120,13 @@ void Mission::attach(const Plant& plant, Recorder& log) {
     const std::string where = "phase '" + table_.phases[i].name + "'";
     for (std::vector<Watch>* watches : {&rows_[i].done, &rows_[i].troubles}) {
       for (Watch& watch : *watches) watch.source = find(where, watch.condition.quantity);
+    }
+    const std::vector<Lead>& leads = table_.phases[i].leads;
+    for (std::size_t k = 0; k < leads.size(); ++k) {
+      if (leads[k].to.empty()) continue;
+      for (const std::string& quantity : leads[k].to) {
+        rows_[i].ways[k].seen.push_back(quantity.empty() ? nullptr : find(where, quantity));
+      }
     }
   }
   gauges_.clear();
@@ -122,10 +143,48 @@ void Mission::attach(const Plant& plant, Recorder& log) {
   attached_ = true;
 }
 
+void Mission::find_brakes(const Brakes& brakes) {
+  const std::vector<std::string> joints = brakes.names();
+  std::vector<std::vector<int>> named;
+  for (const Phase& phase : table_.phases) {
+    named.emplace_back();
+    for (const std::string& name : phase.brakes) {
+      const std::vector<Index> found = coordinates_of(name, joints);
+      if (found.empty()) {
+        throw Error("phase '" + phase.name + "': " + unknown_name("brake", name, joints));
+      }
+      for (const Index at : found) {
+        named.back().push_back(brakes.find(joints[static_cast<std::size_t>(at)]));
+      }
+    }
+    for (const int actuator : named.back()) {
+      if (std::find(brakes_.begin(), brakes_.end(), actuator) == brakes_.end()) {
+        brakes_.push_back(actuator);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (const int actuator : brakes_) {
+      rows_[i].shut.push_back(std::find(named[i].begin(), named[i].end(), actuator) !=
+                              named[i].end());
+    }
+  }
+}
+
+void Mission::brake(Brakes& brakes) {
+  for (std::size_t i = 0; i < brakes_.size(); ++i) {
+    brakes.set_closed(brakes_[i], rows_[phase_].shut[i]);
+  }
+}
+
 bool Mission::needs_log() const {
   return !table_.measures.empty() || !setup_.casualty.empty() ||
          std::any_of(rows_.begin(), rows_.end(),
-                     [](const Row& row) { return !row.done.empty() || !row.troubles.empty(); });
+                     [](const Row& row) { return !row.done.empty() || !row.troubles.empty(); }) ||
+         std::any_of(table_.phases.begin(), table_.phases.end(), [](const Phase& phase) {
+           return std::any_of(phase.leads.begin(), phase.leads.end(),
+                              [](const Lead& lead) { return !lead.to.empty(); });
+         });
 }
 
 Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
@@ -136,6 +195,9 @@ Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
   variation.scale = variation_;
   const int casualty = plant.other_free_joint(robot.root_body());
   if (casualty >= 0) vary_place(variation, random, qpos.segment<7>(casualty));
+  for (Vector& error : errors_) {  // of what is seen, at most two standard deviations
+    for (double& part : error) part = variation_ * std::clamp(random.normal(), -2.0, 2.0);
+  }
   // the posture varies, the support stays: the root of the robot follows
   robot.set_qpos(qpos);
   Vector q = robot.configuration();
@@ -159,6 +221,8 @@ void Mission::reset(WholeBodyController& controller, const Robot& world) {
   answer_.reset();
   paused_ = ended_ = false;
   if (casualty_) casualty_->reset();
+  if (load_) load_->reset();
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].second.set_error(errors_[i]);
   begin(controller, world);
   enter(0, controller, 0.0);
 }
@@ -187,7 +251,13 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
   for (std::vector<Watch>* watches : {&row.done, &row.troubles}) {
     for (Watch& watch : *watches) watch.since = 0.0;
   }
-  for (Way& way : row.ways) way.given = 0.0;
+  for (Way& way : row.ways) {
+    way.given = 0.0;
+    for (std::size_t i = 0; i < way.seen.size(); ++i) {
+      const auto k = static_cast<Index>(i);
+      way.along[k] = way.by[k] + (way.seen[i] ? *way.seen[i] : 0.0);
+    }
+  }
   const std::string& stack = table_.phases[phase_].stack;
   if (stack == kJoints) {
     controller.move_joints();
@@ -259,6 +329,8 @@ void Mission::note_commanded(const WholeBodyController& controller, const TickRe
 
 void Mission::note_measured(const TickReport& report) {
   if (casualty_) casualty_->look(model_, data_);
+  if (load_) load_->look(model_, data_);
+  for (auto& [prefix, place] : places_) place.look(model_, data_);
   for (std::size_t i = 0; i < gauges_.size(); ++i) {
     if (!gauges_[i].counts[phase_]) continue;
     gauges_[i].look(table_.measures[i].take, figures_[i].value);
@@ -429,10 +501,15 @@ void Mission::save(StateWriter& writer) const {
     }
     for (const Watch& watch : row.done) writer.put(watch.since);
     for (const Watch& watch : row.troubles) writer.put(watch.since);
-    for (const Way& way : row.ways) writer.put(way.given);
+    for (const Way& way : row.ways) {
+      writer.put(way.given);
+      if (way.by.size() > 0) writer.put(way.along);
+    }
     if (row.posture) row.posture->save(writer);
   }
   if (casualty_) casualty_->save(writer);
+  if (load_) load_->save(writer);
+  for (const auto& [prefix, place] : places_) place.save(writer);
   save_memory(writer);
 }
 
@@ -465,10 +542,15 @@ void Mission::restore(StateReader& reader) {
     }
     for (Watch& watch : row.done) watch.since = reader.get();
     for (Watch& watch : row.troubles) watch.since = reader.get();
-    for (Way& way : row.ways) way.given = reader.get();
+    for (Way& way : row.ways) {
+      way.given = reader.get();
+      if (way.by.size() > 0) reader.get(way.along);
+    }
     if (row.posture) row.posture->restore(reader);
   }
   if (casualty_) casualty_->restore(reader);
+  if (load_) load_->restore(reader);
+  for (auto& [prefix, place] : places_) place.restore(reader);
   answer_.reset();
   tell();
   restore_memory(reader);

@@ -15,12 +15,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hurcules/mission/posture_way.hpp"
 #include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/mission/table.hpp"
 #include "hurcules/sim/casualty_watch.hpp"
+#include "hurcules/sim/load_watch.hpp"
+#include "hurcules/sim/place_watch.hpp"
 #include "hurcules/sim/supervisor.hpp"
 
 namespace hurcules {
@@ -37,7 +40,11 @@ struct MissionSetup {
   double max_tilt = 0.0;    // [rad] of the support against its start; above, the robot fell
   std::vector<ServoGains> servo = {};
   std::string casualty = "";  // prefix of the person's names in the model, "" for nobody to watch
-  double stand_off = 0.0;     // [m] of the robot's centre of mass from the person's, before contact
+  double stand_off = 0.0;  // [m] of the robot's centre of mass from the person's, before contact,
+                           // or from the load
+  std::string load = "";   // body of a thing to carry, "" for none
+  std::string container = "";    // body of what it is put into, "" for none
+  double container_stand = 0.0;  // [m] of the robot's centre of mass from its centre
 };
 
 class Mission : public Supervisor {
@@ -61,6 +68,7 @@ class Mission : public Supervisor {
   Vector start(const Plant& plant, Robot& robot, std::uint64_t seed) override;
   void reset(WholeBodyController& controller, const Robot& world) override;
   const Vector& command(double dt) override;
+  void brake(Brakes& brakes) final;
   void note_commanded(const WholeBodyController& controller, const TickReport& report) final;
   void note_measured(const TickReport& report) final;
   bool advance(WholeBodyController& controller, double time) override;
@@ -99,11 +107,13 @@ class Mission : public Supervisor {
     bool look(double dt);
   };
   struct Way {
-    Index row = 0, size = 0;  // of the command
-    Vector along;             // (size) of length 1 for a rate; the whole way, smoothly
-    double speed = 0.0;       // [unit] of a rate, 0 for a whole way
-    double length = 0.0;      // of a rate
-    double given = 0.0;       // of it so far
+    Index row = 0, size = 0;          // of the command
+    Vector along;                     // (size) of length 1 for a rate; the whole way, smoothly
+    double speed = 0.0;               // [unit] of a rate, 0 for a whole way
+    double length = 0.0;              // of a rate
+    double given = 0.0;               // of it so far
+    Vector by;                        // (size) of a way to what is seen, besides that
+    std::vector<const double*> seen;  // what is, null for nothing; empty for another way
   };
   struct Row {
     std::vector<Way> ways;
@@ -112,6 +122,7 @@ class Mission : public Supervisor {
     std::vector<Index> joints;  // of the servo, where no stack rules
     Vector places;              // of these, scratch
     std::string support;        // body that stands, "": the controller's
+    std::vector<bool> shut;     // of the brakes that the table names
     std::vector<Watch> done, troubles;
     std::vector<int> late_left;                   // times, of each reaction
     std::vector<std::vector<int>> troubles_left;  // the same
@@ -129,6 +140,7 @@ class Mission : public Supervisor {
     bool final = false;     // lowered or aborted
   };
   void compile(const WholeBodyController& controller);
+  void find_brakes(const Brakes& brakes);
   static void start_anew(const Phase& phase, Row& row);
   void enter(std::size_t phase, WholeBodyController& controller, double time);
   [[nodiscard]] double progress(double elapsed) const;
@@ -145,8 +157,12 @@ class Mission : public Supervisor {
   const Task* limits_;  // of the first stack, null for none
   Vector initial_qpos_;
   std::vector<Row> rows_;
+  std::vector<int> brakes_;  // actuators whose brakes the table names
   std::vector<Gauge> gauges_;
   std::unique_ptr<CasualtyWatch> casualty_;
+  std::unique_ptr<LoadWatch> load_;
+  std::vector<std::pair<std::string, PlaceWatch>> places_;  // by the prefix of their quantities
+  std::vector<Vector> errors_;                              // of these, drawn from the seed
   const mjModel_* model_ = nullptr;
   const mjData_* data_ = nullptr;
   bool attached_ = false, paused_ = false, ended_ = false;

@@ -47,6 +47,9 @@ struct Lead {
   Vector rate = {};  // [unit of the channel] at which it is led on and on, or
   double way = std::numeric_limits<double>::infinity();  // [unit s] until so much has been given
   Vector by = {};  // [unit s] the way that it is led in the seconds of the phase, smoothly
+  // look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
+  // begins; "" adds nothing
+  std::vector<std::string> to = {};
 };
 
 // Angles of coordinates [rad], or places of joints, at a share of a motion, 0 to 1; the others stay as at its beginning.
@@ -63,6 +66,7 @@ struct Phase {
   std::vector<Lead> leads = {};  // channels that are not led hold
   std::string support =
       "";  // body that the robot stands on from here on; "": that of the row before
+  std::vector<std::string> brakes = {};  // joints that rest behind their brakes; "SP": both
   std::string posture = "";           // channel of a PostureTask over all coordinates, or of joints
   std::vector<PostureKey> keys = {};  // where that leads to
   std::vector<Condition> done = {};   // all of them, when all motions have ended

@@ -39,6 +39,9 @@ void check_leads(const Phase& phase, const WholeBodyController& controller,
     require(given.size() == size && given.allFinite(),
             where + ": channel '" + lead.channel + "' wants " + std::to_string(size) +
                 " finite numbers, " + std::to_string(given.size()) + " came");
+    require(lead.to.empty() || lead.to.size() == static_cast<std::size_t>(lead.by.size()),
+            where + ": channel '" + lead.channel + "' wants a way of as many numbers as it has " +
+                "quantities to go to, " + std::to_string(lead.to.size()) + " came");
     require(lead.way > 0.0, where + ": the way of channel '" + lead.channel +
                                 "' wants a number above 0, " + to_text(lead.way) + " came");
     require(led_by_rate || phase.seconds > 0.0,
@@ -262,10 +265,17 @@ std::string table_text(const MissionTable& table) {
     if (phase.last) text += "  (the last)";
     text += "\n";
     if (!phase.note.empty()) add(text, {"     ", phase.note, "\n"});
+    if (!phase.brakes.empty()) {
+      text += "     brakes shut:";
+      for (const std::string& name : phase.brakes) add(text, {" ", name});
+      text += "\n";
+    }
     for (const Lead& lead : phase.leads) {
       const bool by_rate = lead.rate.size() > 0;
       add(text, {"     ", lead.channel, by_rate ? " at " : " by ",
                  numbers(by_rate ? lead.rate : lead.by)});
+      for (const std::string& quantity : lead.to)
+        add(text, {" + ", quantity.empty() ? "0" : quantity});
       if (std::isfinite(lead.way)) add(text, {" until ", to_text(lead.way)});
       text += "\n";
     }

@@ -247,6 +247,7 @@ void Simulation::check_sensors() {
 void Simulation::actuate(const RobotState& state) {
   Eigen::Map<Vector> ctrl(plant_.data()->ctrl, plant_.model()->nu);
   controller_->actuate(state, ctrl);
+  if (supervisor_ && !held() && !battery_.empty()) supervisor_->brake(plant_.brakes());
   if (const std::optional<TrackDrive>& drive = controller_->drive();
       drive && !held() && !battery_.empty()) {
     for (const JointActuator* belt : {&drive->left(), &drive->right()}) {

@@ -45,6 +45,8 @@ class Supervisor {
   virtual void reset(WholeBodyController& controller, const Robot& world) = 0;
   // what the operator would command for the next dt [s], (k)
   virtual const Vector& command(double dt) = 0;
+  // which brakes are shut in this tick; those of the tracks are the drive's
+  virtual void brake(Brakes& /*brakes*/) {}
   // after the tasks were measured at the plan; then again at the real robot
   virtual void note_commanded(const WholeBodyController& controller, const TickReport& report) = 0;
   virtual void note_measured(const TickReport& report) = 0;

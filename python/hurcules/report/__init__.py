@@ -11,7 +11,14 @@ import jinja2
 
 from hurcules.figures import describe, readable
 from hurcules.legend import event_words, joint_words, level_words
-from hurcules.recording import CHANNELS, PERSON_CHANNELS, STAGES, Recording, Snapshot
+from hurcules.recording import (
+    CHANNELS,
+    LOAD_CHANNELS,
+    PERSON_CHANNELS,
+    STAGES,
+    Recording,
+    Snapshot,
+)
 from hurcules.report import plots
 from hurcules.report.style import applied, data_address, jpeg
 
@@ -62,6 +69,7 @@ def write(
         channels=[
             *CHANNELS,
             *(PERSON_CHANNELS if "casualty/contact_share" in recording.log else ()),
+            *(LOAD_CHANNELS if "load/off_m" in recording.log else ()),
         ],
         stages=STAGES,
     )
@@ -123,6 +131,8 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     ]
     if "casualty/contact_share" in log:
         drawn.insert(0, (plots.person, log, "The person", _PERSON))
+    if "load/off_m" in log:
+        drawn.insert(0, (plots.load, log, "The load", _LOAD))
     with applied():
         return [
             {"title": title, "text": text, "svg": draw(part, events)}
@@ -154,6 +164,10 @@ _PERSON = (
     "What the robot does to the person. While more than 15 % of his weight is on the ground its "
     "forces are contacts, the worst over the limit of its region (dashed: 1; ISO/TS 15066); later "
     "they carry him, which is judged by pressure. Acceleration includes gravity."
+)
+_LOAD = (
+    "What is carried: how high, how far its handles are from the hands (a step is a slip), how "
+    "hard the fingers press, and what bears it."
 )
 _SOLVER = "Factorizations and working-set changes of each solve; a level takes one at least."
 _TIMES = "From sensing to servo, without physics, on the machine named above."

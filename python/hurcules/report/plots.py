@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,6 +29,7 @@ __all__ = [
     "control_errors",
     "joint_positions",
     "joint_velocities",
+    "load",
     "monitors",
     "person",
     "solver_work",
@@ -144,6 +145,13 @@ _BEARERS = {
     "on_right_arm": "right arm",
     "on_bed": "bed",
 }
+_LOAD = (("height_m", "height above its place [m]"), ("off_m", "handles from the hands [m]"))
+_HOLDERS = {
+    "on_ground": "ground",
+    "on_left_hand": "left hand",
+    "on_right_hand": "right hand",
+    "in_container": "container",
+}
 
 
 def person(log: Log, events: Sequence[float]) -> str:
@@ -155,16 +163,38 @@ def person(log: Log, events: Sequence[float]) -> str:
         if limit <= 2.0 * float(np.max(values)):
             plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
         plot.set_title(title)
-    _, plot = drawn[-1]
-    for (name, label), colour in zip(_BEARERS.items(), LINES, strict=False):
-        plot.plot(*decimate(log["time"], log[f"casualty/{name}"]), color=colour, label=label)
-    plot.set_ylim(-0.1, 1.3)
-    plot.set_title("share of his weight on")
-    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.4), ncols=2)
+    _borne(drawn[-1][1], log, "casualty", _BEARERS, "share of his weight on")
     for _, plot in drawn:
         mark(plot, events)
         plot.set_xlabel("time [s]")
     return side_by_side(drawn)
+
+
+def load(log: Log, events: Sequence[float]) -> str:
+    """How a thing is held that is carried, and what bears it."""
+    drawn = cells(len(_LOAD) + 2)
+    for (_, plot), (name, title) in zip(drawn, _LOAD, strict=False):
+        plot.plot(*decimate(log["time"], log[f"load/{name}"]), color=INK, linewidth=0.9)
+        plot.set_title(title)
+    _, plot = drawn[-2]
+    for side, colour in zip(("left", "right"), LINES, strict=False):
+        force = log[f"load/{side}_grip_n"]
+        plot.plot(*decimate(log["time"], force), color=colour, label=f"{side} hand")
+    plot.set_title("the fingers press [N]")
+    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.4), ncols=2)
+    _borne(drawn[-1][1], log, "load", _HOLDERS, "share of its weight on")
+    for _, plot in drawn:
+        mark(plot, events)
+        plot.set_xlabel("time [s]")
+    return side_by_side(drawn)
+
+
+def _borne(plot: Axes, log: Log, prefix: str, bearers: Mapping[str, str], title: str) -> None:
+    for (name, label), colour in zip(bearers.items(), LINES, strict=False):
+        plot.plot(*decimate(log["time"], log[f"{prefix}/{name}"]), color=colour, label=label)
+    plot.set_ylim(-0.1, 1.3)
+    plot.set_title(title)
+    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.4), ncols=2)
 
 
 def solver_work(log: Log, events: Sequence[float]) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 from hurcules import mjcf
 from hurcules._core import Error
 from hurcules.scenes.casualty import Casualty
+from hurcules.scenes.disposal import Disposal
 from hurcules.scenes.flat import Flat, Pylons
 from hurcules.scenes.gap import Gap, Trench
 from hurcules.scenes.ground import Ground
@@ -37,7 +38,8 @@ _KINDS: dict[str, type[Scene]] = {
     kind.kind(): kind
     for kind in (
         Flat, Slope, Incline, Gap, Trench, Hurdle, Steps, Stairs, Ramps, StepField, RoughRoad,
-        Gravel, Sand, Pylons, Sled, Casualty, Ordnance, Lift, ForcePad, Debris, Door, Valve,
+        Gravel, Sand, Pylons, Sled, Casualty, Ordnance, Disposal, Lift, ForcePad, Debris, Door,
+        Valve,
     )
 }  # fmt: skip
 

@@ -1,0 +1,151 @@
+"""The mission `disposal`: the manipulation robot takes a case with both hands and puts it away.
+
+The phases stand in models/missions/disposal.toml; here are the case, the container, the start and
+the controller that they command: channels and stacks by their names.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+
+from hurcules import _core, mjcf, scenes
+from hurcules._core import (
+    Drive,
+    DriveOptions,
+    Error,
+    JointLimits,
+    JointRate,
+    JointRates,
+    OrientationTask,
+    PositionTask,
+    PostureTask,
+    Robot,
+    Stack,
+    Twist,
+    WholeBodyController,
+)
+from hurcules.mission_options import pair, read_options, record
+from hurcules.mission_table import Mission
+
+__all__ = ["Job", "controller", "job", "mission", "model", "parameters_of", "spec"]
+
+NAME = "disposal"
+DISTANCE = 3.0  # [m] of the case from the knee axis: 1.25 m for the approach
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is to be fetched, and where it lies.
+
+    Attributes:
+        mass: [kg] of the case.
+        offset: [m] from where the robot expects its middle: ahead, and to the left.
+        yaw: [rad] turned against where it expects the case.
+        friction: of the bars under the fingers.
+    """
+
+    mass: float = 20.0
+    offset: tuple[float, float] = (0.0, 0.0)
+    yaw: float = 0.0
+    friction: float = 0.6
+
+
+def job(parameters: Mapping[str, Any]) -> Job:
+    """A job from parameters by name; the others keep their defaults.
+
+    Raises:
+        Error: no such parameter, or an offset that is not two numbers.
+    """
+    made = record(Job, "disposal", parameters)
+    if len(made.offset) != 2 or not all(math.isfinite(number) for number in made.offset):
+        wanted = "offset wants two numbers, ahead and to the left"
+        raise Error(f"disposal: {wanted}, got {made.offset!r}")
+    return made
+
+
+def parameters_of(words: Sequence[str]) -> dict[str, Any]:
+    """What a command line says of the job: `--mass 30 --offset 0.05,-0.1 --yaw 0.2`.
+
+    Raises:
+        Error: another option, or a value that is none.
+    """
+    return read_options(words, _OPTIONS)
+
+
+_OPTIONS: Mapping[str, Callable[[str], Any]] = {
+    "--mass": float,
+    "--offset": pair,
+    "--yaw": float,
+    "--friction": float,
+}
+
+
+def model(job: Job) -> mujoco.MjModel:
+    """The robot, the case across its way, and the container behind it.
+
+    Raises:
+        Error: a number out of the scene's range.
+    """
+    return spec(job).compile()
+
+
+def spec(job: Job) -> mujoco.MjSpec:
+    """The same, not compiled yet."""
+    dx, dy = job.offset
+    return scenes.make(
+        "disposal",
+        robot="manipulation",
+        mass=job.mass,
+        grip=job.friction,
+        distance=DISTANCE + dx,
+        lateral=dy,
+        heading=job.yaw,
+    )
+
+
+def mission() -> Mission:
+    """The phases of models/missions/disposal.toml."""
+    return Mission.load(mjcf.folder() / "missions" / f"{NAME}.toml")
+
+
+def controller(model: mujoco.MjModel) -> WholeBodyController:
+    """Stacks `hands` (place and direction of both, then pelvis, then posture) and `posture`.
+
+    A channel a task; `joints` moves all joints but belts and fingers one by one, `left_grip` and
+    `right_grip` the fingers.
+
+    Its robot stands in the keyframe `drive`.
+    """
+    robot = Robot(model)
+    robot.set_keyframe("drive")
+    limits = JointLimits("joint", robot)
+    sides = {"left": "L_tcp", "right": "R_tcp"}
+    hands = [PositionTask(f"{side}_hand", robot, tcp) for side, tcp in sides.items()]
+    turns = [OrientationTask(f"{side}_turn", robot, tcp) for side, tcp in sides.items()]
+    pelvis = PositionTask("pelvis", robot, "pelvis", axes=[[1.0, 0.0, 0.0]])
+    posture = PostureTask("posture", robot)
+    servo = _core.servo_table("manipulation")
+    joints = [name for name in servo if not name.endswith(("_belt", "_grip_1"))]
+    tasks = [*hands, *turns, pelvis, posture]
+    return WholeBodyController(
+        robot,
+        None,
+        {task.name: Twist(task, math.inf) for task in tasks}
+        | {
+            "drive": Drive(speed=1.0, yaw_rate=0.5),
+            "joints": JointRates(joints),
+            "left_grip": JointRate("L_grip_1", 0.05),
+            "right_grip": JointRate("R_grip_1", 0.05),
+        },
+        stacks={
+            "hands": Stack([limits, hands, turns, pelvis, posture]),
+            "posture": Stack([limits, posture]),
+        },
+        servo=servo,
+        drive=DriveOptions(),
+    )

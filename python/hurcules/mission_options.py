@@ -1,0 +1,57 @@
+"""What a command line, or a mapping, says of a mission: options to the fields of a dataclass."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from typing import Any, TypeVar
+
+from hurcules._core import Error
+
+__all__ = ["pair", "read_options", "record"]
+
+Record = TypeVar("Record")
+
+
+def read_options(
+    words: Sequence[str], readers: Mapping[str, Callable[[str], Any]]
+) -> dict[str, Any]:
+    """Reads `--mass 90 --offset 0.05,-0.1 --yaw=0.2`.
+
+    Args:
+        words: of the command line.
+        readers: by the option's name, what makes its value of a text.
+
+    Raises:
+        Error: another option, or a value that is none.
+    """
+    found: dict[str, Any] = {}
+    rest = list(words)
+    while rest:
+        option, _, value = rest.pop(0).partition("=")
+        if option not in readers:
+            raise Error(f"no such option: {option}; there are: {', '.join(readers)}")
+        value = value or (rest.pop(0) if rest else "")
+        try:
+            found[option.removeprefix("--")] = readers[option](value)
+        except ValueError:
+            raise Error(f"{option}: cannot read {value!r}") from None
+    return found
+
+
+def pair(text: str) -> tuple[float, ...]:
+    """Numbers between commas."""
+    return tuple(float(number) for number in text.split(","))
+
+
+def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]) -> Record:
+    """A dataclass from parameters by name; the others keep their defaults.
+
+    Raises:
+        Error: no such parameter; the text begins with the noun and lists those that exist.
+    """
+    known = [field.name for field in fields(kind)]  # type: ignore[arg-type]
+    for name in parameters:
+        if name not in known:
+            raise Error(f"{noun}: no parameter '{name}'; there are: {', '.join(known)}")
+    return kind(**parameters)
