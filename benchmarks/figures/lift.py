@@ -1,8 +1,8 @@
-"""docs/lift.jpg, docs/casualty.jpg: the phases of these missions, each a run of its success map.
+"""docs/lift.jpg, casualty.jpg, disposal.jpg: the phases of these missions, each one run.
 
-`python benchmarks/figures/lift.py [lift|casualty]`, both without a name; needs an OpenGL without a
-window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four pictures of the film
-that `hurcules run casualty` has written to out/casualty.
+`python benchmarks/figures/lift.py [lift|casualty|disposal]`, all without a name; needs an OpenGL
+without a window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four pictures of
+the film that `hurcules run casualty` has written to out/casualty.
 """
 
 from __future__ import annotations
@@ -30,11 +30,14 @@ FILM_SIZE = (640, 360)  # [pixels] of each picture
 
 @dataclass(frozen=True)
 class Sheet:
-    """What is shown of a mission: the end of each of these phases; the person lies turned so."""
+    """What is shown of a mission: the end of each of these phases.
+
+    What is fetched lies turned by `yaw` [rad]; the camera goes with the body `follows`, if any.
+    """
 
     phases: tuple[str, ...]
-    yaw: float = 0.0  # [rad]
-    follows: bool = False  # the camera
+    yaw: float = 0.0
+    follows: str = ""
 
 
 SHEETS = {
@@ -46,15 +49,22 @@ SHEETS = {
     "casualty": Sheet(
         ("stand", "under", "lift", "raise", "sit down", "fold the right leg", "fold the left leg",
          "slide the bed out", "lay down", "arms out", "arms free", "hand over"),
-        follows=True,
+        follows="casualty_pelvis",
+    ),
+    "disposal": Sheet(
+        ("approach", "turn the waist", "swing both lower legs", "stand up", "over the bars",
+         "down to the bars", "squeeze right", "lift", "sit down", "fold the right leg",
+         "fold the left leg", "lean for the way", "over the container", "put in", "rest"),
+        yaw=0.15,
+        follows="upper_legs",
     ),
 }  # fmt: skip
 
 
-def camera(model: mujoco.MjModel, follows: bool) -> mujoco.MjvCamera:
+def camera(model: mujoco.MjModel, follows: str) -> mujoco.MjvCamera:
     """From the front, on the side of the legs."""
     if follows:
-        return following_camera(model, "casualty_pelvis")
+        return following_camera(model, follows)
     view = mujoco.MjvCamera()
     view.lookat[:], view.distance = (2.4, -0.2, 0.55), 4.2
     view.azimuth, view.elevation = 128, -16
