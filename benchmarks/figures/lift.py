@@ -53,7 +53,7 @@ SHEETS = {
     ),
     "disposal": Sheet(
         ("approach", "turn the waist", "swing both lower legs", "stand up", "over the bars",
-         "down to the bars", "squeeze right", "lift", "sit down", "fold the right leg",
+         "down to the bars", "squeeze", "lift", "sit down", "fold the right leg",
          "fold the left leg", "lean for the way", "over the container", "put in", "rest"),
         yaw=0.15,
         follows="upper_legs",

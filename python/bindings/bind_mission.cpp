@@ -53,6 +53,10 @@ Args:
   by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
   to: look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
     begins; "" adds nothing.
+  hold: a quantity that the rate holds at a value: in full where it is `span` or more below, backwards
+    above; "": none.
+  at: that value, in the quantity's unit.
+  span: in the same unit, above 0.
 )";
 constexpr const char* kKey = R"(Angles of coordinates, or places of joints, at a share of a motion.
 
@@ -167,9 +171,11 @@ void bind_rows(py::module_& module) {
   bind_options<Trouble>(
       module, "Trouble", kTrouble,
       {required("when", &Trouble::when), required("reactions", &Trouble::reactions)});
-  bind_options<Lead>(module, "Lead", kLead,
-                     {required("channel", &Lead::channel), field("rate", &Lead::rate),
-                      field("way", &Lead::way), field("by", &Lead::by), field("to", &Lead::to)});
+  bind_options<Lead>(
+      module, "Lead", kLead,
+      {required("channel", &Lead::channel), field("rate", &Lead::rate), field("way", &Lead::way),
+       field("by", &Lead::by), field("to", &Lead::to), field("hold", &Lead::hold),
+       field("at", &Lead::at), field("span", &Lead::span)});
   bind_options<PostureKey>(
       module, "PostureKey", kKey,
       {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});

@@ -2804,10 +2804,15 @@ class Lead:
       way: until so much has been given [SI s]; inf: on and on.
       by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
       to: look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
-        begins; "" adds nothing."""
+        begins; "" adds nothing.
+      hold: a quantity that the rate holds at a value: in full where it is `span` or more below, backwards
+        above; "": none.
+      at: that value, in the quantity's unit.
+      span: in the same unit, above 0."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     channel: str
+    hold: str
 
     def __copy__(self) -> Lead: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> Lead: ...
@@ -2820,8 +2825,15 @@ class Lead:
         way: float = ...,
         by: ArrayLike = ...,
         to: collections.abc.Sequence[str] = [],
+        hold: str = "",
+        at: float = 0.0,
+        span: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def at(self) -> float: ...
+    @at.setter
+    def at(self, arg0: float) -> None: ...
     @property
     def by(self) -> NDArray[np.float64]: ...
     @by.setter
@@ -2830,6 +2842,10 @@ class Lead:
     def rate(self) -> NDArray[np.float64]: ...
     @rate.setter
     def rate(self, arg0: ArrayLike) -> None: ...
+    @property
+    def span(self) -> float: ...
+    @span.setter
+    def span(self, arg0: float) -> None: ...
     @property
     def to(self) -> list[str]: ...
     @to.setter

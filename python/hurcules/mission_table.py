@@ -24,6 +24,9 @@ Rows of another table are taken by `[[phase]]` with `include = "lift.toml"` and 
     do = ["hold 2 s", "abort"]
     phases = ["turn left", "home"]
 
+A rate may hold a quantity: `{ rate = [0.0005], hold = "load/left_grip_n", at = 230.0, span = 50.0
+}`; a lead of many phases is a `[[lead]]` with `channel` and `phases`.
+
 A posture is `posture = "CHANNEL"` with `keys = [{ share = 1.0, HIP = 0.3, SP = 1.2 }]`. Quantities
 are columns of the log (`simulation.channels`). A `[[figure]]` is a quantity over some phases, with
 the bounds that make a run a success.
@@ -34,7 +37,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -97,11 +100,12 @@ class Mission:
             data: of the file.
             folder: where the files lie whose rows it includes.
         """
-        _known(data, ("mission", "phase", "monitor", "figure"), "mission")
+        _known(data, ("mission", "phase", "monitor", "lead", "figure"), "mission")
         head = dict(data.get("mission", {}))
         safety = head.pop("safety", "")
         rows = _included(data.get("phase", []), Path(folder))
         _watch(rows, data.get("monitor", []))
+        _lead(rows, data.get("lead", []))
         phases = [_phase(row) for row in rows]
         measures = [_of(Measure, row, "figure") for row in data.get("figure", [])]
         table = MissionTable(phases=phases, safety=safety, measures=measures)
@@ -213,12 +217,31 @@ def _watch(rows: Sequence[dict[str, Any]], monitors: Sequence[Mapping[str, Any]]
         where = f"monitor {monitor.get('when', '?')!r}"
         _known(monitor, ("when", "do", "phases"), where)
         trouble = {key: value for key, value in monitor.items() if key != "phases"}
-        names = [row.get("name") for row in rows]
-        for name in monitor.get("phases", []):
-            if name not in names:
-                raise Error(f"{where}: no phase {name!r}; there are: {', '.join(map(str, names))}")
-            row = rows[names.index(name)]
+        for row in _named(rows, monitor.get("phases", []), where):
             row["trouble"] = [*row.get("trouble", []), trouble]
+
+
+def _lead(rows: Sequence[dict[str, Any]], leads: Sequence[Mapping[str, Any]]) -> None:
+    """Each lead of many phases becomes one of each of them."""
+    for lead in leads:
+        channel = lead.get("channel", "?")
+        where = f"lead of {channel!r}"
+        one = {key: value for key, value in lead.items() if key not in ("channel", "phases")}
+        for row in _named(rows, lead.get("phases", []), where):
+            if channel in row.get("lead", {}):
+                raise Error(f"{where}: phase {row.get('name')!r} leads it already")
+            row["lead"] = {**row.get("lead", {}), channel: one}
+
+
+def _named(
+    rows: Sequence[dict[str, Any]], names: Sequence[str], where: str
+) -> Iterator[dict[str, Any]]:
+    """The rows of these names."""
+    known = [row.get("name") for row in rows]
+    for name in names:
+        if name not in known:
+            raise Error(f"{where}: no phase {name!r}; there are: {', '.join(map(str, known))}")
+        yield rows[known.index(name)]
 
 
 def _phase(row: Mapping[str, Any]) -> Phase:
@@ -271,6 +294,8 @@ def _phase_lines(phase: Phase) -> list[str]:
         parts = [f"rate = {_value(lead.rate.tolist())}"] if lead.rate.size else []
         parts += [f"way = {_value(lead.way)}"] if math.isfinite(lead.way) else []
         parts += [f"by = {_value(lead.by.tolist())}"] if lead.by.size else []
+        if lead.hold:
+            parts.append(f"hold = {_value(lead.hold)}, at = {lead.at!r}, span = {lead.span!r}")
         parts += [f"to = {_value(list(lead.to))}"] if lead.to else []
         lines.append(f"lead.{lead.channel} = {{ {', '.join(parts)} }}")
     if phase.keys:

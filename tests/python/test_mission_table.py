@@ -126,6 +126,29 @@ def test_a_lead_goes_by_what_is_seen_as_its_phase_begins() -> None:
     assert copy.data.qpos.tolist() == simulation.data.qpos.tolist()
 
 
+def test_a_rate_holds_a_quantity_in_the_phases_that_say_so() -> None:
+    held = ROWS.replace("lead.posture = { rate = [0.5, 0.0], way = 0.2 }", "seconds = 2.0")
+    held += """
+[[lead]]
+channel = "posture"
+rate = [0.5, 0.0]
+hold = "q/j1"
+at = -0.1
+span = 0.1
+phases = ["back"]
+"""
+    simulation = loop(held)
+    simulation.step(5000)
+    assert simulation.success, simulation.reason
+    assert simulation.data.joint("j1").qpos[0] == pytest.approx(-0.1, abs=0.005)
+    assert read(held).table() == read(read(held).toml()).table()
+    twice = held.replace('phases = ["back"]\n', 'phases = ["back", "back"]\n')
+    with pytest.raises(Error, match="phase 'back' leads it already"):
+        read(twice)
+    with pytest.raises(Error, match="lead of 'posture': no phase 'home'"):
+        read(held.replace('phases = ["back"]', 'phases = ["home"]'))
+
+
 def test_a_joint_rests_behind_its_brake_in_the_phases_that_say_so() -> None:
     stiff = 'frictionloss="0.1" solimpfriction="0.9999 0.9999 0.001 0.5 2"'
     rubbing = ARM.replace('axis="0 1 0"', f'axis="0 1 0" {stiff}')
@@ -255,6 +278,8 @@ def test_conditions_and_reactions_are_read_from_text() -> None:
             "quantities to go to, 1",
         ),
         ("rate = [0.5, 0.0]", 'rate = [0.5, 0.0], to = ["", "q/j1"]', "quantities to go to, 2"),
+        ("way = 0.2", 'hold = "q/j1"', "a span above 0"),
+        ("way = 0.2", 'hold = "q/j9", span = 0.1, way = 0.2', "quantity 'q/j9' does not exist"),
         ("seconds = 1.0", 'seconds = 1.0\nbrakes = ["j1"]', "brake 'j1' does not exist"),
     ],
 )

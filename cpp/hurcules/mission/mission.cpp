@@ -55,6 +55,8 @@ void Mission::compile(const WholeBodyController& controller) {
         way.length = lead.way;
       }
       if (!lead.to.empty()) way.by = lead.by;
+      way.at = lead.at;
+      way.span = lead.span;
       row.ways.push_back(std::move(way));
     }
     if (!phase.keys.empty()) {
@@ -123,7 +125,7 @@ void Mission::attach(const Plant& plant, Recorder& log) {
     }
     const std::vector<Lead>& leads = table_.phases[i].leads;
     for (std::size_t k = 0; k < leads.size(); ++k) {
-      if (leads[k].to.empty()) continue;
+      if (!leads[k].hold.empty()) rows_[i].ways[k].held = find(where, leads[k].hold);
       for (const std::string& quantity : leads[k].to) {
         rows_[i].ways[k].seen.push_back(quantity.empty() ? nullptr : find(where, quantity));
       }
@@ -182,8 +184,9 @@ bool Mission::needs_log() const {
          std::any_of(rows_.begin(), rows_.end(),
                      [](const Row& row) { return !row.done.empty() || !row.troubles.empty(); }) ||
          std::any_of(table_.phases.begin(), table_.phases.end(), [](const Phase& phase) {
-           return std::any_of(phase.leads.begin(), phase.leads.end(),
-                              [](const Lead& lead) { return !lead.to.empty(); });
+           return std::any_of(phase.leads.begin(), phase.leads.end(), [](const Lead& lead) {
+             return !lead.to.empty() || !lead.hold.empty();
+           });
          });
 }
 
@@ -286,6 +289,7 @@ const Vector& Mission::command(double dt) {
     auto part = operated_.segment(way.row, way.size);
     if (way.length > 0.0) {  // by a rate; the last tick gives what is left
       part = way.along * std::min(way.speed, (way.length - way.given) / dt);
+      if (way.held) part *= std::clamp((way.at - *way.held) / way.span, -1.0, 1.0);
     } else {
       part = way.along * ((smooth_step((time + dt) / seconds) - smooth_step(time / seconds)) / dt);
     }

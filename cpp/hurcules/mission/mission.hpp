@@ -114,6 +114,8 @@ class Mission : public Supervisor {
     double given = 0.0;               // of it so far
     Vector by;                        // (size) of a way to what is seen, besides that
     std::vector<const double*> seen;  // what is, null for nothing; empty for another way
+    const double* held = nullptr;     // what a rate holds, null for none
+    double at = 0.0, span = 0.0;
   };
   struct Row {
     std::vector<Way> ways;

@@ -50,6 +50,10 @@ struct Lead {
   // look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
   // begins; "" adds nothing
   std::vector<std::string> to = {};
+  // a rate that holds a quantity at a value: in full where it is `span` or more below it, none at it,
+  // backwards above it
+  std::string hold = "";
+  double at = 0.0, span = 0.0;  // in the unit of the quantity
 };
 
 // Angles of coordinates [rad], or places of joints, at a share of a motion, 0 to 1; the others stay as at its beginning.

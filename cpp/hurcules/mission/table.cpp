@@ -42,6 +42,11 @@ void check_leads(const Phase& phase, const WholeBodyController& controller,
     require(lead.to.empty() || lead.to.size() == static_cast<std::size_t>(lead.by.size()),
             where + ": channel '" + lead.channel + "' wants a way of as many numbers as it has " +
                 "quantities to go to, " + std::to_string(lead.to.size()) + " came");
+    require(lead.hold.empty()
+                ? lead.span == 0.0
+                : led_by_rate && lead.span > 0.0 && std::isfinite(lead.at + lead.span),
+            where + ": channel '" + lead.channel +
+                "' wants a rate, a finite value and a span above 0 to hold a quantity by");
     require(lead.way > 0.0, where + ": the way of channel '" + lead.channel +
                                 "' wants a number above 0, " + to_text(lead.way) + " came");
     require(led_by_rate || phase.seconds > 0.0,
@@ -276,6 +281,7 @@ std::string table_text(const MissionTable& table) {
                  numbers(by_rate ? lead.rate : lead.by)});
       for (const std::string& quantity : lead.to)
         add(text, {" + ", quantity.empty() ? "0" : quantity});
+      if (!lead.hold.empty()) add(text, {" to hold ", lead.hold, " at ", to_text(lead.at)});
       if (std::isfinite(lead.way)) add(text, {" until ", to_text(lead.way)});
       text += "\n";
     }
