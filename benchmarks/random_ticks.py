@@ -18,6 +18,7 @@ import argparse
 import warnings
 from collections import Counter
 
+import mujoco
 import numpy as np
 from arms import load, places
 from numpy.typing import NDArray
@@ -138,34 +139,28 @@ class Episode:
                 worst.counts["refused"] += 1
 
 
-def robots() -> list[tuple[hurcules.Robot, list[str]]]:
-    """Each with the frames that its coordinates move."""
+def moved(robot: hurcules.Robot, model: mujoco.MjModel) -> list[str]:
+    """Names of the bodies that its coordinates move."""
+    frames = [model.body(i).name for i in range(1, model.nbody)]
+    return [f for f in frames if f and robot.size and np.any(robot.position_jacobian(f))]
+
+
+def found() -> list[mujoco.MjModel]:
+    """Both forms of Hurcules, then the robots of other packages."""
     models = [hurcules.models.load(name) for name in hurcules.models.names()]
     for package, path in places():
         try:
             models.append(load(f"{package}/{path.stem}", path).model)
         except Exception:  # a part of a model, say
             continue
-    found = []
-    for model in models:
-        robot = hurcules.Robot(model)
-        frames = [model.body(i).name for i in range(1, model.nbody) if model.body(i).name]
-        moved = [f for f in frames if robot.size and np.any(robot.position_jacobian(f))]
-        if moved:
-            found.append((robot, moved))
-    return found
+    return [model for model in models if moved(hurcules.Robot(model), model)]
 
 
-def main() -> None:
-    """Prints what was counted."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--ticks", type=int, default=200_000)
-    parser.add_argument("--seed", type=int, default=0)
-    arguments = parser.parse_args()
-    warnings.simplefilter("ignore")
-    worst, every = Worst(), robots()
-    rng = np.random.default_rng(arguments.seed)
-    for _ in range(arguments.ticks // EPISODE):
+def run(models: list[mujoco.MjModel], ticks: int, seed: int) -> Worst:
+    """Episodes with robots at random."""
+    worst, rng = Worst(), np.random.default_rng(seed)
+    every = [(robot := hurcules.Robot(model), moved(robot, model)) for model in models]
+    for _ in range(ticks // EPISODE):
         robot, frames = every[rng.integers(len(every))]
         robot.set_keyframe("")
         robot.set_velocity(np.zeros(robot.size))
@@ -184,6 +179,18 @@ def main() -> None:
                 worst.counts[f"exception: {error}"] += 1
                 continue
             worst.look(episode, before)
+    return worst
+
+
+def main() -> None:
+    """Prints what was counted."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--ticks", type=int, default=200_000)
+    parser.add_argument("--seed", type=int, default=0)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    every = found()
+    worst = run(every, arguments.ticks, arguments.seed)
     print(f"{len(every)} robots; beyond the limits: position {worst.position:.1e} rad or m, ")
     print(f"velocity {worst.velocity:.1e}, change of velocity {worst.change:.1e} a tick")
     for what, count in worst.counts.items():
