@@ -20,6 +20,7 @@ _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
     "Hurcules/Carry-v0": ("hurcules_envs.carry:Carry", 300, {}),
     "Hurcules/Stretch-v1": ("hurcules_envs.stretch_goal:Stretch", 300, {}),
     "Hurcules/Lift-v0": ("hurcules_envs.lift:Lift", 600, {}),
+    "Hurcules/Rescue-v0": ("hurcules_envs.rescue:Rescue", 1600, {}),
 }
 
 ENVIRONMENTS = ("Hurcules/Stretch-v0", *_ENVIRONMENTS)

@@ -158,6 +158,10 @@ class Environment(ABC):
         """Which episodes success ends, (n,); by default none: they go on to their time limit."""
         return np.zeros(len(numbers.action), dtype=bool)
 
+    def costs(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """(n,) where `cost` is 1 beside where the robot touches itself or passes a limit."""
+        return np.zeros(len(numbers.action), dtype=bool)
+
     def tell(self, numbers: Numbers) -> Mapping[str, Array]:
         """More for `info`: by name (n,), the same names always."""
         return {}

@@ -176,6 +176,7 @@ class Episodes:
         step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
         step.terminated = failure | environment.ended(numbers)
         step.info = self._describe(terms, success, failure, views)
+        np.maximum(step.info["cost"], environment.costs(numbers), out=step.info["cost"])
         step.info |= {name: np.array(row) for name, row in environment.tell(numbers).items()}
         return step
 

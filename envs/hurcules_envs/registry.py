@@ -11,8 +11,13 @@ import gymnasium
 
 import hurcules
 from hurcules_envs.environment import Environment
+from hurcules_envs.randomisation import NAMES
 
 __all__ = ["make_environment", "register"]
+
+
+class UnknownOption(hurcules.Error, TypeError):
+    """A keyword that an environment has not: a TypeError too, as Python and TorchRL expect."""
 
 
 def register(name: str, environment: str, max_episode_steps: int, **options: Any) -> None:
@@ -41,7 +46,8 @@ def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
         options: of the class, by keyword.
 
     Raises:
-        hurcules.Error: no such class, or no such option; the text lists those that exist.
+        hurcules.Error: no such class, or no such option (`UnknownOption`); the text lists those
+            that exist.
     """
     module, _, name = path.partition(":")
     kind = getattr(import_module(module), name, None)
@@ -49,5 +55,9 @@ def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
         raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
     known = [word for word in inspect.signature(kind).parameters]
     for option in options:
-        hurcules.validation.require_known("option", option, known)
+        if option not in known:
+            raise UnknownOption(
+                f"option '{option}' does not exist (unexpected keyword argument '{option}'); "
+                f"there are: {', '.join([*known, *NAMES])}"
+            )
     return kind(**options)

@@ -34,6 +34,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 in the action means [SI].
         task_description: one sentence.
+        compute_reward: of a goal environment alone, (achieved, desired, info): the reward of other
+            goals, any leading axes. Stable-Baselines3 takes who has it for one.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 20}  # noqa: RUF012
@@ -71,6 +73,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self.action_space = self._episodes.single_action_space
         self.observation_space = self._episodes.single_observation_space
         self.task_description = self.environment.task_description
+        if self.environment.goal and not flat:
+            self.compute_reward = self.environment.compute_reward
         self._viewer: Any = None
         self._renderer: mujoco.Renderer | None = None
 
@@ -130,16 +134,6 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         if self.render_mode == "human":
             self.render()
         return _first(step), float(step.reward[0]), bool(step.terminated[0]), False, _info(step)
-
-    def compute_reward(
-        self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: Any
-    ) -> NDArray[np.float64] | float:
-        """The reward of a goal environment for other goals; any leading axes.
-
-        Raises:
-            hurcules.Error: it is no goal environment.
-        """
-        return self.environment.compute_reward(achieved_goal, desired_goal, info)
 
     def get_state(self) -> NDArray[np.float64]:
         """(s,) everything that decides how the episode goes on, generator excepted."""

@@ -50,6 +50,14 @@ def test_gymnasiums_checker_has_nothing_to_say(fidelity: str) -> None:
         check_env(gym.make(NAME, fidelity=fidelity).unwrapped, skip_render_check=True)
 
 
+def test_nor_has_that_of_stable_baselines3() -> None:
+    checker = pytest.importorskip(
+        "stable_baselines3.common.env_checker", reason="pip install 'hurcules[train]'"
+    )
+    env = single(observation_noise=0.01, action_delay=(0, 2))
+    checker.check_env(env, skip_render_check=True)
+
+
 def test_the_tables_in_the_text_are_true() -> None:
     env = single()
     actions, observations, reward = rows(type(env.environment).__doc__ or "")

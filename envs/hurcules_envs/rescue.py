@@ -1,0 +1,320 @@
+"""Hurcules/Rescue-v0: a mission lifts a person, and a policy corrects it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules import lift
+from hurcules_envs.contact import ContactEnvironment, contact_tick, view
+from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.person import LimpPerson
+
+__all__ = ["Rescue"]
+
+LAST = "hold"  # phase of the mission `lift` in which he is held
+# of an episode: mass [kg], friction of the clothes, place [m] ahead and to the left, heading [rad]
+MASS, FRICTION, AHEAD, LEFT, YAW = (60.0, 90.0), (0.4, 0.6), 0.05, 0.10, 0.2
+TRACKS = (0.1, 0.1)  # [m/s], [rad/s] full scale of what is added
+HANDS, PITCH, PRESS, JOINTS = 0.05, 0.1, 0.0125, 0.1  # [m/s], [rad/s], [m/s], [rad/s]
+LEGS = {"lean": ("HIP",), "shoulders": ("LSP", "RSP"), "elbows": ("LEB", "REB")}
+ASKS = 0.5  # of the last number: beyond it a phase is asked for
+HEAD = 98.1  # [m/s^2] 10 g
+
+
+class Rescue(ContactEnvironment):
+    """The mission `lift` up to `hold`, to whose commands a policy adds.
+
+    The robot drives up to a limp person who lies 3.3 m ahead across its way, turns square to him,
+    presses the tips of its arms to the ground, drives them under him, lifts him, and holds him
+    before its chest for 10 s. The phases, their ends and what they do in trouble are those of
+    models/missions/lift.toml; an action is added to what the present phase commands, and may ask
+    for the next phase or the one before. A zero action is the mission as it stands. Mass (60 to 90
+    kg), friction of the clothes (0.4 to 0.6), place (0.05 m ahead, 0.10 m aside) and heading (0.2
+    rad) of the person differ between episodes.
+
+    Actions, in [-1, 1]; zero leaves the mission as it is:
+
+    | index | name | scale | unit | what is added, where the phase has it |
+    |---|---|---|---|---|
+    | 0 | speed | 0.1 | m/s | of the tracks |
+    | 1 | yaw_rate | 0.1 | rad/s | of the tracks |
+    | 2 | ahead | 0.05 | m/s | both hands, forward (not while the posture rules) |
+    | 3 | left | 0.05 | m/s | both hands, to the left |
+    | 4 | up | 0.05 | m/s | both hands (not while they press) |
+    | 5 | pitch | 0.1 | rad/s | both blades, tips up |
+    | 6 | press | 0.0125 | m/s | of the way down, while they press |
+    | 7 | lean | 0.1 | rad/s | hip, while the posture rules: `raise`, `hold`, `lower` |
+    | 8 | shoulders | 0.1 | rad/s | both, likewise |
+    | 9 | elbows | 0.1 | rad/s | both, likewise |
+    | 10 | phase | 1 |  | above 0.5 asks for the next phase, below -0.5 for the one before |
+
+    A phase is asked for when the number passes 0.5, and again when it has come back before.
+
+    Observation:
+
+    | index | name | bound | unit | what |
+    |---|---|---|---|---|
+    | 0-19 | phase | 1 |  | 1 for the present one, in the order of the table |
+    | 20 | progress | 1 |  | of the present phase |
+    | 21-25 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
+    | 26-27 | tips | 5 | m | height of the left and the right one |
+    | 28-29 | heading | 4 | rad | of his body against square; bearing of the stand |
+    | 30-33 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
+    | 34-37 | force | 5000 | N | of both presses, push along the ground, largest support |
+    | 38 | contact | 20 |  | largest force of a contact over the limit of its region |
+    | 39 | head | 500 | m/s^2 | of his head, gravity included |
+    | 40-41 | tilt | 2 | rad | of the left and the right blade, tip up |
+    | 42-47 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
+    | 48 | mass | 200 | kg | of the person |
+    | 49 | margin | 2 | m | of the centre of mass within what the robot stands on |
+
+    Reward:
+
+    | term | what |
+    |---|---|
+    | phase | 10 times the share of the phases up to `hold` that was reached for the first time |
+    | harm | minus 0.1 a second times what contacts and the head (10 g) have over their limits |
+    | time | -0.01 a step |
+    | effort | minus 0.01 times the mean square of the action |
+    | success | 10 once |
+    | failure | -5 once, -10 when the robot fell |
+
+    Success: he was held for 10 s at least 0.3 m above where he lay, nothing of him on the ground,
+    and slid by 30 mm at most. It ends the episode; so does a fall, or the end of the mission in any
+    other way (lowered, backed off, aborted, time up). `info` has `phase` (its number), `furthest`,
+    `contact_share`, `head_mps2`, `support_n`, `pushed_m`, `fell` and `missed`; `cost` is 1 where a
+    contact passes its limit too.
+    """
+
+    task_description = "Lift the person and hold him before the chest."
+    terms = ("phase", "harm", "time", "effort", "success", "failure")
+    memory: Mapping[str, int] = MappingProxyType(
+        {
+            "mass": 1, "friction": 1, "asked": 1, "furthest": 1, "reached": 1, "pushed": 1,
+            "over": 1, "fresh": 1,
+        }
+    )  # fmt: skip
+    parameters = ("mass", "friction")
+    components: Mapping[str, tuple[str, ...]] = MappingProxyType(
+        {
+            "tracks": ("speed", "yaw_rate"),
+            "hands": ("ahead", "left", "up"),
+            "pitch": ("pitch",),
+            "press": ("press",),
+            "lean": ("lean",),
+            "shoulders": ("shoulders",),
+            "elbows": ("elbows",),
+            "phase": ("phase",),
+        }
+    )
+    quantities = (
+        "phase", "mission/progress", "casualty/behind_tips_m", "casualty/aside_m",
+        "casualty/height_m", "casualty/moved_m", "casualty/stand_ahead_m", "casualty/heading_rad",
+        "casualty/stand_rad", "casualty/on_ground", "casualty/on_left_arm",
+        "casualty/on_right_arm", "casualty/on_rest", "mission/force/L_press",
+        "mission/force/R_press", "casualty/push_n", "casualty/support_n",
+        "casualty/contact_share", "casualty/head_mps2", "position/L_tcp", "position/R_tcp",
+        "matrix/L_tcp", "matrix/R_tcp", "q/KN", "q/HIP", "q/LSP", "q/RSP", "q/LEB", "q/REB",
+        "monitor/static_margin_m",
+    )  # fmt: skip
+
+    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+        """Builds robot, person, controller and mission.
+
+        Args:
+            fidelity: "exact" or "fast".
+            sparse: reward of success and failure alone.
+            rate: steps a second [Hz].
+
+        Raises:
+            hurcules.Error: a value that does not exist or is out of range.
+        """
+        tick = contact_tick(fidelity, rate)
+        self.sparse, self.rate = sparse, rate
+        self.actions = {
+            "tracks": np.array(TRACKS), "hands": HANDS, "pitch": PITCH, "press": PRESS,
+            "lean": JOINTS, "shoulders": JOINTS, "elbows": JOINTS, "phase": 1.0,
+        }  # fmt: skip
+        model = self.compiled(tick)
+        controller = lift.controller(model)
+        self.simulation = hurcules.Simulation(
+            _mission(), model=model, controller=controller, variation=0.0, record=False,
+            adds_command=True,
+        )  # fmt: skip
+        self._phases = self.simulation.phases
+        self._last, self._lifts = self._phases.index(LAST), self._phases.index("lift") - 1
+        self._coordinates = controller.plan.coordinate_names
+        self._person = LimpPerson(model, self.simulation.data.qpos)
+        self.observation = (
+            Group("phase", len(self._phases), "", 1.0, "1 for the present one"),
+            Group("progress", 1, "", 1.0, "of the present phase"),
+            Group("person", 5, "m", 5.0, "behind the tips, aside, raised, moved; the stand"),
+            Group("tips", 2, "m", 5.0, "height of the left and the right one"),
+            Group("heading", 2, "rad", 4.0, "of his body against square; bearing of the stand"),
+            Group("weight", 4, "", 2.0, "on the ground, the left arm, the right arm, the rest"),
+            Group("force", 4, "N", 5000.0, "of both presses, push, largest support"),
+            Group("contact", 1, "", 20.0, "largest force of a contact over its limit"),
+            Group("head", 1, "m/s^2", 500.0, "of his head, gravity included"),
+            Group("tilt", 2, "rad", 2.0, "of the blades, tip up"),
+            Group("joints", 6, "rad", 4.0, "KN, HIP, both shoulders, both elbows"),
+            Group("mass", 1, "kg", 200.0, "of the person"),
+            Group("margin", 1, "m", 2.0, "of the centre of mass within what it stands on"),
+        )
+
+    def scene(self) -> mujoco.MjSpec:
+        """The robot, and a person 3.3 m ahead."""
+        return lift.spec(lift.Person())
+
+    def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
+        """Mass of the person, friction of the clothes."""
+        self._person.configure(model, float(values["mass"][0]), float(values["friction"][0]))
+
+    def start(self, generator: np.random.Generator) -> Start:
+        """A person near where the mission expects him."""
+        drawn = {"mass": generator.uniform(*MASS), "friction": generator.uniform(*FRICTION)}
+        ahead, left, yaw = generator.uniform(-1.0, 1.0, 3) * [AHEAD, LEFT, YAW]
+        qpos = np.array(self.simulation.data.qpos)
+        self._person.place(qpos, ahead, left, yaw)
+        places = {"ahead": float(ahead), "left": float(left), "yaw": float(yaw)}
+        return Start(qpos, drawn, drawn | places)
+
+    def phases(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[int, str]:
+        """The next one, or the one before, where it is asked for anew."""
+        wish = np.where(np.abs(action["phase"][:, 0]) > ASKS, np.sign(action["phase"][:, 0]), 0.0)
+        asked = numbers.memory["asked"][:, 0]
+        fresh = (wish != 0.0) & (wish != asked) & ~numbers.finished
+        asked[:] = wish
+        now = numbers["phase"][:, 0].astype(int)
+        wanted = np.clip(now + wish.astype(int), 0, len(self._phases) - 1)
+        return {int(i): self._phases[wanted[i]] for i in np.flatnonzero(fresh & (wanted != now))}
+
+    def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
+        """What is added to the channels; those of tasks that do not rule are not asked."""
+        posture = np.zeros((len(action["lean"]), len(self._coordinates)))
+        for name, joints in LEGS.items():
+            for joint in joints:
+                posture[:, self._coordinates.index(joint)] = action[name][:, 0]
+        given: dict[str, Array] = {"drive": action["tracks"], "posture": posture}
+        for side in "LR":
+            given[f"{side}_hand"] = action["hands"]
+            given[f"{side}_across"] = action["hands"][:, :2]
+            given[f"{side}_press"] = -action["press"]
+            given[f"{side}_pitch"] = action["pitch"]
+        return given
+
+    def remember(self, numbers: Numbers) -> None:
+        """How far the mission has come, and how it ended."""
+        memory = numbers.memory
+        phase = numbers["phase"]
+        on_the_way = np.where(phase <= self._last, phase, 0.0)
+        before = memory["furthest"].copy()
+        np.maximum(before, on_the_way, out=memory["furthest"])
+        memory["reached"][:] = memory["furthest"] - before
+        lies = np.where(phase <= self._lifts, numbers["casualty/moved_m"], 0.0)
+        np.maximum(memory["pushed"], lies, out=memory["pushed"])
+        over = memory["over"][:, 0] > 0.0
+        memory["fresh"][:, 0] = numbers.finished & ~over
+        memory["over"][:, 0] = numbers.finished
+
+    def observe(self, numbers: Numbers) -> dict[str, Array]:
+        """See the table."""
+        phase = numbers["phase"].astype(int)
+        tips = [numbers[f"position/{side}_tcp"][:, 2] for side in "LR"]
+        up = [np.clip(numbers[f"matrix/{side}_tcp"][:, 6], -1.0, 1.0) for side in "LR"]
+        casualty = [
+            f"casualty/{name}"
+            for name in ("behind_tips_m", "aside_m", "height_m", "moved_m", "stand_ahead_m")
+        ]
+        return {
+            "phase": (phase == np.arange(len(self._phases))).astype(float),
+            "progress": numbers["mission/progress"],
+            "person": numbers.row(*casualty),
+            "tips": np.stack(tips, axis=1),
+            "heading": numbers.row("casualty/heading_rad", "casualty/stand_rad"),
+            "weight": numbers.row(
+                "casualty/on_ground", "casualty/on_left_arm", "casualty/on_right_arm",
+                "casualty/on_rest",
+            ),
+            "force": numbers.row(
+                "mission/force/L_press", "mission/force/R_press", "casualty/push_n",
+                "casualty/support_n",
+            ),
+            "contact": numbers["casualty/contact_share"],
+            "head": numbers["casualty/head_mps2"],
+            "tilt": np.arcsin(np.stack(up, axis=1)),
+            "joints": numbers.row("q/KN", "q/HIP", "q/LSP", "q/RSP", "q/LEB", "q/REB"),
+            "mass": numbers["mass"],
+            "margin": numbers["monitor/static_margin_m"],
+        }  # fmt: skip
+
+    def reward(self, numbers: Numbers) -> dict[str, Array]:
+        """See the table."""
+        shaped = 0.0 if self.sparse else 1.0
+        fresh = numbers["fresh"][:, 0]
+        fell = numbers.ended_as(hurcules.Ending.Fell)
+        done = self.succeeded(numbers)
+        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
+        past = np.maximum(numbers["casualty/contact_share"][:, 0] - 1.0, 0.0)
+        shaken = np.maximum(numbers["casualty/head_mps2"][:, 0] / HEAD - 1.0, 0.0)
+        return {
+            "phase": 10.0 * shaped * numbers["reached"][:, 0] / self._last,
+            "harm": -0.1 * shaped * numbers.dt * (past + shaken),
+            "time": np.full(len(fresh), -0.01 * shaped),
+            "effort": -0.01 * shaped * effort,
+            "success": 10.0 * fresh * done,
+            "failure": -fresh * np.where(done, 0.0, np.where(fell, 10.0, 5.0)),
+        }
+
+    def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """The mission is completed."""
+        return numbers.ended_as(hurcules.Ending.Completed)
+
+    def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """It ended in another way."""
+        return numbers.finished & ~self.succeeded(numbers)
+
+    def costs(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """A contact passes its limit, or 10 g the head."""
+        past = numbers["casualty/contact_share"] > 1.0
+        return np.asarray((past | (numbers["casualty/head_mps2"] > HEAD))[:, 0])
+
+    def tell(self, numbers: Numbers) -> dict[str, Array]:
+        """How far it came, what was done to him, and how it ended."""
+        fell = numbers.ended_as(hurcules.Ending.Fell)
+        return {
+            "phase": numbers["phase"][:, 0],
+            "furthest": numbers["furthest"][:, 0],
+            "contact_share": numbers["casualty/contact_share"][:, 0],
+            "head_mps2": numbers["casualty/head_mps2"][:, 0],
+            "support_n": numbers["casualty/support_n"][:, 0],
+            "pushed_m": numbers["pushed"][:, 0],
+            "fell": fell.astype(float),
+            "missed": (self.failed(numbers) & ~fell).astype(float),
+        }
+
+    def expert(self, numbers: Numbers) -> Array:
+        """Nothing is added: the mission as it stands."""
+        return np.zeros((len(numbers.action), 11))
+
+    def camera(self) -> mujoco.MjvCamera:
+        """From the front, on the side of the legs."""
+        return view((1.9, 0.0, 0.75), 4.8, 128.0, -14.0)
+
+
+def _mission() -> hurcules.Mission:
+    """The mission `lift` that is over when he was held, or laid down again."""
+    found = lift.mission("lift")
+    phases = []
+    for phase in found.rows.phases:
+        phase.last = phase.name == LAST
+        phases.append(phase)
+    after = {phase.name for phase in phases[[p.name for p in phases].index(LAST) + 1 :]}
+    measures = [one for one in found.rows.measures if not after & set(one.phases)]
+    rows = hurcules.MissionTable(phases=phases, safety=found.rows.safety, measures=measures)
+    return hurcules.Mission(found.setup, rows)
