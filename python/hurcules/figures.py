@@ -65,7 +65,7 @@ FIGURES = {
     "in_ahead_m": Figure("the case lies ahead of the container's middle by"),
     "in_aside_m": Figure("and to its left by"),
     "in_up_m": Figure("and its centre above the ground by"),
-    "case_sinking_mps": Figure("largest speed of the case downwards"),
+    "case_sinking_mps": Figure("largest speed of the case downwards [m/s]"),
     "case_tilt_rad": Figure("largest tilt of the case while carried"),
     "slipped_m": Figure("the case slipped in the hands by"),
     "left_grip_least_N": Figure("fingers of the left hand press, least"),

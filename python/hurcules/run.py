@@ -192,9 +192,10 @@ def _open_painter(simulation: Simulation) -> Painter:
     mission = TABLE_MISSIONS.get(simulation.mission or "")
     if mission is None:
         return Painter(model)
-    body = mission.followed
-    across = following_camera(model, body, distance=2.3, azimuth=215.0, elevation=-20.0)
-    return Painter(model, following_camera(model, body), Inset(across, mission.beside))
+    body, distance = mission.followed
+    carried, title = mission.carried
+    across = following_camera(model, carried, distance=2.3, azimuth=215.0, elevation=-20.0)
+    return Painter(model, following_camera(model, body, distance), Inset(across, title))
 
 
 def _film(

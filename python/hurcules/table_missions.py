@@ -25,16 +25,16 @@ class TableMission:
         spec: its scene, from parameters by name.
         controller: for the compiled scene.
         parameters_of: what the words of a command line say of it.
-        followed: the body that a film goes with.
-        beside: what the film's second picture shows.
+        followed: the body that a film goes with, and from how far [m].
+        carried: the body that its second picture goes with, and what that shows.
     """
 
     table: Callable[[], Mission]
     spec: Callable[[Mapping[str, Any]], mujoco.MjSpec]
     controller: Callable[[mujoco.MjModel], WholeBodyController]
     parameters_of: Callable[[Sequence[str]], dict[str, Any]]
-    followed: str
-    beside: str
+    followed: tuple[str, float]
+    carried: tuple[str, str]
 
 
 def _lifted(name: str) -> TableMission:
@@ -43,8 +43,8 @@ def _lifted(name: str) -> TableMission:
         lambda parameters: lift.spec(lift.person(parameters)),
         lift.controller,
         lift.parameters_of,
-        "casualty_pelvis",
-        "from his head's side",
+        ("casualty_pelvis", 3.8),
+        ("casualty_pelvis", "from his head's side"),
     )
 
 
@@ -55,7 +55,7 @@ TABLE_MISSIONS: Mapping[str, TableMission] = {
         lambda parameters: disposal.spec(disposal.job(parameters)),
         disposal.controller,
         disposal.parameters_of,
-        "ordnance_case",
-        "from the left",
+        ("pelvis", 5.2),
+        ("ordnance_case", "the case"),
     ),
 }
