@@ -16,6 +16,7 @@ __all__ = ["ALONE", "MODULES", "bundles", "measure", "measured"]
 
 # the longest first, so that the workers end together
 MODULES = (
+    "missions",
     "transformation",
     "obstacles",
     "reach",

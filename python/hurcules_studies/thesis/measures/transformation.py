@@ -19,7 +19,7 @@ from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
 from hurcules_studies.thesis.measures.rig import Load, on_the_scoops, scene, start, take
-from hurcules_studies.thesis.measures.rover import DRIVING_SPEED, Powered, Rover, flat
+from hurcules_studies.thesis.measures.rover import DRIVING_SPEED, Powered, Rover, Trip, flat
 
 MASS = 120.0  # [kg] Table 4.1
 HOLD = 20.0  # [s] that the load is carried, standing
@@ -160,13 +160,20 @@ def errors_under_120_kg() -> Finding:
 MISSIONS, WAY, HOURS = 7, 400.0, 2.0
 
 
+@cache
+def ways() -> tuple[Trip, Trip]:
+    """There, and back with the load on the bed."""
+    there, back = (Rover(flat(load), raised=load > 0.0).drive(WAY) for load in (0.0, MASS))
+    return there, back
+
+
 @measures("H13")
 def two_hours() -> Finding:
     """Seven missions: 400 m there and 400 m back with 120 kg, and the transformation between.
 
     What is left of the two hours the robot works: as many watts as the transformation takes.
     """
-    there, back = (Rover(flat(load), raised=load > 0.0).drive(WAY) for load in (0.0, MASS))
+    there, back = ways()
     one = run()
     driving = MISSIONS * (there.seconds + back.seconds)
     standing = MISSIONS * float(one.time[-1])
