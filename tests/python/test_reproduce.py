@@ -266,17 +266,17 @@ def test_a_second_run_takes_over_what_is_finished(first: tuple[Path, str]) -> No
 
 
 def test_a_pending_claim_is_shown_as_such_and_ends_with_1(tmp_path: Path) -> None:
-    done = call("R14", "F01", "--out", str(tmp_path))
+    done = call("R14", "F07", "--out", str(tmp_path))
     assert done.returncode == 1
-    assert rows(tmp_path)["F01"]["verdict"] == "pending"
-    assert rows(tmp_path)["F01"]["measured"] == {}
+    assert rows(tmp_path)["F07"]["verdict"] == "pending"
+    assert rows(tmp_path)["F07"]["measured"] == {}
 
 
 def test_what_nothing_measures_yet_does_not_count_unless_asked_for() -> None:
-    pending = without_finding("F01", Verdict.PENDING, "no missions")
+    pending = without_finding("F07", Verdict.PENDING, "no pictures")
     holds = replace(without_finding("R14", Verdict.HOLDS, ""), explained=True)
-    results = run.Reproduction({"F01": pending, "R14": holds})
-    results.waiting = frozenset({"F01"})
+    results = run.Reproduction({"F07": pending, "R14": holds})
+    results.waiting = frozenset({"F07"})
     assert results.done
     results.waiting = frozenset()
     assert not results.done

@@ -1,6 +1,6 @@
 """F01 to F07: the sequences of the field tests.
 
-Each has a run that must fail: what is too heavy, a person beside the arms, a waist that is not
+Each has a run that must fail: what is too heavy, a person on the front, a waist that is not
 turned, arms that are not folded, brakes that are open.
 """
 
@@ -32,8 +32,22 @@ FIELD = (
         {
             "steps": exactly("steps from the approach to the arms out, in their order", 12),
             "success": exactly("missions done, 75 kg (docs/casualty.md)", 1),
-            "distance": least("nearest that the robot comes to itself", 0.0, "m"),
-            "beside": exactly("missions done with the person 0.5 m beside the arms", 0),
+            "distance": least(
+                "nearest that the robot comes to itself",
+                0.0,
+                "m",
+                figure=True,
+                ours=(-1e-3, 0.0),
+                why="the scoops rest on the bed as they lay him down",
+            ),
+            "beside": exactly(
+                "missions done with the person 0.5 m beside the arms",
+                0,
+                figure=True,
+                ours=(1, 1),
+                why="the robot drives to where he lies: no run that must fail, the next is",
+            ),
+            "front": exactly("missions done with a person who lies on the front", 0),
         },
         missing="the way from driving to standing in the same run (K19 measures it apart)",
     ),
@@ -54,7 +68,9 @@ FIELD = (
         "§4.5",
         "Seven missions of 400 m round trip within two hours.",
         {
-            "time": most("seven times there, the casualty mission, and back", 2.0, "h", thesis="2 h"),
+            "time": most(
+                "seven times there, the casualty mission, and back", 2.0, "h", thesis="2 h"
+            ),
             "charge": least("charge left", 0.0),
             "way": near("way there, way back, shorter one", 400.0, 2.0, "m", thesis="400 m"),
         },

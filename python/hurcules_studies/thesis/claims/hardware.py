@@ -170,7 +170,7 @@ HARDWARE = (
             "charge": least("charge left after two hours", 0.0),
             "way": near("way there, way back, shorter one", 400.0, 2.0, "m", thesis="400 m"),
         },
-        missing="the acquisitions, for no run of a mission has one (F02, F04); and that a battery "
+        missing="the acquisitions, which F04 counts by the mission of today; and that a battery "
         "holds so much, for its capacity is assumed (docs/design/robot.md#battery)",
     ),
     Claim(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -27,31 +28,59 @@ WAY = 50.0  # [m] with the arms' brakes shut, then open
 ARMS = ("SP", "SR", "SY", "EB")
 
 
-def run(name: str, **parameters: Any) -> hurcules.Simulation:
+@dataclass(frozen=True)
+class Done:
+    """What became of a mission.
+
+    Attributes:
+        success: it met all its criteria.
+        time: [s] simulated.
+        visited: names and notes of its phases, in the order in which they were entered.
+        figures: by name.
+        nearest: [m] of the robot from itself.
+        charge: share of the battery that it took.
+        plot: of the robot's distance from itself.
+    """
+
+    success: bool
+    time: float
+    visited: list[tuple[str, str]]
+    figures: dict[str, float]
+    nearest: float
+    charge: float
+    plot: Plot
+
+    @property
+    def notes(self) -> list[Note]:
+        """Its figures, for the page."""
+        figures = [Note(name, value) for name, value in self.figures.items()]
+        return [Note("simulated time", self.time, "s"), *figures]
+
+
+def run(name: str, **parameters: Any) -> Done:
     """A whole mission as nobody disturbs it."""
     simulation = hurcules.Simulation(name, 1, variation=0.0, parameters=parameters)
     while not simulation.finished:
         simulation.step(1000)
-    return simulation
+    log = simulation.log()
+    phase = log["phase"].astype(int)
+    entered = phase[np.flatnonzero(np.diff(phase, prepend=-1))]
+    time, distance = log["time"][::SAMPLE], log[SELF][::SAMPLE]
+    return Done(
+        simulation.success,
+        simulation.time,
+        [(simulation.phases[i], simulation.phase_notes[i]) for i in entered],
+        simulation.figures(),
+        float(np.nanmin(log[SELF])),
+        float(log["charge"][0] - log["charge"][-1]),
+        Plot("Distance of the robot from itself", "time [s]", "[m]", [line("", time, distance)]),
+    )
 
 
 @cache
-def ordnance() -> hurcules.Simulation:
-    """The case of 20 kg, into the container."""
-    return run("disposal")
-
-
-@cache
-def casualty() -> hurcules.Simulation:
+def casualty() -> Done:
     """The person of 75 kg, home on the bed."""
     return run("casualty")
-
-
-def visited(simulation: hurcules.Simulation) -> list[str]:
-    """The names of the phases, in the order in which they were entered."""
-    phase = simulation.log()["phase"].astype(int)
-    entered = np.flatnonzero(np.diff(phase, prepend=-1))
-    return [simulation.phases[i] for i in phase[entered]]
 
 
 def in_order(steps: list[int], phases: int) -> int:
@@ -63,53 +92,39 @@ def in_order(steps: list[int], phases: int) -> int:
     return min(wanted, phases + 1) - 1
 
 
-def nearest(simulation: hurcules.Simulation) -> Plot:
-    """The robot's distance from itself."""
-    log = simulation.log()
-    time, distance = log["time"][::SAMPLE], log[SELF][::SAMPLE]
-    return Plot("Distance of the robot from itself", "time [s]", "[m]", [line("", time, distance)])
-
-
 @measures("F01")
 def ordnance_is_fetched() -> Finding:
     """The nominal run; then 30 kg on bars of friction 0.4, which no hand here can hold."""
-    done = ordnance()
-    notes = dict(zip(done.phases, done.phase_notes, strict=True))
-    told = [note for name in visited(done) if (note := STEP.search(notes.get(name, "")))]
-    heavy = run("disposal", mass=30.0, friction=0.4)
+    done, heavy = run("disposal"), run("disposal", mass=30.0, friction=0.4)
+    told = [int(step.group(1)) for _, note in done.visited if (step := STEP.search(note))]
     return Finding(
         {
-            "steps": in_order([int(note.group(1)) for note in told], 12),
+            "steps": in_order(told, 12),
             "success": int(done.success),
-            "distance": float(np.nanmin(done.log()[SELF])),
+            "distance": done.nearest,
             "heavy": int(heavy.success),
         },
-        [
-            Note("simulated time", done.time, "s"),
-            *(Note(name, value) for name, value in done.figures().items()),
-        ],
-        [nearest(done)],
+        done.notes,
+        [done.plot],
     )
 
 
 @measures("F02")
 def a_person_is_brought_home() -> Finding:
-    """The nominal run; then a person half a metre beside where the arms go."""
+    """The nominal run; a person half a metre beside the arms; one who lies on the front."""
     done = casualty()
-    steps = [STEPS.index(name) + 1 for name in visited(done) if name in STEPS]
-    beside = run("casualty", offset=(0.0, 0.5))
+    beside, front = run("casualty", offset=(0.0, 0.5)), run("casualty", pose="front")
+    steps = [STEPS.index(name) + 1 for name, _ in done.visited if name in STEPS]
     return Finding(
         {
             "steps": in_order(steps, len(STEPS)),
             "success": int(done.success),
-            "distance": float(np.nanmin(done.log()[SELF])),
+            "distance": done.nearest,
             "beside": int(beside.success),
+            "front": int(front.success),
         },
-        [
-            Note("simulated time", done.time, "s"),
-            *(Note(name, value) for name, value in done.figures().items()),
-        ],
-        [nearest(done)],
+        done.notes,
+        [done.plot],
     )
 
 
@@ -148,7 +163,7 @@ def seven_missions() -> Finding:
     working = MISSIONS * done.time
     battery = hurcules.Battery()
     battery.draw(MISSIONS * (there.energy + back.energy) / driving, driving)
-    taken = MISSIONS * float(done.log()["charge"][0] - done.log()["charge"][-1])
+    taken = MISSIONS * done.charge
     return Finding(
         {
             "time": (driving + working) / 3600.0,
@@ -158,7 +173,7 @@ def seven_missions() -> Finding:
         [
             Note("driving", driving / 3600.0, "h"),
             Note("missions", working / 3600.0, "h"),
-            Note("share of the battery that a mission takes", taken / MISSIONS),
+            Note("share of the battery that a mission takes", done.charge),
             Note("hours that are left", HOURS - (driving + working) / 3600.0, "h"),
             Note("load on the way back", MASS, "kg"),
         ],
