@@ -12,6 +12,7 @@
 namespace hurcules {
 namespace {
 
+constexpr int kMostRows = 6;  // of a constraint
 constexpr int kIterations = 20;
 constexpr double kClosed = 1e-12;   // [m] or [rad]
 constexpr double kNoShare = 1e-9;   // a column of C below it is rounding
@@ -39,6 +40,18 @@ bool drives(const mjModel& m, int joint) {
     if ((kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT) && m.actuator_trnid[2 * a] == joint)
       return true;
   }
+  return false;
+}
+
+// of at most kMostRows rows: flexible bodies have other constraints
+bool is_known(const mjModel& m, int equality) {
+  const int type = m.eq_type[equality];
+  return type == mjEQ_CONNECT || type == mjEQ_WELD || type == mjEQ_JOINT || type == mjEQ_TENDON;
+}
+
+bool meet(const std::vector<bool>& a, const std::vector<bool>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] && b[i]) return true;
   return false;
 }
 
@@ -74,7 +87,48 @@ bool Closures::keeps(int equality) const {
 // from the coordinates on, constraint by constraint
 void Closures::find() {
   const mjModel& m = *model_;
-  std::vector<bool> moves(static_cast<std::size_t>(m.nv), false), may = moves;
+  std::vector<bool> moves(static_cast<std::size_t>(m.nv), false), may = joints_that_may(m);
+  for (const auto& joints : coordinates_) {
+    for (const auto& [dof, factor] : joints) {
+      moves[static_cast<std::size_t>(dof)] = true;
+      may[static_cast<std::size_t>(dof)] = false;
+    }
+  }
+  // the first posture may hide what a constraint touches: an axis through an anchor
+  Vector qpos = Eigen::Map<const Vector>(m.qpos0, m.nq);
+  const Vector aside = Vector::Constant(m.nv, kAside);
+  mj_integratePos(&m, qpos.data(), aside.data(), 1.0);
+  for (int i = 0; i < m.neq; ++i) loops_[static_cast<std::size_t>(i)] = is_known(m, i);
+  C_ = C_f_ = Matrix::Zero(kMostRows * m.neq, m.nv);
+  c_ = rate_ = Vector::Zero(kMostRows * m.neq);
+  linearize(qpos.data());
+  // (neq, nv) the constraint moves with the joint
+  std::vector<std::vector<bool>> touched(loops_.size(), std::vector<bool>(may.size(), false));
+  for (int efc = 0, row = 0; efc < data_->ne; ++efc) {
+    const auto equality = static_cast<std::size_t>(data_->efc_id[efc]);
+    if (!loops_[equality]) continue;
+    for (std::size_t dof = 0; dof < may.size(); ++dof)
+      if (std::abs(C_(row, static_cast<Index>(dof))) > kNoShare) touched[equality][dof] = true;
+    ++row;
+  }
+  std::fill(loops_.begin(), loops_.end(), false);
+  for (bool found = true; found;) {
+    found = false;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      if (loops_[i] || !meet(touched[i], moves) || !meet(touched[i], may)) continue;
+      loops_[i] = found = true;
+      for (std::size_t dof = 0; dof < may.size(); ++dof)
+        if (touched[i][dof] && may[dof]) take(m.dof_jntid[dof], moves, may);
+    }
+  }
+  std::sort(followers_.begin(), followers_.end(),
+            [](const Follower& a, const Follower& b) { return a.dof < b.dof; });
+  C_f_ = Matrix::Zero(C_.rows(), size());
+}
+
+// of the coordinates' tree, without an actuator and without a spring: (nv)
+std::vector<bool> Closures::joints_that_may(const mjModel& m) const {
+  std::vector<bool> may(static_cast<std::size_t>(m.nv), false);
   const int tree = m.body_rootid[m.dof_bodyid[coordinates_.front().front().first]];
   for (int j = 0; j < m.njnt; ++j) {
     const bool own = m.body_rootid[m.jnt_bodyid[j]] == tree && m.jnt_type[j] != mjJNT_FREE;
@@ -82,50 +136,17 @@ void Closures::find() {
       may[static_cast<std::size_t>(m.jnt_dofadr[j] + k)] =
           m.jnt_stiffness[j] == 0.0 && !drives(m, j);
   }
-  for (const auto& joints : coordinates_) {
-    for (const auto& [dof, factor] : joints) {
-      moves[static_cast<std::size_t>(dof)] = true;
-      may[static_cast<std::size_t>(dof)] = false;
-    }
+  return may;
+}
+
+// a joint follows from here on, all of a ball joint
+void Closures::take(int joint, std::vector<bool>& moves, std::vector<bool>& may) {
+  for (int k = 0; k < dofs_of(*model_, joint); ++k) {
+    const int dof = model_->jnt_dofadr[joint] + k;
+    may[static_cast<std::size_t>(dof)] = false;
+    moves[static_cast<std::size_t>(dof)] = true;
+    followers_.push_back(follower(dof));
   }
-  std::fill(loops_.begin(), loops_.end(), true);
-  C_ = C_f_ = Matrix::Zero(6 * m.neq, m.nv);
-  c_ = rate_ = Vector::Zero(6 * m.neq);
-  Vector qpos = Eigen::Map<const Vector>(m.qpos0, m.nq);
-  const Vector aside = Vector::Constant(m.nv, kAside);
-  mj_integratePos(&m, qpos.data(), aside.data(), 1.0);
-  linearize(qpos.data());
-  std::fill(loops_.begin(), loops_.end(), false);
-  for (bool found = true; found;) {
-    found = false;
-    for (int row = 0; row < rows_; ++row) {
-      const auto equality = static_cast<std::size_t>(data_->efc_id[row]);
-      const auto touches = [&](const std::vector<bool>& these) {
-        for (int dof = 0; dof < m.nv; ++dof)
-          if (these[static_cast<std::size_t>(dof)] && std::abs(C_(row, dof)) > kNoShare)
-            return true;
-        return false;
-      };
-      if (!touches(may) || (!touches(moves) && !loops_[equality])) continue;
-      loops_[equality] = found = true;
-      for (int other = 0; other < rows_; ++other) {
-        if (data_->efc_id[other] != data_->efc_id[row]) continue;
-        for (std::size_t dof = 0; dof < may.size(); ++dof) {
-          if (!may[dof] || std::abs(C_(other, static_cast<Index>(dof))) <= kNoShare) continue;
-          const int joint = m.dof_jntid[dof];
-          for (int k = 0; k < dofs_of(m, joint); ++k) {
-            const int own = m.jnt_dofadr[joint] + k;
-            may[static_cast<std::size_t>(own)] = false;
-            moves[static_cast<std::size_t>(own)] = true;
-            followers_.push_back(follower(own));
-          }
-        }
-      }
-    }
-  }
-  std::sort(followers_.begin(), followers_.end(),
-            [](const Follower& a, const Follower& b) { return a.dof < b.dof; });
-  C_f_ = Matrix::Zero(6 * m.neq, size());
 }
 
 Closures::Follower Closures::follower(int dof) const {

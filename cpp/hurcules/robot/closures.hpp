@@ -59,6 +59,8 @@ class Closures {
 
  private:
   void find();
+  [[nodiscard]] std::vector<bool> joints_that_may(const mjModel_& model) const;
+  void take(int joint, std::vector<bool>& moves, std::vector<bool>& may);
   [[nodiscard]] Follower follower(int dof) const;
   // C and c of the loops, at a configuration
   void linearize(const double* qpos);

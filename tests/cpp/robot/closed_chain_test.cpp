@@ -150,6 +150,17 @@ TEST_P(ClosedChain, AllocatesNothing) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
+// a cable of many edges beside an arm, each of them a row of one constraint
+TEST(ClosedChains, LeaveFlexibleBodiesAlone) {
+  std::string text = kFourBar;
+  text.insert(text.find("<body name=\"base\""),
+              R"(<flexcomp name="rope" type="grid" count="20 1 1" spacing="0.05 0.05 0.05" dim="1" pos="2 0 1"
+                  mass="0.1"><contact contype="0" conaffinity="0"/><edge equality="true"/></flexcomp>)");
+  const Robot robot(load_model_text(text));
+  EXPECT_EQ(robot.closures()->size(), 2);
+  EXPECT_EQ(left_out(robot), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Linkages, ClosedChain, testing::Values(kFourBar, kRod, kCurve));
 
 }  // namespace
