@@ -160,14 +160,26 @@ class Reach(Environment):
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Distance, nearness, 1 for all hands within the tolerance, effort."""
         effort = -EFFORT * np.einsum("ni,ni->n", numbers.action, numbers.action)
-        terms = self._terms(*self.goals(numbers))
+        # as they are seen, so that `compute_reward` of an observation gives the same bits
+        achieved, desired = (goal.astype(np.float32).astype(float) for goal in self.goals(numbers))
+        terms = self._terms(achieved, desired)
         return terms | {"effort": effort / numbers.action.shape[1]}
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
-        """The reward of other goals, any leading axes; the effort is that of `info`."""
+        """The reward of other goals, any leading axes; the effort is that of `info`.
+
+        Args:
+            achieved: (..., g).
+            desired: (..., g).
+            info: of a step, of several in a vector, or a sequence of those of single ones.
+        """
         terms = self._terms(np.asarray(achieved, float), np.asarray(desired, float))
-        known = info.get("reward_effort", 0.0) if isinstance(info, Mapping) else 0.0
-        reward = sum(terms.values()) + known
+        if isinstance(info, Mapping):
+            effort = info.get("reward_effort", 0.0)
+        else:  # one for each, as stable_baselines3 replays them
+            infos = () if info is None else info
+            effort = np.array([one.get("reward_effort", 0.0) for one in infos] or 0.0)
+        reward = sum(terms.values()) + effort
         return float(reward) if np.ndim(reward) == 0 else reward
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:

@@ -157,6 +157,16 @@ def test_without_autoreset_who_is_over_is_reset_by_a_mask():
 
 
 @pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[5]])
+def test_a_goal_environment_passes_stable_baselines3s_checker_too(name, options):
+    checker = pytest.importorskip(
+        "stable_baselines3.common.env_checker", reason="pip install 'hurcules[train]'"
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        checker.check_env(gym.make(name, **options).unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[5]])
 def test_the_reward_of_another_goal_agrees_with_that_of_the_step(name, options):
     vector = gym.make_vec(name, num_envs=4, **options)
     vector.reset(seed=1)
@@ -164,9 +174,10 @@ def test_the_reward_of_another_goal_agrees_with_that_of_the_step(name, options):
         observation, reward, _, _, info = vector.step(vector.action_space.sample())
     env = vector.environment
     goals = observation["achieved_goal"], observation["desired_goal"]
-    assert env.compute_reward(*goals, info) == pytest.approx(reward, abs=1e-6)
-    one = {"reward_effort": info["reward_effort"][1]}
-    assert env.compute_reward(goals[0][1], goals[1][1], one) == pytest.approx(reward[1], abs=1e-6)
+    assert env.compute_reward(*goals, info).tolist() == reward.tolist()
+    single = [{"reward_effort": effort} for effort in info["reward_effort"]]
+    assert env.compute_reward(*goals, single).tolist() == reward.tolist()
+    assert env.compute_reward(goals[0][1], goals[1][1], single[1]) == reward[1]
     assert reward == pytest.approx(sum(info[f"reward_{term}"] for term in env.terms))
 
 
