@@ -19,6 +19,7 @@ GRAVITY = 9.81
 MASSES = {
     "shell_30kg": 30.0, "ordnance_box_30kg": 30.0, "sled": 75.0, "concrete_block": 16.0,
     "timber_2x4": 1.39, "timber_4x4": 2.17, "door": 25.0, "valve": 2.55,
+    "ordnance_case": 20.0, "container": 0.0,
 }  # fmt: skip
 
 
