@@ -17,7 +17,6 @@ from hurcules import _core, mjcf, scenes
 from hurcules._core import (
     Drive,
     DriveOptions,
-    Error,
     JointLimits,
     JointRate,
     JointRates,
@@ -29,7 +28,7 @@ from hurcules._core import (
     Twist,
     WholeBodyController,
 )
-from hurcules.mission_options import pair, read_options, record
+from hurcules.mission_options import pair, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
 __all__ = ["Job", "controller", "job", "mission", "model", "parameters_of", "spec"]
@@ -62,9 +61,7 @@ def job(parameters: Mapping[str, Any]) -> Job:
         Error: no such parameter, or an offset that is not two numbers.
     """
     made = record(Job, "disposal", parameters)
-    if len(made.offset) != 2 or not all(math.isfinite(number) for number in made.offset):
-        wanted = "offset wants two numbers, ahead and to the left"
-        raise Error(f"disposal: {wanted}, got {made.offset!r}")
+    require_offset("disposal", made.offset)
     return made
 
 

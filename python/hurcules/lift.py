@@ -20,7 +20,6 @@ from hurcules._core import (
     ContactOptions,
     Drive,
     DriveOptions,
-    Error,
     ForceGains,
     ForceTask,
     JointLimits,
@@ -33,7 +32,7 @@ from hurcules._core import (
     Twist,
     WholeBodyController,
 )
-from hurcules.mission_options import pair, read_options, record
+from hurcules.mission_options import pair, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
 __all__ = [
@@ -82,8 +81,7 @@ def person(parameters: Mapping[str, Any]) -> Person:
         Error: no such parameter, or an offset that is not two numbers.
     """
     made = record(Person, "person", parameters)
-    if len(made.offset) != 2 or not all(math.isfinite(number) for number in made.offset):
-        raise Error(f"person: offset wants two numbers, ahead and to the left, got {made.offset!r}")
+    require_offset("person", made.offset)
     return made
 
 

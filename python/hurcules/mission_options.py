@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import Any, TypeVar
 
 from hurcules._core import Error
 
-__all__ = ["pair", "read_options", "record"]
+__all__ = ["pair", "read_options", "record", "require_offset"]
 
 Record = TypeVar("Record")
 
@@ -55,3 +56,14 @@ def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]
         if name not in known:
             raise Error(f"{noun}: no parameter '{name}'; there are: {', '.join(known)}")
     return kind(**parameters)
+
+
+def require_offset(noun: str, offset: Sequence[float]) -> None:
+    """Two numbers [m], ahead and to the left.
+
+    Raises:
+        Error: others; the text begins with the noun.
+    """
+    if len(offset) != 2 or not all(math.isfinite(number) for number in offset):
+        wanted = "offset wants two numbers, ahead and to the left"
+        raise Error(f"{noun}: {wanted}, got {offset!r}")

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from environments import assert_tables_are_true
 from hurcules_envs.registry import make_environment
 from hurcules_envs.single import SingleEnv
 
@@ -38,22 +39,6 @@ def expert(env: SingleEnv) -> NDArray[np.float32]:
     return env.environment.expert(env.numbers)[0].astype(np.float32)
 
 
-def rows(text: str) -> list[list[list[str]]]:
-    """The tables of a docstring, without their headings."""
-    tables: list[list[list[str]]] = []
-    inside = False
-    for line in text.splitlines():
-        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        if not line.strip().startswith("|"):
-            inside = False
-        elif not inside:
-            inside = True
-            tables.append([])
-        elif not set(cells[0]) <= {"-"}:
-            tables[-1].append(cells)
-    return tables
-
-
 @pytest.mark.parametrize("name", IDS)
 def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
     with warnings.catch_warnings():
@@ -66,17 +51,7 @@ def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
 @pytest.mark.parametrize("name", IDS)
 def test_the_tables_in_the_text_are_true(name: str) -> None:
     env = single(name)
-    actions, observations, reward = rows(type(env.environment).__doc__ or "")
-    assert [row[1] for row in actions] == env.action_names
-    assert [float(row[2]) for row in actions] == env.action_scale.tolist()
-    place = 0
-    for row, group in zip(observations, env.environment.observation, strict=True):
-        first, _, last = row[0].partition("-")
-        assert (int(first), int(last or first) + 1) == (place, place + group.size)
-        assert (row[1], float(row[2]), row[3]) == (group.name, group.bound, group.unit)
-        place += group.size
-    assert env.observation_space.shape == (place,)
-    assert [row[0] for row in reward] == list(env.environment.terms)
+    assert_tables_are_true(env)
 
 
 @pytest.mark.parametrize("name", IDS)

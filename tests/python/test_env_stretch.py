@@ -13,8 +13,8 @@ from gymnasium.utils.env_checker import check_env
 from numpy.typing import NDArray
 
 import hurcules_envs  # noqa: F401  registers
+from environments import assert_tables_are_true
 from hurcules_envs.single import SingleEnv
-from test_env_contact import rows
 
 NAME = "Hurcules/Stretch-v1"
 
@@ -59,20 +59,7 @@ def test_nor_has_that_of_stable_baselines3() -> None:
 
 
 def test_the_tables_in_the_text_are_true() -> None:
-    env = single()
-    actions, observations, reward = rows(type(env.environment).__doc__ or "")
-    assert [row[1] for row in actions] == env.action_names
-    assert [float(row[2]) for row in actions] == env.action_scale.tolist()
-    place = 0
-    for row, group in zip(observations, env.environment.observation, strict=True):
-        first, _, last = row[0].partition("-")
-        assert (int(first), int(last or first) + 1) == (place, place + group.size)
-        assert (row[1], float(row[2]), row[3], row[4]) == (
-            group.name, group.bound, group.unit, group.text,
-        )  # fmt: skip
-        place += group.size
-    assert env.observation_space.shape == (place,)
-    assert [row[0] for row in reward] == list(env.environment.terms)
+    assert_tables_are_true(single(), texts=True)
 
 
 @pytest.mark.parametrize("fidelity", ["kinematic", "fast"])

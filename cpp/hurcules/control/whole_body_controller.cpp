@@ -7,7 +7,6 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
-#include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 
@@ -212,13 +211,10 @@ void WholeBodyController::reset(const Vector& qpos) {
   command_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = false;
-  hold_targets();
   for (Task* const task : tasks_) {
-    if (auto* const gaze = dynamic_cast<GazeTask*>(task)) gaze->reset(plan_);
+    task->reset(plan_);
     auto* const force = dynamic_cast<ForceTask*>(task);
-    if (!force) continue;
-    force->reset(plan_);
-    force->set_force(force->options().force_des);
+    if (force) force->set_force(force->options().force_des);
   }
   for (const auto& law : laws_) law->reset();
   if (drive_) drive_->reset();

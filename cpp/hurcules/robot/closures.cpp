@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/robot/robot.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 namespace {
@@ -32,15 +32,6 @@ std::unique_ptr<mjModel, void (*)(mjModel*)> of_constraints(const mjModel& model
 
 int dofs_of(const mjModel& m, int joint) {
   return m.jnt_type[joint] == mjJNT_BALL ? 3 : 1;
-}
-
-bool drives(const mjModel& m, int joint) {
-  for (int a = 0; a < m.nu; ++a) {
-    const int kind = m.actuator_trntype[a];
-    if ((kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT) && m.actuator_trnid[2 * a] == joint)
-      return true;
-  }
-  return false;
 }
 
 // of at most kMostRows rows: flexible bodies have other constraints
@@ -134,7 +125,7 @@ std::vector<bool> Closures::joints_that_may(const mjModel& m) const {
     const bool own = m.body_rootid[m.jnt_bodyid[j]] == tree && m.jnt_type[j] != mjJNT_FREE;
     for (int k = 0; own && k < dofs_of(m, j); ++k)
       may[static_cast<std::size_t>(m.jnt_dofadr[j] + k)] =
-          m.jnt_stiffness[j] == 0.0 && !drives(m, j);
+          m.jnt_stiffness[j] == 0.0 && actuator_of(m, j) < 0;
   }
   return may;
 }
@@ -152,10 +143,9 @@ void Closures::take(int joint, std::vector<bool>& moves, std::vector<bool>& may)
 Closures::Follower Closures::follower(int dof) const {
   const mjModel& m = *model_;
   const int joint = m.dof_jntid[dof];
-  const char* const name = mj_id2name(&m, mjOBJ_JOINT, joint);
   const bool limited = m.jnt_limited[joint] && m.jnt_type[joint] != mjJNT_BALL;
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  return {name ? name : "joint" + std::to_string(joint), dof, m.jnt_qposadr[joint],
+  return {joint_name(m, joint), dof, m.jnt_qposadr[joint],
           limited ? m.jnt_range[2 * joint] : -kNone, limited ? m.jnt_range[2 * joint + 1] : kNone};
 }
 
@@ -184,6 +174,10 @@ void Closures::linearize(const double* qpos) {
 
 void Closures::measure(const double* qpos) {
   linearize(qpos);
+  find_share();
+}
+
+void Closures::find_share() {
   for (Index i = 0; i < share_.cols(); ++i) {
     right_.setZero();
     for (const auto& [dof, factor] : coordinates_[static_cast<std::size_t>(i)])
@@ -204,14 +198,14 @@ void Closures::measure(const double* qpos) {
 void Closures::close(double* qpos, const Vector& change) {
   step_.noalias() = share_ * change;
   move(qpos, step_);
-  for (int i = 0; i < kIterations; ++i) {
-    linearize(qpos);
-    if (error_ < kClosed) break;
+  linearize(qpos);
+  for (int i = 0; i < kIterations && error_ >= kClosed; ++i) {
     step_.noalias() = -C_f_.topRows(rows_).transpose() * c_.head(rows_);
     factor_.solveInPlace(step_);
     move(qpos, step_);
+    linearize(qpos);
   }
-  measure(qpos);
+  find_share();
 }
 
 void Closures::move(double* qpos, const Vector& step) {

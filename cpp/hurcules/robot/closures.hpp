@@ -64,6 +64,8 @@ class Closures {
   [[nodiscard]] Follower follower(int dof) const;
   // C and c of the loops, at a configuration
   void linearize(const double* qpos);
+  // G and slack, of the last linearize
+  void find_share();
   // the joints that follow, in qpos, (f)
   void move(double* qpos, const Vector& step);
 

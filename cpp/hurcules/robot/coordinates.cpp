@@ -40,12 +40,6 @@ bool drives(const mjModel& m, int actuator, int joint) {
          m.actuator_trnid[2 * actuator] == joint;
 }
 
-int actuator_of(const mjModel& m, int joint) {
-  for (int a = 0; a < m.nu; ++a)
-    if (drives(m, a, joint)) return a;
-  return -1;
-}
-
 DrivenJoint driven(const mjModel& m, int joint, double factor) {
   return {joint, m.jnt_qposadr[joint], m.jnt_dofadr[joint], actuator_of(m, joint), factor};
 }
@@ -60,7 +54,7 @@ Coordinate from_tuple(const mjModel& m, int tuple, const std::string& name) {
             "coordinate '" + name + "' wants hinge or slide joints, element " + std::to_string(i) +
                 " of its tuple is something else");
     require(m.tuple_objprm[at] != 0 && std::isfinite(m.tuple_objprm[at]),
-            "coordinate '" + name + "' wants a factor for joint '" + name_of(m, mjOBJ_JOINT, id) +
+            "coordinate '" + name + "' wants a factor for joint '" + joint_name(m, id) +
                 "', its prm is 0 or not finite");
     coordinate.joints.push_back(driven(m, id, m.tuple_objprm[at]));
   }
@@ -82,7 +76,7 @@ std::vector<Coordinate> from_joints(const mjModel& m, bool with_actuator) {
   for (int j = 0; j < m.njnt; ++j) {
     if (!is_single(m, j) || (with_actuator && actuator_of(m, j) < 0)) continue;
     found.emplace_back();
-    found.back().name = name_of(m, mjOBJ_JOINT, j);
+    found.back().name = joint_name(m, j);
     found.back().joints = {driven(m, j, 1.0)};
   }
   return found;
@@ -93,7 +87,7 @@ std::vector<Coordinate> from_free_joint(const mjModel& m, int joint) {
   static constexpr std::array<const char*, 6> kParts = {"x", "y", "z", "rx", "ry", "rz"};
   std::vector<Coordinate> found(kParts.size());
   for (std::size_t part = 0; part < kParts.size(); ++part) {
-    found[part].name = name_of(m, mjOBJ_JOINT, joint) + "_" + kParts[part];
+    found[part].name = joint_name(m, joint) + "_" + kParts[part];
     DrivenJoint driven_joint = driven(m, joint, 1.0);
     driven_joint.part = static_cast<int>(part);
     driven_joint.dof += driven_joint.part;
@@ -217,7 +211,7 @@ void couple(const mjModel& m, std::vector<Coordinate>& all) {
 
 // [rad/s] or [m/s] of the joint
 double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
-  const std::string joint = name_of(m, mjOBJ_JOINT, driven_joint.joint);
+  const std::string joint = joint_name(m, driven_joint.joint);
   for (int i = 0; i < m.nnumeric; ++i) {
     if (without(mj_id2name(&m, mjOBJ_NUMERIC, i), "velocity_limit_") != joint) continue;
     const double limit = m.numeric_data[m.numeric_adr[i]];
@@ -273,12 +267,22 @@ void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinat
             "two coordinates are called '" + coordinate.name + "'");
     for (const DrivenJoint& driven_joint : coordinate.joints)
       require(joints.insert(driven_joint.joint).second,
-              "joint '" + name_of(m, mjOBJ_JOINT, driven_joint.joint) +
+              "joint '" + joint_name(m, driven_joint.joint) +
                   "' belongs to one coordinate only, '" + coordinate.name + "' names it again");
   }
 }
 
 }  // namespace
+
+int actuator_of(const mjModel& m, int joint) {
+  for (int a = 0; a < m.nu; ++a)
+    if (drives(m, a, joint)) return a;
+  return -1;
+}
+
+std::string joint_name(const mjModel& m, int joint) {
+  return name_of(m, mjOBJ_JOINT, joint);
+}
 
 bool names_coordinates(const mjModel& m) {
   for (int t = 0; t < m.ntuple; ++t)

@@ -28,6 +28,11 @@ namespace hurcules {
                                                        const std::vector<std::string>& names = {},
                                                        bool floating = false);
 
+// the first actuator that drives a joint, -1 for none
+[[nodiscard]] int actuator_of(const mjModel_& model, int joint);
+// its name, or its number
+[[nodiscard]] std::string joint_name(const mjModel_& model, int joint);
+
 // the model has tuples that say what its coordinates are
 [[nodiscard]] bool names_coordinates(const mjModel_& model);
 

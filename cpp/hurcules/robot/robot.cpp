@@ -147,7 +147,6 @@ void Robot::set_qpos(const ConstVectorRef& qpos) {
 
 void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
-  change_ = q - q_;
   for (Index i = root_size(); i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
@@ -155,7 +154,10 @@ void Robot::set_configuration(const ConstVectorRef& q) {
     const Eigen::Quaterniond turn(rotation_exp(Vector3(q.segment<3>(3))));
     qpos_.segment<7>(root_qpos_) << q.head<3>(), turn.w(), turn.vec();
   }
-  if (closures_) closures_->close(qpos_.data(), change_);
+  if (closures_) {
+    change_ = q - q_;
+    closures_->close(qpos_.data(), change_);
+  }
   keep_support();
   screws_->place(qpos_.data());
   note_motion();
@@ -167,11 +169,6 @@ void Robot::set_velocity(const ConstVectorRef& velocity) {
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       data_->qvel[joint.dof] = joint.factor * v_[i];
-  if (closures_) {
-    for (Index f = 0; f < closures_->size(); ++f)
-      data_->qvel[closures_->dof(f)] = closures_->share().row(f).dot(v_);
-    closures_->set_velocity(qpos_.data(), data_->qvel);
-  }
   note_velocity();
 }
 
@@ -273,6 +270,11 @@ void Robot::note_motion() {
 }
 
 void Robot::note_velocity() {
+  if (closures_) {
+    for (Index f = 0; f < closures_->size(); ++f)
+      data_->qvel[closures_->dof(f)] = closures_->share().row(f).dot(v_);
+    closures_->set_velocity(qpos_.data(), data_->qvel);
+  }
   screws_->set_velocity(v_);
   if (support_ < 0) return;
   Eigen::Map<Screw>(data_->qvel + root_dof_).noalias() = screws_->root_motion() * v_;

@@ -88,12 +88,6 @@ void Screws::each_coordinate(const Driven& joint, Act&& act) const {
   for (Index i = 0; i < velocity_.size(); ++i) act(i, closures_->share()(joint.follower, i));
 }
 
-double Screws::speed(const Driven& joint) const {
-  double sum = 0.0;
-  each_coordinate(joint, [&](Index i, double share) { sum += share * velocity_[i]; });
-  return sum;
-}
-
 Vector3 Screws::origin(int body) const {
   return pose(model_->body_rootid[body]).p;
 }
@@ -149,16 +143,20 @@ void Screws::set_velocity(const Vector& velocity) {
   root_velocity_.setZero();
   root_rate_.setZero();
   if (!moving_) return;
+  for (Driven& joint : driven_) {
+    joint.speed = 0.0;
+    each_coordinate(joint, [&](Index i, double share) { joint.speed += share * velocity_[i]; });
+  }
   if (support_ >= 0)
-    for (const Index j : above(support_)) root_velocity_ -= speed(driven(j)) * driven(j).screw;
+    for (const Index j : above(support_)) root_velocity_ -= driven(j).speed * driven(j).screw;
   for (std::size_t i = 0; i < driven_.size(); ++i) {
     Driven& joint = driven_[i];
     Screw before = stands(joint.body) ? root_velocity_ : Screw::Zero();
     for (const Index j : above(joint.body)) {
       const bool at_once = joint.part >= 3 && driven(j).part >= 3 && driven(j).joint == joint.joint;
-      if (j < static_cast<Index>(i) && !at_once) before += speed(driven(j)) * driven(j).screw;
+      if (j < static_cast<Index>(i) && !at_once) before += driven(j).speed * driven(j).screw;
     }
-    joint.rate = cross(before, joint.screw) * speed(joint);
+    joint.rate = cross(before, joint.screw) * joint.speed;
     if (joint.follower >= 0) joint.rate += closures_->drift()[joint.follower] * joint.screw;
   }
   if (support_ < 0) return;
@@ -190,7 +188,7 @@ void Screws::rotation_jacobian(int body, MatrixRef J) const {
 
 Screw Screws::velocity_of(int body) const {
   Screw twist = stands(body) ? root_velocity_ : Screw::Zero();
-  for (const Index j : above(body)) twist += speed(driven(j)) * driven(j).screw;
+  for (const Index j : above(body)) twist += driven(j).speed * driven(j).screw;
   return twist;
 }
 

@@ -65,6 +65,7 @@ class Screws {
     int part;                     // of a free or a ball joint, else -1
     Screw screw = Screw::Zero();  // at the coordinate's velocity 1
     Screw rate = Screw::Zero();   // at its velocity
+    double speed = 0.0;           // that velocity, of the last set_velocity
   };
 
   [[nodiscard]] static std::vector<Driven> driven_of(const mjModel_& model,
@@ -78,7 +79,6 @@ class Screws {
   // the coordinates that move a joint, each with the joint's velocity at its velocity 1
   template <class Act>
   void each_coordinate(const Driven& joint, Act&& act) const;
-  [[nodiscard]] double speed(const Driven& joint) const;
   [[nodiscard]] Vector3 origin(int body) const;  // of its tree
   // its tree stands on something else than the root
   [[nodiscard]] bool stands(int body) const;

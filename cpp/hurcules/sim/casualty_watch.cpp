@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
 
@@ -32,18 +33,12 @@ double limit_of(const std::string& region) {
 }
 
 int body_of(const mjModel* m, const std::string& name) {
-  const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
-  require(id >= 0, "a watched casualty wants a body '" + name + "', the model has none");
-  return id;
+  return require_id(m, mjOBJ_BODY, name, "a watched casualty");
 }
 
 int row_of(const mjModel* m, const std::string& sensor) {
   const int id = mj_name2id(m, mjOBJ_SENSOR, sensor.c_str());
   return id < 0 ? -1 : m->sensor_adr[id];
-}
-
-Vector3 at(const mjtNum* values, int i) {
-  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
 }
 
 }  // namespace
@@ -125,10 +120,10 @@ void CasualtyWatch::restore(StateReader& reader) {
 void CasualtyWatch::look(const mjModel* m, const mjData* d) {
   values_.setZero();
   add_up(m, d);
-  const Vector3 centre = at(d->subtree_com, root_);
+  const Vector3 centre = vector_at(d->subtree_com, root_);
   if (!looked_) origin_ = centre;
   looked_ = true;
-  const Vector3 left = at(d->site_xpos, tips_[0]), right = at(d->site_xpos, tips_[1]);
+  const Vector3 left = vector_at(d->site_xpos, tips_[0]), right = vector_at(d->site_xpos, tips_[1]);
   Vector3 aside = left - right;  // the robot's left, level
   aside.z() = 0.0;
   aside.normalize();
@@ -139,18 +134,18 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
   values_[kHeight] = centre.z() - origin_.z();
   values_[kMoved] = (centre - origin_).head<2>().norm();
   values_[kFaceUp] = d->xmat[9 * chest_ + 6];  // the chest's x axis, out of its front, along z
-  values_[kSag] = at(d->xpos, chest_).z() - at(d->xpos, pelvis_).z();
+  values_[kSag] = vector_at(d->xpos, chest_).z() - vector_at(d->xpos, pelvis_).z();
   if (bed_ >= 0) {
-    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> R(d->xmat + 9 * bed_);
-    const Vector3 on_bed = R.transpose() * (centre - at(d->xpos, bed_));
+    const Vector3 on_bed =
+        matrix_at(d->xmat, bed_).transpose() * (centre - vector_at(d->xpos, bed_));
     values_[kBedAhead] = on_bed.x();
     values_[kBedAside] = on_bed.y();
   }
-  const Vector3 body = at(d->xpos, chest_) - at(d->xpos, pelvis_);
+  const Vector3 body = vector_at(d->xpos, chest_) - vector_at(d->xpos, pelvis_);
   values_[kHeading] = std::atan2(-body.dot(ahead), body.dot(aside));
   const Vector3 along = Vector3(body.x(), body.y(), 0.0).normalized();
   const Vector3 stand = centre - stand_off_ * along.cross(Vector3::UnitZ());
-  const Vector3 to_stand = stand - at(d->subtree_com, robot_);
+  const Vector3 to_stand = stand - vector_at(d->subtree_com, robot_);
   values_[kStandAhead] = to_stand.dot(ahead);
   values_[kStandBearing] = std::atan2(to_stand.dot(aside), to_stand.dot(ahead));
   if (flexion_ >= 0) values_[kNeckFlexion] = d->sensordata[flexion_];
@@ -166,8 +161,7 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
 // contacts of the person, by partner and by region
 void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
   forces_.setZero();
-  // now, not once: models of a batch differ, and change between episodes
-  const double weight = m->body_subtreemass[root_] * std::abs(m->opt.gravity[2]);
+  const double weight = weight_of(m, root_);
   Vector3 push = Vector3::Zero();
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
@@ -176,12 +170,8 @@ void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
     const bool second = m->body_rootid[bodies[1]] == root_;
     if ((m->body_rootid[bodies[0]] == root_) == second) continue;  // both, or none
     const int mine = bodies[second ? 1 : 0], other = bodies[second ? 0 : 1];
-    mjtNum wrench[6];
-    mj_contactForce(m, d, i, wrench);
-    // on the second body, world axes: the frame's rows are normal and tangents
-    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> frame(contact.frame);
-    const Vector3 force =
-        (second ? 1.0 : -1.0) * (frame.transpose() * Vector3(wrench[0], wrench[1], wrench[2]));
+    const ContactForce acts = contact_force(m, d, i);
+    const Vector3 force = (second ? 1.0 : -1.0) * acts.force;
     const double share = force.z() / weight;
     if (m->body_weldid[other] == 0) {
       values_[kOnGround] += share;
@@ -195,7 +185,7 @@ void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
       values_[is_bed_[static_cast<std::size_t>(other)] ? kOnBed : kOnRest] += share;
     }
     const int region = region_of_[static_cast<std::size_t>(mine)];
-    if (region >= 0) forces_[region] += wrench[0];
+    if (region >= 0) forces_[region] += acts.normal;
   }
   values_[kPush] = push.head<2>().norm();
 }

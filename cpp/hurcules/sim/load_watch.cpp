@@ -5,21 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hurcules/base/error.hpp"
+#include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
 
 namespace {
 
 int id_of(const mjModel* m, mjtObj kind, const std::string& name) {
-  const int id = mj_name2id(m, kind, name.c_str());
-  require(id >= 0, std::string("a load wants a ") + (kind == mjOBJ_BODY ? "body" : "site") + " '" +
-                       name + "', the model has none");
-  return id;
-}
-
-Vector3 at(const mjtNum* values, int i) {
-  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return require_id(m, kind, name, "a load");
 }
 
 }  // namespace
@@ -38,7 +31,6 @@ LoadWatch::LoadWatch(const mjModel* m, const std::string& body, const std::strin
       tips_{id_of(m, mjOBJ_SITE, "L_tcp"), id_of(m, mjOBJ_SITE, "R_tcp")},
       places_{id_of(m, mjOBJ_SITE, body + "_left"), id_of(m, mjOBJ_SITE, body + "_right")},
       hand_(static_cast<std::size_t>(m->nbody), -1) {
-  weight_ = m->body_subtreemass[body_] * std::abs(m->opt.gravity[2]);
   const int hands[2] = {id_of(m, mjOBJ_BODY, "L_hand"), id_of(m, mjOBJ_BODY, "R_hand")};
   robot_ = m->body_rootid[hands[0]];
   for (int i = 1; i < m->nbody; ++i) {  // parents come first
@@ -49,9 +41,8 @@ LoadWatch::LoadWatch(const mjModel* m, const std::string& body, const std::strin
   }
   for (int i = 0; i < 2; ++i) {
     for (const char* const finger : {"1", "2"}) {
-      const std::string name = std::string(i == 0 ? "L" : "R") + "_pad_" + finger;
-      const int joint = mj_name2id(m, mjOBJ_JOINT, name.c_str());
-      require(joint >= 0, "a load wants a joint '" + name + "', the model has none");
+      const std::string side = i == 0 ? "L" : "R";
+      const int joint = id_of(m, mjOBJ_JOINT, side + "_pad_" + finger);
       pads_[i].push_back({m->jnt_qposadr[joint], m->jnt_stiffness[joint]});
     }
   }
@@ -84,7 +75,7 @@ void LoadWatch::restore(StateReader& reader) {
 void LoadWatch::look(const mjModel* m, const mjData* d) {
   values_.setZero();
   add_up(m, d);
-  const Vector3 centre = at(d->xpos, body_);
+  const Vector3 centre = vector_at(d->xpos, body_);
   if (!looked_) origin_ = centre;
   looked_ = true;
   values_[kHeight] = centre.z() - origin_.z();
@@ -94,19 +85,20 @@ void LoadWatch::look(const mjModel* m, const mjData* d) {
   mj_objectVelocity(m, d, mjOBJ_BODY, body_, velocity, 0);
   values_[kSinking] = -velocity[5];
   for (int i = 0; i < 2; ++i) {
-    const Vector3 off = at(d->site_xpos, places_[i]) - at(d->site_xpos, tips_[i]);
+    const Vector3 off = vector_at(d->site_xpos, places_[i]) - vector_at(d->site_xpos, tips_[i]);
     values_[kOff] = std::max(values_[kOff], off.norm());
     for (const Pad& pad : pads_[i]) {
       values_[i == 0 ? kLeft : kRight] += pad.stiffness * d->qpos[pad.address];
     }
   }
   if (container_ < 0) return;
-  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> R(d->xmat + 9 * container_);
-  values_.segment<3>(kAhead) = R.transpose() * (centre - at(d->xpos, container_));
+  values_.segment<3>(kAhead) =
+      matrix_at(d->xmat, container_).transpose() * (centre - vector_at(d->xpos, container_));
 }
 
 // contacts of the thing by partner, and those of robot and container
 void LoadWatch::add_up(const mjModel* m, const mjData* d) {
+  const double weight = weight_of(m, body_);
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.efc_address < 0 || contact.geom[0] < 0 || contact.geom[1] < 0) continue;
@@ -115,18 +107,13 @@ void LoadWatch::add_up(const mjModel* m, const mjData* d) {
     const int other = bodies[second ? 0 : 1];
     const bool mine = second || bodies[0] == body_;
     if (!mine && bodies[0] != container_ && bodies[1] != container_) continue;
-    mjtNum wrench[6];
-    mj_contactForce(m, d, i, wrench);
+    const ContactForce acts = contact_force(m, d, i);
     if (!mine) {
       const int met = bodies[bodies[0] == container_ ? 1 : 0];
-      if (m->body_rootid[met] == robot_) values_[kKnock] += wrench[0];
+      if (m->body_rootid[met] == robot_) values_[kKnock] += acts.normal;
       continue;
     }
-    // on the second body, world axes: the frame's rows are normal and tangents
-    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> frame(contact.frame);
-    const Vector3 force =
-        (second ? 1.0 : -1.0) * (frame.transpose() * Vector3(wrench[0], wrench[1], wrench[2]));
-    const double share = force.z() / weight_;
+    const double share = (second ? 1.0 : -1.0) * acts.force.z() / weight;
     const int hand = hand_[static_cast<std::size_t>(other)];
     if (other == container_) {
       values_[kInContainer] += share;
@@ -136,7 +123,7 @@ void LoadWatch::add_up(const mjModel* m, const mjData* d) {
       values_[hand == 0 ? kOnLeft : kOnRight] += share;
     } else if (m->body_rootid[other] == robot_) {
       values_[kOnRest] += share;
-      values_[kKnock] += wrench[0];
+      values_[kKnock] += acts.normal;
     }
   }
 }

@@ -59,7 +59,6 @@ class LoadWatch {
   };
   std::vector<Pad> pads_[2];  // of the fingers, left and right
   std::vector<int> hand_;     // (nbody) 0 left, 1 right, -1 no hand
-  double weight_ = 0.0;       // [N]
   Vector values_;             // (kQuantities)
   bool looked_ = false;
   Vector3 origin_ = Vector3::Zero();

@@ -6,21 +6,14 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
 
 namespace {
 
 int id_of(const mjModel* m, mjtObj kind, const std::string& name) {
-  const int id = mj_name2id(m, kind, name.c_str());
-  require(id >= 0, std::string("a watched thing wants a ") +
-                       (kind == mjOBJ_BODY ? "body" : "site") + " '" + name +
-                       "', the model has none");
-  return id;
-}
-
-Vector3 at(const mjtNum* values, int i) {
-  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return require_id(m, kind, name, "a watched thing");
 }
 
 // level, of length 1
@@ -68,34 +61,34 @@ void PlaceWatch::restore(StateReader& reader) {
 }
 
 void PlaceWatch::look(const mjModel* /*m*/, const mjData* d) {
-  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> legs(d->xmat + 9 * robot_);
-  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> turned(d->xmat + 9 * body_);
-  const Vector3 left = level(legs.col(1)), ahead = left.cross(Vector3::UnitZ());
+  const Vector3 left = level(matrix_at(d->xmat, robot_).col(1)),
+                ahead = left.cross(Vector3::UnitZ());
 
   // the estimate: moved, and turned about its centre
-  const Vector3 true_centre = at(d->xpos, body_);
-  const Vector3 sight = level(true_centre - at(d->site_xpos, eyes_));
-  const double far = (true_centre - at(d->site_xpos, eyes_)).head<2>().norm() / CameraError::kAt;
+  const Vector3 true_centre = vector_at(d->xpos, body_);
+  const Vector3 sight = level(true_centre - vector_at(d->site_xpos, eyes_));
+  const double far =
+      (true_centre - vector_at(d->site_xpos, eyes_)).head<2>().norm() / CameraError::kAt;
   const Vector3 moved = far * far * CameraError::kAlong * error_[0] * sight +
                         far * CameraError::kAcross * error_[1] * Vector3::UnitZ().cross(sight) +
                         far * CameraError::kUp * error_[2] * Vector3::UnitZ();
   const Vector3 centre = true_centre + moved;
   const Eigen::AngleAxisd turn(far * CameraError::kTurn * error_[3], Vector3::UnitZ());
 
-  const Vector3 from_robot = centre - at(d->xpos, robot_);
+  const Vector3 from_robot = centre - vector_at(d->xpos, robot_);
   values_[kAhead] = from_robot.dot(ahead);
   values_[kAside] = from_robot.dot(left);
-  const Vector3 along = level(turn * Vector3(turned.col(0)));
+  const Vector3 along = level(turn * Vector3(matrix_at(d->xmat, body_).col(0)));
   values_[kHeading] = std::atan2(along.dot(left), along.dot(ahead));
-  const Vector3 to_stand = centre - stand_off_ * along - at(d->subtree_com, robot_);
+  const Vector3 to_stand = centre - stand_off_ * along - vector_at(d->subtree_com, robot_);
   values_[kStandAhead] = to_stand.dot(ahead);
   values_[kStandBearing] = std::atan2(to_stand.dot(left), to_stand.dot(ahead));
-  const Vector3 hands[2] = {at(d->site_xpos, tips_[0]), at(d->site_xpos, tips_[1])};
+  const Vector3 hands[2] = {vector_at(d->site_xpos, tips_[0]), vector_at(d->site_xpos, tips_[1])};
   const Vector3 from_hands = centre - 0.5 * (hands[0] + hands[1]);
   values_[kHandsAhead] = from_hands.dot(ahead);
   values_[kHandsAside] = from_hands.dot(left);
   for (int i = 0; i < 2 && places_[0] >= 0; ++i) {
-    const Vector3 place = centre + turn * (at(d->site_xpos, places_[i]) - true_centre);
+    const Vector3 place = centre + turn * (vector_at(d->site_xpos, places_[i]) - true_centre);
     const Vector3 way = place - hands[i];
     values_.segment<3>(i == 0 ? kLeftX : kRightX) << way.dot(ahead), way.dot(left), way.z();
   }

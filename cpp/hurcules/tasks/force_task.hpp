@@ -55,7 +55,7 @@ class ForceTask : public PositionTask {
   // false: motion alone, whatever is read; readings are still watched
   void enable(bool on) { enabled_ = on; }
   // out of Stopped and SensorLost, at rest where the frame is
-  void reset(const Robot& robot);
+  void reset(const Robot& robot) override;
 
   [[nodiscard]] ContactState state() const { return watch_.state(); }
   [[nodiscard]] double force() const { return watch_.force(); }  // [N] last reading

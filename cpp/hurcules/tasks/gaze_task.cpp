@@ -22,7 +22,7 @@ GazeTask::GazeTask(std::string name, const Robot& robot, const std::string& fram
       frame_(robot.frame(frame)),
       camera_(robot, frame_),
       seen_(robot) {
-  reset(robot);
+  GazeTask::reset(robot);
 }
 
 void GazeTask::reset(const Robot& robot) {

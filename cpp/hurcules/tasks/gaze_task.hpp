@@ -23,9 +23,9 @@ class GazeTask : public Task {
   }
 
   void update(const Robot& robot) override;
-  // the target comes onto the line of sight, as far away as it was
   // looks ahead at a point 1 m away, whatever it looked at before
-  void reset(const Robot& robot);
+  void reset(const Robot& robot) override;
+  // the target comes onto the line of sight, as far away as it was
   void hold(const Robot& robot) override;
   // moves the target around the camera of the last update, to the left (yaw) and upward (pitch) as
   // seen from it; [rad/s], (2)

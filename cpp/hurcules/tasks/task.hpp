@@ -30,6 +30,8 @@ class Task {
   virtual void update(const Robot& robot) = 0;
   // makes the present value the target, at rest (error becomes zero), and updates
   virtual void hold(const Robot& robot) = 0;
+  // the same without memory of anything before, as it was made
+  virtual void reset(const Robot& robot) { hold(robot); }
   // moves the target by velocity * dt and feeds the velocity forward until the next advance or
   // hold; (m), unit/s; dt [s]. The error follows at the next update.
   virtual void advance(const ConstVectorRef& velocity, double dt) = 0;

@@ -85,6 +85,9 @@ TEST_P(ClosedChain, JacobianAndDriftAreThoseOfThePoses) {
     EXPECT_LT(((spin(1) - spin(-1)) / (2 * e) - turning).norm(), 1e-5) << seed;
     // at constant velocity of the coordinates the tip accelerates by the drift
     EXPECT_LT(((ahead - 2 * p + behind) / (e * e) - drift).norm(), 1e-3) << seed;
+    // the robot goes on at its velocity wherever it is put
+    robot_.set_configuration(q);
+    EXPECT_LT((robot_.position_drift(tip) - drift).norm(), 1e-6) << seed;
   }
 }
 
@@ -153,8 +156,9 @@ TEST_P(ClosedChain, AllocatesNothing) {
 // a cable of many edges beside an arm, each of them a row of one constraint
 TEST(ClosedChains, LeaveFlexibleBodiesAlone) {
   std::string text = kFourBar;
-  text.insert(text.find("<body name=\"base\""),
-              R"(<flexcomp name="rope" type="grid" count="20 1 1" spacing="0.05 0.05 0.05" dim="1" pos="2 0 1"
+  text.insert(
+      text.find("<body name=\"base\""),
+      R"(<flexcomp name="rope" type="grid" count="20 1 1" spacing="0.05 0.05 0.05" dim="1" pos="2 0 1"
                   mass="0.1"><contact contype="0" conaffinity="0"/><edge equality="true"/></flexcomp>)");
   const Robot robot(load_model_text(text));
   EXPECT_EQ(robot.closures()->size(), 2);

@@ -1,14 +1,10 @@
 // Strategy: an arm with a four-bar linkage in the physics, by velocities, accelerations and torques. The
 // loop of the plan stays closed, that of the robot as far as MuJoCo's soft constraint holds it; a
 // joint that follows keeps its range; bits and memory.
-#include <mujoco/mujoco.h>
-
 #include "hurcules/robot/closures.hpp"
-#include "hurcules/sim/simulation.hpp"
-#include "hurcules/tasks/position_task.hpp"
-#include "hurcules/tasks/posture_task.hpp"
 #include "support/linkages.hpp"
 #include "support/no_allocation_guard.hpp"
+#include "support/tip_simulation.hpp"
 
 namespace {
 
@@ -18,21 +14,7 @@ using namespace hurcules_test;
 class ClosedChainInTheLoop : public testing::TestWithParam<ControlOrder> {
  protected:
   static Simulation simulate() {
-    const ModelPtr model = load_model_text(kFourBar);
-    Robot robot(model);
-    auto tip = std::make_unique<PositionTask>("tip", robot, "tip");
-    auto posture = std::make_unique<PostureTask>("posture", robot);
-    std::vector<Channel> channels = {{"tip", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5)}};
-    WholeBodyControllerOptions options;
-    options.dt = model->opt.timestep;
-    auto controller = std::make_shared<WholeBodyController>(
-        robot, std::vector<NamedStack>{{"lead", *tip < *posture, GetParam()}}, std::move(channels),
-        options);
-    controller->keep(std::move(tip));
-    controller->keep(std::move(posture));
-    SimulationOptions quiet;
-    quiet.record = false;
-    return {model, controller, quiet};
+    return tip_simulation(load_model_text(kFourBar), "", GetParam(), 0.5);
   }
 };
 
@@ -73,20 +55,11 @@ TEST_P(ClosedChainInTheLoop, AJointThatFollowsKeepsItsRange) {
 TEST_P(ClosedChainInTheLoop, GoesOnFromASnapshotAndInACopyByTheSameBits) {
   Simulation simulation = simulate();
   const Vector command = Vector3(0.1, 0.1, -0.1);
-  simulation.step(100, &command);
-  const std::vector<double> state = simulation.state();
-  const auto copy = simulation.clone();
-  simulation.step(200, &command);
-  const std::vector<double> later = simulation.state();
-  copy->step(200, &command);
-  simulation.restore(state);
-  simulation.step(200, &command);
-  EXPECT_EQ(simulation.state(), later);
-  EXPECT_EQ(copy->state(), later);
+  const GoneOn gone = expect_same_bits(simulation, command);
   Simulation another = simulate();
-  another.restore(state);
+  another.restore(gone.state);
   another.step(200, &command);
-  EXPECT_EQ(another.state(), later);
+  EXPECT_EQ(another.state(), gone.later);
 }
 
 TEST_P(ClosedChainInTheLoop, AllocatesNothing) {

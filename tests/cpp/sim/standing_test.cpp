@@ -15,6 +15,7 @@
 #include "support/no_allocation_guard.hpp"
 #include "support/quadruped.hpp"
 #include "support/tiny_models.hpp"
+#include "support/tip_simulation.hpp"
 
 namespace {
 
@@ -96,16 +97,7 @@ TEST(Standing, StandsAgainAfterAPush) {
 TEST(Standing, GoesOnFromASnapshotAndInACopyByTheSameBits) {
   Simulation simulation = simulate();
   const Vector command = Vector3(-0.05, 0.02, 0.0);
-  simulation.step(100, &command);
-  const std::vector<double> state = simulation.state();
-  const auto copy = simulation.clone();
-  simulation.step(200, &command);
-  const std::vector<double> later = simulation.state();
-  copy->step(200, &command);
-  simulation.restore(state);
-  simulation.step(200, &command);
-  EXPECT_EQ(simulation.state(), later);
-  EXPECT_EQ(copy->state(), later);
+  expect_same_bits(simulation, command);
 }
 
 TEST(Standing, AllocatesNothing) {
@@ -180,22 +172,9 @@ double short_of_target(double share) {
   for (std::string::size_type at = 0; (at = text.find("<joint", at)) != std::string::npos; ++at)
     text.insert(at + 6, " frictionloss=\"1\"");
   const ModelPtr model = load_model_text(text);
-  Robot robot(model);
-  robot.set_keyframe("home");
-  auto tip = std::make_unique<PositionTask>("tip", robot, "tip");
-  auto posture = std::make_unique<PostureTask>("posture", robot);
-  std::vector<Channel> channels = {{"tip", ChannelKind::Twist, *tip, Vector::Constant(1, 0.3)}};
   WholeBodyControllerOptions options;
-  options.dt = model->opt.timestep;
   options.torque.friction = share;
-  auto controller = std::make_shared<WholeBodyController>(
-      robot, std::vector<NamedStack>{{"torques", *tip < *posture, ControlOrder::Torque}},
-      std::move(channels), options);
-  controller->keep(std::move(tip));
-  controller->keep(std::move(posture));
-  SimulationOptions quiet;
-  quiet.record = false;
-  Simulation simulation(model, controller, quiet);
+  Simulation simulation = tip_simulation(model, "home", ControlOrder::Torque, 0.3, options);
   const Frame frame = simulation.world().frame("tip");
   const Vector3 start = simulation.world().position(frame);
   const Vector command = Vector3(-0.05, -0.05, 0.05);
@@ -204,7 +183,7 @@ double short_of_target(double share) {
   if (share == 1.0) {
     EXPECT_LT(fastest(simulation), 1e-3);
   }
-  return (simulation.world().position(frame) - start - command * 500 * options.dt).norm();
+  return (simulation.world().position(frame) - start - command * 500 * simulation.dt()).norm();
 }
 
 TEST(Torques, BearDryFriction) {
