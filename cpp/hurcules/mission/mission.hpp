@@ -10,42 +10,21 @@
 // late reacts, what is done goes on. While it holds or asks the phase's clock stands.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "hurcules/mission/posture_way.hpp"
+#include "hurcules/mission/gauges.hpp"
+#include "hurcules/mission/mission_setup.hpp"
+#include "hurcules/mission/phase_row.hpp"
 #include "hurcules/mission/robot_tables.hpp"
+#include "hurcules/mission/scene_watches.hpp"
 #include "hurcules/mission/table.hpp"
-#include "hurcules/sim/casualty_watch.hpp"
-#include "hurcules/sim/load_watch.hpp"
-#include "hurcules/sim/place_watch.hpp"
 #include "hurcules/sim/supervisor.hpp"
 
 namespace hurcules {
-
-// What a mission wants to find when it starts.
-struct MissionSetup {
-  std::string name;
-  std::string scene = "";     // file under models/
-  std::string keyframe = "";  // where the robot starts; "": where the controller's plan stands
-  std::string support = "";   // body that the robot stands on
-  double max_seconds =
-      std::numeric_limits<double>::infinity();  // [s] it fails when it takes longer
-  double min_height = 0.0;  // [m] of the pelvis above the support; below, the robot fell
-  double max_tilt = 0.0;    // [rad] of the support against its start; above, the robot fell
-  std::vector<ServoGains> servo = {};
-  std::string casualty = "";  // prefix of the person's names in the model, "" for nobody to watch
-  double stand_off = 0.0;  // [m] of the robot's centre of mass from the person's, before contact,
-                           // or from the load
-  std::string load = "";   // body of a thing to carry, "" for none
-  std::string container = "";    // body of what it is put into, "" for none
-  double container_stand = 0.0;  // [m] of the robot's centre of mass from its centre
-};
 
 class Mission : public Supervisor {
  public:
@@ -92,63 +71,21 @@ class Mission : public Supervisor {
   virtual void save_memory(StateWriter& /*writer*/) const {}
   virtual void restore_memory(StateReader& /*reader*/) {}
   [[nodiscard]] double variation() const { return variation_; }
-  // mean share of the ways by a rate that the phase has been given, 1 without one
-  [[nodiscard]] double given() const;
-
   std::vector<Figure> figures_;
 
  private:
   enum class Doing { Leading, Holding, Asking };
-  // a condition, and for how long it has been true
-  struct Watch {
-    Condition condition;
-    const double* source = nullptr;
-    double since = 0.0;  // [s]
-    bool look(double dt);
-  };
-  struct Way {
-    Index row = 0, size = 0;          // of the command
-    Vector along;                     // (size) of length 1 for a rate; the whole way, smoothly
-    double speed = 0.0;               // [unit] of a rate, 0 for a whole way
-    double length = 0.0;              // of a rate
-    double given = 0.0;               // of it so far
-    Vector by;                        // (size) of a way to what is seen, besides that
-    std::vector<const double*> seen;  // what is, null for nothing; empty for another way
-    const double* held = nullptr;     // what a rate holds, null for none
-    double at = 0.0, span = 0.0;
-  };
-  struct Row {
-    std::vector<Way> ways;
-    std::optional<PostureWay> posture;
-    Index posture_row = 0, posture_size = 0;
-    std::vector<Index> joints;  // of the servo, where no stack rules
-    Vector places;              // of these, scratch
-    std::string support;        // body that stands, "": the controller's
-    std::vector<bool> shut;     // of the brakes that the table names
-    std::vector<Watch> done, troubles;
-    std::vector<int> late_left;                   // times, of each reaction
-    std::vector<std::vector<int>> troubles_left;  // the same
-  };
-  struct Gauge {  // of a measure
-    const double* source = nullptr;
-    std::vector<bool> counts;  // a phase
-    double seen_least = std::numeric_limits<double>::quiet_NaN(), seen_most = seen_least;
-    void look(Measure::Take take, double& value);
-  };
   // what it went back, was lowered or aborted for
   struct Why {
     std::size_t phase = 0;  // place + 1, 0: nothing
     std::size_t cause = 0;  // 0 late, else the trouble before it
     bool final = false;     // lowered or aborted
   };
-  void compile(const WholeBodyController& controller);
   void find_brakes(const Brakes& brakes);
-  static void start_anew(const Phase& phase, Row& row);
   void enter(std::size_t phase, WholeBodyController& controller, double time);
-  [[nodiscard]] double progress(double elapsed) const;
   [[nodiscard]] bool over(double time);
-  // false: the run is over
-  bool react(std::size_t cause, WholeBodyController& controller, double time);
+  // to a trouble, by its number, or to being late; false: the run is over
+  bool react(std::optional<std::size_t> trouble, WholeBodyController& controller, double time);
   bool wait(double time, WholeBodyController& controller);
   void tell();
   [[nodiscard]] bool needs_log() const;
@@ -158,15 +95,10 @@ class Mission : public Supervisor {
   double variation_;
   const Task* limits_;  // of the first stack, null for none
   Vector initial_qpos_;
-  std::vector<Row> rows_;
+  std::vector<PhaseRow> rows_;
   std::vector<int> brakes_;  // actuators whose brakes the table names
-  std::vector<Gauge> gauges_;
-  std::unique_ptr<CasualtyWatch> casualty_;
-  std::unique_ptr<LoadWatch> load_;
-  std::vector<std::pair<std::string, PlaceWatch>> places_;  // by the prefix of their quantities
-  std::vector<Vector> errors_;                              // of these, drawn from the seed
-  const mjModel_* model_ = nullptr;
-  const mjData_* data_ = nullptr;
+  Gauges gauges_;
+  SceneWatches scene_;
   bool attached_ = false, paused_ = false, ended_ = false;
   std::optional<bool> answer_;
   std::size_t phase_ = 0;

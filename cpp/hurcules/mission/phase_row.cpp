@@ -1,0 +1,220 @@
+#include "hurcules/mission/phase_row.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/mission/gauges.hpp"
+
+namespace hurcules {
+
+PhaseRow::PhaseRow(const Phase& phase, std::string support, const WholeBodyController& controller)
+    : phase_(&phase), support_(std::move(support)) {
+  const std::string where = "phase '" + phase.name + "'";
+  for (const Lead& lead : phase.leads) ways_.push_back(way_of(lead, controller, where));
+  if (!phase.keys.empty()) {
+    const ChannelPlace place = find_channel(controller, phase.posture, where);
+    const std::vector<std::string>& joints = place.channel->joint_names();
+    posture_row_ = place.row;
+    posture_size_ = place.channel->size();
+    places_ = Vector::Zero(static_cast<Index>(joints.size()));
+    for (const std::string& joint : joints) joints_.push_back(controller.servo().find(joint));
+    posture_.emplace(phase.keys, joints.empty() ? controller.plan().coordinate_names() : joints,
+                     phase.seconds, !joints.empty());
+  }
+  const auto watch = [](const Condition& condition) {
+    Watch made;
+    made.condition = condition;
+    return made;
+  };
+  for (const Condition& condition : phase.done) done_.push_back(watch(condition));
+  left_.emplace_back(phase.late.size());
+  for (const Trouble& trouble : phase.troubles) {
+    troubles_.push_back(watch(trouble.when));
+    left_.emplace_back(trouble.reactions.size());
+  }
+  reset();
+}
+
+PhaseRow::Way PhaseRow::way_of(const Lead& lead, const WholeBodyController& controller,
+                               const std::string& where) {
+  const ChannelPlace place = find_channel(controller, lead.channel, where);
+  Way way;
+  way.row = place.row;
+  way.size = place.channel->size();
+  way.along = lead.by;
+  if (lead.rate.size() > 0) {
+    way.speed = lead.rate.norm();
+    way.along = way.speed > 0.0 ? Vector(lead.rate / way.speed) : lead.rate;
+    way.length = lead.way;
+  }
+  if (!lead.to.empty()) way.by = lead.by;
+  way.at = lead.at;
+  way.span = lead.span;
+  return way;
+}
+
+void PhaseRow::find_quantities(const Recorder& log) {
+  const std::string where = "phase '" + phase_->name + "'";
+  for (std::vector<Watch>* watches : {&done_, &troubles_}) {
+    for (Watch& watch : *watches) {
+      watch.source = find_quantity(log, watch.condition.quantity, where);
+    }
+  }
+  for (std::size_t k = 0; k < ways_.size(); ++k) {
+    const Lead& lead = phase_->leads[k];
+    if (!lead.hold.empty()) ways_[k].held = find_quantity(log, lead.hold, where);
+    for (const std::string& quantity : lead.to) {
+      ways_[k].seen.push_back(quantity.empty() ? nullptr : find_quantity(log, quantity, where));
+    }
+  }
+}
+
+void PhaseRow::find_brakes(const Brakes& brakes) {
+  const std::vector<std::string> joints = brakes.names();
+  for (const std::string& name : phase_->brakes) {
+    const std::vector<Index> found = coordinates_of(name, joints);
+    if (found.empty()) {
+      throw Error("phase '" + phase_->name + "': " + unknown_name("brake", name, joints));
+    }
+    for (const Index at : found) {
+      brakes_.push_back(brakes.find(joints[static_cast<std::size_t>(at)]));
+    }
+  }
+}
+
+bool PhaseRow::needs_log() const {
+  return !done_.empty() || !troubles_.empty() ||
+         std::any_of(phase_->leads.begin(), phase_->leads.end(),
+                     [](const Lead& lead) { return !lead.to.empty() || !lead.hold.empty(); });
+}
+
+void PhaseRow::reset() {
+  for (std::size_t cause = 0; cause < left_.size(); ++cause) {
+    const std::vector<Reaction>& reactions =
+        cause == 0 ? phase_->late : phase_->troubles[cause - 1].reactions;
+    for (std::size_t k = 0; k < reactions.size(); ++k) left_[cause][k] = reactions[k].times;
+  }
+  forget();
+  if (posture_) posture_->start(Vector::Zero(posture_size_));
+}
+
+void PhaseRow::forget() {
+  for (std::vector<Watch>* watches : {&done_, &troubles_}) {
+    for (Watch& watch : *watches) watch.since = 0.0;
+  }
+  for (Way& way : ways_) way.given = 0.0;
+}
+
+void PhaseRow::enter(const WholeBodyController& controller) {
+  forget();
+  for (Way& way : ways_) {
+    for (std::size_t i = 0; i < way.seen.size(); ++i) {
+      const auto k = static_cast<Index>(i);
+      way.along[k] = way.by[k] + (way.seen[i] ? *way.seen[i] : 0.0);
+    }
+  }
+  if (!posture_) return;
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    places_[static_cast<Index>(i)] = controller.servo().position()[joints_[i]];
+  }
+  posture_->start(joints_.empty() ? controller.q_des() : places_);
+}
+
+void PhaseRow::command(double time, double dt, Vector& out) {
+  for (const Way& way : ways_) {
+    auto part = out.segment(way.row, way.size);
+    if (way.length > 0.0) {  // by a rate; the last tick gives what is left
+      part = way.along * std::min(way.speed, (way.length - way.given) / dt);
+      if (way.held) part *= std::clamp((way.at - *way.held) / way.span, -1.0, 1.0);
+    } else {
+      const double seconds = phase_->seconds;
+      part = way.along * ((smooth_step((time + dt) / seconds) - smooth_step(time / seconds)) / dt);
+    }
+  }
+  if (posture_) posture_->velocity(time, dt, out.segment(posture_row_, posture_size_));
+}
+
+void PhaseRow::note(const Vector& command, double dt) {
+  for (Way& way : ways_) {
+    if (way.length > 0.0) way.given += way.along.dot(command.segment(way.row, way.size)) * dt;
+  }
+}
+
+double PhaseRow::given() const {
+  double sum = 0.0;
+  int count = 0;
+  for (const Way& way : ways_) {
+    if (way.length <= 0.0 || !std::isfinite(way.length)) continue;
+    sum += way.given / way.length;
+    ++count;
+  }
+  return count > 0 ? sum / count : 1.0;
+}
+
+double PhaseRow::progress(double elapsed) const {
+  return std::min(phase_->seconds > 0.0 ? elapsed / phase_->seconds : 1.0, given());
+}
+
+bool PhaseRow::done(double dt) {
+  bool all = true;
+  for (Watch& watch : done_) all = watch.look(dt) && all;
+  return all;
+}
+
+std::optional<std::size_t> PhaseRow::trouble(double dt) {
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < troubles_.size(); ++i) {
+    if (troubles_[i].look(dt) && !first) first = i;
+  }
+  return first;
+}
+
+bool PhaseRow::Watch::look(double dt) {
+  const bool now = condition.above ? *source >= condition.value : *source <= condition.value;
+  const bool long_enough = since >= condition.seconds;  // so far
+  since = now ? since + dt : 0.0;
+  return now && long_enough;
+}
+
+const Reaction* PhaseRow::react(std::optional<std::size_t> trouble) {
+  const std::vector<Reaction>& reactions =
+      trouble ? phase_->troubles[*trouble].reactions : phase_->late;
+  std::vector<int>& left = left_[trouble ? *trouble + 1 : 0];
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    if (left[i] == 0) continue;
+    --left[i];
+    return &reactions[i];
+  }
+  return nullptr;
+}
+
+void PhaseRow::save(StateWriter& writer) const {
+  for (const std::vector<int>& times : left_) {
+    for (const int left : times) writer.put(left);
+  }
+  for (const Watch& watch : done_) writer.put(watch.since);
+  for (const Watch& watch : troubles_) writer.put(watch.since);
+  for (const Way& way : ways_) {
+    writer.put(way.given);
+    if (way.by.size() > 0) writer.put(way.along);
+  }
+  if (posture_) posture_->save(writer);
+}
+
+void PhaseRow::restore(StateReader& reader) {
+  constexpr Index kMost = 1'000'000;
+  for (std::vector<int>& times : left_) {
+    for (int& left : times) left = static_cast<int>(reader.get_count(kMost));
+  }
+  for (Watch& watch : done_) watch.since = reader.get();
+  for (Watch& watch : troubles_) watch.since = reader.get();
+  for (Way& way : ways_) {
+    way.given = reader.get();
+    if (way.by.size() > 0) reader.get(way.along);
+  }
+  if (posture_) posture_->restore(reader);
+}
+
+}  // namespace hurcules

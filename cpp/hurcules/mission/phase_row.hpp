@@ -1,0 +1,85 @@
+// A phase as it runs: a row of the table with places in place of names, how far its ways have come,
+// for how long its conditions have been true, and which reactions are left.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hurcules/mission/posture_way.hpp"
+#include "hurcules/mission/table.hpp"
+#include "hurcules/sim/brakes.hpp"
+#include "hurcules/sim/recorder.hpp"
+
+namespace hurcules {
+
+class PhaseRow {
+ public:
+  // Keeps the phase, which check_table has passed. support: body that the robot stands on in it.
+  PhaseRow(const Phase& phase, std::string support, const WholeBodyController& controller);
+  // its quantities; throws Error with the columns that exist
+  void find_quantities(const Recorder& log);
+  // its brakes; throws Error with the joints that have one
+  void find_brakes(const Brakes& brakes);
+  [[nodiscard]] const std::vector<int>& brakes() const { return brakes_; }  // actuators, shut in it
+  [[nodiscard]] const std::string& support() const { return support_; }
+  [[nodiscard]] bool needs_log() const;
+
+  // a run begins: all reactions are left
+  void reset();
+  // the phase begins where the references are
+  void enter(const WholeBodyController& controller);
+  // what it commands over the dt [s] after a time [s] since its beginning; writes its own rows of
+  // the command (k)
+  void command(double time, double dt, Vector& out);
+  // what was really commanded, (k), for dt [s]
+  void note(const Vector& command, double dt);
+  // mean share of the ways by a rate that has been given, 1 without one
+  [[nodiscard]] double given() const;
+  [[nodiscard]] double progress(double elapsed) const;
+  // one more tick of dt [s]: all its conditions are true; the first of its troubles that there is
+  [[nodiscard]] bool done(double dt);
+  [[nodiscard]] std::optional<std::size_t> trouble(double dt);
+  // the first reaction that is left, which is then one less; null for none. Of a trouble, by its
+  // number, or of being late
+  const Reaction* react(std::optional<std::size_t> trouble);
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  // a condition, and for how long it has been true
+  struct Watch {
+    Condition condition;
+    const double* source = nullptr;
+    double since = 0.0;  // [s]
+    bool look(double dt);
+  };
+  struct Way {
+    Index row = 0, size = 0;          // of the command
+    Vector along;                     // (size) of length 1 for a rate; the whole way, smoothly
+    double speed = 0.0;               // [unit] of a rate, 0 for a whole way
+    double length = 0.0;              // of a rate
+    double given = 0.0;               // of it so far
+    Vector by;                        // (size) of a way to what is seen, besides that
+    std::vector<const double*> seen;  // what is, null for nothing; empty for another way
+    const double* held = nullptr;     // what a rate holds, null for none
+    double at = 0.0, span = 0.0;
+  };
+  [[nodiscard]] static Way way_of(const Lead& lead, const WholeBodyController& controller,
+                                  const std::string& where);
+  void forget();  // for how long conditions have been true, and how far ways have come
+
+  const Phase* phase_;
+  std::string support_;
+  std::vector<Way> ways_;
+  std::optional<PostureWay> posture_;
+  Index posture_row_ = 0, posture_size_ = 0;
+  std::vector<Index> joints_;  // of the servo, where no stack rules
+  Vector places_;              // of these, scratch
+  std::vector<int> brakes_;
+  std::vector<Watch> done_, troubles_;
+  std::vector<std::vector<int>> left_;  // times, of each reaction: late, then each trouble's
+};
+
+}  // namespace hurcules
