@@ -29,8 +29,9 @@ NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
 ARM = 1.0
 TRACK = 1  # contype of the tracks' geoms
 STANDS = 0.10  # [m] of the centre of mass within the contacts
-# [m] kept between parts: the lower arms of the rescue robot hang in springs that give by 0.08 rad,
-# which no encoder of a motor sees
+TIPS = 0.02  # [m] of the zero moment point within them
+# [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
+# that give by 0.08 rad, which no encoder of a motor sees
 APART = {"rescue": 0.10, "manipulation": 0.03}
 LOOK = 0.10  # [m] beyond that, pairs do not count
 # [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
@@ -77,18 +78,26 @@ class RobotSetup:
         return robot
 
     def safety(self, robot: hurcules.Robot) -> list[Any]:
-        """The levels after the limits: away from itself and the ground, then within its support."""
-        levels: list[Any] = [[self.apart(robot), hurcules.obstacles(robot)]]
+        """The levels after the limits: within its support, away from itself and the ground."""
+        levels: list[Any] = []
         if self.support:
-            polygon = _support_polygon(self, robot)
-            levels.append(
-                hurcules.BalanceTask("balance", robot, polygon, STANDS, reference=self.support)
-            )
-        return levels
+            polygon, height = _support_polygon(self)
+            balance, tip = hurcules.BalanceTask, hurcules.ZeroMomentTask
+            levels = [
+                balance("balance", robot, polygon, STANDS, self.support, height),
+                tip("zero moment", robot, polygon, TIPS, self.support, height),
+            ]
+        ground = hurcules.obstacles(robot, margin=self.apart_by, most=self.apart_by + LOOK)
+        return [*levels, [self.apart(robot), ground]]
+
+    @property
+    def apart_by(self) -> float:
+        """[m] that its parts keep from each other and from the ground."""
+        return APART.get(self.name, 0.02)
 
     def apart(self, robot: hurcules.Robot) -> hurcules.DistanceTask:
         """Parts of the robot keep away from each other; `robot` stands at the keyframe."""
-        margin = APART.get(self.name, 0.02)
+        margin = self.apart_by
         return hurcules.self_collision(robot, margin=margin, most=margin + LOOK, postures=2000)
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
@@ -248,8 +257,11 @@ def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Arr
     return np.array(lower), np.array(upper)
 
 
-def _support_polygon(setup: RobotSetup, robot: hurcules.Robot) -> Array:
-    """(4, 2) [m] around the contacts of its tracks at its keyframe, in the axes of its support."""
+def _support_polygon(setup: RobotSetup) -> tuple[Array, float]:
+    """(4, 2) [m] around the contacts of its tracks at its keyframe, and their z [m].
+
+    In the axes of its support.
+    """
     still, data = setup.robot(), mujoco.MjData(setup.model)
     data.qpos[:] = still.qpos
     mujoco.mj_kinematics(setup.model, data)
@@ -257,7 +269,7 @@ def _support_polygon(setup: RobotSetup, robot: hurcules.Robot) -> Array:
     R, p = still.orientation(setup.support), still.position(setup.support)
     feet = np.array([R.T @ (contact.pos - p) for contact in data.contact])
     (x, y, _), (far_x, far_y, _) = feet.min(axis=0), feet.max(axis=0)
-    return np.array([[x, y], [far_x, y], [far_x, far_y], [x, far_y]])
+    return np.array([[x, y], [far_x, y], [far_x, far_y], [x, far_y]]), float(feet[:, 2].mean())
 
 
 def _touching(setup: RobotSetup, data: mujoco.MjData) -> set[tuple[int, int]]:

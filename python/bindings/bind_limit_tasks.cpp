@@ -15,6 +15,7 @@
 #include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
+#include "hurcules/tasks/zero_moment_task.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -70,14 +71,36 @@ Raises:
 constexpr const char* kBalanceTask =
     R"(The centre of mass stays over a polygon: e (k,) [m], distances from its sides, margin <= e.
 
+A limit that is approached no faster than edot = -gain (e - margin). The gain is sqrt(g / h) by default, h
+the height of the centre of mass where the task was made: so the capture point keeps the margin, too.
+
 Args:
   name, robot: see TorqueLimits.
   polygon: (k, 2) [m] corners of a convex polygon in x and y of the reference.
   margin: [m] kept from its sides.
   reference: frame whose axes the corners are in, '' for the world.
+  height: [m] of the polygon, z in the axes of the reference.
 
 Raises:
   Error: fewer than three corners, or corners that are not convex.
+)";
+constexpr const char* kZeroMomentTask =
+    R"(The zero moment point stays in a polygon: no motion tips the robot over.
+
+Rows (k,) [m^2/s^2]: the moment of gravity and inertia about each side, a kilogram of the robot, as it is
+at an acceleration; margin |g| <= J qddot + drift. The one task that bounds accelerations under velocities
+and under accelerations. It stands above the tasks that move the robot; a BalanceTask below it, with a
+larger margin, keeps room for it to brake.
+
+Args:
+  name, robot: see TorqueLimits.
+  polygon: (k, 2) [m] corners of a convex polygon in x and y of the reference, on the ground.
+  margin: [m] that the point keeps from the sides.
+  reference: frame whose axes the corners are in, '' for the world.
+  height: [m] of the polygon, z in the axes of the reference.
+
+Raises:
+  Error: fewer than three corners, or corners that are not convex; a model without gravity.
 )";
 constexpr const char* kDistanceTask =
     R"(Bodies keep away from each other: e (m,) [m], distances of the nearest pairs, margin <= e.
@@ -221,14 +244,25 @@ void bind_limit_tasks(py::module_& module) {
       "robot"_a, "body"_a, kSolePoints);
   const BalanceTaskOptions balance;
   const auto make_balance = [](std::string name, const Robot& robot, Matrix polygon, double margin,
-                               std::string reference) {
+                               std::string reference, double height) {
     return std::make_unique<BalanceTask>(
         std::move(name), robot,
-        BalanceTaskOptions{std::move(polygon), margin, std::move(reference)});
+        BalanceTaskOptions{std::move(polygon), margin, height, std::move(reference)});
   };
   py::class_<BalanceTask, Task>(module, "BalanceTask", kBalanceTask)
       .def(py::init(make_balance), "name"_a, "robot"_a, "polygon"_a, "margin"_a = balance.margin,
-           "reference"_a = balance.reference);
+           "reference"_a = balance.reference, "height"_a = balance.height);
+  const ZeroMomentTaskOptions zero_moment;
+  const auto make_zero_moment = [](std::string name, const Robot& robot, Matrix polygon,
+                                   double margin, std::string reference, double height) {
+    return std::make_unique<ZeroMomentTask>(
+        std::move(name), robot,
+        ZeroMomentTaskOptions{std::move(polygon), margin, height, std::move(reference)});
+  };
+  py::class_<ZeroMomentTask, Task>(module, "ZeroMomentTask", kZeroMomentTask)
+      .def(py::init(make_zero_moment), "name"_a, "robot"_a, "polygon"_a,
+           "margin"_a = zero_moment.margin, "reference"_a = zero_moment.reference,
+           "height"_a = zero_moment.height);
   const DistanceTaskOptions distance;
   const auto make_distance = [](std::string name, const Robot& robot,
                                 std::vector<std::pair<std::string, std::string>> pairs,

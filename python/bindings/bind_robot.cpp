@@ -95,6 +95,12 @@ Inertia with armature, gravity, Coriolis, springs and dampers; without dry frict
 Args:
   acceleration: (n,) [rad/s^2] or [m/s^2].
 )";
+constexpr const char* kAngularMomentumJacobian =
+    R"(A (3, n), L = A v: angular momentum of the robot about its centre of mass, in W [kg m^2/s].
+
+Without armature; standing as `stand_on` says.)";
+constexpr const char* kAngularMomentumDrift =
+    "(3,) [N m] dA/dt v: how it changes when the coordinates do not accelerate.";
 constexpr const char* kMassMatrix =
     "(n, n) [kg m^2]: joint-space inertia of the coordinates with armature, base held.";
 
@@ -255,6 +261,15 @@ void bind_kinematics(py::class_<Robot>& robot) {
             return J;
           },
           kComJacobian)
+      .def(
+          "angular_momentum_jacobian",
+          [](const Robot& self) {
+            Matrix A(3, self.size());
+            self.angular_momentum_jacobian(A);
+            return A;
+          },
+          kAngularMomentumJacobian)
+      .def("angular_momentum_drift", &Robot::angular_momentum_drift, kAngularMomentumDrift)
       .def(
           "mass_matrix",
           [](const Robot& self) {

@@ -458,6 +458,14 @@ class Robot:
         floating: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def angular_momentum_drift(self) -> NDArray[np.float64]:
+        """(3,) [N m] dA/dt v: how it changes when the coordinates do not accelerate."""
+
+    def angular_momentum_jacobian(self) -> NDArray[np.float64]:
+        """A (3, n), L = A v: angular momentum of the robot about its centre of mass, in W [kg m^2/s].
+
+        Without armature; standing as `stand_on` says."""
+
     def com_drift(self) -> NDArray[np.float64]:
         """(3,) [m/s^2]: Jdot v of the centre of mass."""
 
@@ -1022,17 +1030,55 @@ class ContactTask(Task):
 class BalanceTask(Task):
     """The centre of mass stays over a polygon: e (k,) [m], distances from its sides, margin <= e.
 
+    A limit that is approached no faster than edot = -gain (e - margin). The gain is sqrt(g / h) by default, h
+    the height of the centre of mass where the task was made: so the capture point keeps the margin, too.
+
     Args:
       name, robot: see TorqueLimits.
       polygon: (k, 2) [m] corners of a convex polygon in x and y of the reference.
       margin: [m] kept from its sides.
       reference: frame whose axes the corners are in, '' for the world.
+      height: [m] of the polygon, z in the axes of the reference.
 
     Raises:
       Error: fewer than three corners, or corners that are not convex."""
 
     def __init__(
-        self, name: str, robot: Robot, polygon: ArrayLike, margin: float = 0.05, reference: str = ""
+        self,
+        name: str,
+        robot: Robot,
+        polygon: ArrayLike,
+        margin: float = 0.05,
+        reference: str = "",
+        height: float = 0.0,
+    ) -> None: ...
+
+class ZeroMomentTask(Task):
+    """The zero moment point stays in a polygon: no motion tips the robot over.
+
+    Rows (k,) [m^2/s^2]: the moment of gravity and inertia about each side, a kilogram of the robot, as it is
+    at an acceleration; margin |g| <= J qddot + drift. The one task that bounds accelerations under velocities
+    and under accelerations. It stands above the tasks that move the robot; a BalanceTask below it, with a
+    larger margin, keeps room for it to brake.
+
+    Args:
+      name, robot: see TorqueLimits.
+      polygon: (k, 2) [m] corners of a convex polygon in x and y of the reference, on the ground.
+      margin: [m] that the point keeps from the sides.
+      reference: frame whose axes the corners are in, '' for the world.
+      height: [m] of the polygon, z in the axes of the reference.
+
+    Raises:
+      Error: fewer than three corners, or corners that are not convex; a model without gravity."""
+
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        polygon: ArrayLike,
+        margin: float = 0.03,
+        reference: str = "",
+        height: float = 0.0,
     ) -> None: ...
 
 class DistanceTask(Task):

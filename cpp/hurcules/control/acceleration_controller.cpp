@@ -276,7 +276,7 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
   for (const Task* task : source.tasks) {
     auto rate = rate_.head(task->rows());
     rate.noalias() = task->jacobian() * robot.velocity();
-    if (task->is_limit()) {
+    if (task->is_limit() && !task->commands_acceleration()) {
       limit_accelerations(*task, row_limits(), rate, level.lower.segment(row, task->rows()),
                           level.upper.segment(row, task->rows()));
       for (Index i = 0; i < task->rows(); ++i, ++row) {

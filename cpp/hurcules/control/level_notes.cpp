@@ -9,6 +9,7 @@
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/point_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
+#include "hurcules/tasks/zero_moment_task.hpp"
 
 namespace hurcules {
 
@@ -19,6 +20,7 @@ constexpr double kShare = 0.1;   // of what a task asks for; regularisation leav
 
 const char* unit_of(const Task& task) {
   if (dynamic_cast<const PoseTask*>(&task)) return "m and rad";
+  if (dynamic_cast<const ZeroMomentTask*>(&task)) return "m^2/s^2";
   const bool length = dynamic_cast<const PointTask*>(&task) ||
                       dynamic_cast<const DistanceTask*>(&task) ||
                       dynamic_cast<const BalanceTask*>(&task);

@@ -22,6 +22,7 @@ RateLimits along_row(const Task& task, Index row, const RateLimits& limits) {
   along.max_acceleration =
       kBraking * limits.max_acceleration * task.jacobian().row(row).lpNorm<1>();
   along.return_speed = std::min(limits.return_speed, task.max_speed());
+  along.horizon = std::max(1.0 / task.gain(row, 1.0 / limits.horizon), limits.dt);
   return along;
 }
 
@@ -35,9 +36,9 @@ bool asks(const Task& task, Index row) {
 }
 
 // by how much a row is to be changed
-double missing(const Level& level, Index row, const VectorRef& velocity) {
-  const double rate = level.A.row(row).dot(velocity);
-  return std::clamp(rate, level.lower[row], level.upper[row]) - rate;
+double missing(const Matrix& A, Index row, double lower, double upper, const VectorRef& velocity) {
+  const double rate = A.row(row).dot(velocity);
+  return std::clamp(rate, lower, upper) - rate;
 }
 
 }  // namespace
@@ -78,28 +79,29 @@ void limit_accelerations(const Task& task, const RateLimits& limits, const Const
   }
 }
 
-void hold_rows(const Level& level, std::span<const RateInterval> intervals, VectorRef velocity) {
+void hold_rows(const Matrix& A, const ConstVectorRef& lower, const ConstVectorRef& upper,
+               std::span<const RateInterval> intervals, VectorRef velocity) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double worst = 0.0;
-    for (Index row = 0; row < level.rows(); ++row) {
-      const double change = missing(level, row, velocity);
+    for (Index row = 0; row < A.rows(); ++row) {
+      const double change = missing(A, row, lower[row], upper[row], velocity);
       if (std::abs(change) <= kHeld) continue;
       worst = std::max(worst, std::abs(change));
       // along the coordinates that may still go that way
       const auto is_free = [&](Index i) {
         const RateInterval& interval = intervals[static_cast<std::size_t>(i)];
-        const double way = change * level.A(row, i);
+        const double way = change * A(row, i);
         return way > 0.0 ? velocity[i] < interval.upper : way < 0.0 && velocity[i] > interval.lower;
       };
       double square = 0.0;
       for (Index i = 0; i < velocity.size(); ++i)
-        if (is_free(i)) square += level.A(row, i) * level.A(row, i);
+        if (is_free(i)) square += A(row, i) * A(row, i);
       if (square == 0.0) continue;
       for (Index i = 0; i < velocity.size(); ++i) {
         if (!is_free(i)) continue;
         const RateInterval& interval = intervals[static_cast<std::size_t>(i)];
-        velocity[i] = std::clamp(velocity[i] + change / square * level.A(row, i), interval.lower,
-                                 interval.upper);
+        velocity[i] =
+            std::clamp(velocity[i] + change / square * A(row, i), interval.lower, interval.upper);
       }
     }
     if (worst <= kHeld) return;

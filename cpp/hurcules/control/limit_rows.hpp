@@ -2,14 +2,14 @@
 //
 //   J qdot >= velocity_des - f(d)      d: distance to the side, f: approach speed of rate_interval.hpp
 // with the acceleration a |J_i|_1 / 2: half of what all coordinates together have along the row. The
-// other half is left for what f does not know: the turning of J, other rows, tasks above.
+// other half is left for what f does not know: the turning of J, other rows, tasks above. A task with a
+// gain of its own has the horizon 1 / gain.
 #pragma once
 
 #include <span>
 
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack.hpp"
-#include "hurcules/solver/hierarchy.hpp"
 
 namespace hurcules {
 
@@ -23,8 +23,9 @@ void limit_rates(const Task& task, const RateLimits& limits, VectorRef lower, Ve
 void limit_accelerations(const Task& task, const RateLimits& limits, const ConstVectorRef& rates,
                          VectorRef lower, VectorRef upper);
 
-// Changes a velocity (n) by little, within the intervals of the coordinates (n), so that the rows of
-// the level hold: by projection on one row after the other.
-void hold_rows(const Level& level, std::span<const RateInterval> intervals, VectorRef velocity);
+// Changes a velocity (n) by little, within the intervals of the coordinates (n), so that
+// lower <= A velocity <= upper (m): by projection on one row after the other.
+void hold_rows(const Matrix& A, const ConstVectorRef& lower, const ConstVectorRef& upper,
+               std::span<const RateInterval> intervals, VectorRef velocity);
 
 }  // namespace hurcules

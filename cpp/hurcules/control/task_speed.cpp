@@ -63,11 +63,15 @@ void weigh_row(const Task& task, Index row, Level& level, Index level_row) {
   const double w = task.weights()[row];
   if (w == 1.0) return;
   level.A.row(level_row) *= w;
-  for (double* const side : {&level.lower[level_row], &level.upper[level_row]}) {
-    if (w == 0.0) {
+  weigh_sides(w, level.lower[level_row], level.upper[level_row]);
+}
+
+void weigh_sides(double weight, double& lower, double& upper) {
+  for (double* const side : {&lower, &upper}) {
+    if (weight == 0.0) {
       *side = 0.0;
     } else if (std::abs(*side) < kInfinity) {
-      *side *= w;
+      *side *= weight;
     }
   }
 }

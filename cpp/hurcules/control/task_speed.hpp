@@ -36,6 +36,7 @@ void wanted_rates(const Task& task, double gain, double most, VectorRef lower, V
 
 // the row of a level as its weight in the task wants it
 void weigh_row(const Task& task, Index row, Level& level, Index level_row);
+void weigh_sides(double weight, double& lower, double& upper);  // the same of its sides alone
 
 // rho_k of a level that is w from its target
 [[nodiscard]] double regularization_at(double rho, double weight);

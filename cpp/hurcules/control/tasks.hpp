@@ -17,3 +17,4 @@
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
+#include "hurcules/tasks/zero_moment_task.hpp"

@@ -34,6 +34,14 @@ void check(const VelocityControllerOptions& options) {
           "transition wants a time >= 0 [s]");
 }
 
+// rows that bound accelerations: how J qdot may change in a time, from what it was at this velocity
+void change_rates(const Task& task, const Vector& velocity, double time, VectorRef lower,
+                  VectorRef upper) {
+  lower.noalias() = task.jacobian() * velocity;
+  upper = lower + time * (task.upper() - task.drift());
+  lower += time * (task.lower() - task.drift());
+}
+
 // from the velocity before towards what was solved for, all joints by one share, as far as the
 // limits of a period allow
 void limit_change(const Vector& before, double allowed, const std::vector<RateInterval>& intervals,
@@ -71,7 +79,7 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
 void VelocityController::set_stack(const Stack& stack) {
   for (const StackLevel& level : stack.levels()) {
     for (const Task* task : level.tasks) {
-      require(!task->commands_acceleration(),
+      require(!task->commands_acceleration() || task->bounds_acceleration(),
               "task '" + task->name() +
                   "' commands accelerations: it wants an acceleration controller");
     }
@@ -83,6 +91,9 @@ void VelocityController::set_stack(const Stack& stack) {
   if (probe_) probe_->set_stack(problem_.stack());
   dead_zone_.set_stack(problem_.stack(), velocity_.size());
   active_limits_.setZero();
+  Index rows = 0;
+  for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
+  lower_ = upper_ = Vector::Zero(rows);
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
 }
@@ -123,7 +134,7 @@ const Vector& VelocityController::solve() {
     velocity_ = velocity_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
     if (options_.law == Law::Arrive)
       limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);
-    hold_limits();
+    hold_limits(next_);
   }
   const auto is_limit = [this](std::size_t i, bool upper) {
     if (options_.law == Law::Arrive) {
@@ -221,6 +232,11 @@ void VelocityController::restore(StateReader& reader) {
   solver_.restore(reader);
 }
 
+// [s] whose acceleration a solve may ask for
+double VelocityController::reach_time() const {
+  return options_.law == Law::Arrive ? std::max(kForesight, options_.dt) : options_.dt;
+}
+
 RateLimits VelocityController::row_limits() const {
   return {.dt = options_.dt,
           .horizon = options_.horizon,
@@ -239,7 +255,7 @@ void VelocityController::fill_bounds(const Task& limits, Level& level) {
     RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
     interval = rate_interval(state, rates);
     if (options_.law == Law::Arrive) {
-      const double reach = options_.max_acceleration * std::max(kForesight, options_.dt);
+      const double reach = options_.max_acceleration * reach_time();
       level.lower[i] = std::clamp(velocity_[i] - reach, interval.least, interval.most);
       level.upper[i] = std::clamp(velocity_[i] + reach, interval.least, interval.most);
     } else {
@@ -261,13 +277,30 @@ void VelocityController::brake() {
   }
 }
 
-// what limits the change of a velocity may have carried it over the limits of the first levels
-void VelocityController::hold_limits() {
-  for (std::size_t k = 0; k < problem_.hierarchy().size(); ++k) {
+// What limits the change of a velocity may have carried it over the limits of the first levels: the
+// last of them first, so that those above have the last word.
+void VelocityController::hold_limits(const Vector& before) {
+  const std::vector<StackLevel>& levels = stack().levels();
+  std::size_t count = 0;
+  while (count < levels.size() && (problem_.hierarchy()[count].bounds || are_limits(levels[count])))
+    ++count;
+  for (std::size_t k = count; k-- > 0;) {
     const Level& level = problem_.hierarchy()[k];
     if (level.bounds) continue;
-    if (!are_limits(stack().levels()[k])) return;
-    hold_rows(level, intervals_, velocity_);
+    auto lower = lower_.head(level.rows()), upper = upper_.head(level.rows());
+    lower = level.lower;
+    upper = level.upper;
+    Index row = 0;
+    for (const Task* task : levels[k].tasks) {
+      const Index rows = task->rows();
+      if (task->bounds_acceleration()) {
+        auto least = lower.segment(row, rows), most = upper.segment(row, rows);
+        change_rates(*task, before, options_.dt, least, most);
+        for (Index i = 0; i < rows; ++i) weigh_sides(task->weights()[i], least[i], most[i]);
+      }
+      row += rows;
+    }
+    hold_rows(level.A, lower, upper, intervals_, velocity_);
   }
 }
 
@@ -286,7 +319,9 @@ void VelocityController::fill_rows(std::size_t k) {
     const Index rows = task->rows();
     level.A.middleRows(row, rows) = task->jacobian();
     auto lower = level.lower.segment(row, rows), upper = level.upper.segment(row, rows);
-    if (task->is_limit()) {
+    if (task->bounds_acceleration()) {
+      change_rates(*task, velocity_, reach_time(), lower, upper);
+    } else if (task->is_limit()) {
       limit_rates(*task, row_limits(), lower, upper);
     } else {
       wanted_rates(*task, options_.gain, most, lower, upper);

@@ -8,7 +8,8 @@
 //
 // A level made of one task that bounds the coordinates becomes simple bounds, together with the
 // velocity and acceleration limits (rate_interval.hpp). All other levels are rows with the gain K
-// on both sides of their interval.
+// on both sides of their interval; those that bound accelerations (Task::bounds_acceleration) bound how
+// J qdot changes.
 #pragma once
 
 #include <optional>
@@ -84,9 +85,10 @@ class VelocityController {
  private:
   void fill_bounds(const Task& limits, Level& level);
   void fill_rows(std::size_t k);
-  void hold_limits();
+  void hold_limits(const Vector& before);
   void brake();
   [[nodiscard]] RateLimits row_limits() const;
+  [[nodiscard]] double reach_time() const;
   void begin_transition();
   void add_transition();
 
@@ -105,6 +107,7 @@ class VelocityController {
   Vector offset_;      // [rad/s] (n) of the transition, at its start
   double age_ = -1.0;  // [s] of the transition; < 0: it begins with the next solve
   bool fading_ = false;
+  Vector lower_, upper_;                 // scratch for hold_limits, as many as a level has rows
   std::vector<RateInterval> intervals_;  // (n), of the last measure
   Eigen::VectorXi active_limits_;
 };

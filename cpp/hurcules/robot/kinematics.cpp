@@ -46,6 +46,15 @@ std::pair<const double*, const double*> local(const mjModel& m, Frame frame) {
   return {m.geom_pos + 3 * i, m.geom_quat + 4 * i};
 }
 
+// I w + m c x v: of an inertia as MuJoCo keeps it (xx, yy, zz, xy, xz, yz, m c, m) and a motion (w, v)
+// at the same point
+Vector3 angular_momentum(const double* inertia, const double* motion) {
+  const double* const i = inertia;
+  Matrix3 about;
+  about << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return about * vector(motion) + vector(i + 6).cross(vector(motion + 3));
+}
+
 }  // namespace
 
 Skeleton::Pose Robot::pose(Frame frame) const {
@@ -142,8 +151,48 @@ Vector3 Robot::com_drift() const {
   return force / m.body_subtreemass[tree_];
 }
 
+double Robot::mass() const {
+  return model_->body_subtreemass[tree_];
+}
+
 double Robot::weight() const {
-  return model_->body_subtreemass[tree_] * mju_norm3(model_->opt.gravity);
+  return mass() * gravity().norm();
+}
+
+Vector3 Robot::gravity() const {
+  return vector(model_->opt.gravity);
+}
+
+void Robot::angular_momentum_jacobian(MatrixRef A) const {
+  need_com();
+  mj_crb(model_.get(), data_.get());
+  full_.setZero();
+  for (int dof = 0; dof < model_->nv; ++dof) {
+    const int body = model_->dof_bodyid[dof];
+    if (model_->body_rootid[body] != tree_) continue;
+    full_.col(dof) = angular_momentum(data_->crb + 10 * body, data_->cdof + 6 * dof);
+  }
+  reduce(full_, A);
+}
+
+Vector3 Robot::angular_momentum_drift() const {
+  const mjModel& m = *model_;
+  Vector3 moment = Vector3::Zero();
+  need_com();
+  if (!screws_->moving()) return moment;
+  const Vector3 c = com();
+  for (int body = tree_; body < m.nbody; ++body) {
+    if (m.body_rootid[body] != tree_ || m.body_mass[body] == 0) continue;
+    const Vector3 p = vector(data_->xipos + 3 * body), w = screws_->angular_velocity(body);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(data_->ximat + 9 * body);
+    const Vector3 inertia = vector(m.body_inertia + 3 * body);
+    const auto times = [&](const Vector3& v) -> Vector3 {
+      return R * inertia.cwiseProduct(R.transpose() * v);
+    };
+    moment += m.body_mass[body] * (p - c).cross(screws_->point_drift(p, body)) +
+              times(screws_->rotation_drift(body)) + w.cross(times(w));
+  }
+  return moment;
 }
 
 void Robot::mass_matrix(MatrixRef M) const {

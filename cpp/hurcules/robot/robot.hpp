@@ -155,7 +155,13 @@ class Robot {
   [[nodiscard]] Vector3 com() const;
   void com_jacobian(MatrixRef J) const;
   [[nodiscard]] Vector3 com_drift() const;
-  [[nodiscard]] double weight() const;  // [N] of the same tree
+  [[nodiscard]] double mass() const;      // [kg] of the same tree
+  [[nodiscard]] double weight() const;    // [N], the same
+  [[nodiscard]] Vector3 gravity() const;  // [m/s^2] in W
+  // angular momentum of the same tree about its centre of mass, in W: L = A v, (3, n) [kg m^2] (hinges),
+  // without armature; and dA/dt v [N m]
+  void angular_momentum_jacobian(MatrixRef A) const;
+  [[nodiscard]] Vector3 angular_momentum_drift() const;
   // inertia of the coordinates with armature, standing as stand_on says: (n, n) [kg m^2] (hinges)
   void mass_matrix(MatrixRef M) const;
   // torque that the coordinates take at this acceleration and the velocity of set_velocity,

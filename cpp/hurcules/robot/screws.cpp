@@ -206,6 +206,10 @@ Vector3 Screws::point_drift(const Vector3& point, int body) const {
   return rate.tail<3>() + Vector3(rate.head<3>()).cross(r) + w.cross(v);
 }
 
+Vector3 Screws::angular_velocity(int body) const {
+  return velocity_of(body).head<3>();
+}
+
 Vector3 Screws::rotation_drift(int body) const {
   return moving_ ? Vector3(rate_of(body).head<3>()) : Vector3::Zero();
 }

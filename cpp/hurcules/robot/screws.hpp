@@ -49,6 +49,8 @@ class Screws {
   // what they accelerate with when the coordinates do not
   [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;
   [[nodiscard]] Vector3 rotation_drift(int body) const;
+  // [rad/s] in W at the velocity of set_velocity
+  [[nodiscard]] Vector3 angular_velocity(int body) const;
   [[nodiscard]] bool moving() const { return moving_; }  // only then is there a drift
   // (6, n): qvel of a root that stands on another body, by coordinate
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& root_motion() const {

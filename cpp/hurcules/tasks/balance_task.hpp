@@ -1,10 +1,13 @@
-// The centre of mass stays over a polygon: an inequality a side.
+// The centre of mass stays over a polygon, and can be stopped there: an inequality a side.
 //
 //   e_i = n_i . (c - p_i) [m] (k),   J = n_i' J_com (k, n);   margin <= e_i
 // c: centre of mass of the whole tree, p_i: corners, n_i: level inward normals, both in the axes of
-// the reference (the world, or the body that the robot stands on), whose z is taken as up.
+// the reference (the world, or the body that the robot stands on). A limit that is approached no faster
+// than edot = -omega (e - margin), omega = sqrt(g / h): so the capture point c + cdot / omega keeps the
+// margin as well, and what stops the robot keeps its zero moment point there (zero_moment_task.hpp).
 #pragma once
 
+#include "hurcules/tasks/convex_polygon.hpp"
 #include "hurcules/tasks/reference.hpp"
 #include "hurcules/tasks/task.hpp"
 
@@ -13,6 +16,7 @@ namespace hurcules {
 struct BalanceTaskOptions {
   Matrix polygon;              // (k, 2) [m] corners of a convex polygon, in either turn
   double margin = 0.05;        // [m] kept from its sides
+  double height = 0.0;         // [m] of the polygon, z in the axes of the reference
   std::string reference = "";  // frame whose axes the corners are in, "" = the world
 };
 
@@ -30,10 +34,10 @@ class BalanceTask : public Task {
   void save(StateWriter& writer) const override { Task::save(writer); }
   void restore(StateReader& reader) override { Task::restore(reader); }
   [[nodiscard]] bool rows_apart() const override { return true; }
+  [[nodiscard]] bool is_limit() const override { return true; }
 
  private:
-  Matrix normals_;  // (k, 2)
-  Vector offsets_;  // (k) n_i . p_i
+  ConvexPolygon polygon_;
   Reference reference_;
   PointMotion com_;
 };

@@ -84,9 +84,11 @@ class Task {
   [[nodiscard]] virtual std::string row_name(const Robot& /*robot*/, Index /*row*/) const {
     return name_;
   }
-  // a law of its own for controllers of acceleration, no other takes it:
+  // a law of its own for controllers of acceleration:
   //   lower <= J qddot + drift - acceleration_des <= upper
   [[nodiscard]] virtual bool commands_acceleration() const { return false; }
+  // it is a bound that a controller of velocities keeps too, by how they change
+  [[nodiscard]] virtual bool bounds_acceleration() const { return false; }
 
  protected:
   Task(const Task&) = default;

@@ -1,9 +1,12 @@
 // Strategy: inverse dynamics against the mass matrix (its part that is linear in the acceleration)
 // and against energy: with dampers taken out, torque times velocity is the rate of kinetic plus
-// potential energy, by central differences; standing on a leg too. Gravity of a pendulum by hand.
+// potential energy, by central differences; standing on a leg too. Angular momentum against MuJoCo's and
+// against differences. Gravity of a pendulum by hand.
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "hurcules/robot/robot.hpp"
 #include "support/expect.hpp"
@@ -72,6 +75,46 @@ INSTANTIATE_TEST_SUITE_P(OfEveryKind, Dynamics,
                          testing::Values(Case{"Arm", kArm, ""}, Case{"Twin", kTwin, ""},
                                          Case{"TwinOnALeg", kTwin, "leg_l"}),
                          [](const auto& test) { return std::string(test.param.name); });
+
+TEST(AngularMomentum, IsMuJoCosAndChangesByItsDrift) {
+  for (const char* support : {"", "leg_l"}) {
+    Robot robot(load_model_text(kTwin));
+    if (*support) robot.stand_on(support);
+    const mjModel* const m = robot.model().get();
+    const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(m), mj_deleteData);
+    const int tree = robot.root_body();
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      RandomMotion random(seed);
+      random.move(robot);
+      const Index n = robot.size();
+      const Vector q = robot.configuration(), v = random.vector(n, 1.0);
+      robot.set_velocity(v);
+      Matrix A(3, n);
+      robot.angular_momentum_jacobian(A);
+      const Vector3 drift = robot.angular_momentum_drift();
+      const Vector3 now = A * v;
+      // by MuJoCo, at the velocity that differences of qpos have
+      const double h = 1e-5;
+      robot.set_configuration(q + h * v);
+      const Vector ahead = robot.qpos();
+      robot.angular_momentum_jacobian(A);
+      const Vector3 momentum_ahead = A * v;
+      robot.set_configuration(q - h * v);
+      const Vector behind = robot.qpos();
+      robot.angular_momentum_jacobian(A);
+      const Vector3 momentum_behind = A * v;
+      robot.set_configuration(q);
+      std::copy(robot.qpos().begin(), robot.qpos().end(), d->qpos);
+      mj_differentiatePos(m, d->qvel, 2.0 * h, behind.data(), ahead.data());
+      mj_forward(m, d.get());
+      mj_subtreeVel(m, d.get());
+      const Eigen::Map<const Vector3> wanted(d->subtree_angmom + 3 * tree);
+      EXPECT_TRUE(near(now, wanted, 1e-7)) << support << seed;
+      EXPECT_TRUE(near(drift, (momentum_ahead - momentum_behind) / (2.0 * h), 1e-7))
+          << support << seed;
+    }
+  }
+}
 
 TEST(DynamicsOfAPendulum, GravityIsThatOfTheBob) {
   Robot robot(load_model_text(kPendulum));
