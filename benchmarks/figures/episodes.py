@@ -1,4 +1,4 @@
-"""Draws docs/episodes.jpg: Stretch-v1 and Rescue-v0 under their experts.
+"""Draws docs/episodes.jpg: Stretch-v1, Rescue-v0 and Dispose-v0 under their experts.
 
 Run:  python benchmarks/figures/episodes.py
 """
@@ -16,7 +16,11 @@ import hurcules_envs  # noqa: F401  registers
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 # by id: steps after which a picture is taken
-SHOWN = {"Hurcules/Stretch-v1": (0, 110), "Hurcules/Rescue-v0": (90, 400, 560, 830)}
+SHOWN = {
+    "Hurcules/Stretch-v1": (0, 110),
+    "Hurcules/Rescue-v0": (90, 400, 560, 830),
+    "Hurcules/Dispose-v0": (60, 1950, 3900, 4500),
+}
 SEED = 3
 
 
@@ -38,7 +42,7 @@ def pictures(name: str, steps: tuple[int, ...]) -> list[NDArray[np.uint8]]:
 
 
 def main() -> None:
-    """Three rows of two."""
+    """Five rows of two."""
     all_of_them = [one for name, steps in SHOWN.items() for one in pictures(name, steps)]
     rows = [np.concatenate(all_of_them[i : i + 2], axis=1) for i in range(0, len(all_of_them), 2)]
     sheet = np.concatenate(rows, axis=0)

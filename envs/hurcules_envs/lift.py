@@ -15,7 +15,7 @@ import hurcules
 from hurcules import lift
 from hurcules_envs.contact import ContactEnvironment, add_force_sensor, contact_tick, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
-from hurcules_envs.person import LimpPerson
+from hurcules_envs.loose import limp_person
 
 __all__ = ["Lift"]
 
@@ -137,7 +137,7 @@ class Lift(ContactEnvironment):
         start.set_qpos(settled.data.qpos)
         start.stand_on(lift.SUPPORT)
         self.simulation = self._loop(model, start, tick)
-        self._person = LimpPerson(model, settled.data.qpos)
+        self._person = limp_person(model, settled.data.qpos)
 
     def scene(self) -> mujoco.MjSpec:
         """The robot before a person who lies across its way."""

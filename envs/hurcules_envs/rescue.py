@@ -7,13 +7,12 @@ from types import MappingProxyType
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
-import hurcules
 from hurcules import lift
-from hurcules_envs.contact import ContactEnvironment, contact_tick, view
+from hurcules_envs.contact import contact_tick, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
-from hurcules_envs.person import LimpPerson
+from hurcules_envs.loose import limp_person
+from hurcules_envs.mission import MissionEnvironment, kept
 
 __all__ = ["Rescue"]
 
@@ -23,11 +22,10 @@ MASS, FRICTION, AHEAD, LEFT, YAW = (60.0, 90.0), (0.4, 0.6), 0.05, 0.10, 0.2
 TRACKS = (0.1, 0.1)  # [m/s], [rad/s] full scale of what is added
 HANDS, PITCH, PRESS, JOINTS = 0.05, 0.1, 0.0125, 0.1  # [m/s], [rad/s], [m/s], [rad/s]
 LEGS = {"lean": ("HIP",), "shoulders": ("LSP", "RSP"), "elbows": ("LEB", "REB")}
-ASKS = 0.5  # of the last number: beyond it a phase is asked for
 HEAD = 98.1  # [m/s^2] 10 g
 
 
-class Rescue(ContactEnvironment):
+class Rescue(MissionEnvironment):
     """The mission `lift` up to `hold`, to whose commands a policy adds.
 
     The robot drives up to a limp person who lies 3.3 m ahead across its way, turns square to him,
@@ -93,14 +91,7 @@ class Rescue(ContactEnvironment):
     """
 
     task_description = "Lift the person and hold him before the chest."
-    terms = ("phase", "harm", "time", "effort", "success", "failure")
-    memory: Mapping[str, int] = MappingProxyType(
-        {
-            "mass": 1, "friction": 1, "asked": 1, "furthest": 1, "reached": 1, "pushed": 1,
-            "over": 1, "fresh": 1,
-        }
-    )  # fmt: skip
-    parameters = ("mass", "friction")
+    moved = "casualty/moved_m"
     components: Mapping[str, tuple[str, ...]] = MappingProxyType(
         {
             "tracks": ("speed", "yaw_rate"),
@@ -142,15 +133,9 @@ class Rescue(ContactEnvironment):
             "lean": JOINTS, "shoulders": JOINTS, "elbows": JOINTS, "phase": 1.0,
         }  # fmt: skip
         model = self.compiled(tick)
-        controller = lift.controller(model)
-        self.simulation = hurcules.Simulation(
-            _mission(), model=model, controller=controller, variation=0.0, record=False,
-            adds_command=True,
-        )  # fmt: skip
-        self._phases = self.simulation.phases
-        self._last, self._lifts = self._phases.index(LAST), self._phases.index("lift") - 1
+        controller = self.adopt(kept(lift.mission("lift"), LAST), model, lift.controller, LAST)
         self._coordinates = controller.plan.coordinate_names
-        self._person = LimpPerson(model, self.simulation.data.qpos)
+        self._person = limp_person(model, self.simulation.data.qpos)
         self.observation = (
             Group("phase", len(self._phases), "", 1.0, "1 for the present one"),
             Group("progress", 1, "", 1.0, "of the present phase"),
@@ -184,16 +169,6 @@ class Rescue(ContactEnvironment):
         places = {"ahead": float(ahead), "left": float(left), "yaw": float(yaw)}
         return Start(qpos, drawn, drawn | places)
 
-    def phases(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[int, str]:
-        """The next one, or the one before, where it is asked for anew."""
-        wish = np.where(np.abs(action["phase"][:, 0]) > ASKS, np.sign(action["phase"][:, 0]), 0.0)
-        asked = numbers.memory["asked"][:, 0]
-        fresh = (wish != 0.0) & (wish != asked) & ~numbers.finished
-        asked[:] = wish
-        now = numbers["phase"][:, 0].astype(int)
-        wanted = np.clip(now + wish.astype(int), 0, len(self._phases) - 1)
-        return {int(i): self._phases[wanted[i]] for i in np.flatnonzero(fresh & (wanted != now))}
-
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """What is added to the channels; those of tasks that do not rule are not asked."""
         posture = np.zeros((len(action["lean"]), len(self._coordinates)))
@@ -208,23 +183,8 @@ class Rescue(ContactEnvironment):
             given[f"{side}_pitch"] = action["pitch"]
         return given
 
-    def remember(self, numbers: Numbers) -> None:
-        """How far the mission has come, and how it ended."""
-        memory = numbers.memory
-        phase = numbers["phase"]
-        on_the_way = np.where(phase <= self._last, phase, 0.0)
-        before = memory["furthest"].copy()
-        np.maximum(before, on_the_way, out=memory["furthest"])
-        memory["reached"][:] = memory["furthest"] - before
-        lies = np.where(phase <= self._lifts, numbers["casualty/moved_m"], 0.0)
-        np.maximum(memory["pushed"], lies, out=memory["pushed"])
-        over = memory["over"][:, 0] > 0.0
-        memory["fresh"][:, 0] = numbers.finished & ~over
-        memory["over"][:, 0] = numbers.finished
-
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""
-        phase = numbers["phase"].astype(int)
         tips = [numbers[f"position/{side}_tcp"][:, 2] for side in "LR"]
         up = [np.clip(numbers[f"matrix/{side}_tcp"][:, 6], -1.0, 1.0) for side in "LR"]
         casualty = [
@@ -232,7 +192,7 @@ class Rescue(ContactEnvironment):
             for name in ("behind_tips_m", "aside_m", "height_m", "moved_m", "stand_ahead_m")
         ]
         return {
-            "phase": (phase == np.arange(len(self._phases))).astype(float),
+            "phase": self.one_of_the_phases(numbers),
             "progress": numbers["mission/progress"],
             "person": numbers.row(*casualty),
             "tips": np.stack(tips, axis=1),
@@ -253,68 +213,21 @@ class Rescue(ContactEnvironment):
             "margin": numbers["monitor/static_margin_m"],
         }  # fmt: skip
 
-    def reward(self, numbers: Numbers) -> dict[str, Array]:
-        """See the table."""
-        shaped = 0.0 if self.sparse else 1.0
-        fresh = numbers["fresh"][:, 0]
-        fell = numbers.ended_as(hurcules.Ending.Fell)
-        done = self.succeeded(numbers)
-        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
+    def harm(self, numbers: Numbers) -> Array:
+        """Of contacts on his body, and 10 g of his head."""
         past = np.maximum(numbers["casualty/contact_share"][:, 0] - 1.0, 0.0)
         shaken = np.maximum(numbers["casualty/head_mps2"][:, 0] / HEAD - 1.0, 0.0)
-        return {
-            "phase": 10.0 * shaped * numbers["reached"][:, 0] / self._last,
-            "harm": -0.1 * shaped * numbers.dt * (past + shaken),
-            "time": np.full(len(fresh), -0.01 * shaped),
-            "effort": -0.01 * shaped * effort,
-            "success": 10.0 * fresh * done,
-            "failure": -fresh * np.where(done, 0.0, np.where(fell, 10.0, 5.0)),
-        }
-
-    def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
-        """The mission is completed."""
-        return numbers.ended_as(hurcules.Ending.Completed)
-
-    def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
-        """It ended in another way."""
-        return numbers.finished & ~self.succeeded(numbers)
-
-    def costs(self, numbers: Numbers) -> NDArray[np.bool_]:
-        """A contact passes its limit, or 10 g the head."""
-        past = numbers["casualty/contact_share"] > 1.0
-        return np.asarray((past | (numbers["casualty/head_mps2"] > HEAD))[:, 0])
+        return past + shaken
 
     def tell(self, numbers: Numbers) -> dict[str, Array]:
-        """How far it came, what was done to him, and how it ended."""
-        fell = numbers.ended_as(hurcules.Ending.Fell)
+        """What was done to him too."""
         return {
-            "phase": numbers["phase"][:, 0],
-            "furthest": numbers["furthest"][:, 0],
+            **super().tell(numbers),
             "contact_share": numbers["casualty/contact_share"][:, 0],
             "head_mps2": numbers["casualty/head_mps2"][:, 0],
             "support_n": numbers["casualty/support_n"][:, 0],
-            "pushed_m": numbers["pushed"][:, 0],
-            "fell": fell.astype(float),
-            "missed": (self.failed(numbers) & ~fell).astype(float),
         }
-
-    def expert(self, numbers: Numbers) -> Array:
-        """Nothing is added: the mission as it stands."""
-        return np.zeros((len(numbers.action), 11))
 
     def camera(self) -> mujoco.MjvCamera:
         """From the front, on the side of the legs."""
         return view((1.9, 0.0, 0.75), 4.8, 128.0, -14.0)
-
-
-def _mission() -> hurcules.Mission:
-    """The mission `lift` that is over when he was held, or laid down again."""
-    found = lift.mission("lift")
-    phases = []
-    for phase in found.rows.phases:
-        phase.last = phase.name == LAST
-        phases.append(phase)
-    after = {phase.name for phase in phases[[p.name for p in phases].index(LAST) + 1 :]}
-    measures = [one for one in found.rows.measures if not after & set(one.phases)]
-    rows = hurcules.MissionTable(phases=phases, safety=found.rows.safety, measures=measures)
-    return hurcules.Mission(found.setup, rows)

@@ -7,6 +7,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from hurcules_envs.base import HurculesEnv
 from hurcules_envs.single import SingleEnv
@@ -22,6 +23,20 @@ def env(request: pytest.FixtureRequest) -> Iterator[HurculesEnv]:
     assert isinstance(unwrapped, HurculesEnv)
     yield unwrapped
     made.close()
+
+
+def single(name: str, **options: Any) -> SingleEnv:
+    """One of those that stand on `Environment`, unwrapped, in "fast"."""
+    env = gymnasium.make(name, fidelity="fast", **options).unwrapped
+    assert isinstance(env, SingleEnv)
+    return env
+
+
+def action_of(env: SingleEnv, **given: float) -> NDArray[np.float32]:
+    """An action by the names of its numbers; the others are 0."""
+    unknown = set(given) - set(env.action_names)
+    assert not unknown, unknown
+    return np.array([given.get(name, 0.0) for name in env.action_names], np.float32)
 
 
 def rollout(env: HurculesEnv, seed: int, steps: int) -> list[Any]:

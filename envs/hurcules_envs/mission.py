@@ -1,0 +1,162 @@
+"""What the environments share in which a mission acts and a policy corrects it."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules import Mission
+from hurcules_envs.contact import ContactEnvironment
+from hurcules_envs.environment import Array, Numbers
+
+__all__ = ["MissionEnvironment", "kept"]
+
+LIFTS = "lift"  # phase in which what lay on the ground leaves it
+ASKS = 0.5  # of the number `phase`: beyond it a phase is asked for
+
+
+class MissionEnvironment(ContactEnvironment):
+    """A mission, to whose commands an action is added; a zero action is the mission as it stands.
+
+    A subclass builds itself with `adopt`, names its channels in `command`, and says in `harm` what
+    should not happen; the other terms of the reward are the same for all.
+
+    Attributes:
+        moved: quantity [m]: how far what is fetched is along the ground from where it lay.
+        toll: of a step, and of a full action in it: taken from the reward.
+    """
+
+    terms = ("phase", "harm", "time", "effort", "success", "failure")
+    memory: Mapping[str, int] = MappingProxyType(
+        {
+            "mass": 1, "friction": 1, "asked": 1, "furthest": 1, "reached": 1, "pushed": 1,
+            "over": 1, "fresh": 1,
+        }
+    )  # fmt: skip
+    parameters = ("mass", "friction")
+    moved: str
+    sparse: bool
+    toll = 0.01
+
+    def adopt(
+        self,
+        mission: Mission,
+        model: mujoco.MjModel,
+        controller: Callable[[mujoco.MjModel], hurcules.WholeBodyController],
+        last: str,
+    ) -> hurcules.WholeBodyController:
+        """Builds the simulation, whose mission succeeds after the phase `last`.
+
+        Returns:
+            The controller.
+        """
+        made = controller(model)
+        self.simulation = hurcules.Simulation(
+            mission, model=model, controller=made, variation=0.0, record=False, adds_command=True
+        )
+        self._phases = self.simulation.phases
+        self._last, self._lifts = self._phases.index(last), self._phases.index(LIFTS) - 1
+        return made
+
+    @abstractmethod
+    def harm(self, numbers: Numbers) -> Array:
+        """(n,) how far limits are passed, as shares of these."""
+
+    def phases(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[int, str]:
+        """The next one, or the one before, where it is asked for anew."""
+        wish = np.where(np.abs(action["phase"][:, 0]) > ASKS, np.sign(action["phase"][:, 0]), 0.0)
+        asked = numbers.memory["asked"][:, 0]
+        fresh = (wish != 0.0) & (wish != asked) & ~numbers.finished
+        asked[:] = wish
+        now = numbers["phase"][:, 0].astype(int)
+        wanted = np.clip(now + wish.astype(int), 0, len(self._phases) - 1)
+        return {int(i): self._phases[wanted[i]] for i in np.flatnonzero(fresh & (wanted != now))}
+
+    def remember(self, numbers: Numbers) -> None:
+        """How far the mission has come, how far it pushed, and how it ended."""
+        memory = numbers.memory
+        phase = numbers["phase"]
+        on_the_way = np.where(phase <= self._last, phase, 0.0)
+        before = memory["furthest"].copy()
+        np.maximum(before, on_the_way, out=memory["furthest"])
+        memory["reached"][:] = memory["furthest"] - before
+        lies = np.where(phase <= self._lifts, numbers[self.moved], 0.0)
+        np.maximum(memory["pushed"], lies, out=memory["pushed"])
+        over = memory["over"][:, 0] > 0.0
+        memory["fresh"][:, 0] = numbers.finished & ~over
+        memory["over"][:, 0] = numbers.finished
+
+    def one_of_the_phases(self, numbers: Numbers) -> Array:
+        """(n, phases) 1 for the present one."""
+        return (numbers["phase"].astype(int) == np.arange(len(self._phases))).astype(float)
+
+    def reward(self, numbers: Numbers) -> dict[str, Array]:
+        """See the table."""
+        shaped = 0.0 if self.sparse else 1.0
+        fresh = numbers["fresh"][:, 0]
+        fell = numbers.ended_as(hurcules.Ending.Fell)
+        done = self.succeeded(numbers)
+        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
+        return {
+            "phase": 10.0 * shaped * numbers["reached"][:, 0] / self._last,
+            "harm": -0.1 * shaped * numbers.dt * self.harm(numbers),
+            "time": np.full(len(fresh), -self.toll * shaped),
+            "effort": -self.toll * shaped * effort,
+            "success": 10.0 * fresh * done,
+            "failure": -fresh * np.where(done, 0.0, np.where(fell, 10.0, 5.0)),
+        }
+
+    def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """The mission is completed."""
+        return numbers.ended_as(hurcules.Ending.Completed)
+
+    def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """It ended in another way."""
+        return numbers.finished & ~self.succeeded(numbers)
+
+    def costs(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """A limit is passed."""
+        return self.harm(numbers) > 0.0
+
+    def tell(self, numbers: Numbers) -> dict[str, Array]:
+        """How far it came, and how it ended."""
+        fell = numbers.ended_as(hurcules.Ending.Fell)
+        return {
+            "phase": numbers["phase"][:, 0],
+            "furthest": numbers["furthest"][:, 0],
+            "pushed_m": numbers["pushed"][:, 0],
+            "fell": fell.astype(float),
+            "missed": (self.failed(numbers) & ~fell).astype(float),
+        }
+
+    def expert(self, numbers: Numbers) -> Array:
+        """Nothing is added: the mission as it stands."""
+        return np.zeros_like(numbers.action)
+
+
+def kept(
+    mission: Mission, last: str, judged: Callable[[hurcules.Measure], bool] = lambda _: True
+) -> Mission:
+    """The mission that is over after the phase `last`, or where reactions lead.
+
+    Args:
+        mission: the table as it is.
+        last: the phase.
+        judged: which measures stay, of those that need no later phase.
+    """
+    phases = []
+    for phase in mission.rows.phases:
+        phase.last = phase.name == last
+        phases.append(phase)
+    after = {phase.name for phase in phases[[p.name for p in phases].index(last) + 1 :]}
+    measures = [one for one in mission.rows.measures if not after & set(one.phases) and judged(one)]
+    return Mission(
+        mission.setup,
+        hurcules.MissionTable(phases=phases, safety=mission.rows.safety, measures=measures),
+    )
