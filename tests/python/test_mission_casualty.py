@@ -196,7 +196,7 @@ def test_a_force_sensor_that_reads_nothing_touches_nobody(
 
 
 def test_an_empty_battery_lifts_nobody(faults) -> None:
-    mission = faults.emptied()
+    mission = faults.no_battery()
     assert "charge <= 1" in until_it_reacts(faults.simulate(mission=mission), 1.0)
     watched = {
         row.name

@@ -3,13 +3,16 @@
 Strategy: one run to where the case hangs in both hands, with the errors of the cameras, judged by
 what MuJoCo's data say beside what the mission says of itself; from there faults go on. One whole
 run into the container. What must be refused is refused. Other cases, places and frictions:
-docs/disposal.md (benchmarks/disposal_sweep.py).
+docs/disposal.md (benchmarks/disposal_sweep.py, disposal_faults.py).
 """
 
 from __future__ import annotations
 
 import math
 import tomllib
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
 
 import mujoco
 import numpy as np
@@ -114,6 +117,51 @@ def test_a_motor_of_a_finger_that_lets_go_lowers_the_case(grasped) -> None:
     assert simulation.finished
     assert "load/" in simulation.reason
     assert simulation.data.body("ordnance_case").xpos[2] == pytest.approx(0.10, abs=0.005)
+
+
+@pytest.fixture
+def faults(root: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """What provokes them: benchmarks/disposal_faults.py."""
+    monkeypatch.syspath_prepend(root / "benchmarks")
+    return import_module("disposal_faults")
+
+
+@pytest.mark.slow
+def test_a_force_sensor_that_reads_nothing_lowers_the_case(grasped, faults) -> None:
+    _, states = grasped
+    model = disposal.model(disposal.Job(**TURNED))
+    simulation = faults.simulate(model, faults.deafened("left"))
+    simulation.restore(states["look"])
+    simulation.step(400)
+    assert simulation.phase == "set down"
+
+
+def test_an_empty_battery_fetches_nothing(faults) -> None:
+    simulation = faults.simulate(mission=faults.emptied(disposal.mission()))
+    simulation.step(100)
+    assert simulation.finished
+    assert "charge <= 1" in simulation.reason
+
+
+def test_the_fingers_do_not_open_where_no_container_is() -> None:
+    simulation = hurcules.Simulation("disposal", variation=0.0)
+    simulation.step(100)
+    simulation.go("let go")
+    simulation.step(1000)
+    assert simulation.phase == "let go"
+    assert simulation.log()["mission/waiting"][-1] == 1.0
+
+
+def test_every_phase_that_carries_has_its_way_to_safety() -> None:
+    rows = {row.name: row for row in disposal.mission().rows.phases}
+    names = list(rows)
+    watched = {"left_grip_n", "right_grip_n", "on_left_hand", "on_right_hand", "off_m"}
+    for name in names[names.index("raise") : names.index("put in")]:
+        troubles = {one.when.quantity: one for one in rows[name].troubles}
+        assert {f"load/{one}" for one in watched} <= set(troubles), name
+        last = {one.reactions[-1].kind for one in troubles.values()}
+        # standing it is set down; seated the robot stands still
+        assert last == ({"lower"} if name in ("raise", "hold") else {"abort"}), name
 
 
 @pytest.mark.parametrize("parameters", [{"yaw": 0.7}, {"yaw": -0.7}, {"offset": (-1.0, 0.0)}])

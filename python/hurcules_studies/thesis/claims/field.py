@@ -1,7 +1,7 @@
 """F01 to F07: the sequences of the field tests.
 
 Each has a run that must fail: what is too heavy, a person on the front, a waist that is not
-turned, arms that are not folded, brakes that are open.
+turned, arms that are not folded, brakes that are open, tips that press too hard.
 """
 
 from hurcules_studies.thesis.claim import Claim, exactly, least, most, near
@@ -91,7 +91,19 @@ FIELD = (
         "F06",
         "§4.5",
         "The lower arms go under the casualty; too much friction or contact force blocks it.",
-        pending="K20 measures the first half; what blocks the arms is not measured",
+        {
+            "under": exactly("arms under a person of 75 kg, friction 0.2, 5 N a tip", 1),
+            "push": least("push with friction 2.0, over that with 0.2", 1.5),
+            "rough": exactly(
+                "the same with blades of friction 2.0",
+                0,
+                ours=(1, 1),
+                why="he is pushed along before the blades, 0.5 m in place of 0.3 m, and then "
+                "comes over them: the tracks push as hard as it takes",
+            ),
+            "pressed": exactly("the same with 100 N a tip", 0),
+        },
+        caveat="with 100 N a tip nothing holds the arms: the robot stands on them and falls over",
     ),
     Claim(
         "F07",

@@ -1,4 +1,4 @@
-"""F01 to F05: the sequences of the field tests, each in one run and with a run that must fail."""
+"""F01 to F06: the sequences of the field tests, each in one run and with a run that must fail."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import hurcules
-from hurcules import models, postures
+from hurcules import lift, models, postures
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
@@ -26,6 +26,9 @@ STEPS = ("approach", "press", "under", "lift", "raise", "carry", "sit down", "fo
 SAMPLE = 50  # rows of the log between two of a plot
 WAY = 50.0  # [m] with the arms' brakes shut, then open
 ARMS = ("SP", "SR", "SY", "EB")
+BLADES = [f"{side}_scoop_{part}" for side in "LR" for part in ("blade", "tip", "flange")]
+SMOOTH, ROUGH = 0.2, 2.0  # friction of the blades: the robot's, and ten times that
+TIP, HARD = 5.0, 100.0  # [N] that a tip presses on the ground: the mission's, and twenty times that
 
 
 @dataclass(frozen=True)
@@ -198,4 +201,65 @@ def arms_without_power() -> Finding:
     (shut, torque), (opened, _) = moved_in_driving(True), moved_in_driving(False)
     return Finding(
         {"shut": shut, "torque": float(torque.max()), "open": opened},
+    )
+
+
+def goes_under(friction: float, force: float) -> tuple[bool, float, float]:
+    """The mission `lift` until the arms are under the person, or it has given up.
+
+    Args:
+        friction: of the blades.
+        force: [N] of a tip on the ground. The trouble of `press` that an elbow bears more than its
+            force sensor tells of is left out, which 100 N would set off.
+
+    Returns:
+        Whether they are, the largest push [N], and how far the person was pushed [m].
+    """
+    found = lift.mission()
+    phases = found.rows.phases
+    for phase in phases:
+        if phase.name == "press":
+            phase.troubles = []
+    rows = hurcules.MissionTable(
+        phases=phases, safety=found.rows.safety, measures=found.rows.measures
+    )
+    model = lift.model(lift.Person())
+    for name in BLADES:
+        model.geom(name).friction[0] = friction
+    controller = lift.controller(model)
+    simulation = hurcules.Simulation(
+        hurcules.Mission(found.setup, rows), model=model, controller=controller, variation=0.0,
+        record=False,
+    )  # fmt: skip
+    for task in (controller.task(f"{side}_press") for side in "LR"):
+        if isinstance(task, hurcules.ForceTask):
+            task.set_force(-force)
+    seen = hurcules.Quantities(simulation, ["casualty/push_n", "casualty/moved_m"])
+    push = moved = 0.0
+    while not simulation.finished and simulation.phase not in ("lift", "withdraw"):
+        simulation.step(20)
+        if simulation.phase == "under":
+            now, moved = simulation.read(seen)
+            push = max(push, now)
+    return simulation.phase == "lift", push, moved
+
+
+@measures("F06")
+def the_arms_go_under() -> Finding:
+    """As the mission has it; with blades of friction 2.0; with tips that press 100 N each."""
+    smooth, rough = goes_under(SMOOTH, TIP), goes_under(ROUGH, TIP)
+    pressed = goes_under(SMOOTH, HARD)
+    return Finding(
+        {
+            "under": int(smooth[0]),
+            "push": rough[1] / smooth[1],
+            "rough": int(rough[0]),
+            "pressed": int(pressed[0]),
+        },
+        [
+            Note("push, friction 0.2", smooth[1], "N"),
+            Note("push, friction 2.0", rough[1], "N"),
+            Note("person pushed, friction 0.2", smooth[2], "m"),
+            Note("person pushed, friction 2.0", rough[2], "m"),
+        ],
     )
