@@ -31,8 +31,7 @@ from rich.progress import track
 from rich.table import Table
 
 import hurcules
-from hurcules import scenes
-from hurcules.driving import Chassis, drive_options, hold_joints
+from hurcules import driving, scenes
 
 DT = 1e-3
 HOLD = (0.1, 2.0)  # [s] of a command
@@ -176,19 +175,14 @@ def _note_excess(ledger: Ledger, simulation: hurcules.Simulation) -> None:
 def drive(seconds: float, seed: int) -> Ledger:
     """The rescue robot driven about on the flat, joints on their brakes."""
     ledger = Ledger()
-    model = scenes.load("flat", "rescue")
-    hold_joints(model)
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
-    mujoco.mj_forward(model, data)
-    chassis = Chassis(model, drive_options(model))
+    simulation = driving.simulation(
+        scenes.load("flat", "rescue"), steps=1, channels={"drive": hurcules.Drive(SPEED, YAW_RATE)}
+    )
     whim = Whim(np.random.default_rng(seed), 2)
-    accountant = Accountant(model, data, ledger)
+    accountant = Accountant(simulation.model, simulation.data, ledger)
     for _ in track(range(round(seconds / DT)), "drive"):
-        speed, yaw_rate = whim.tick() * (SPEED, YAW_RATE)
-        chassis.controller.drive(speed, yaw_rate)
-        chassis.act(data, chassis.sense(data))
-        accountant.step(lambda: hurcules.step(model, data))
+        command = whim.tick() * simulation.command_scale
+        accountant.step(lambda command=command: simulation.step(1, command))
     accountant.end()
     return ledger
 

@@ -15,7 +15,6 @@ __all__ = ["forward", "install", "new_name"]
 # the first that fits counts; what lies below a module has moved with it
 MOVED = {
     "hurcules.trials.drive": "hurcules.driving",
-    "hurcules.trials.brakes": "hurcules.driving.brakes",
     "hurcules.trials.asked": "hurcules_studies.field_tests.parse",
     "hurcules.trials": "hurcules_studies.field_tests",
     "hurcules.reproduce.measures.marks": "hurcules_studies.thesis.measures.registry",

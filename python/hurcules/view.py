@@ -14,8 +14,7 @@ from typing import Any
 import mujoco
 
 from hurcules import models
-from hurcules._core import Error, step
-from hurcules.driving import hold_joints
+from hurcules._core import Error, Plant
 from hurcules.simulation import Simulation, missions
 from hurcules.validation import require_known
 
@@ -70,9 +69,12 @@ def _subject(name: str, seed: int) -> tuple[Any, Any, Callable[[int], Any]]:
     require_known("mission, model, scene or file", name, _names())
     model = models.load(name) if name in models.names() else models.load(scene=name)
     data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
-    hold_joints(model)
-    return model, data, lambda n: step(model, data, n) if n else None
+    plant = Plant(model, data)
+    plant.reset("drive")
+    plant.brakes.reset(True)
+    for belt in (joint for joint in plant.brakes.names if joint.endswith("_belt")):
+        plant.brakes.set_closed(belt, False)
+    return model, data, lambda n: plant.step(n) if n else None
 
 
 def _names() -> list[str]:

@@ -17,7 +17,7 @@ import hurcules
 from hurcules import scenes
 from hurcules_studies import field_tests
 from hurcules_studies.field_tests import climbing
-from hurcules_studies.field_tests.upright import Upright
+from hurcules_studies.field_tests.methods import Way
 
 # nothing differs
 SAME = field_tests.Variation(friction=(1.0, 1.0), payload=0.0, offset=0.0, yaw=0.0)
@@ -79,19 +79,21 @@ def test_the_higher_the_edge_the_less_the_trunk_leans_back_from_it() -> None:
     assert climbing.highest(leans[3]) >= 0.35 and climbing.highest(leans[4]) >= 0.4
 
 
-def test_who_stands_on_raised_or_lower_legs_stands_upright() -> None:
-    model = hurcules.models.load("rescue")
-    data = mujoco.MjData(model)
-    found = {}
-    for key in ("drive", "ready"):
-        mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
-        mujoco.mj_kinematics(model, data)
-        found[key] = Upright(model).cosine(data)
-    data.qpos[3:7] = 0.0, 1.0, 0.0, 0.0  # on its head, the legs straight
-    data.joint("LKN").qpos[0] = math.pi
-    mujoco.mj_kinematics(model, data)
-    assert found["drive"] == pytest.approx(1.0) and found["ready"] == pytest.approx(1.0, abs=1e-3)
-    assert Upright(model).cosine(data) == pytest.approx(-1.0)
+def test_who_raises_the_upper_legs_to_climb_has_not_fallen() -> None:
+    upright = math.radians(70)
+    raised = field_tests.Posture(math.pi - upright, climbing.STEADY - upright)
+
+    def plan(_: object) -> field_tests.Plan:
+        return lambda x: raised if x > 0.02 else climbing.STRETCHED
+
+    tilts = []
+
+    def watch(model: mujoco.MjModel, qpos: np.ndarray, time: float) -> None:
+        tilts.append(2.0 * math.asin(min(1.0, math.hypot(qpos[4], qpos[5]))))
+
+    method = field_tests.Method("", "flat", plan=plan, climbs=True, way=Way.There, distance=0.3)
+    assert field_tests.repeat(method, None, "rescue", 0, watch=watch).fault == ""
+    assert max(tilts) > math.radians(65)
 
 
 @pytest.mark.slow

@@ -15,8 +15,7 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules import scenes
-from hurcules.driving import Chassis, drive_options, hold_joints
+from hurcules import driving, scenes
 
 STEPS = 2  # of 1 ms in one control period
 ENDED = (hurcules.ParkingPhase.Done, hurcules.ParkingPhase.Failed)
@@ -27,28 +26,30 @@ A, J = 2.0, 8.0  # [m/s^2], [m/s^3] limits of the options
 class Robot:
     """A robot in drive pose on some ground, its joints braked."""
 
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    chassis: Chassis
+    simulation: hurcules.Simulation
+    gauge: hurcules.TrackDrive
+
+    def __post_init__(self) -> None:
+        self.model, self.data = self.simulation.model, self.simulation.data
+        self.drive = self.simulation.controller.drive
+
+    def sense(self) -> hurcules.DriveState:
+        """What the drive controller is told now."""
+        return self.gauge.measure(self.data.qpos, self.data.qvel)
 
     def run(self, seconds: float) -> np.ndarray:
         """Time, speed, yaw rate, x, y, yaw of each period (n, 6)."""
         rows = []
         for _ in range(round(seconds / STEPS * 1000)):
-            motion = self.chassis.sense(self.data)
-            self.chassis.act(self.data, motion)
-            hurcules.step(self.model, self.data, STEPS)
+            motion = self.sense()
+            self.simulation.step()
             rows.append((self.data.time, motion.speed, motion.yaw_rate, *motion.pose))
         return np.array(rows)
 
 
 def make(kind: str = "flat", **values: object) -> Robot:
     model = scenes.load(kind, "rescue", **values)
-    hold_joints(model)
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
-    mujoco.mj_forward(model, data)
-    return Robot(model, data, Chassis(model, drive_options(model, STEPS)))
+    return Robot(driving.simulation(model, steps=STEPS), hurcules.TrackDrive(hurcules.Robot(model)))
 
 
 def smooth(values: np.ndarray, seconds: float = 0.05) -> np.ndarray:
@@ -60,7 +61,7 @@ def smooth(values: np.ndarray, seconds: float = 0.05) -> np.ndarray:
 @pytest.mark.parametrize("speed", [0.5, pytest.param(5.0, marks=pytest.mark.slow)])
 def test_a_speed_is_reached_and_left_smoothly(speed: float) -> None:
     robot = make()
-    controller = robot.chassis.controller
+    controller = robot.drive
     controller.drive(speed)
     up = robot.run(speed / A + A / J + 0.5)
     assert up[-1, 1] == pytest.approx(speed, rel=0.01)
@@ -80,19 +81,19 @@ def test_a_speed_is_reached_and_left_smoothly(speed: float) -> None:
 
 def test_an_arc_is_driven_as_asked_though_skid_steering_turns_less() -> None:
     robot = make()
-    robot.chassis.controller.drive(0.5, 0.25)
+    robot.drive.drive(0.5, 0.25)
     log = robot.run(4.0)[-500:]
     assert log[:, 2].mean() == pytest.approx(0.25, rel=0.02)
     assert log[:, 1].mean() == pytest.approx(0.5, rel=0.03)
-    assert robot.chassis.controller.gauge > 1.1 * robot.chassis.controller.options.gauge
+    assert robot.drive.gauge > 1.1 * robot.drive.options.gauge
 
 
 @pytest.mark.slow
 def test_at_full_speed_it_slows_down_so_that_it_can_turn() -> None:
     robot = make()
-    robot.chassis.controller.drive(5.0)
+    robot.drive.drive(5.0)
     fast = robot.run(3.2)[-1]
-    robot.chassis.controller.drive(5.0, 0.15)
+    robot.drive.drive(5.0, 0.15)
     log = robot.run(4.0)[-50:].mean(axis=0)
     assert fast[1] == pytest.approx(5.0, rel=0.01)
     assert log[2] == pytest.approx(0.15, rel=0.15)
@@ -103,11 +104,11 @@ def test_at_full_speed_it_slows_down_so_that_it_can_turn() -> None:
 @pytest.mark.slow
 def test_a_full_turn_in_place_stays_in_place() -> None:
     robot = make()
-    robot.chassis.controller.drive(0.0, 0.8)
+    robot.drive.drive(0.0, 0.8)
     robot.run(2 * math.pi / 0.8)
-    robot.chassis.controller.drive(0.0)
+    robot.drive.drive(0.0)
     robot.run(1.5)
-    turned = math.degrees(robot.chassis.sense(robot.data).pose[2])
+    turned = math.degrees(robot.sense().pose[2])
     # the start and the stop take half of yaw rate / acceleration each: as much is turned after
     assert turned == pytest.approx(0.0, abs=5.0)
     assert np.hypot(*robot.data.qpos[:2]) < 0.06
@@ -115,7 +116,7 @@ def test_a_full_turn_in_place_stays_in_place() -> None:
 
 def park(robot: Robot, x: float, y: float, yaw: float, seconds: float) -> tuple[float, float]:
     """Parks; returns the offset [m] and the error of the heading [rad]."""
-    controller = robot.chassis.controller
+    controller = robot.drive
     controller.park(x, y, yaw)
     until = robot.data.time + seconds
     while controller.parking_phase not in ENDED and robot.data.time < until:
@@ -123,7 +124,7 @@ def park(robot: Robot, x: float, y: float, yaw: float, seconds: float) -> tuple[
     robot.run(0.5)
     assert controller.parking_phase == hurcules.ParkingPhase.Done
     assert controller.braked
-    pose = robot.chassis.sense(robot.data).pose
+    pose = robot.sense().pose
     return math.hypot(pose[0] - x, pose[1] - y), math.remainder(pose[2] - yaw, 2 * math.pi)
 
 
@@ -151,8 +152,7 @@ def turning(robot: Robot, angle: float) -> tuple[float, float]:
     the slope and resists the turn: at most when the greatest forces stand at both ends, one way and
     the other.
     """
-    model, data = robot.model, robot.data
-    mujoco.mj_forward(model, data)
+    model, data = robot.model, robot.data  # with the forces of the last step, brakes shut
     root = model.body("upper_legs").id
     axes, centre = data.xmat[root].reshape(3, 3), data.subtree_com[root]
     rows, force = [], np.zeros(6)
@@ -197,11 +197,11 @@ def test_it_parks_across_a_slope_of_10_degrees() -> None:
 @pytest.mark.slow
 def test_a_turn_that_traction_does_not_allow_ends_in_time() -> None:
     robot = make("slope", direction="across", angle=math.radians(15))
-    robot.chassis.controller.park(0.0, 2.0, math.pi / 2)
+    robot.drive.park(0.0, 2.0, math.pi / 2)
     until = robot.data.time + 30.0
-    while robot.chassis.controller.parking_phase not in ENDED and robot.data.time < until:
+    while robot.drive.parking_phase not in ENDED and robot.data.time < until:
         robot.run(0.2)
-    assert robot.chassis.controller.parking_phase == hurcules.ParkingPhase.Failed
+    assert robot.drive.parking_phase == hurcules.ParkingPhase.Failed
     # the loaded track creeps: by 1.1 m in the 14 s of patience
     assert np.hypot(*robot.data.qpos[:2]) < 1.5
 
@@ -224,7 +224,7 @@ def test_behind_its_brakes_it_hardly_creeps_on_20_degrees() -> None:
 @pytest.mark.parametrize("degrees", [10, 30])
 def test_up_a_slope_it_drives_as_fast_as_it_is_told(degrees: int) -> None:
     robot = make("slope", direction="up", angle=math.radians(degrees))
-    robot.chassis.controller.drive(0.5)
+    robot.drive.drive(0.5)
     log = robot.run(4.0)[-500:]
     along = (log[-1, 3] - log[0, 3]) / (log[-1, 0] - log[0, 0]) / math.cos(math.radians(degrees))
     assert along == pytest.approx(0.5, rel=0.03)
@@ -234,16 +234,16 @@ def test_up_a_slope_it_drives_as_fast_as_it_is_told(degrees: int) -> None:
 def test_a_fall_is_no_speed() -> None:
     robot = make()
     robot.data.qvel[:3] = 0.3, 0.0, -4.0
-    assert robot.chassis.sense(robot.data).speed == pytest.approx(0.3 * math.sqrt(2.0))
+    assert robot.sense().speed == pytest.approx(0.3 * math.sqrt(2.0))
     robot.data.qvel[:3] = 0.0, 0.0, -4.0
-    assert robot.chassis.sense(robot.data).speed == pytest.approx(0.0)
+    assert robot.sense().speed == pytest.approx(0.0)
 
 
 def test_up_a_slope_it_starts_without_rolling_back() -> None:
     robot = make("slope", direction="up", angle=math.radians(15))
     robot.run(0.3)
     start = robot.data.qpos[0]
-    robot.chassis.controller.drive(0.3)
+    robot.drive.drive(0.3)
     log = robot.run(1.5)
     assert log[:, 3].min() > start - 0.02
     assert log[-1, 1] == pytest.approx(0.3, abs=0.03)

@@ -118,10 +118,19 @@ def test_another_driver_takes_the_place_of_ours():
 
     def sleeper(model, data, speed):
         calls.append(speed)
+        return 0.0, 0.0
 
     result = field_tests.run("e2801", repetitions=1, settings=(0.1,), driver=sleeper, speed=2.0)
     assert result.settings[0].faults[0].fault == "stuck"
     assert len(calls) > 100 and set(calls) == {-2.0}  # tail first
+
+
+def test_a_driver_that_writes_torques_is_told_what_is_wanted():
+    def torques(model, data, speed):
+        data.ctrl[:] = speed
+
+    with pytest.raises(hurcules.Error, match=r"wanted the speed .* got None; the closed loop"):
+        field_tests.run("e2801", repetitions=1, settings=(0.1,), driver=torques)
 
 
 # a sled of so much mass, towed by a little: repetitions of a second

@@ -15,7 +15,6 @@ import pytest
 
 import hurcules
 from hurcules import scenes
-from hurcules.driving import hold_joints
 from hurcules_studies import field_tests
 from hurcules_studies.field_tests.grasp import LOST, Grasp
 
@@ -49,7 +48,6 @@ def test_a_robot_without_hands_is_refused() -> None:
 def held() -> tuple[mujoco.MjModel, mujoco.MjData, Grasp]:
     """A robot that looks along 0.5 rad at (1, 2), about to hold the handle."""
     model = scenes.load("sled", "manipulation", mass=75.0)
-    hold_joints(model)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
     posture = METHOD.plan(None)(0.0)

@@ -43,7 +43,7 @@ FLOORS: tuple[set[str], ...] = (
         "opengl", "plugins", "running_gear",
     )},
     {"hurcules." + name for name in (
-        "_reprs", "_version", "casualties", "driving", "mission_options", "mission_table", "motors",
+        "_reprs", "_version", "casualties", "mission_options", "mission_table", "motors",
         "output", "postures", "rendering", "rhqp", "sensors", "validation",
     )},
     {"hurcules." + name for name in ("cameras", "mjcf", "transfer_bed", "urdf", "video")},
@@ -51,6 +51,7 @@ FLOORS: tuple[set[str], ...] = (
     {"hurcules.disposal", "hurcules.lift"},
     {"hurcules.models", "hurcules.table_missions"},
     {"hurcules.doctor", "hurcules.export", "hurcules.simulation"},
+    {"hurcules.driving"},
     {"hurcules", "hurcules.recording"},
     {"hurcules.report", "hurcules.summary", "hurcules.view"},
     {"hurcules.run"},

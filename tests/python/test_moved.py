@@ -56,7 +56,7 @@ def test_an_attribute_of_the_package_warns_once() -> None:
 def test_a_program_that_uses_old_names_runs_and_is_told(tmp_path: Path) -> None:
     program = tmp_path / "old.py"
     program.write_text(
-        "from hurcules import trials\nfrom hurcules.trials.drive import Chassis, drive_options\n"
+        "from hurcules import trials\nfrom hurcules.trials.drive import drive_options\n"
         "import hurcules.reproduce\nprint(len(hurcules.reproduce.CLAIMS), len(trials.METHODS))\n"
     )
     done = subprocess.run([sys.executable, program], capture_output=True, text=True)
@@ -70,3 +70,9 @@ def test_what_never_existed_is_still_an_import_error() -> None:
         importlib.import_module("hurcules.trials.nothing")
     with pytest.raises(ModuleNotFoundError):
         importlib.import_module("hurcules.nothing")
+
+
+def test_what_drove_beside_the_closed_loop_names_what_took_its_place() -> None:
+    with pytest.raises(ImportError, match=r"Chassis is gone: hurcules.driving.simulation"):
+        from hurcules.driving import Chassis  # noqa: F401
+    assert not hasattr(hurcules.driving, "nothing")

@@ -10,7 +10,7 @@ for result in player.play(postures.stand_up("rescue")):
 
 from hurcules.postures.balance import hull, inside, static_margin
 from hurcules.postures.moves import Move, bend, move, standing
-from hurcules.postures.player import Player, Result, joint_loop
+from hurcules.postures.player import Player, Result, joint_controller, joint_loop
 from hurcules.postures.scripts import fold_back, lift, lower, stand_up
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "fold_back",
     "hull",
     "inside",
+    "joint_controller",
     "joint_loop",
     "lift",
     "lower",

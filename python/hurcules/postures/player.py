@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -14,7 +15,7 @@ from hurcules._core import Error
 from hurcules.postures.balance import static_margin
 from hurcules.postures.moves import Move
 
-__all__ = ["Player", "Result", "joint_loop"]
+__all__ = ["Player", "Result", "joint_controller", "joint_loop"]
 
 _LOOK = 50  # steps between two looks
 
@@ -76,7 +77,7 @@ class Player:
     ) -> None:
         self.model, self.data, self.carried = model, data, list(carried)
         self.watch: Callable[[], None] | None = None
-        self.simulation = simulation or _loop_of(model, data, robot)
+        self.simulation = simulation or joint_loop(model, data, robot)
         self.controller = self.simulation.controller
         self.joints = self.controller.joints
         ids = [model.joint(joint).id for joint in self.joints]
@@ -230,32 +231,54 @@ class Player:
         result.margin = min(result.margin, margin)
 
 
+def joint_controller(
+    model: mujoco.MjModel,
+    qpos: ArrayLike,
+    servo: str | Mapping[str, tuple[float, float]],
+    **options: Any,
+) -> _core.WholeBodyController:
+    """A controller that moves joints one by one.
+
+    Args:
+        model: of a robot whose actuators are motors at joints.
+        qpos: (nq,) where it starts, at rest.
+        servo: by joint with a motor the inertia that it turns [kg m^2] and its bandwidth [rad/s];
+            or the robot whose table is taken, "rescue" or "manipulation".
+        **options: further ones of `WholeBodyController`.
+
+    Raises:
+        Error: an unknown robot, or a motor without a row in `servo`.
+    """
+    table = _table_of(model, servo) if isinstance(servo, str) else dict(servo)
+    plan = _core.Robot(model)
+    plan.set_qpos(np.asarray(qpos, np.float64))
+    # no feed-forward: whatever the robot carries is a disturbance that the gains are made for
+    posture = _core.PostureTask("posture", plan)
+    return _core.WholeBodyController(plan, [posture], servo=table, feed_forward=False, **options)
+
+
 def joint_loop(
-    model: mujoco.MjModel, data: mujoco.MjData, servo: Mapping[str, tuple[float, float]]
+    model: mujoco.MjModel, data: mujoco.MjData, servo: str | Mapping[str, tuple[float, float]]
 ) -> _core.Simulation:
     """A closed loop that moves joints one by one, from where the data stand, at rest.
 
     Args:
         model: of a robot whose actuators are motors at joints.
         data: of this model; the loop steps it.
-        servo: by joint with a motor the inertia that it turns [kg m^2] and its bandwidth [rad/s].
+        servo: as `joint_controller` takes it.
 
     Raises:
-        Error: a motor without a row in `servo`.
+        Error: an unknown robot, or a motor without a row in `servo`.
     """
-    plan = _core.Robot(model)
-    plan.set_qpos(data.qpos)
-    # no feed-forward: whatever the robot carries is a disturbance that the gains are made for
-    posture = _core.PostureTask("posture", plan)
-    controller = _core.WholeBodyController(plan, [posture], servo=dict(servo), feed_forward=False)
+    controller = joint_controller(model, data.qpos, servo)
     options = _core.SimulationOptions(record=False, monitors=_core.MonitorOptions(on=False))
     return _core.Simulation(model, data, controller, options)
 
 
-def _loop_of(model: mujoco.MjModel, data: mujoco.MjData, robot: str) -> _core.Simulation:
+def _table_of(model: mujoco.MjModel, robot: str) -> dict[str, tuple[float, float]]:
     table = _core.servo_table(robot)
     joints = [model.joint(int(j)).name for j in model.actuator_trnid[: model.nu, 0]]
     missing = [joint for joint in joints if joint not in table]
     if missing:
         raise Error(f"the servo table of '{robot}' lacks the joints {', '.join(missing)}")
-    return joint_loop(model, data, table)
+    return table

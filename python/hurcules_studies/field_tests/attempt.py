@@ -10,17 +10,21 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules import scenes
-from hurcules._core import step
-from hurcules.driving import hold_joints, yaw_of
+from hurcules import Drive, DriveOptions, Error, FallOptions, Simulation, driving, scenes
 from hurcules_studies.field_tests.climbing import ARMS, SLOW
 from hurcules_studies.field_tests.course import Course, Leg, Straight, make_course
 from hurcules_studies.field_tests.grasp import Grasp
 from hurcules_studies.field_tests.lift import Lift
-from hurcules_studies.field_tests.line_driver import LineDriver
+from hurcules_studies.field_tests.line_driver import LineDriver, yaw_of
 from hurcules_studies.field_tests.methods import Method
-from hurcules_studies.field_tests.postures import Plan, Posture, PostureMover
-from hurcules_studies.field_tests.upright import Upright
+from hurcules_studies.field_tests.postures import (
+    JOINTS,
+    POSTURE,
+    Plan,
+    Posture,
+    PostureMover,
+    angles,
+)
 
 __all__ = ["Repetition", "Stopped", "Variation", "Watch", "repeat"]
 
@@ -29,12 +33,15 @@ class Stopped(Exception):
     """A repetition was ended before its end."""
 
 
-Driver = Callable[[mujoco.MjModel, mujoco.MjData, float], None]
+# model, its state and the speed [m/s] that is wanted; returns the speed [m/s] and the yaw rate
+# [rad/s] that the drives are commanded
+Driver = Callable[[mujoco.MjModel, mujoco.MjData, float], tuple[float, float]]
 # called at each period with the model and its state: a film takes its pictures here
 Watch = Callable[[mujoco.MjModel, NDArray[np.float64], float], None]
 
-PERIOD = 2  # steps of 1 ms between two calls of the driver
-TIPPED = math.radians(60)
+# fallen is whose legs tilt so far: the upper ones, or the lower ones where these lie in front of
+# them, for then the upper legs are raised to climb
+TIPPED = FallOptions("upper_legs", max_tilt=math.radians(60))
 PATIENCE = 2.5  # times the time that the way takes at the speed
 TURN_TIME = 20.0  # [s] for half a turn in place
 TURNED = 0.1  # [rad] and less is left to keeping to the line
@@ -53,6 +60,8 @@ class Variation:
 
 
 USUAL = Variation()
+_DRIVES = DriveOptions()
+CHANNELS = {"drive": Drive(_DRIVES.max_speed, _DRIVES.max_yaw_rate), "posture": POSTURE}
 
 
 @dataclass(frozen=True)
@@ -88,34 +97,42 @@ def repeat(
         robot: one of `hurcules.models.names()`.
         seed: draws friction, payload, start and terrain.
         speed: [m/s] there, and back; by default the method's own.
-        driver: writes the torques of the drives; by default a `LineDriver`.
+        driver: commands the drives, in every tick of 2 ms; by default a `LineDriver`.
         variation: what differs between repetitions.
         watch: is shown every state.
         stopped: whether to end early, asked in every period.
 
     Raises:
         Stopped: it was ended early.
+        Error: no such robot or setting, or a driver that answers no speed and yaw rate.
     """
     rng = np.random.default_rng(seed)
     values = chosen.values(setting)
     scene = scenes.scene(chosen.scene, **values)
     values["friction"] = scene.friction * rng.uniform(*variation.friction)
     model = scenes.load(chosen.scene, robot, seed=seed, **values)
-    hold_joints(model)
     model.body_mass[model.body("torso").id] += rng.uniform(0.0, variation.payload)
-    data = mujoco.MjData(model)
     course = make_course(chosen, setting, scene, speed)
-    _place(model, data, rng, variation, course.legs[0].heading)
-    if chosen.climbs:
-        for joint, angle in ARMS.items():
-            data.joint(joint).qpos[0] = angle
     plan = chosen.plan(scene)
-    mover = PostureMover(model, data, plan(0.0), PERIOD)
-    grasp = Grasp(model, data) if chosen.grasps else None
-    mujoco.mj_forward(model, data)
-    operator = driver or LineDriver(model, PERIOD, course.path)
-    attempt = _Attempt(model, data, course, operator, plan, mover, grasp, watch, stopped)
+    start = mujoco.MjData(model)
+    _place(model, start, rng, variation, course.legs[0].heading)
+    arms = ARMS.items() if chosen.climbs else ()
+    for joint, angle in (*arms, *zip(JOINTS, angles(plan(0.0)), strict=True)):
+        start.joint(joint).qpos[0] = angle
+    grasp = Grasp(model, start) if chosen.grasps else None
+    simulation = driving.simulation(
+        model,
+        start.qpos,
+        robot=robot,
+        channels=CHANNELS,
+        support="lower_leg_L" if chosen.climbs else "",
+        fall=TIPPED,
+    )
+    options = simulation.controller.drive.options
+    operator = driver or LineDriver(options, course.path)
+    attempt = _Attempt(simulation, course, operator, plan, grasp, watch, stopped)
     fault = attempt.make()
+    data = simulation.data
     x = float(data.qpos[0])
     return Repetition(seed, fault, float(data.time), x, attempt.metres, attempt.energy)
 
@@ -125,24 +142,22 @@ class _Attempt:
 
     def __init__(
         self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
+        simulation: Simulation,
         course: Course,
         driver: Driver,
         plan: Plan,
-        mover: PostureMover,
         grasp: Grasp | None,
         watch: Watch | None,
         stopped: Callable[[], bool],
     ) -> None:
         self.stopped = stopped
-        self.model, self.data, self.course = model, data, course
-        self.driver, self.plan, self.mover, self.watch = driver, plan, mover, watch
-        self.grasp = grasp
+        self.simulation, self.course = simulation, course
+        self.model, self.data = simulation.model, simulation.data
+        self.driver, self.plan, self.watch, self.grasp = driver, plan, watch, grasp
         self.metres = self.energy = 0.0
         self._posture = plan(0.0)
-        self._upright = Upright(model)
-        self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
+        self.mover = PostureMover(simulation, self._posture)
+        self._motors = [self.model.actuator(f"{side}_drive").id for side in "LR"]
 
     def make(self) -> str:
         """Drives the whole course; returns the fault, "" for none."""
@@ -223,23 +238,36 @@ class _Attempt:
         if self.stopped():
             raise Stopped
         data, start = self.data, self.data.qpos[:2].copy()
-        self.driver(self.model, data, speed)
-        self.mover(data, self._posture)
         if self.grasp:
-            self.grasp.close(data)
-        step(self.model, data, PERIOD)
+            self.grasp.close(self.simulation)
+        drive = _pair(self.driver(self.model, data, speed))
+        self.simulation.step(1, {"drive": drive, "posture": self.mover(self._posture)})
         self.metres += math.hypot(*(data.qpos[:2] - start))
         power = data.actuator_force[self._motors] * data.actuator_velocity[self._motors]
-        self.energy += float(np.maximum(power, 0.0).sum()) * PERIOD * self.model.opt.timestep
+        self.energy += float(np.maximum(power, 0.0).sum()) * self.simulation.dt
         if self.watch:
             self.watch(self.model, data.qpos, data.time)
         if any(warning.number for warning in data.warning):
             return "simulation"
-        if self._upright.cosine(data) < math.cos(TIPPED):
-            return "tip-over"
+        if self.simulation.finished:
+            return "tip-over" if "fell" in self.simulation.reason else "simulation"
         if self.grasp and self.grasp.lost(data):
             return "lost grip"
         return "" if self.course.on_lane(data.qpos) else "off the lane"
+
+
+def _pair(answer: object) -> tuple[float, float]:
+    """What a driver answers.
+
+    Raises:
+        Error: it answers something else.
+    """
+    if not (isinstance(answer, tuple | list | np.ndarray) and len(answer) == 2):
+        raise Error(
+            "driver: wanted the speed [m/s] and yaw rate [rad/s] that the drives are commanded, "
+            f"got {answer!r}; the closed loop gives the torques"
+        )
+    return float(answer[0]), float(answer[1])
 
 
 def _place(

@@ -111,7 +111,7 @@ def summarize(
         "reason": f"interrupted; {reason}" if result.interrupted else reason,
         "simulated_seconds": result.simulated_seconds,
         "real_time_factor": result.simulated_seconds / wall if wall else None,
-        # the joints are on their brakes: no whole-body controller runs, no limit is commanded
+        # joints are moved one by one: no hierarchy is solved, no limit is commanded
         "control_tick_us": {"median": None, "p99": None, "max": None},
         "limit_violation": None,
         "title": result.title,

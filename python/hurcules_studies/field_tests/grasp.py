@@ -17,8 +17,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._core import Error
-from hurcules.driving.brakes import release_joint
+from hurcules import Error, Simulation
 from hurcules_studies.field_tests.postures import Posture
 
 __all__ = ["PULLING", "Grasp"]
@@ -29,6 +28,8 @@ PULLING = Posture(math.pi, 0.8)
 ARM = {"SP": 1.326, "SR": 0.478, "SY": -1.046, "EB": 0.921, "WY": -0.334, "WP": 1.263, "WY2": 1.332}
 BAR = 0.42  # [rad] it rises: near atan(mu), where a sled pulls least
 NEAR = 0.036  # [m] a finger, just off the handle
+FINGERS = ("L_grip_1", "R_grip_1")
+INSIDE = 0.1  # [m] where they are led to, 59 mm inside the handle: 32 mm ask for all their force
 LOST = 0.02  # [m] that the handle may move in a hand: half the width of the pads
 
 
@@ -39,7 +40,7 @@ class Grasp:
         """Puts the arms into their posture, the sled to the hands, and the fingers around it.
 
         Args:
-            model: a robot with hands, whose joints are braked, and a sled.
+            model: a robot with hands, and a sled.
             data: its state, legs and trunk in their posture; changed.
 
         Raises:
@@ -48,13 +49,10 @@ class Grasp:
         names = {model.actuator(i).name for i in range(model.nu)}
         if not {"L_grip", "R_grip"} <= names:
             raise Error("a sled is grasped by hands: wanted the robot 'manipulation'")
-        self._motors = [model.actuator(f"{side}_grip").id for side in "LR"]
-        self._force = model.actuator_forcerange[self._motors, 1]
         self._hands = [model.body(f"{side}_hand").id for side in "LR"]
         self._handle = model.site("sled_handle").id
         self._held: NDArray[np.float64] | None = None
         for side in "LR":
-            release_joint(model, f"{side}_grip_1", braked=False)
             for joint, angle in ARM.items():
                 data.joint(f"{side}{joint}").qpos[0] = angle
             for finger in "12":
@@ -64,9 +62,11 @@ class Grasp:
         self._bring_sled(data)
         mujoco.mj_forward(model, data)
 
-    def close(self, data: mujoco.MjData) -> None:
-        """One period: the motors of the fingers push."""
-        data.ctrl[self._motors] = self._force
+    def close(self, simulation: Simulation) -> None:
+        """Before a tick: leads the fingers so far in that their motors give all they have."""
+        for finger in FINGERS:
+            simulation.brakes.set_closed(finger, False)
+            simulation.controller.move(finger, INSIDE)
 
     def begin(self, data: mujoco.MjData) -> None:
         """The fingers have closed: here the handle is to stay."""

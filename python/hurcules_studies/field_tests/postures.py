@@ -10,16 +10,16 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
-from hurcules._core import JointPid, JointPidOptions
-from hurcules.driving.brakes import release_joint
+from hurcules import JointRates, Simulation
 
-__all__ = ["FLAT", "Plan", "Posture", "PostureMover", "always"]
+__all__ = ["FLAT", "JOINTS", "POSTURE", "Plan", "Posture", "PostureMover", "always", "angles"]
 
 RATE = 0.4  # [rad/s], below the peak speeds 0.5 and 0.6
 SETTLED = 0.005  # [rad] here a brake takes over
+EPSILON = 1e-9  # [rad] of rounding
 WAITING = 0.15  # [rad] so far behind its posture the robot stands and waits for it
 
 
@@ -37,8 +37,8 @@ FLAT = Posture()
 # the posture at a place: x of the knee axis along the way [m]
 Plan = Callable[[float], Posture]
 
-# joint: inertia that its servo reckons with [kg m^2], bandwidth [rad/s]
-_JOINTS = {"LKN": (60.0, 15.0), "RKN": (60.0, 15.0), "HIP": (200.0, 12.0)}
+JOINTS = ("LKN", "RKN", "HIP")  # that a posture moves
+POSTURE = JointRates(JOINTS, RATE)  # its channel
 
 
 def always(posture: Posture) -> Plan:
@@ -47,69 +47,48 @@ def always(posture: Posture) -> Plan:
 
 
 class PostureMover:
-    """Moves knees and hip to the posture that is wanted, at a limited rate, then brakes them."""
+    """Commands knees and hip to the posture that is wanted; there their brakes take over."""
 
-    def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, posture: Posture, steps: int
-    ) -> None:
-        """Puts the robot into a posture.
+    def __init__(self, simulation: Simulation, posture: Posture) -> None:
+        """Of a robot that stands in a posture.
 
         Args:
-            model: with a robot whose joints are braked.
-            data: its state, changed.
+            simulation: its loop, with the channel `posture`, brakes shut.
             posture: to begin with.
-            steps: of the physics between two calls.
         """
-        self._model = model
-        self._dt = steps * float(model.opt.timestep)
-        self._motors = [model.actuator(joint).id for joint in _JOINTS]
-        self._qpos = [int(model.jnt_qposadr[model.joint(joint).id]) for joint in _JOINTS]
-        self._dofs = [int(model.jnt_dofadr[model.joint(joint).id]) for joint in _JOINTS]
-        inertia, omega = np.array(list(_JOINTS.values())).T
-        peak = model.actuator_forcerange[self._motors, 1]
-        self._servo = JointPid(
-            JointPidOptions(
-                K=3 * omega * inertia, K_P=omega, K_I=omega**2 / 3, max_torque=peak, dt=self._dt
-            )
-        )
-        self._goal = self._wanted = _angles(posture)
+        self._controller, self._brakes = simulation.controller, simulation.brakes
+        self._dt = simulation.dt
+        self._joints = [simulation.controller.joints.index(joint) for joint in JOINTS]
+        self._goal = angles(posture)
         self._moving = False
-        data.qpos[self._qpos] = self._wanted
 
-    def __call__(self, data: mujoco.MjData, posture: Posture) -> None:
-        """One period: moves on, or leaves the joints to their brakes."""
-        self._goal = _angles(posture)
-        if not self._moving and np.array_equal(self._goal, self._wanted):
-            return
-        if not self._moving:
-            self._start(data)
-        move = np.clip(self._goal - self._wanted, -RATE * self._dt, RATE * self._dt)
-        self._wanted = self._wanted + move
-        error = self._wanted - data.qpos[self._qpos]
-        torque = self._servo.compute(error, move / self._dt - data.qvel[self._dofs])
-        data.ctrl[self._motors] = torque
-        if not move.any() and np.abs(error).max() < SETTLED:
-            self._stop(data)
+    def __call__(self, posture: Posture) -> NDArray[np.float64]:
+        """The rates of `JOINTS` in the next tick [rad/s], (3,); its channel bounds them."""
+        self._goal = angles(posture)
+        behind = self._behind()
+        error = np.abs(self._controller.joint_error[self._joints]).max()
+        there = np.abs(behind).max() < EPSILON
+        if not self._moving and not there:
+            self._move(True)
+        elif self._moving and there and error < SETTLED:
+            self._move(False)
+        return behind / self._dt
 
     @property
     def pace(self) -> float:
         """Share of the speed at which the robot may go on: 0 far behind its posture."""
-        behind = float(np.abs(self._goal - self._wanted).max())
-        return max(0.0, 1.0 - behind / WAITING)
+        return max(0.0, 1.0 - float(np.abs(self._behind()).max()) / WAITING)
 
-    def _start(self, data: mujoco.MjData) -> None:
-        self._moving = True
-        self._servo.reset()
-        self._wanted = data.qpos[self._qpos].copy()
-        for joint in _JOINTS:
-            release_joint(self._model, joint, braked=False)
+    def _move(self, moving: bool) -> None:
+        self._moving = moving
+        for joint in JOINTS:
+            self._brakes.set_closed(joint, not moving)
 
-    def _stop(self, data: mujoco.MjData) -> None:
-        self._moving = False
-        data.ctrl[self._motors] = 0.0
-        for joint in _JOINTS:
-            release_joint(self._model, joint, braked=True)
+    def _behind(self) -> NDArray[np.float64]:
+        """What the servos' references lack of the posture [rad], (3,)."""
+        return self._goal - self._controller.joint_places[self._joints]
 
 
-def _angles(posture: Posture) -> np.ndarray:
+def angles(posture: Posture) -> NDArray[np.float64]:
+    """Of `JOINTS` [rad], (3,)."""
     return np.array([posture.knee, posture.knee, posture.hip])

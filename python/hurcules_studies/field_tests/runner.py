@@ -97,7 +97,7 @@ def run(
         seed: draws friction, payload, start and terrain.
         settings: instead of the method's own.
         speed: [m/s] there, and back, instead of the method's own.
-        driver: writes the torques of the drives; by default a `LineDriver`, new each time. With
+        driver: commands the drives; by default a `LineDriver`, new each time. With
             several workers it must be one that can be pickled.
         variation: what differs between repetitions.
         workers: processes; the result does not depend on it.

@@ -9,15 +9,13 @@ import mujoco
 import numpy as np
 
 import hurcules
-from hurcules import scenes, transfer_bed
+from hurcules import driving, scenes, transfer_bed
 from hurcules._core import DriveState
-from hurcules.driving import Chassis, drive_options
 from hurcules_studies.thesis.measures.problems import Array
 
 __all__ = ["BELTS", "DRIVING_SPEED", "RADIUS", "Powered", "Rover", "Trip", "flat", "laden"]
 
 DRIVING_SPEED = 20.0 / 3.6  # [m/s] Table 4.1
-STEPS = 2  # of 1 ms in a period of the drive controller
 RADIUS = 0.14  # [m] of the belts
 BELTS = ("L_lower_belt", "R_lower_belt")
 ROLLING = 0.06  # resistance over weight, of a firm track (models/README.md)
@@ -59,15 +57,22 @@ class Trip:
 class Powered:
     """The energy that is taken from the battery.
 
+    Args:
+        model: of the plant.
+        plant: whose drives take it.
+        dt: [s] from one reading to the next; by default a step of the physics.
+
     Attributes:
         meter: of the last step.
         work, energy: [J] of the motors at their joints; from the battery.
     """
 
-    def __init__(self, model: mujoco.MjModel, plant: hurcules.Plant) -> None:
+    def __init__(
+        self, model: mujoco.MjModel, plant: hurcules.Plant, dt: float | None = None
+    ) -> None:
         self.meter = hurcules.PowerMeter(model)
         self.work = self.energy = 0.0
-        self._plant, self._dt = plant, float(model.opt.timestep)
+        self._plant, self._dt = plant, dt or float(model.opt.timestep)
 
     def read(self) -> None:
         """Reads a step that was just taken."""
@@ -80,7 +85,8 @@ class Rover:
     """A robot in its driving pose; every brake is shut but those of the belts.
 
     Attributes:
-        model, data, powered: what is stepped.
+        model, data, simulation: the closed loop.
+        physics, powered: what is stepped.
         controller: of the drives.
     """
 
@@ -91,16 +97,18 @@ class Rover:
             model: a scene with the rescue robot.
             raised: the transfer bed is up, as a casualty lies on it.
         """
-        self.model, self.data = model, mujoco.MjData(model)
-        self.physics = hurcules.Plant(model, self.data)
-        self.powered = Powered(model, self.physics)
-        self.physics.reset("drive")
+        start = mujoco.MjData(model)
+        mujoco.mj_resetDataKeyframe(model, start, model.key("drive").id)
         if raised:
-            self.data.joint("bed_lift").qpos[0] = transfer_bed.LIFT
-        mujoco.mj_forward(model, self.data)
-        self.physics.brakes.reset(True)
-        self._chassis = Chassis(model, drive_options(model, STEPS))
-        self.controller = self._chassis.controller
+            start.joint("bed_lift").qpos[0] = transfer_bed.LIFT
+        self.simulation = driving.simulation(model, start.qpos)
+        self.model, self.data = model, self.simulation.data
+        self.physics = self.simulation.plant
+        self.powered = Powered(model, self.physics, self.simulation.dt)
+        drive = self.simulation.controller.drive
+        assert drive is not None
+        self.controller = drive
+        self._gauge = hurcules.TrackDrive(hurcules.Robot(model))
         self._motors = [model.actuator(f"{side}_drive").id for side in "LR"]
         self._held = {
             joint: int(model.joint(joint).qposadr[0])
@@ -110,21 +118,14 @@ class Rover:
         self._start = self.data.qpos.copy()
 
     def period(self) -> DriveState:
-        """One period of the drive controller: what it sensed."""
-        motion = self._chassis.sense(self.data)
-        self.data.ctrl[self._motors] = self.controller.compute(
-            motion.left, motion.right, motion.yaw_rate, motion.speed, motion.pose
-        )
-        for belt in BELTS:
-            self.physics.brakes.set_closed(belt, self.controller.braked)
-        for _ in range(STEPS):
-            self.physics.step()
-            self.powered.read()
-        return motion
+        """One period of the drive controller: what its sensors tell after it."""
+        self.simulation.step(1)
+        self.powered.read()
+        return self._gauge.measure(self.data.qpos, self.data.qvel)
 
     def run(self, seconds: float, look: Callable[[DriveState], object] | None = None) -> None:
         """Goes on for a time [s], and shows what was sensed."""
-        for _ in range(round(1e3 * seconds / STEPS)):
+        for _ in range(round(seconds / self.simulation.dt)):
             motion = self.period()
             if look is not None:
                 look(motion)

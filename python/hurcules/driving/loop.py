@@ -1,0 +1,91 @@
+"""The closed loop of a robot on tracks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import mujoco
+from numpy.typing import ArrayLike
+
+from hurcules._core import (
+    DriveOptions,
+    FallOptions,
+    MonitorOptions,
+    ParkingOptions,
+    VelocityControllerOptions,
+)
+from hurcules.postures import joint_controller
+from hurcules.simulation import Simulation
+
+__all__ = ["drive_options", "simulation"]
+
+# [m] of the drive pose: forward of the knee axis, where turns in place were measured to be about
+TURN_CENTRE = -0.42
+
+
+def drive_options(model: mujoco.MjModel) -> DriveOptions:
+    """The options of a robot's drive controller.
+
+    Args:
+        model: with a robot.
+    """
+    root = model.body("upper_legs").id
+    return DriveOptions(
+        mass=float(model.body_subtreemass[root]),
+        max_torque=float(model.actuator_forcerange[model.actuator("L_drive").id, 1]),
+        parking=ParkingOptions(turn_centre=TURN_CENTRE),
+    )
+
+
+def simulation(
+    model: mujoco.MjModel,
+    qpos: ArrayLike | None = None,
+    *,
+    robot: str = "rescue",
+    steps: int = 2,
+    channels: Mapping[str, Any] | None = None,
+    support: str = "",
+    fall: FallOptions | None = None,
+) -> Simulation:
+    """A closed loop of a robot on tracks; every brake is shut, no stack rules.
+
+    The drive controller shuts and opens the brakes of the tracks. A joint is moved by a channel
+    `JointRates`, at once at the rate that is commanded, while its brake is open
+    (`simulation.brakes`). Without a channel `Drive` the drive controller takes its commands itself:
+    `simulation.controller.drive.drive(speed, yaw_rate)`, or `.park(x, y, yaw)`.
+
+    Args:
+        model: a scene with the robot.
+        qpos: (nq,) where everything starts, at rest; by default the keyframe "drive".
+        robot: "rescue" or "manipulation", whose servo table is taken.
+        steps: of the physics in a tick.
+        channels: by name, as `WholeBodyController` takes them.
+        support: the body whose tilt `fall` watches; by default the root.
+        fall: when the robot counts as fallen; None: never.
+
+    Raises:
+        Error: an unknown robot, a motor that its table does not know, a channel of an unknown
+            joint, or a model without the robot's tracks.
+    """
+    controller = joint_controller(
+        model,
+        model.key("drive").qpos if qpos is None else qpos,
+        robot,
+        channels=dict(channels or {}),
+        dt=steps * float(model.opt.timestep),
+        support=support,
+        drive=drive_options(model),
+        velocity=VelocityControllerOptions(max_acceleration=math.inf),
+    )
+    made = Simulation(
+        model=model,
+        controller=controller,
+        record=False,
+        monitors=MonitorOptions(on=False),
+        fall=fall,
+    )
+    controller.move_joints()
+    made.brakes.reset(True)
+    return made
