@@ -51,7 +51,8 @@ Args:
   gauge: [m] between the middles of the driven tracks.
   mass: [kg] for the feed-forward of acceleration, 0 for none.
   max_torque: [N m] of one drive.
-  max_power: [W] of one drive.
+  max_power: [W] of one drive, driving.
+  max_braking_power: [W] of one drive, braking: where a transmission lets less torque through at speed.
   max_speed: [m/s] of a belt.
   max_yaw_rate: [rad/s].
   max_sideways: [m/s^2] speed times yaw rate; who is to turn sharper slows down.
@@ -220,6 +221,7 @@ void bind_drive_options(py::module_& module) {
                        field("mass", &Drive::mass, "[kg]"),
                        field("max_torque", &Drive::max_torque, "[N m]"),
                        field("max_power", &Drive::max_power, "[W]"),
+                       field("max_braking_power", &Drive::max_braking_power, "[W]"),
                        field("max_speed", &Drive::max_speed, "[m/s]"),
                        field("max_yaw_rate", &Drive::max_yaw_rate, "[rad/s]"),
                        field("max_sideways", &Drive::max_sideways, "[m/s^2]"),

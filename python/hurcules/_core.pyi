@@ -2120,7 +2120,8 @@ class DriveOptions:
       gauge: [m] between the middles of the driven tracks.
       mass: [kg] for the feed-forward of acceleration, 0 for none.
       max_torque: [N m] of one drive.
-      max_power: [W] of one drive.
+      max_power: [W] of one drive, driving.
+      max_braking_power: [W] of one drive, braking: where a transmission lets less torque through at speed.
       max_speed: [m/s] of a belt.
       max_yaw_rate: [rad/s].
       max_sideways: [m/s^2] speed times yaw rate; who is to turn sharper slows down.
@@ -2153,6 +2154,7 @@ class DriveOptions:
         mass: float = 680.0,
         max_torque: float = 600.0,
         max_power: float = 7950.0,
+        max_braking_power: float = 1000000.0,
         max_speed: float = 5.56,
         max_yaw_rate: float = 1.5,
         max_sideways: float = 2.5,
@@ -2212,6 +2214,12 @@ class DriveOptions:
 
     @mass.setter
     def mass(self, arg0: float) -> None: ...
+    @property
+    def max_braking_power(self) -> float:
+        """[W]"""
+
+    @max_braking_power.setter
+    def max_braking_power(self, arg0: float) -> None: ...
     @property
     def max_power(self) -> float:
         """[W]"""

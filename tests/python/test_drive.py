@@ -97,8 +97,19 @@ def test_at_full_speed_it_slows_down_so_that_it_can_turn() -> None:
     log = robot.run(4.0)[-50:].mean(axis=0)
     assert fast[1] == pytest.approx(5.0, rel=0.01)
     assert log[2] == pytest.approx(0.15, rel=0.15)
-    # turning takes 257 N m a side at least (docs/drive.md), which 7.95 kW give up to here
-    assert 3.0 < log[1] < 7950 / 257 * 0.14
+    # turning takes 257 N m a side at least (docs/drive.md), which the drives give up to here
+    assert 3.0 < log[1] < robot.drive.options.max_power / 257 * 0.14
+
+
+def test_a_transmission_at_its_governed_speed_limits_what_the_drives_give_and_brake() -> None:
+    model = scenes.load("flat", "rescue")
+    options = driving.drive_options(model)
+    # 0.95 of 39.7 rad/s times a third of 600 N m (models/README.md)
+    assert options.max_braking_power == pytest.approx(0.95 * 39.7 * 200.0)
+    assert options.max_power == options.max_braking_power
+    numeric = model.numeric("transmission_L_lower_belt").id
+    model.numeric_data[model.numeric_adr[numeric] + 4] *= 2.0  # governed
+    assert driving.drive_options(model).max_power == hurcules.DriveOptions().max_power
 
 
 @pytest.mark.slow

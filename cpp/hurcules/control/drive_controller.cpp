@@ -30,6 +30,7 @@ void check(const DriveOptions& o) {
   require_range(o.mass, "mass", false);
   require_range(o.max_torque, "max_torque", true);
   require_range(o.max_power, "max_power", true);
+  require_range(o.max_braking_power, "max_braking_power", true);
   require_range(o.max_speed, "max_speed", true);
   require_range(o.max_yaw_rate, "max_yaw_rate", true);
   require_range(o.max_sideways, "max_sideways", true);
@@ -97,12 +98,13 @@ DriveTorques DriveController::compute(const DriveState& measured) {
                                   measured.yaw_rate * gauge_ / 2.0);
   driving_slips_ = v != go;
   turning_slips_ = turn != asked;
-  const Belt left = belt(v - turn, measured.left, left_integral_);
-  const Belt right = belt(v + turn, measured.right, right_integral_);
+  Belt left = belt(v - turn, measured.left, left_integral_);
+  Belt right = belt(v + turn, measured.right, right_integral_);
   // turning goes before speed here too: what one drive lacks, both give up
   const double lack = std::max({left.demand - left.upper, right.demand - right.upper, 0.0});
   const double excess = std::max({left.lower - left.demand, right.lower - right.demand, 0.0});
   const double shift = excess - lack;
+  slow_down(measured, left, right);
   return {settle(left, shift, left_integral_), settle(right, shift, right_integral_), false};
 }
 
@@ -199,16 +201,32 @@ double DriveController::within_slip(double reference, double one, double other) 
 DriveController::Belt DriveController::belt(double reference, double rate, double integral) const {
   const double error = reference / options_.radius - rate;
   const double feed = options_.mass * options_.radius * speed_.acceleration() / 2.0;
-  // only a motor that drives is limited by its power; one that brakes has its full torque
-  const double driving =
-      std::min(options_.max_torque, options_.max_power / std::max(std::abs(rate), 1e-3));
+  const double turning = std::max(std::abs(rate), 1e-3);
+  const double driving = std::min(options_.max_torque, options_.max_power / turning);
+  const double braking = std::min(options_.max_torque, options_.max_braking_power / turning);
   Belt result;
-  result.upper = rate > 0.0 ? driving : options_.max_torque;
-  result.lower = rate < 0.0 ? -driving : -options_.max_torque;
+  result.upper = rate > 0.0 ? driving : braking;
+  result.lower = rate < 0.0 ? -driving : -braking;
   result.error = error;
   result.integral = integral + options_.integral_gain * error * options_.dt;
   result.demand = options_.gain * error + result.integral + feed;
   return result;
+}
+
+// What both drives lack for the turn at this speed, the one that drives gives up: the vehicle slows
+// down, and a slower drive of the same power has more torque.
+void DriveController::slow_down(const DriveState& measured, Belt& left, Belt& right) const {
+  Belt& forward = right.demand > left.demand ? right : left;
+  Belt& backward = right.demand > left.demand ? left : right;
+  const double most = options_.max_torque;
+  if (forward.upper == most || backward.lower == -most) return;  // slower they have no more
+  const double wanted = forward.demand - backward.demand;
+  const double lack = std::max(0.0, wanted - (forward.upper - backward.lower));
+  if (measured.left + measured.right > 0.0) {
+    forward.upper = std::max(0.0, forward.upper - lack);
+  } else {
+    backward.lower = std::min(0.0, backward.lower + lack);
+  }
 }
 
 // the torque that is given, and the integral that goes with it

@@ -8,7 +8,8 @@
 //   torque = gain (w_ref - w) + integral + mass r a / 2
 //
 // Where a drive has no more torque or power, both drives give up the same: the difference, which
-// turns, stays, and the speed falls.
+// turns, stays, and the speed falls. Where neither has the power for the turn at this speed, the one
+// that drives gives up what they lack, and the speed falls until they have it.
 //
 // Skid steering turns less than its belts ask for: the belts' difference over the yaw rate is an
 // effective gauge B, larger than the real one, which the gyro tells while the robot turns.
@@ -28,6 +29,7 @@ struct DriveOptions {
   double mass = 680.0;                // [kg] for the feed-forward of acceleration; 0 for none
   double max_torque = 600.0;          // [N m] of one drive
   double max_power = 7950.0;          // [W] of one drive, driving
+  double max_braking_power = 1e6;     // [W] of one drive; a transmission passes on less
   double max_speed = 5.56;            // [m/s] of a belt, 20 km/h
   double max_yaw_rate = 1.5;          // [rad/s]
   double max_sideways = 2.5;          // [m/s^2] speed times yaw rate
@@ -97,6 +99,7 @@ class DriveController {
     double integral = 0.0;  // [N m] if it goes on
   };
   [[nodiscard]] Belt belt(double reference, double rate, double integral) const;
+  void slow_down(const DriveState& measured, Belt& left, Belt& right) const;
   static double settle(const Belt& belt, double shift, double& integral);
   DriveTorques hold();
 

@@ -28,15 +28,21 @@ TURN_CENTRE = -0.42
 def drive_options(model: mujoco.MjModel) -> DriveOptions:
     """The options of a robot's drive controller.
 
+    A transmission that keeps its motor at w_g lets P = w_g F through at speed, driving and braking,
+    F the torque of the motor; of the drive train in cpp/hurcules/sim/drive_train.hpp.
+
     Args:
         model: with a robot.
     """
-    root = model.body("upper_legs").id
-    return DriveOptions(
-        mass=float(model.body_subtreemass[root]),
-        max_torque=float(model.actuator_forcerange[model.actuator("L_drive").id, 1]),
-        parking=ParkingOptions(turn_centre=TURN_CENTRE),
-    )
+    root, options = model.body("upper_legs").id, DriveOptions()
+    options.mass = float(model.body_subtreemass[root])
+    options.max_torque = float(model.actuator_forcerange[model.actuator("L_drive").id, 1])
+    options.parking = ParkingOptions(turn_centre=TURN_CENTRE)
+    low, high, _, _, governed = model.numeric("transmission_L_lower_belt").data
+    speed = model.numeric("velocity_limit_L_lower_belt").data[0]
+    options.max_braking_power = float(governed * speed * high * options.max_torque / low)
+    options.max_power = min(options.max_power, options.max_braking_power)
+    return options
 
 
 def simulation(

@@ -172,6 +172,18 @@ TEST(DriveController, PowerLimitsDrivingAndNotBraking) {
   EXPECT_LT(torques.right, -2.0 * most);
 }
 
+TEST(DriveController, BehindATransmissionPowerLimitsBrakingToo) {
+  DriveOptions options;
+  options.max_braking_power = 7000.0;
+  DriveController controller(options);
+  controller.drive({1.0, 0.0});
+  for (int i = 0; i < 2000; ++i) controller.compute({1.0 / 0.14, 1.0 / 0.14, 0.0, 1.0, {}});
+  const DriveTorques slow = controller.compute({2.0 / 0.14, 2.0 / 0.14, 0.0, 1.0, {}});
+  EXPECT_NEAR(slow.left, -7000.0 / (2.0 / 0.14), 1e-9);
+  options.max_braking_power = 0.0;
+  EXPECT_THROW(DriveController{options}, Error);
+}
+
 TEST(DriveController, WherePowerLacksTheSpeedGivesWayToTurning) {
   Vehicle vehicle;
   vehicle.plant.scrub = 257.0 / 0.14;  // what the robot needs at friction 0.9, docs/drive.md
@@ -188,6 +200,23 @@ TEST(DriveController, WherePowerLacksTheSpeedGivesWayToTurning) {
   vehicle.controller.drive({5.0, 0.0});
   vehicle.run(4.0);
   EXPECT_NEAR(vehicle.plant.state.speed, 5.0, 0.05);
+}
+
+TEST(DriveController, WhereBothDrivesLackPowerItSlowsDownUntilItTurns) {
+  for (const double speed : {5.0, -5.0}) {
+    DriveOptions options;
+    options.max_power = options.max_braking_power = 7543.0;  // behind the robot's transmission
+    Vehicle vehicle(options);
+    vehicle.plant.scrub = 257.0 / 0.14;
+    vehicle.controller.drive({speed, 0.0});
+    vehicle.run(4.0);
+    ASSERT_NEAR(vehicle.plant.state.speed, speed, 0.05);
+    vehicle.controller.drive({speed, 0.15});
+    vehicle.run(8.0);
+    EXPECT_NEAR(vehicle.plant.state.yaw_rate, 0.15, 0.01) << speed;
+    EXPECT_LT(std::abs(vehicle.plant.state.speed), 7543.0 / 257.0 * 0.14) << speed;
+    EXPECT_GT(std::abs(vehicle.plant.state.speed), 3.0) << speed;
+  }
 }
 
 TEST(DriveController, ParksAtPosesInAllDirections) {
