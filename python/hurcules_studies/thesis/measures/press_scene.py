@@ -19,7 +19,7 @@ PLATE_MASS = 5.0  # [kg]
 PLATE = (0.8, 0.2, 0.02)  # [m] half sizes
 PLATE_TOP = 0.02  # [m] above the floor, which it does not touch
 SLIDING = 2.0  # [s]
-# a joint that a brake holds (python/hurcules/driving/brakes.py)
+# a joint that a brake holds
 LOCK_SOLREF, LOCK_SOLIMP, LOCK = (0.004, 1.0), (0.9999, 0.9999, 0.001, 0.5, 2.0), 1e5
 
 
