@@ -153,8 +153,15 @@ const Vector& VelocityController::solve() {
 
 bool VelocityController::scale_velocity(const VelocityBounds& window) {
   if (!hurcules::scale_velocity(window, velocity_)) return false;
-  for (Index i = 0; limits() && i < velocity_.size(); ++i) {
+  if (!limits()) return true;
+  if (options_.law == Law::Arrive) {
+    limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);
+    hold_limits(next_);
+  }
+  for (Index i = 0; i < velocity_.size(); ++i) {
     const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
+    if (window.lower[i] > 0.0) velocity_[i] = std::max(velocity_[i], window.lower[i]);
+    if (window.upper[i] < 0.0) velocity_[i] = std::min(velocity_[i], window.upper[i]);
     velocity_[i] = std::clamp(velocity_[i], interval.least, interval.most);
   }
   return true;

@@ -56,8 +56,10 @@ class VelocityController {
   // the two parts of compute, for those who time them
   void measure(const Robot& robot);  // tasks -> hierarchy
   const Vector& solve();             // hierarchy -> qdot*
-  // after solve: qdot* within what the motors can hold (torque_scaling.hpp), sooner than accelerations
-  // but no sooner than position and velocity limits; true when it changed
+  // after solve: qdot* within what the motors can hold (torque_scaling.hpp), but no sooner than position
+  // and velocity limits; true when it changed. Under Law::Arrive it slows down no faster than
+  // accelerations and the limits of the first levels allow: a robot that stops at once tips over. A
+  // coordinate that is pushed follows at once.
   bool scale_velocity(const VelocityBounds& window);
   // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
   void integrate(VectorRef q) const;  // [T 4.3.7]

@@ -150,7 +150,7 @@ TEST_F(Controller, SlowsDownBeforeALimitAndStaysThere) {
 TEST_F(Controller, GivesWayToAPushFasterThanItAcceleratesButNeverBeyondALimit) {
   const Index j = 3;
   VelocityBounds window = {Vector::Constant(robot_.size(), -kInfinity),
-                       Vector::Constant(robot_.size(), kInfinity)};
+                           Vector::Constant(robot_.size(), kInfinity)};
   EXPECT_FALSE(controller_.scale_velocity(window));
   window.lower[j] = 0.7;  // pushed up, at once
   controller_.compute(robot_);
@@ -165,6 +165,32 @@ TEST_F(Controller, GivesWayToAPushFasterThanItAcceleratesButNeverBeyondALimit) {
     ASSERT_LE(q[j], joint_.upper()[j]) << "tick " << i;
   }
   EXPECT_NEAR(robot_.configuration()[j], joint_.upper()[j], 1e-9);
+}
+
+// a robot that stops at once at what its motors lack tips over: docs/control.md, Blocked robots
+TEST_F(Controller, SlowsDownWithinItsAccelerationWhereAMotorLacksTorque) {
+  VelocityControllerOptions options;
+  options.law = Law::Arrive;
+  options.max_acceleration = 5.0;
+  VelocityController arriving(robot_, options);
+  arriving.set_stack(controller_.stack());
+  hand_.set_target(hand_.value() + Vector3(0.3, 0, 0));
+  for (int i = 0; i < 100; ++i) tick(arriving);
+  const VelocityBounds still = {Vector::Zero(robot_.size()), Vector::Zero(robot_.size())};
+  Vector before = arriving.velocity();
+  ASSERT_GT(before.cwiseAbs().maxCoeff(), 0.05);
+  const double change = options.max_acceleration * options.dt;
+  int ticks = 0;
+  for (; before.cwiseAbs().maxCoeff() > 0.0 && ticks < 1000; ++ticks) {
+    arriving.compute(robot_);
+    EXPECT_TRUE(arriving.scale_velocity(still));
+    ASSERT_LE((arriving.velocity() - before).cwiseAbs().maxCoeff(), change * (1.0 + 1e-12));
+    before = arriving.velocity();
+    Vector q = robot_.configuration();
+    arriving.integrate(q);
+    robot_.set_configuration(q);
+  }
+  EXPECT_LT(ticks, 1000) << "it never stood";
 }
 
 TEST_F(Controller, DrivesACoordinateBackThatIsFoundOutside) {
@@ -288,9 +314,8 @@ double largest_change(const VelocityControllerOptions& options, double step) {
 
 TEST(ControllerAtASingularity, DoesNotJumpUnlessItIsToldTo) {
   // the direction goes over gradually: a tenth of the step, a tenth of the change
-  const VelocityControllerOptions smooth{.enforce_limits = false,
-                                         .law = Law::Thesis,
-                                         .solver = {.handover = Handover::Smooth}};
+  const VelocityControllerOptions smooth{
+      .enforce_limits = false, .law = Law::Thesis, .solver = {.handover = Handover::Smooth}};
   const double fine = largest_change(smooth, 1e-4), coarse = largest_change(smooth, 1e-3);
   EXPECT_LT(fine, 0.12 * coarse);
   EXPECT_LT(fine, 0.05);
