@@ -11,8 +11,9 @@ Constraints are contacts, friction, brakes, stops and the tracks' traction; damp
 may only take. The rest is what the integrator makes or loses.
 
 A hand that is sent into the ground or into the robot is held back: the reference yields
-(control/torque_scaling.hpp). What passes a limit then is told by kind; a mechanical stop gives way as any
-compliant stop does, and a joint that is pushed at the end of its range has nowhere to yield to.
+(control/torque_scaling.hpp). What passes a limit then is told by kind; a mechanical stop gives way
+as any compliant stop does, and a joint that is pushed at the end of its range has nowhere to yield
+to.
 
     python benchmarks/soak.py [--seconds 3600] [--seed 0]
 """

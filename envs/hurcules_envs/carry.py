@@ -167,7 +167,7 @@ class Carry(ContactEnvironment):
             side: hurcules.OrientationTask(f"{side} turn", plan, f"{side}_tcp") for side in "LR"
         }
         for task in (left, right, squeeze):
-            task.leash = 0.1
+            task.max_lead = 0.1
         controller = hurcules.WholeBodyController(
             plan,
             [[left, right, squeeze, *turns.values()], hurcules.PostureTask("posture", plan)],

@@ -39,7 +39,7 @@ def channel_of(action: str, task: hurcules.Task, *, turns: bool = False) -> tupl
     scale = _SCALES[action][int(turns)]
     if action == "twist":
         if isinstance(task, hurcules.ValueTask):
-            task.leash = LEAD[int(turns)]
+            task.max_lead = LEAD[int(turns)]
         return hurcules.Twist(task, scale), scale
     if action == "delta":
         return hurcules.Delta(task, scale), scale

@@ -123,13 +123,13 @@ class Door(ContactEnvironment):
 
     def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
         across = hurcules.PositionTask("across", plan, "R_tcp", axes=[[1, 0, 0], [0, 1, 0]])
-        across.leash = 0.1
+        across.max_lead = 0.1
         down = hurcules.ForceTask(
             "down", plan, "R_tcp", axis=[0.0, 0.0, -1.0], force_des=0.0, environment=STIFFEST,
             gains=hurcules.ForceGains(compliance=COMPLIANCE, dt=tick),
             contact=hurcules.ContactOptions(f_max=400.0),
         )  # fmt: skip
-        down.leash = 0.1
+        down.max_lead = 0.1
         turn = hurcules.OrientationTask("turn", plan, "R_tcp")
         controller = hurcules.WholeBodyController(
             plan,

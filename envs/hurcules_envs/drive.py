@@ -97,7 +97,7 @@ class Drive(Environment):
         robot.set_keyframe("drive")
         self._qpos = robot.qpos.copy()
         legs = hurcules.PostureTask("legs", robot, ["KN"])
-        legs.leash = 0.2
+        legs.max_lead = 0.2
         posture = hurcules.PostureTask("posture", robot)
         controller = hurcules.WholeBodyController(
             robot,

@@ -171,7 +171,7 @@ class Lift(ContactEnvironment):
             limits.set_range(name, lower, upper)
         hands = [hurcules.PositionTask(f"{side}_hand", plan, f"{side}_tcp") for side in "LR"]
         for hand in hands:
-            hand.leash = 0.1
+            hand.max_lead = 0.1
         pitch = [hurcules.AngleTask(f"{side}_pitch", plan, f"{side}_tcp") for side in "LR"]
         pelvis = hurcules.PositionTask("pelvis", plan, "pelvis", axes=[[1.0, 0.0, 0.0]])
         neck = hurcules.PostureTask("neck", plan, ["NKY", "NKP"])

@@ -160,13 +160,13 @@ class Press(ContactEnvironment):
         plan.stand_on("lower_leg_L")
         across = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
         slide = hurcules.PositionTask("slide", plan, "R_tcp", axes=across)
-        slide.leash = 0.05
+        slide.max_lead = 0.05
         down = hurcules.ForceTask(
             "down", plan, "R_tcp", axis=[0.0, 0.0, -1.0], force_des=0.0, environment=SPRING,
             gains=hurcules.ForceGains(compliance=0.05, dt=tick),
             contact=hurcules.ContactOptions(f_max=150.0),
         )  # fmt: skip
-        down.leash = 0.05
+        down.max_lead = 0.05
         pitch = hurcules.AngleTask("pitch", plan, "R_tcp")
         levels = [[slide, down], pitch, hurcules.PostureTask("posture", plan)]
         controller = hurcules.WholeBodyController(

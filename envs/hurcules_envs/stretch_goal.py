@@ -166,7 +166,7 @@ class Stretch(Environment):
         apart = hurcules.self_collision(plan, margin=FREE, most=FREE + 0.1, postures=2000)
         hands = [hurcules.PositionTask(n, plan, f) for n, f in _HANDS.items()]
         for hand in hands:
-            hand.leash = 0.1
+            hand.max_lead = 0.1
         pitch = [hurcules.AngleTask(f"{n}_pitch", plan, f) for n, f in _HANDS.items()]
         pelvis = hurcules.PositionTask("pelvis", plan, "pelvis", axes=[[1.0, 0.0, 0.0]])
         gaze = hurcules.GazeTask("gaze", plan, "gaze")

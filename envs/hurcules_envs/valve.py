@@ -122,7 +122,7 @@ class Valve(ContactEnvironment):
 
     def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
         hand = hurcules.PositionTask("hand", plan, "R_tcp")
-        hand.leash = 0.1
+        hand.max_lead = 0.1
         turn = hurcules.OrientationTask("turn", plan, "R_tcp")
         controller = hurcules.WholeBodyController(
             plan,

@@ -56,9 +56,10 @@ Args:
 Returns:
   q* (n,) [rad] or [m], one dt later. Releases the interpreter lock.
 )";
-constexpr const char* kShortTask =
+constexpr const char* kShortfall =
     R"(A task that is off its interval and is not brought back as it asks; str() is the plain words.)";
-constexpr const char* kLevelNote = R"(What a level fell short of at the last compute, and why.
+constexpr const char* kLevelDiagnostics =
+    R"(What a level fell short of at the last compute, and why.
 
 The smallest singular value (distance to singularity) and the product of all (manipulability) are of
 the level's equality rows on the directions that the levels above left; 1 without such rows.
@@ -67,17 +68,19 @@ the level's equality rows on the directions that the levels above left; 1 withou
 void bind_controller(py::module_& module) {
   using Options = VelocityControllerOptions;
   const Options defaults;
-  bind_options<Options>(module, "VelocityControllerOptions", kOptions,
-                        {field("dt", &Options::dt, "[s]"), field("gain", &Options::gain, "[1/s]"),
-                         field("horizon", &Options::horizon, "[s]"),
-                         field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
-                         field("enforce_limits", &Options::enforce_limits, "limits before all levels"),
-        field("return_speed", &Options::return_speed, "[rad/s]"),
-                         field("transition", &Options::transition, "[s]"),
-                         text_field<Options>("law", [](const Options& self) { return to_string(self.law); },
-                            [](Options& self, const std::string& law) { self.law = law_named(law); },
-                            "'arrive' or 'thesis'"),
-        field("solver", &Options::solver, "SolverOptions")});
+  bind_options<Options>(
+      module, "VelocityControllerOptions", kOptions,
+      {field("dt", &Options::dt, "[s]"), field("gain", &Options::gain, "[1/s]"),
+       field("horizon", &Options::horizon, "[s]"),
+       field("max_acceleration", &Options::max_acceleration, "[rad/s^2]"),
+       field("enforce_limits", &Options::enforce_limits, "limits before all levels"),
+       field("return_speed", &Options::return_speed, "[rad/s]"),
+       field("transition", &Options::transition, "[s]"),
+       text_field<Options>(
+           "law", [](const Options& self) { return to_string(self.law); },
+           [](Options& self, const std::string& law) { self.law = law_named(law); },
+           "'arrive' or 'thesis'"),
+       field("solver", &Options::solver, "SolverOptions")});
   const auto integrate = [](const VelocityController& self, const ConstVectorRef& q) {
     require(q.size() == self.velocity().size() && q.allFinite(),
             "integrate wants " + std::to_string(self.velocity().size()) + " finite numbers, got " +
@@ -117,24 +120,32 @@ void bind_solution(py::module_& module) {
                     "worst relative residual of the optimality conditions of all levels");
 }
 
-void bind_notes(py::module_& module) {
-  py::class_<ShortTask>(module, "ShortTask", kShortTask)
-      .def_readonly("task", &ShortTask::task)
-      .def_readonly("short_by", &ShortTask::short_by, "[unit]")
-      .def_readonly("unit", &ShortTask::unit, "'m' or 'rad'")
-      .def_readonly("held_by", &ShortTask::held_by, "list of str")
-      .def("__str__", &ShortTask::text);
-  py::class_<LevelNote>(module, "LevelNote", kLevelNote)
-      .def_readonly("level", &LevelNote::level)
-      .def_readonly("smallest_singular_value", &LevelNote::smallest_singular_value)
-      .def_readonly("manipulability", &LevelNote::manipulability)
-      .def_readonly("shorts", &LevelNote::shorts, "list of ShortTask; empty: all is well");
+void bind_diagnostics(py::module_& module) {
+  py::class_<Shortfall>(module, "Shortfall", kShortfall)
+      .def_readonly("task", &Shortfall::task)
+      .def_readonly("short_by", &Shortfall::short_by, "[unit]")
+      .def_readonly("unit", &Shortfall::unit, "'m' or 'rad'")
+      .def_readonly("held_by", &Shortfall::held_by, "list of str")
+      .def("__str__", &Shortfall::text);
+  py::class_<LevelDiagnostics>(module, "LevelDiagnostics", kLevelDiagnostics)
+      .def_readonly("level", &LevelDiagnostics::level)
+      .def_readonly("smallest_singular_value", &LevelDiagnostics::smallest_singular_value)
+      .def_readonly("manipulability", &LevelDiagnostics::manipulability)
+      .def_readonly("shortfalls", &LevelDiagnostics::shortfalls,
+                    "list of Shortfall; empty: all is well")
+      .def_property_readonly(
+          "shorts",
+          [](const LevelDiagnostics& self) {
+            warn_renamed("LevelDiagnostics.shorts", "shortfalls");
+            return self.shortfalls;
+          },
+          "Deprecated name of shortfalls.");
 }
 
 }  // namespace
 
 void bind_control(py::module_& module) {
   bind_solution(module);
-  bind_notes(module);
+  bind_diagnostics(module);
   bind_controller(module);
 }

@@ -10,6 +10,7 @@
 #include "bind_stack.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/robot.hpp"
+#include "renamed.hpp"
 #include "solver_levels.hpp"
 #include "state.hpp"
 
@@ -22,13 +23,14 @@ void require_stack(const Controller& controller) {
 }
 
 inline constexpr const char* kSetStack = "Takes over another stack; keeps its tasks alive.";
-inline constexpr const char* kNotes = R"(What each level fell short of at the last compute, and why.
+inline constexpr const char* kDiagnostics =
+    R"(What each level fell short of at the last compute, and why.
 
 Args:
   robot: Robot as it was at compute.
 
 Returns:
-  list of LevelNote, decreasing priority.
+  list of LevelDiagnostics, decreasing priority.
 )";
 inline constexpr const char* kActiveLimits =
     "(n,) -1, 0, 1: held back by its lower position limit, by none, by its upper one";
@@ -51,14 +53,19 @@ void bind_common(pybind11::class_<Controller>& controller, const std::string& re
       "Args:\n  robot: Robot at the configuration (and velocity) to start from.\n\n"
       "Returns:\n  " +
       result + ". Releases the interpreter lock.\n";
-  const auto notes = [](const Controller& self, const hurcules::Robot& robot) {
+  const auto diagnostics = [](const Controller& self, const hurcules::Robot& robot) {
     require_stack(self);
-    return self.notes(robot);
+    return self.diagnostics(robot);
+  };
+  const auto notes = [diagnostics](const Controller& self, const hurcules::Robot& robot) {
+    warn_renamed("notes", "diagnostics");
+    return diagnostics(self, robot);
   };
   const auto copy = py::return_value_policy::copy;
   controller.def("set_stack", set_stack, "stack"_a, py::keep_alive<1, 2>(), kSetStack)
       .def("compute", compute, "robot"_a, compute_doc.c_str())
-      .def("notes", notes, "robot"_a, kNotes)
+      .def("diagnostics", diagnostics, "robot"_a, kDiagnostics)
+      .def("notes", notes, "robot"_a, "Deprecated name of diagnostics.")
       .def("reset", &Controller::reset, "At rest, cold.")
       .def("state", &state<Controller>, kState)
       .def("restore", &restore<Controller>, "state"_a, kRestore)

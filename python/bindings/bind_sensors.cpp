@@ -107,7 +107,7 @@ py::typing::Dict<py::str, double> monitors(const Simulation& self) {
 }
 
 py::typing::Dict<py::str, double> motor_temperatures(const Simulation& self) {
-  const Windings& windings = self.monitors().windings();
+  const MotorThermalModel& windings = self.monitors().windings();
   py::typing::Dict<py::str, double> result;
   for (std::size_t i = 0; i < windings.names().size(); ++i) {
     result[py::str(windings.names()[i])] = windings.temperature()[static_cast<Index>(i)];

@@ -19,6 +19,7 @@
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "hurcules/tasks/swivel_task.hpp"
+#include "renamed.hpp"
 #include "state.hpp"
 
 namespace py = pybind11;
@@ -113,7 +114,7 @@ constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
 constexpr const char* kNoOrder =
     "tasks are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
-constexpr const char* kLeash =
+constexpr const char* kMaxLead =
     R"(Distance [task unit] that advance leads the target from the value at most, inf for any.
 
 From a fifth of it on the target goes slower; a velocity that leads back is never held.
@@ -265,7 +266,18 @@ void bind_task(py::module_& module) {
       .def_property_readonly("value", &ValueTask::value, copy, "s (m,), at the last update")
       .def_property_readonly("target", &ValueTask::target, copy, "s_des (m,)")
       .def("set_target", &ValueTask::set_target, py::arg("target"), kSetTarget)
-      .def_property("leash", &ValueTask::leash, &ValueTask::set_leash, kLeash);
+      .def_property("max_lead", &ValueTask::max_lead, &ValueTask::set_max_lead, kMaxLead)
+      .def_property(
+          "leash",
+          [](const ValueTask& self) {
+            warn_renamed("ValueTask.leash", "max_lead");
+            return self.max_lead();
+          },
+          [](ValueTask& self, double max_lead) {
+            warn_renamed("ValueTask.leash", "max_lead");
+            self.set_max_lead(max_lead);
+          },
+          "Deprecated name of max_lead.");
 }
 
 void bind_coordinate_tasks(py::module_& module) {

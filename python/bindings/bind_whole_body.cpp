@@ -377,7 +377,7 @@ void bind_whole_body(py::module_& module) {
       .def(
           "diagnostics",
           [](const WholeBodyController& self) { return self.law().diagnostics(self.plan()); },
-          "What each level falls short of and why: list of LevelNote, decreasing priority.")
+          "What each level falls short of and why: list of LevelDiagnostics, decreasing priority.")
       .def(
           "contact_force",
           [](const WholeBodyController& self, const std::string& contact) {

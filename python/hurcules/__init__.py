@@ -70,7 +70,7 @@ from hurcules._core import (  # noqa: E402
     JointRate,
     JointRates,
     Lead,
-    LevelNote,
+    LevelDiagnostics,
     Measure,
     MissionSetup,
     MissionTable,
@@ -94,7 +94,7 @@ from hurcules._core import (  # noqa: E402
     SensorFault,
     SensorModel,
     SensorOptions,
-    ShortTask,
+    Shortfall,
     SimulationOptions,
     SpeedLimits,
     SpringForce,
@@ -131,12 +131,17 @@ _reprs.install()
 _moved.install()
 
 
+# by old names, which go with the next release
+_RENAMED = {"LevelNote": "LevelDiagnostics", "Physics": "Plant", "ShortTask": "Shortfall"}
+
+
 def __getattr__(name: str) -> Any:
     """What has moved, or has another name now."""
-    if name == "Physics":
-        text = "hurcules.Physics is called hurcules.Plant; the old name goes with the next release"
+    if name in _RENAMED:
+        new = _RENAMED[name]
+        text = f"hurcules.{name} is called hurcules.{new}; the old name goes with the next release"
         warnings.warn(text, DeprecationWarning, stacklevel=2)
-        return Plant
+        return globals()[new]
     if _moved.new_name(f"hurcules.{name}"):
         globals()[name] = _moved.forward(f"hurcules.{name}", 3)
         return globals()[name]
@@ -184,7 +189,7 @@ __all__ = [
     "JointRate",
     "JointRates",
     "Lead",
-    "LevelNote",
+    "LevelDiagnostics",
     "Measure",
     "Mission",
     "MissionSetup",
@@ -209,7 +214,7 @@ __all__ = [
     "SensorFault",
     "SensorModel",
     "SensorOptions",
-    "ShortTask",
+    "Shortfall",
     "Simulation",
     "SimulationBatch",
     "SimulationOptions",

@@ -741,12 +741,18 @@ class ValueTask(Task):
 
     @property
     def leash(self) -> float:
+        """Deprecated name of max_lead."""
+
+    @leash.setter
+    def leash(self, arg1: float) -> None: ...
+    @property
+    def max_lead(self) -> float:
         """Distance [task unit] that advance leads the target from the value at most, inf for any.
 
         From a fifth of it on the target goes slower; a velocity that leads back is never held."""
 
-    @leash.setter
-    def leash(self, arg1: float) -> None: ...
+    @max_lead.setter
+    def max_lead(self, arg1: float) -> None: ...
     @property
     def target(self) -> NDArray[np.float64]:
         """s_des (m,)"""
@@ -1483,7 +1489,7 @@ class ControlSolution:
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 
-class ShortTask:
+class Shortfall:
     """A task that is off its interval and is not brought back as it asks; str() is the plain words."""
 
     def __str__(self) -> str: ...
@@ -1503,7 +1509,7 @@ class ShortTask:
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 
-class LevelNote:
+class LevelDiagnostics:
     """What a level fell short of at the last compute, and why.
 
     The smallest singular value (distance to singularity) and the product of all (manipulability) are of
@@ -1514,8 +1520,12 @@ class LevelNote:
     @property
     def manipulability(self) -> float: ...
     @property
-    def shorts(self) -> list[ShortTask]:
-        """list of ShortTask; empty: all is well"""
+    def shortfalls(self) -> list[Shortfall]:
+        """list of Shortfall; empty: all is well"""
+
+    @property
+    def shorts(self) -> list[Shortfall]:
+        """Deprecated name of shortfalls."""
 
     @property
     def smallest_singular_value(self) -> float: ...
@@ -1628,17 +1638,20 @@ class VelocityController:
         Returns:
           qdot* (n,) [rad/s] or [m/s]. Releases the interpreter lock."""
 
-    def integrate(self, q: ArrayLike) -> NDArray[np.float64]:
-        """q* after one dt: q + qdot* dt (n,); rounding never carries it over a limit."""
-
-    def notes(self, robot: Robot) -> list[LevelNote]:
+    def diagnostics(self, robot: Robot) -> list[LevelDiagnostics]:
         """What each level fell short of at the last compute, and why.
 
         Args:
           robot: Robot as it was at compute.
 
         Returns:
-          list of LevelNote, decreasing priority."""
+          list of LevelDiagnostics, decreasing priority."""
+
+    def integrate(self, q: ArrayLike) -> NDArray[np.float64]:
+        """q* after one dt: q + qdot* dt (n,); rounding never carries it over a limit."""
+
+    def notes(self, robot: Robot) -> list[LevelDiagnostics]:
+        """Deprecated name of diagnostics."""
 
     def reset(self) -> None:
         """At rest, cold."""
@@ -1819,14 +1832,17 @@ class AccelerationController:
     def contact_force(self, contact: Task) -> NDArray[np.float64]:
         """F (3,) [N] in W on the robot at a ContactTask of the stack, of the last solution."""
 
-    def notes(self, robot: Robot) -> list[LevelNote]:
+    def diagnostics(self, robot: Robot) -> list[LevelDiagnostics]:
         """What each level fell short of at the last compute, and why.
 
         Args:
           robot: Robot as it was at compute.
 
         Returns:
-          list of LevelNote, decreasing priority."""
+          list of LevelDiagnostics, decreasing priority."""
+
+    def notes(self, robot: Robot) -> list[LevelDiagnostics]:
+        """Deprecated name of diagnostics."""
 
     def reset(self) -> None:
         """At rest, cold."""
@@ -2523,8 +2539,8 @@ class WholeBodyController:
     def contact_force(self, contact: str) -> NDArray[np.float64]:
         """F (3,) [N] in W on the robot at a ContactTask of the stack that rules, as it was wanted last."""
 
-    def diagnostics(self) -> list[LevelNote]:
-        """What each level falls short of and why: list of LevelNote, decreasing priority."""
+    def diagnostics(self) -> list[LevelDiagnostics]:
+        """What each level falls short of and why: list of LevelDiagnostics, decreasing priority."""
 
     def hold_targets(self) -> None:
         """The targets of all tasks come to where the plan is."""

@@ -15,7 +15,14 @@ from hurcules import _core
 __all__ = ["install"]
 
 # beside everything that is called ...Options
-SHOWN = ("ActiveRow", "ControlSolution", "LevelNote", "LevelReport", "SensorFault", "Solution")
+SHOWN = (
+    "ActiveRow",
+    "ControlSolution",
+    "LevelDiagnostics",
+    "LevelReport",
+    "SensorFault",
+    "Solution",
+)
 MOST = 8  # values of an array that are shown
 
 
@@ -33,7 +40,8 @@ def _values(shown: Any) -> dict[str, str]:
     """The properties that can be said in a line, by name."""
     found = {}
     for name, member in vars(type(shown)).items():
-        if not name.startswith("_") and isinstance(member, property):
+        old = (member.__doc__ or "").startswith("Deprecated")
+        if not name.startswith("_") and isinstance(member, property) and not old:
             text = _line(getattr(shown, name))
             if text:
                 found[name] = text

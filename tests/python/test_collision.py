@@ -151,7 +151,7 @@ def test_notes_name_what_is_in_the_way(model: mujoco.MjModel) -> None:
     hand.set_target([0.62, 0.0, 0.8])  # inside the post
     for _ in range(5000):
         controller.step(robot)
-    (short,) = controller.notes(robot)[-1].shorts
+    (short,) = controller.diagnostics(robot)[-1].shortfalls
     assert any("(lower, post)" in name for name in short.held_by), str(short)
     assert clear.near(robot)
     assert {name for pair in clear.near(robot) for name in pair[:2]} >= {"post", "lower"}

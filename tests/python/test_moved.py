@@ -1,4 +1,4 @@
-"""Old names of modules work for one release and say where the module is now."""
+"""Old names work for one release and say what has taken their place."""
 
 import importlib
 import subprocess
@@ -63,6 +63,38 @@ def test_a_program_that_uses_old_names_runs_and_is_told(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert done.stderr.count("DeprecationWarning") == 3
     assert [f"old.py:{line}:" in done.stderr for line in (1, 2, 3)] == [True] * 3
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("LevelNote", "LevelDiagnostics"), ("Physics", "Plant"), ("ShortTask", "Shortfall")],
+)
+def test_an_old_name_of_a_class_warns_and_is_the_class(old: str, new: str) -> None:
+    with pytest.warns(
+        DeprecationWarning, match=f"hurcules.{old} is called hurcules.{new};"
+    ) as caught:
+        assert getattr(hurcules, old) is getattr(hurcules, new)
+    assert caught[0].filename == __file__
+
+
+def test_old_names_of_attributes_warn_and_do_the_same() -> None:
+    robot = hurcules.Robot(hurcules.models.load("rescue"))
+    hand = hurcules.PositionTask("hand", robot, "L_tcp")
+    with pytest.warns(DeprecationWarning, match="ValueTask.leash is called max_lead;") as caught:
+        hand.leash = 0.1
+        assert hand.leash == hand.max_lead == 0.1
+    assert len(caught) == 2 and caught[0].filename == __file__
+    hand.set_target(hand.value + 5.0)  # out of reach
+    for controller in (hurcules.VelocityController(robot), hurcules.AccelerationController(robot)):
+        controller.set_stack(hurcules.Stack([hand]))
+        controller.compute(robot)
+        wanted = controller.diagnostics(robot)[-1]
+        with pytest.warns(DeprecationWarning, match="notes is called diagnostics;"):
+            level = controller.notes(robot)[-1]
+        with pytest.warns(DeprecationWarning, match="LevelDiagnostics.shorts is called shortfalls"):
+            shorts = level.shorts
+        assert level.level == wanted.level == "hand"
+        assert [str(short) for short in shorts] == [str(short) for short in wanted.shortfalls]
 
 
 def test_what_never_existed_is_still_an_import_error() -> None:

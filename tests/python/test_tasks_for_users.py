@@ -261,7 +261,7 @@ def test_on_numbers_that_say_nothing_the_controller_brakes(model: mujoco.MjModel
         assert (status == rhqp.Status.InvalidInput) == broken[0]
     assert fastest > 0.3
     assert np.abs(before).max() < 1e-9
-    (short,) = controller.notes(robot)[-1].shorts
+    (short,) = controller.diagnostics(robot)[-1].shortfalls
     assert str(short) == "hand: its numbers are not finite, the controller brakes"
 
 

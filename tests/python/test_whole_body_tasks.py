@@ -168,10 +168,10 @@ def test_notes_say_what_holds_a_hand(
     for _ in range(3000):
         hand.advance([-0.2], DT)
         controller.step(robot)
-    notes = controller.notes(robot)
-    assert [note.level for note in notes] == ["joint", "hand"]
-    assert notes[0].shorts == []
-    (short,) = notes[1].shorts
+    levels = controller.diagnostics(robot)
+    assert [level.level for level in levels] == ["joint", "hand"]
+    assert levels[0].shortfalls == []
+    (short,) = levels[1].shortfalls
     assert short.task == "hand"
     assert short.short_by == pytest.approx(float(abs(hand.error[0])), rel=1e-6)
     assert short.held_by == held_by

@@ -21,7 +21,7 @@
 #include "hurcules/control/acceleration_interval.hpp"
 #include "hurcules/control/contact_forces.hpp"
 #include "hurcules/control/dead_zone.hpp"
-#include "hurcules/control/level_notes.hpp"
+#include "hurcules/control/level_diagnostics.hpp"
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
@@ -87,9 +87,9 @@ class AccelerationController {
   [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
   [[nodiscard]] Task* limits() { return problem_.bounds_task(); }
   // what each level fell short of at the last compute, and why; makes its texts when asked
-  [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const {
-    return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_,
-                        has_zone_ ? &dead_zone_ : nullptr});
+  [[nodiscard]] std::vector<LevelDiagnostics> diagnostics(const Robot& robot) const {
+    return level_diagnostics({robot, problem_, solver_.solution(), reports_of(solver_),
+                              active_limits_, has_zone_ ? &dead_zone_ : nullptr});
   }
   void reset();  // cold
   void save(StateWriter& writer) const;

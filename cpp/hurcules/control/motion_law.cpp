@@ -22,8 +22,8 @@ class LawOf : public MotionLaw {
   const Solution& solution() const override { return controller_.solution(); }
   const Eigen::VectorXi& active_limits() const override { return controller_.active_limits(); }
   const Task* limits() const override { return controller_.limits(); }
-  std::vector<LevelNote> diagnostics(const Robot& plan) const override {
-    return controller_.notes(plan);
+  std::vector<LevelDiagnostics> diagnostics(const Robot& plan) const override {
+    return controller_.diagnostics(plan);
   }
 
  protected:

@@ -47,7 +47,7 @@ class MotionLaw {
   [[nodiscard]] virtual const Task* limits() const = 0;
   // [1/s] at which an error of a task vanishes
   [[nodiscard]] virtual double rate() const = 0;
-  [[nodiscard]] virtual std::vector<LevelNote> diagnostics(const Robot& plan) const = 0;
+  [[nodiscard]] virtual std::vector<LevelDiagnostics> diagnostics(const Robot& plan) const = 0;
 };
 
 [[nodiscard]] std::unique_ptr<MotionLaw> make_law(const Robot& robot, const Stack& stack,

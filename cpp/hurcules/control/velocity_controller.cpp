@@ -201,9 +201,9 @@ void VelocityController::add_transition() {
   fading_ = age_ < options_.transition;
 }
 
-std::vector<LevelNote> VelocityController::notes(const Robot& robot) const {
-  return level_notes({robot, problem_, solver_.solution(), reports_of(solver_), active_limits_,
-                      options_.law == Law::Arrive ? &dead_zone_ : nullptr});
+std::vector<LevelDiagnostics> VelocityController::diagnostics(const Robot& robot) const {
+  return level_diagnostics({robot, problem_, solver_.solution(), reports_of(solver_),
+                            active_limits_, options_.law == Law::Arrive ? &dead_zone_ : nullptr});
 }
 
 void VelocityController::reset() {

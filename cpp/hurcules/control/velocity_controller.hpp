@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "hurcules/control/dead_zone.hpp"
-#include "hurcules/control/level_notes.hpp"
+#include "hurcules/control/level_diagnostics.hpp"
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
@@ -72,7 +72,7 @@ class VelocityController {
   [[nodiscard]] const Vector& velocity() const { return velocity_; }  // the last qdot*
   [[nodiscard]] const VelocityControllerOptions& options() const { return options_; }
   // what each level fell short of at the last compute, and why; makes its texts when asked
-  [[nodiscard]] std::vector<LevelNote> notes(const Robot& robot) const;
+  [[nodiscard]] std::vector<LevelDiagnostics> diagnostics(const Robot& robot) const;
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
   // the coordinate limits that hold, null when none do; to narrow a range, say

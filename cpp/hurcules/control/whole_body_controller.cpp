@@ -459,7 +459,7 @@ void WholeBodyController::solve(const RobotState& state) {
   if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
   if (scaled_) {
     // every target follows the robot as fast as the law would have led the robot to it
-    for (Task* const task : tasks_) task->relax(law.rate() * dt());
+    for (Task* const task : tasks_) task->back_calculate(law.rate() * dt());
     held_back_ += dt() * (wished_ - law.next_velocity(qd_));
   }
   law.integrate(q_, qd_);

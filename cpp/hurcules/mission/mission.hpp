@@ -20,7 +20,7 @@
 #include "hurcules/mission/mission_setup.hpp"
 #include "hurcules/mission/phase_row.hpp"
 #include "hurcules/mission/robot_tables.hpp"
-#include "hurcules/mission/scene_watches.hpp"
+#include "hurcules/mission/scene_monitors.hpp"
 #include "hurcules/mission/table.hpp"
 #include "hurcules/sim/supervisor.hpp"
 
@@ -98,7 +98,7 @@ class Mission : public Supervisor {
   std::vector<PhaseRow> rows_;
   std::vector<int> brakes_;  // actuators whose brakes the table names
   Gauges gauges_;
-  SceneWatches scene_;
+  SceneMonitors scene_;
   bool attached_ = false, paused_ = false, ended_ = false;
   std::optional<bool> answer_;
   std::size_t phase_ = 0;

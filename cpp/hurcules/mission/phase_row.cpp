@@ -23,15 +23,15 @@ PhaseRow::PhaseRow(const Phase& phase, std::string support, const WholeBodyContr
     posture_.emplace(phase.keys, joints.empty() ? controller.plan().coordinate_names() : joints,
                      phase.seconds, !joints.empty());
   }
-  const auto watch = [](const Condition& condition) {
-    Watch made;
+  const auto timed = [](const Condition& condition) {
+    TimedCondition made;
     made.condition = condition;
     return made;
   };
-  for (const Condition& condition : phase.done) done_.push_back(watch(condition));
+  for (const Condition& condition : phase.done) done_.push_back(timed(condition));
   left_.emplace_back(phase.late.size());
   for (const Trouble& trouble : phase.troubles) {
-    troubles_.push_back(watch(trouble.when));
+    troubles_.push_back(timed(trouble.when));
     left_.emplace_back(trouble.reactions.size());
   }
   reset();
@@ -57,9 +57,9 @@ PhaseRow::Way PhaseRow::way_of(const Lead& lead, const WholeBodyController& cont
 
 void PhaseRow::find_quantities(const Recorder& log) {
   const std::string where = "phase '" + phase_->name + "'";
-  for (std::vector<Watch>* watches : {&done_, &troubles_}) {
-    for (Watch& watch : *watches) {
-      watch.source = find_quantity(log, watch.condition.quantity, where);
+  for (std::vector<TimedCondition>* conditions : {&done_, &troubles_}) {
+    for (TimedCondition& timed : *conditions) {
+      timed.source = find_quantity(log, timed.condition.quantity, where);
     }
   }
   for (std::size_t k = 0; k < ways_.size(); ++k) {
@@ -101,8 +101,8 @@ void PhaseRow::reset() {
 }
 
 void PhaseRow::forget() {
-  for (std::vector<Watch>* watches : {&done_, &troubles_}) {
-    for (Watch& watch : *watches) watch.since = 0.0;
+  for (std::vector<TimedCondition>* conditions : {&done_, &troubles_}) {
+    for (TimedCondition& timed : *conditions) timed.since = 0.0;
   }
   for (Way& way : ways_) way.given = 0.0;
 }
@@ -159,7 +159,7 @@ double PhaseRow::progress(double elapsed) const {
 
 bool PhaseRow::done(double dt) {
   bool all = true;
-  for (Watch& watch : done_) all = watch.look(dt) && all;
+  for (TimedCondition& timed : done_) all = timed.look(dt) && all;
   return all;
 }
 
@@ -171,7 +171,7 @@ std::optional<std::size_t> PhaseRow::trouble(double dt) {
   return first;
 }
 
-bool PhaseRow::Watch::look(double dt) {
+bool PhaseRow::TimedCondition::look(double dt) {
   const bool now = condition.above ? *source >= condition.value : *source <= condition.value;
   const bool long_enough = since >= condition.seconds;  // so far
   since = now ? since + dt : 0.0;
@@ -194,8 +194,8 @@ void PhaseRow::save(StateWriter& writer) const {
   for (const std::vector<int>& times : left_) {
     for (const int left : times) writer.put(left);
   }
-  for (const Watch& watch : done_) writer.put(watch.since);
-  for (const Watch& watch : troubles_) writer.put(watch.since);
+  for (const TimedCondition& timed : done_) writer.put(timed.since);
+  for (const TimedCondition& timed : troubles_) writer.put(timed.since);
   for (const Way& way : ways_) {
     writer.put(way.given);
     if (way.by.size() > 0) writer.put(way.along);
@@ -208,8 +208,8 @@ void PhaseRow::restore(StateReader& reader) {
   for (std::vector<int>& times : left_) {
     for (int& left : times) left = static_cast<int>(reader.get_count(kMost));
   }
-  for (Watch& watch : done_) watch.since = reader.get();
-  for (Watch& watch : troubles_) watch.since = reader.get();
+  for (TimedCondition& timed : done_) timed.since = reader.get();
+  for (TimedCondition& timed : troubles_) timed.since = reader.get();
   for (Way& way : ways_) {
     way.given = reader.get();
     if (way.by.size() > 0) reader.get(way.along);

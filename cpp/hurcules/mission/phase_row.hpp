@@ -49,7 +49,7 @@ class PhaseRow {
 
  private:
   // a condition, and for how long it has been true
-  struct Watch {
+  struct TimedCondition {
     Condition condition;
     const double* source = nullptr;
     double since = 0.0;  // [s]
@@ -78,7 +78,7 @@ class PhaseRow {
   std::vector<Index> joints_;  // of the servo, where no stack rules
   Vector places_;              // of these, scratch
   std::vector<int> brakes_;
-  std::vector<Watch> done_, troubles_;
+  std::vector<TimedCondition> done_, troubles_;
   std::vector<std::vector<int>> left_;  // times, of each reaction: late, then each trouble's
 };
 

@@ -12,10 +12,10 @@
 
 #include "hurcules/base/state.hpp"
 #include "hurcules/base/types.hpp"
+#include "hurcules/sim/motor_thermal_model.hpp"
 #include "hurcules/sim/recorder.hpp"
 #include "hurcules/sim/self_distance.hpp"
 #include "hurcules/sim/stability.hpp"
-#include "hurcules/sim/windings.hpp"
 
 struct mjModel_;
 struct mjData_;
@@ -27,7 +27,7 @@ namespace hurcules {
 struct MonitorOptions {
   bool on = true;
   SelfDistanceOptions distance;
-  WindingOptions windings;
+  MotorThermalOptions windings;
   double min_distance = 0.01;        // [m] self-collision; the acquisition posture has 0.02
   double min_margin = 0.05;          // [m] static margin; 0.06 is kept in [robot#postures]
   double min_pressure_margin = 0.0;  // [m] below zero it is never: off
@@ -60,7 +60,7 @@ class Monitors {
   [[nodiscard]] bool alarm(Index quantity) const { return alarm_[quantity] > 0.0; }
   [[nodiscard]] double threshold(Index quantity) const { return threshold_[quantity]; }
   [[nodiscard]] const SelfDistance& self_distance() const { return distance_; }
-  [[nodiscard]] const Windings& windings() const { return windings_; }
+  [[nodiscard]] const MotorThermalModel& windings() const { return windings_; }
   [[nodiscard]] Index support_points() const { return support_points_; }  // of the last tick
   void add_log_channels(Recorder& recorder) const;                        // monitor/NAME
   void save(StateWriter& writer) const;
@@ -75,7 +75,7 @@ class Monitors {
   int root_;
   SelfDistance distance_;
   SupportPolygon polygon_;
-  Windings windings_;
+  MotorThermalModel windings_;
   std::vector<bool> is_track_;                // (ngeom)
   Vector threshold_, value_, worst_, alarm_;  // (kQuantities)
   Index support_points_ = 0;

@@ -39,7 +39,7 @@ bool is_state(const SensorSetup& setup) {
 Sensors::Sensors(const Robot& robot, int root, const SensorOptions& options)
     : options_(options),
       range_(robot.model().get(), options.range),
-      watch_(references_of(robot, root), robot.model()->opt.timestep, options.watch) {
+      monitor_(references_of(robot, root), robot.model()->opt.timestep, options.monitor) {
   require(std::isfinite(options_.hold_seconds) && options_.hold_seconds >= 0.0,
           "sensors: hold_seconds wants a number >= 0, " + std::to_string(options_.hold_seconds) +
               " came");
@@ -93,7 +93,7 @@ void Sensors::reset(const mjData* data, std::uint64_t seed) {
     usable_[i] = sensors_[i].reading();
   }
   range_.reset(seed + kStream * (sensors_.size() + 1));
-  watch_.reset();
+  monitor_.reset();
   for (Fault& fault : faults_) fault.held = sensors_[fault.sensor].reading()[fault.entry];
 }
 
@@ -131,24 +131,24 @@ void Sensors::overwrite(VectorRef qpos, VectorRef qvel) {
   }
 }
 
-SensorWatch::Finding Sensors::watch(const Vector& q_des) {
+SensorMonitor::Finding Sensors::monitor(const Vector& q_des) {
   if (!alter_state_ || !has_encoders_) return {};
   // they are the first two of find_sensors
-  return watch_.look(sensors_[0].reading(), sensors_[1].reading(), q_des);
+  return monitor_.look(sensors_[0].reading(), sensors_[1].reading(), q_des);
 }
 
-std::string Sensors::text(const SensorWatch::Finding& finding) const {
+std::string Sensors::text(const SensorMonitor::Finding& finding) const {
   const std::size_t sensor = finding.speed ? 1 : 0;
   const SensorSetup& setup = sensors_[sensor].setup();
   const std::string entry = setup.entries[static_cast<std::size_t>(finding.entry)];
   switch (finding.trouble) {
-    case SensorWatch::Trouble::None:
+    case SensorMonitor::Trouble::None:
       return "";
-    case SensorWatch::Trouble::NotANumber:
+    case SensorMonitor::Trouble::NotANumber:
       return setup.name + "/" + entry + " is not a number";
-    case SensorWatch::Trouble::Stuck:
+    case SensorMonitor::Trouble::Stuck:
       return setup.name + "/" + entry + " does not change while its reference moves";
-    case SensorWatch::Trouble::Disagrees:
+    case SensorMonitor::Trouble::Disagrees:
       return "position and speed of the encoder of " + entry + " disagree";
   }
   return "";
@@ -171,7 +171,7 @@ void Sensors::save(StateWriter& writer) const {
   }
   for (const Fault& fault : faults_) writer.put(fault.held);
   range_.save(writer);
-  watch_.save(writer);
+  monitor_.save(writer);
 }
 
 void Sensors::restore(StateReader& reader) {
@@ -181,7 +181,7 @@ void Sensors::restore(StateReader& reader) {
   }
   for (Fault& fault : faults_) fault.held = reader.get();
   range_.restore(reader);
-  watch_.restore(reader);
+  monitor_.restore(reader);
 }
 
 }  // namespace hurcules

@@ -16,7 +16,7 @@
 #include "hurcules/sim/range_finder.hpp"
 #include "hurcules/sim/recorder.hpp"
 #include "hurcules/sim/sensor.hpp"
-#include "hurcules/sim/sensor_watch.hpp"
+#include "hurcules/sim/sensor_monitor.hpp"
 
 namespace hurcules {
 
@@ -35,7 +35,7 @@ struct SensorOptions {
   std::map<std::string, SensorModel> models;  // by sensor; the others are ideal
   RangeFinderOptions range;
   std::vector<SensorFault> faults;
-  SensorWatchOptions watch;
+  SensorMonitorOptions monitor;
   double hold_seconds = 1.0;  // [s] that a robot which lost a joint's encoder is held and watched
 };
 
@@ -55,8 +55,8 @@ class Sensors {
   // last number that it said. (nq), (nv)
   void overwrite(VectorRef qpos, VectorRef qvel);
   // None while the encoders can be believed, and when nothing alters the state
-  [[nodiscard]] SensorWatch::Finding watch(const Vector& q_des);
-  [[nodiscard]] std::string text(const SensorWatch::Finding& finding) const;
+  [[nodiscard]] SensorMonitor::Finding monitor(const Vector& q_des);
+  [[nodiscard]] std::string text(const SensorMonitor::Finding& finding) const;
 
   [[nodiscard]] const std::vector<Sensor>& all() const { return sensors_; }
   [[nodiscard]] const RangeFinder& range() const { return range_; }
@@ -84,7 +84,7 @@ class Sensors {
   std::vector<bool> written_;   // to the state
   std::vector<Fault> faults_;
   RangeFinder range_;
-  SensorWatch watch_;
+  SensorMonitor monitor_;
   bool has_encoders_ = false, alter_state_ = false;
 };
 

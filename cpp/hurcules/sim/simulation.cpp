@@ -99,8 +99,8 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       battery_(options_.battery),
       sensors_(world_, world_.root_body(), options_.sensors),
       monitors_(plant_.model(), world_.root_body(), options_.power.motors, options_.monitors),
-      limit_watch_(world_, controller_->servo().pid().options().max_torque),
-      fall_watch_({options_.fall.min_height, options_.fall.max_tilt}),
+      limit_monitor_(world_, controller_->servo().pid().options().max_torque),
+      fall_monitor_({options_.fall.min_height, options_.fall.max_tilt}),
       record_(*controller_, phases_of(supervisor_.get()), options_.clock != nullptr),
       initial_qpos_(controller_->plan().qpos()),
       seen_qpos_(world_.qpos()),
@@ -240,7 +240,7 @@ RobotState Simulation::sensed() {
 void Simulation::check_sensors() {
   // a reference that is scaled down must not hide an encoder that is stuck
   wished_ = controller_->q_des() + controller_->held_back();
-  if (!held()) finding_ = sensors_.watch(wished_);
+  if (!held()) finding_ = sensors_.monitor(wished_);
   if (held()) plant_.brakes().close();
 }
 
@@ -288,13 +288,13 @@ void Simulation::advance_plan() {
 // figures, limits and the row of the log
 void Simulation::record() {
   Telemetry& telemetry = record_.telemetry;
-  limit_watch_.look(telemetry);
+  limit_monitor_.look(telemetry);
   if (supervisor_) {
     const Index joints = controller_->servo().coordinate_joints();
     const auto report = [&](const std::vector<const Task*>& tasks) {
       return TickReport{telemetry.time, controller_->law().active_limits(),
                         telemetry.joint_error.head(joints).cwiseAbs().maxCoeff(),
-                        limit_watch_.commanded().torque, tasks};
+                        limit_monitor_.commanded().torque, tasks};
     };
     supervisor_->note_commanded(*controller_, report(planned_tasks_));
     measure_world();
@@ -317,7 +317,7 @@ void Simulation::judge() {
   }
   if (fall_frame_) {
     const double height = world_.position(*fall_frame_).z() - world_.position(support_).z();
-    if (fall_watch_.fell(world_.orientation(support_), height)) return end(Ending::Fell, now);
+    if (fall_monitor_.fell(world_.orientation(support_), height)) return end(Ending::Fell, now);
   }
   if (time() >= options_.max_seconds) return end(Ending::TimeUp, now);
   if (held()) {
@@ -340,7 +340,7 @@ void Simulation::stand_on_new_support() {
   const Frame support = controller_->plan().support();
   if (support.id == support_.id) return;
   support_ = support;
-  fall_watch_.reset(world_.orientation(support_));
+  fall_monitor_.reset(world_.orientation(support_));
   if (placed_) placed_->stand_on(controller_->plan().support_name());
 }
 
@@ -435,13 +435,13 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
   battery_.reset();
   record_.telemetry.charge = battery_.charge();
   place(seed, start);
-  limit_watch_.reset();
+  limit_monitor_.reset();
   monitors_.reset();
   sensors_.reset(plant_.data(), seed);
   finding_ = {};
   held_ticks_ = 0;
   support_ = controller_->plan().support();
-  fall_watch_.reset(world_.orientation(support_));
+  fall_monitor_.reset(world_.orientation(support_));
   if (supervisor_) {
     supervisor_->reset(*controller_, world_);
     record_.note_phase(supervisor_->phase());
@@ -491,8 +491,8 @@ void Simulation::write(std::vector<double>& values) const {
   if (supervisor_) supervisor_->save(writer);
   controller_->save(writer);
   battery_.save(writer);
-  limit_watch_.save(writer);
-  fall_watch_.save(writer);
+  limit_monitor_.save(writer);
+  fall_monitor_.save(writer);
   monitors_.save(writer);
   sensors_.save(writer);
   writer.put(static_cast<double>(static_cast<int>(finding_.trouble)));
@@ -534,12 +534,12 @@ void Simulation::read(const std::vector<double>& values) {
   controller_->restore(reader);
   support_ = controller_->plan().support();
   battery_.restore(reader);
-  limit_watch_.restore(reader);
-  fall_watch_.restore(reader);
+  limit_monitor_.restore(reader);
+  fall_monitor_.restore(reader);
   monitors_.restore(reader);
   sensors_.restore(reader);
-  finding_.trouble = static_cast<SensorWatch::Trouble>(
-      reader.get_count(static_cast<Index>(SensorWatch::Trouble::Disagrees)));
+  finding_.trouble = static_cast<SensorMonitor::Trouble>(
+      reader.get_count(static_cast<Index>(SensorMonitor::Trouble::Disagrees)));
   finding_.entry = reader.get_count(plant_.model()->nu);
   finding_.speed = reader.get_count(1) > 0;
   held_ticks_ = reader.get_count(kMostTicks);

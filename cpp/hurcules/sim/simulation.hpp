@@ -17,12 +17,13 @@
 #include <vector>
 
 #include "hurcules/sim/battery.hpp"
+#include "hurcules/sim/fall_monitor.hpp"
+#include "hurcules/sim/limit_monitor.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
 #include "hurcules/sim/run_record.hpp"
 #include "hurcules/sim/sensors.hpp"
 #include "hurcules/sim/supervisor.hpp"
-#include "hurcules/sim/watch.hpp"
 
 namespace hurcules {
 
@@ -88,7 +89,7 @@ class Simulation {
   [[nodiscard]] bool physics() const { return options_.physics; }
   [[nodiscard]] std::string reason() const;  // "" while running
   // its sensors cannot be believed: it stands behind its brakes until the run ends
-  [[nodiscard]] bool held() const { return finding_.trouble != SensorWatch::Trouble::None; }
+  [[nodiscard]] bool held() const { return finding_.trouble != SensorMonitor::Trouble::None; }
   [[nodiscard]] Vector operator_command();  // of the next tick, (k)
 
   // All that decides how the run goes on; any simulation of this model and controller can restore it.
@@ -103,7 +104,7 @@ class Simulation {
   // what a policy sees now: its channels and snapshot()
   // (measured: the errors of the tasks too)
   [[nodiscard]] const Recorder& observation(bool measured = true) const;
-  [[nodiscard]] const LimitWatch& limits() const { return limit_watch_; }
+  [[nodiscard]] const LimitMonitor& limits() const { return limit_monitor_; }
   [[nodiscard]] const EventList& events() const { return record_.events; }
   [[nodiscard]] std::string text(const Event& event) const {
     return record_.text(event, monitors_);
@@ -154,8 +155,8 @@ class Simulation {
   Battery battery_;
   Sensors sensors_;
   Monitors monitors_;
-  LimitWatch limit_watch_;
-  FallWatch fall_watch_;
+  LimitMonitor limit_monitor_;
+  FallMonitor fall_monitor_;
   // What is measured at the real robot is measured when somebody looks: the next three change then.
   mutable RunRecord record_;
   mutable std::vector<std::unique_ptr<Task>> measured_;  // the controller's tasks, there
@@ -166,7 +167,7 @@ class Simulation {
   Vector seen_qpos_, seen_qvel_;            // (nq), (nv) as sensed
   Vector summed_;                           // (k) the supervisor's command and somebody else's
   Vector wished_;                           // [rad] (n) q* if the motors had held it
-  SensorWatch::Finding finding_;            // why it is held
+  SensorMonitor::Finding finding_;          // why it is held
   std::int64_t held_ticks_ = 0;
   Frame support_;
   std::optional<Frame> fall_frame_, target_;

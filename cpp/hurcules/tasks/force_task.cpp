@@ -38,7 +38,7 @@ ForceTask::ForceTask(std::string name, const Robot& robot, const std::string& fr
     : PositionTask(name, robot, frame, along_axis(options, name)),
       options_(options),
       law_(options.gains),
-      watch_(timed(options.contact, options.gains.dt), name),
+      monitor_(timed(options.contact, options.gains.dt), name),
       estimate_(options.stiffness),
       force_des_(options.force_des) {
   check_force_gains(options.gains, options.environment, name);
@@ -54,7 +54,7 @@ void ForceTask::set_force(double force_des) {
   require(std::abs(force_des) < options_.contact.f_max,  // also for a number that is none
           "force of task '" + name_ + "' wants to be below f_max");
   force_des_ = force_des;
-  watch_.expect(force_des);
+  monitor_.expect(force_des);
 }
 
 double ForceTask::stiffness() const {
@@ -62,7 +62,7 @@ double ForceTask::stiffness() const {
 }
 
 ForceTask::Mode ForceTask::mode() const {
-  const ContactState state = watch_.state();
+  const ContactState state = monitor_.state();
   if (state == ContactState::Stopped || state == ContactState::SensorLost) return Mode::Hold;
   return enabled_ && state == ContactState::Contact ? Mode::Force : Mode::Motion;
 }
@@ -77,11 +77,11 @@ void ForceTask::sense(const Robot& robot, double force) {
   }
   last_ = s;
   sensed_ = true;
-  watch_.look(force, s);
+  monitor_.look(force, s);
   const Mode now = mode();
   if (now == Mode::Force) {
-    if (mode_ != Mode::Force) estimate_.start(s, watch_.force());
-    estimate_.look(s, watch_.force());
+    if (mode_ != Mode::Force) estimate_.start(s, monitor_.force());
+    estimate_.look(s, monitor_.force());
   }
   // without a reference in the law, the motion goes on from where the force left the frame
   const bool follows = now == Mode::Force && !law_.has_reference();
@@ -153,7 +153,7 @@ void ForceTask::advance(const ConstVectorRef& velocity, double dt) {
 }
 
 void ForceTask::reset(const Robot& robot) {
-  watch_.reset();
+  monitor_.reset();
   law_.reset();
   mode_ = Mode::Motion;
   ForceTask::hold(robot);
@@ -162,7 +162,7 @@ void ForceTask::reset(const Robot& robot) {
 void ForceTask::save(StateWriter& writer) const {
   ValueTask::save(writer);
   law_.save(writer);
-  watch_.save(writer);
+  monitor_.save(writer);
   estimate_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
@@ -174,7 +174,7 @@ void ForceTask::save(StateWriter& writer) const {
 void ForceTask::restore(StateReader& reader) {
   ValueTask::restore(reader);
   law_.restore(reader);
-  watch_.restore(reader);
+  monitor_.restore(reader);
   estimate_.restore(reader);
   force_des_ = reader.get();
   enabled_ = reader.get_count(1) > 0;

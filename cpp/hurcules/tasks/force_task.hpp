@@ -12,7 +12,7 @@
 // other laws for one of accelerations.
 #pragma once
 
-#include "hurcules/tasks/contact_watch.hpp"
+#include "hurcules/tasks/contact_monitor.hpp"
 #include "hurcules/tasks/force_law.hpp"
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/stiffness_estimate.hpp"
@@ -57,10 +57,10 @@ class ForceTask : public PositionTask {
   // out of Stopped and SensorLost, at rest where the frame is
   void reset(const Robot& robot) override;
 
-  [[nodiscard]] ContactState state() const { return watch_.state(); }
-  [[nodiscard]] double force() const { return watch_.force(); }  // [N] last reading
-  [[nodiscard]] double force_des() const { return force_des_; }  // [N]
-  [[nodiscard]] double stiffness() const;                        // [N/m] given or learnt
+  [[nodiscard]] ContactState state() const { return monitor_.state(); }
+  [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
+  [[nodiscard]] double force_des() const { return force_des_; }    // [N]
+  [[nodiscard]] double stiffness() const;                          // [N/m] given or learnt
   [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
 
  private:
@@ -72,7 +72,7 @@ class ForceTask : public PositionTask {
 
   ForceTaskOptions options_;
   ForceLaw law_;
-  ContactWatch watch_;
+  ContactMonitor monitor_;
   StiffnessEstimate estimate_;
   double force_des_;
   bool enabled_ = true;

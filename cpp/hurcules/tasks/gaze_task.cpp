@@ -62,7 +62,7 @@ void GazeTask::advance(const ConstVectorRef& velocity, double dt) {
   turn(velocity[0] * dt, velocity[1] * dt);
 }
 
-void GazeTask::relax(double share) {
+void GazeTask::back_calculate(double share) {
   turn(share * error_[0], share * error_[1]);
 }
 

@@ -30,7 +30,7 @@ class GazeTask : public Task {
   // moves the target around the camera of the last update, to the left (yaw) and upward (pitch) as
   // seen from it; [rad/s], (2)
   void advance(const ConstVectorRef& velocity, double dt) override;
-  void relax(double share) override;
+  void back_calculate(double share) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

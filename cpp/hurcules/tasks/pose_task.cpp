@@ -68,7 +68,7 @@ void PoseTask::advance(const ConstVectorRef& velocity, double dt) {
   R_des_ = Eigen::Quaterniond(rotation_exp(turn_ * dt) * R_des_).normalized().toRotationMatrix();
 }
 
-void PoseTask::relax(double share) {
+void PoseTask::back_calculate(double share) {
   p_des_ += share * error_.head<3>();
 }
 

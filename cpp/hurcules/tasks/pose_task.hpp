@@ -29,7 +29,7 @@ class PoseTask : public Task {
   // moves the target by velocity dt: [m/s] (3), then [rad/s] (3), in the axes of R
   void advance(const ConstVectorRef& velocity, double dt) override;
   // of the way of the position; the target's orientation stays
-  void relax(double share) override;
+  void back_calculate(double share) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

@@ -57,7 +57,7 @@ void Task::set_weights(const ConstVectorRef& weights) {
   weights_ = weights;
 }
 
-void Task::relax(double /*share*/) {}
+void Task::back_calculate(double /*share*/) {}
 
 void Task::save(StateWriter& writer) const {
   writer.put(velocity_des_);

@@ -37,7 +37,7 @@ class Task {
   virtual void advance(const ConstVectorRef& velocity, double dt) = 0;
   // moves the target by this share (0 .. 1) of its way to the value of the last update; the
   // feed-forward stays, the error follows at the next update. Nothing where there is no target.
-  virtual void relax(double share);
+  virtual void back_calculate(double share);
   // what must be kept between ticks: the target, the feed-forwards and the interval
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;

@@ -32,7 +32,7 @@ void ValueTask::hold(const Robot& robot) {
 void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
-  const double slack = 1.25 * (1.0 - error_.norm() / leash_);
+  const double slack = 1.25 * (1.0 - error_.norm() / max_lead_);
   const bool leads = error_.dot(velocity) < 0.0;  // away from the value
   velocity_des_ = velocity;
   if (leads && slack < 1.0) velocity_des_ *= std::max(0.0, slack);
@@ -40,13 +40,13 @@ void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   target_ += velocity_des_ * dt;
 }
 
-void ValueTask::relax(double share) {
+void ValueTask::back_calculate(double share) {
   target_ += share * error_;
 }
 
-void ValueTask::set_leash(double leash) {
-  require(leash > 0.0, "leash of '" + name() + "' wants a positive distance, inf for none");
-  leash_ = leash;
+void ValueTask::set_max_lead(double max_lead) {
+  require(max_lead > 0.0, "max_lead of '" + name() + "' wants a positive distance, inf for none");
+  max_lead_ = max_lead;
 }
 
 void ValueTask::set_target(const ConstVectorRef& target) {

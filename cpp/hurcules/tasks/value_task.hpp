@@ -15,12 +15,12 @@ class ValueTask : public Task {
   void update(const Robot& robot) override;
   void hold(const Robot& robot) override;
   void advance(const ConstVectorRef& velocity, double dt) override;
-  void relax(double share) override;
+  void back_calculate(double share) override;
   // Keeps `advance` from leading the target further than this from the value (Euclidean norm, task
   // unit; inf, the default: anywhere). From a fifth of it on the target goes slower, so that a
   // robot at the end of its reach stops; a velocity that leads back is never held.
-  void set_leash(double leash);
-  [[nodiscard]] double leash() const { return leash_; }
+  void set_max_lead(double max_lead);
+  [[nodiscard]] double max_lead() const { return max_lead_; }
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 
@@ -44,7 +44,7 @@ class ValueTask : public Task {
 
  private:
   bool wraps_;
-  double leash_ = std::numeric_limits<double>::infinity();
+  double max_lead_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace hurcules

@@ -104,8 +104,8 @@ TEST_F(Contacts, TellWhatFrictionForbids) {
   const Vector3 sum = carried(controller_);
   EXPECT_GT(sum.x(), 0.0);
   bool told = false;
-  for (const LevelNote& note : controller_.notes(robot_))
-    for (const ShortTask& task : note.shorts) told = told || contains(task.text(), "friction");
+  for (const LevelDiagnostics& note : controller_.diagnostics(robot_))
+    for (const Shortfall& task : note.shortfalls) told = told || contains(task.text(), "friction");
   EXPECT_TRUE(told);
 }
 

@@ -1,6 +1,6 @@
 // Strategy: the seven-joint arm by accelerations: the motion that no task holds decays as `rest`
 // says, and a hand that is led on beyond its reach comes to rest there and turns at once when its
-// target is kept on a leash. The robot's own reach, in the physics: test_end_of_reach.py.
+// target leads it by no more than `max_lead`. The robot's own reach, in the physics: test_end_of_reach.py.
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -57,9 +57,9 @@ TEST_F(EndOfReach, WhatNoTaskHoldsBrakesAsRestSays) {
 }
 
 TEST_F(EndOfReach, AHandOnALeashStopsAtTheEndOfItsReachAndTurnsAtOnce) {
-  const auto reach = [&](double leash) {
+  const auto reach = [&](double max_lead) {
     start();
-    hand_.set_leash(leash);
+    hand_.set_max_lead(max_lead);
     AccelerationController controller(robot_, {.rest = 10.0});
     controller.set_stack(joint_ < hand_ < posture_);
     const auto lead = [&](double speed, int ticks) {

@@ -187,17 +187,17 @@ TEST(ForceTask, KeepsAForceBelowTheOneThatMakesContact) {
 
 // readings that change 40 times and then keep their bits while the frame moves by 5 mm
 ContactState kept_after(double step) {
-  ContactWatch watch({}, "watch");
-  for (int i = 0; i < 40; ++i) watch.look(-5.0 - step * (i % 7), 0.0);
+  ContactMonitor monitor({}, "monitor");
+  for (int i = 0; i < 40; ++i) monitor.look(-5.0 - step * (i % 7), 0.0);
   ContactState state = ContactState::Free;
-  for (int i = 0; i < 50; ++i) state = watch.look(-5.0, 1e-4 * i);
+  for (int i = 0; i < 50; ++i) state = monitor.look(-5.0, 1e-4 * i);
   return state;
 }
 
 TEST(ForceTask, AReadingInStepsIsNoLostSensor) {
   EXPECT_EQ(kept_after(0.05), ContactState::Contact);
   EXPECT_EQ(kept_after(0.0317e-3), ContactState::SensorLost);  // noise, then the same bits
-  ContactWatch stuck({}, "stuck");
+  ContactMonitor stuck({}, "stuck");
   ContactState state = ContactState::Free;
   for (int i = 0; i < 50; ++i) state = stuck.look(-5.0, 1e-4 * i);
   EXPECT_EQ(state, ContactState::SensorLost);

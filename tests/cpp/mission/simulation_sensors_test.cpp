@@ -83,7 +83,7 @@ TEST(SimulationSensors, IdealOnesGiveTheBitsOfNone) {
 TEST(SimulationSensors, APolicySeesReadingsAndTheLimitsGoByTheTruth) {
   MissionOptions options = usual();
   options.sensors.models["encoder_position"] = {.bias = 5.0};  // beyond any joint range
-  options.sensors.watch.tolerance = 1e9;
+  options.sensors.monitor.tolerance = 1e9;
   MissionSimulation simulation(stretch_scene(), "stretch", options);
   simulation.step(1);
   EXPECT_GT((simulation.telemetry().seen_q - simulation.telemetry().q).norm(), 1.0);

@@ -1,13 +1,13 @@
 // Strategy: the four laws on an ideal robot, s'' or s' exactly as asked, against a spring: steady
 // states and settling of K01-K06 and K15-K16 where the thesis or a pencil gives them; the stability
-// bound against the same loop simulated on both sides of it; the contact watch and the stiffness
+// bound against the same loop simulated on both sides of it; the contact monitor and the stiffness
 // estimate on made-up readings. Not tested here: the row in a stack (force_task_test.cpp).
 #include "hurcules/tasks/force_law.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "hurcules/tasks/contact_watch.hpp"
+#include "hurcules/tasks/contact_monitor.hpp"
 #include "hurcules/tasks/stiffness_estimate.hpp"
 #include "support/expect.hpp"
 #include "support/random_motion.hpp"
@@ -136,13 +136,13 @@ TEST(ForceLaw, GainsThatAreUnstableAreRefusedWithTheStiffnessThatIsNot) {
       "integral gain"));
 }
 
-ContactWatch watch(const ContactOptions& options = {}) {
+ContactMonitor monitor(const ContactOptions& options = {}) {
   return {options, "z"};
 }
 
-TEST(ContactWatch, EntersAtTheLeastForceAndLeavesBelowHalfOfIt) {
+TEST(ContactMonitor, EntersAtTheLeastForceAndLeavesBelowHalfOfIt) {
   // K12
-  ContactWatch one = watch();
+  ContactMonitor one = monitor();
   EXPECT_EQ(one.look(-2.4, 0.0), ContactState::Free);
   EXPECT_EQ(one.look(-2.5, 0.0), ContactState::Contact);
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(one.look(-1.5 - 1e-6 * i, 0.0), ContactState::Contact);
@@ -152,9 +152,9 @@ TEST(ContactWatch, EntersAtTheLeastForceAndLeavesBelowHalfOfIt) {
   EXPECT_EQ(one.look(0.0, 0.0), ContactState::Free);
 }
 
-TEST(ContactWatch, StopsAboveTheLargestForceUntilReset) {
+TEST(ContactMonitor, StopsAboveTheLargestForceUntilReset) {
   // K13
-  ContactWatch one = watch();
+  ContactMonitor one = monitor();
   EXPECT_EQ(one.look(-149.0, 0.0), ContactState::Contact);
   EXPECT_EQ(one.look(-151.0, 0.0), ContactState::Stopped);
   EXPECT_EQ(one.look(-5.0, 0.0), ContactState::Stopped);
@@ -162,8 +162,8 @@ TEST(ContactWatch, StopsAboveTheLargestForceUntilReset) {
   EXPECT_EQ(one.look(0.0, 0.0), ContactState::Free);
 }
 
-TEST(ContactWatch, BridgesAShortGapAndStopsAfterALongOne) {
-  ContactWatch one = watch();
+TEST(ContactMonitor, BridgesAShortGapAndStopsAfterALongOne) {
+  ContactMonitor one = monitor();
   one.look(-5.0, 0.0);
   for (int i = 0; i < 9; ++i) ASSERT_EQ(one.look(kNan, 0.0), ContactState::Contact) << i;
   EXPECT_EQ(one.force(), -5.0);
@@ -172,8 +172,8 @@ TEST(ContactWatch, BridgesAShortGapAndStopsAfterALongOne) {
   EXPECT_EQ(one.state(), ContactState::SensorLost);
 }
 
-TEST(ContactWatch, AReadingThatStaysWhileTheFrameMovesIsALostSensor) {
-  ContactWatch one = watch(), coarse = watch({.frozen_move = 0.0}), still = watch();
+TEST(ContactMonitor, AReadingThatStaysWhileTheFrameMovesIsALostSensor) {
+  ContactMonitor one = monitor(), coarse = monitor({.frozen_move = 0.0}), still = monitor();
   for (int i = 0; i < 5000; ++i) ASSERT_EQ(one.look(0.0, -1e-4 * i), ContactState::Free);
   for (int i = 0; i < 60; ++i) {  // 0.6 mm
     one.look(-5.0, -1e-5 * i);
@@ -185,9 +185,9 @@ TEST(ContactWatch, AReadingThatStaysWhileTheFrameMovesIsALostSensor) {
   EXPECT_EQ(still.state(), ContactState::Contact);
 }
 
-TEST(ContactWatch, RefusesBoundsThatCannotBe) {
-  EXPECT_TRUE(contains(error_text([] { watch({.f_min = 0.0}); }), "f_min"));
-  EXPECT_TRUE(contains(error_text([] { watch({.f_min = 5.0, .f_max = 4.0}); }), "f_max"));
+TEST(ContactMonitor, RefusesBoundsThatCannotBe) {
+  EXPECT_TRUE(contains(error_text([] { monitor({.f_min = 0.0}); }), "f_min"));
+  EXPECT_TRUE(contains(error_text([] { monitor({.f_min = 5.0, .f_max = 4.0}); }), "f_max"));
 }
 
 TEST(StiffnessEstimate, LearnsAStiffnessFromAPressThroughNoise) {

@@ -71,7 +71,7 @@ TEST_F(Gaze, HoldKeepsTheDistance) {
 TEST_F(Gaze, ARelaxedTargetTurnsItsShareOfTheWayToTheLineOfSight) {
   const auto left = [](double yaw) { return Vector3(3 * std::cos(yaw), 3 * std::sin(yaw), 0); };
   look_at(left(0.4));
-  task_.relax(0.25);
+  task_.back_calculate(0.25);
   EXPECT_TRUE(near(task_.target(), camera_ + left(0.3), 1e-14));
 }
 

@@ -49,10 +49,10 @@ TEST_F(ValuesOfTwin, ARelaxedTargetGoesItsShareOfTheWayToTheValue) {
   const Vector value = hand.value();
   hand.set_target(value + Vector3(0.4, 0, -0.2));
   hand.update(robot_);
-  hand.relax(0.25);
+  hand.back_calculate(0.25);
   EXPECT_TRUE(near(hand.target(), value + Vector3(0.3, 0, -0.15), 1e-14));
   hand.update(robot_);
-  hand.relax(1.0);
+  hand.back_calculate(1.0);
   EXPECT_TRUE(near(hand.target(), value, 1e-14));
 }
 
@@ -97,7 +97,9 @@ TEST_F(ValuesOfTwin, ElevationOfALoweredArmIsBelowTheHorizontal) {
   pitch.set_target(Vector::Constant(1, 0.1));
   pitch.update(robot_);
   EXPECT_NEAR(pitch.error()[0], -0.5, tolerance(1e-14));
-  EXPECT_TRUE(contains(error_text([&] { AngleTask("a", robot_, "fa_l", {.axis = {0, 0, 0}}); }),
+  EXPECT_TRUE(contains(error_text([&] {
+                         AngleTask("a", robot_, "fa_l", {.axis = {0, 0, 0}});
+                       }),
                        "not zero"));
 }
 
@@ -128,8 +130,8 @@ TEST_F(ValuesOfTwin, ALeashSlowsTheTargetDownButNeverItsWayBack) {
   PositionTask hand("hand", robot_, "hand_l");
   const Vector3 start = hand.value(), speed(0.0, 0.1, 0.0);
   hand.advance(speed, 1e-3);
-  EXPECT_TRUE(near(hand.velocity_des(), speed, 0.0));  // no leash: anywhere
-  hand.set_leash(0.1);
+  EXPECT_TRUE(near(hand.velocity_des(), speed, 0.0));  // no maximum lead: anywhere
+  hand.set_max_lead(0.1);
   const auto share = [&](double lead, double sign) {
     hand.set_target(start + Vector3(0.0, lead, 0.0));
     hand.update(robot_);
@@ -144,7 +146,7 @@ TEST_F(ValuesOfTwin, ALeashSlowsTheTargetDownButNeverItsWayBack) {
   EXPECT_NEAR(share(0.1, 1.0), 0.0, 1e-12);
   EXPECT_EQ(share(0.3, 1.0), 0.0);
   EXPECT_EQ(share(0.3, -1.0), 1.0);
-  EXPECT_TRUE(contains(error_text([&] { hand.set_leash(0.0); }), "positive distance"));
+  EXPECT_TRUE(contains(error_text([&] { hand.set_max_lead(0.0); }), "positive distance"));
 }
 
 TEST_F(ValuesOfTwin, UnknownFramesAreErrors) {

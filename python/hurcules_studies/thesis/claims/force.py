@@ -123,7 +123,7 @@ FORCE = (
                 "start postures, pelvis by pitch of the lower arms, those that meet the limits at "
                 "8 and 11 s and straighten the elbows by 13 s end their reach at 14 s or later, "
                 "and their fastest joint gains 1.2 times or more. At that end the arms come to "
-                "rest with `rest` and a leash (docs/control.md)",
+                "rest with `rest` and a maximum lead (docs/control.md)",
             ),
         },
         solvers=(DEFAULT,),

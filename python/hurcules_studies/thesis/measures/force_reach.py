@@ -23,7 +23,7 @@ from hurcules_studies.thesis.measures.registry import measures
 THESIS = (8.0, 11.0, 12.0)  # [s] hip; shoulders and hip; singularity
 REACH = 0.0767  # [m/s]
 START, STOP, END = 4.88, 16.5, 17.5  # [s]
-REST, LEASH = 10.0, 5e-3  # [1/s], [m] of hands that are led on beyond their reach
+REST, MAX_LEAD = 10.0, 5e-3  # [1/s], [m] of hands that are led on beyond their reach
 BEYOND = 20.0  # [s] until when they are
 ARM = ("LSP", "LSR", "LSY", "LEB", "RSP", "RSR", "RSY", "REB")
 
@@ -38,10 +38,10 @@ def reach(compliance: float, method: str = "lexicographic", end: float = END) ->
 
 
 @cache
-def led_on(rest: float, leash: float) -> Log:
+def led_on(rest: float, max_lead: float) -> Log:
     """The same, on for 3 s beyond the reach, then 2 s at rest."""
     setting = Setting(
-        gains=second(ForceLoop.Velocity), environment=G, f_max=1e6, rest=rest, leash=leash
+        gains=second(ForceLoop.Velocity), environment=G, f_max=1e6, rest=rest, max_lead=max_lead
     )
     robot = PressRobot(setting)
     robot.settle()
@@ -91,7 +91,7 @@ def outstretched() -> Finding:
     arm, whole = speeds(log, *ARM), speeds(log)
     hard = np.abs(log.qdd).max(axis=1)
     shown = ("KN", "HIP", "LSP", "LEB")
-    swing, still = led_on(0.0, np.inf), led_on(REST, LEASH)
+    swing, still = led_on(0.0, np.inf), led_on(REST, MAX_LEAD)
     return Finding(
         {
             "straight": straight,
@@ -102,9 +102,9 @@ def outstretched() -> Finding:
         [
             Note("largest speed of the arms before", float(arm.max()), "rad/s"),
             Note("led on beyond the reach: elbows", swings(swing, "LEB", "REB"), "rad/s"),
-            Note("with rest and leash: elbows", swings(still, "LEB", "REB"), "rad/s"),
-            Note("with rest and leash: fastest joint", swings(still), "rad/s"),
-            Note("force read then, with rest and leash, least", weakest(still), "N"),
+            Note("with rest and maximum lead: elbows", swings(still, "LEB", "REB"), "rad/s"),
+            Note("with rest and maximum lead: fastest joint", swings(still), "rad/s"),
+            Note("force read then, with rest and maximum lead, least", weakest(still), "N"),
         ],
         [
             over_time("Speeds, C = 0.05", "[rad/s]", lines_of(log, log.qd, *shown)),

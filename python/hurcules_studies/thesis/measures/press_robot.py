@@ -56,7 +56,7 @@ class Setting:
         f_max: [N].
         method: of the solver; the default hands weak directions down smoothly.
         rest: [1/s] rate at which weak and free directions brake, by accelerations.
-        leash: [m] of the hands across the force.
+        max_lead: [m] of the hands across the force.
     """
 
     surface: Surface = field(default_factory=Surface)
@@ -68,7 +68,7 @@ class Setting:
     f_max: float = 150.0
     method: str = "lexicographic"
     rest: float = 0.0
-    leash: float = math.inf
+    max_lead: float = math.inf
 
 
 def ramped(speed: float, start: float, end: float, ramp: float = 0.3) -> Speed:
@@ -160,7 +160,7 @@ class PressRobot:
             hurcules.PositionTask(f"{s}hpos", plan, f"{s.upper()}_tcp", axes=across) for s in "lr"
         ]
         for task in self.across:
-            task.leash = setting.leash
+            task.max_lead = setting.max_lead
         self.forces = [
             hurcules.ForceTask(
                 f"{s}force",

@@ -29,10 +29,10 @@ struct ContactOptions {
   double dt = 1e-3;            // [s]
 };
 
-class ContactWatch {
+class ContactMonitor {
  public:
   // throws Error, naming the task
-  ContactWatch(const ContactOptions& options, const std::string& task);
+  ContactMonitor(const ContactOptions& options, const std::string& task);
   // a reading [N], any number, with the frame at this place along the axis [m]
   ContactState look(double reading, double position);
   // the force that is wanted [N], of any sign

@@ -1,30 +1,30 @@
-#include "hurcules/sim/sensor_watch.hpp"
+#include "hurcules/sim/sensor_monitor.hpp"
 
 #include <cmath>
 #include <utility>
 
 namespace hurcules {
 
-SensorWatch::SensorWatch(std::vector<EncoderReference> references, double dt,
-                         const SensorWatchOptions& options)
+SensorMonitor::SensorMonitor(std::vector<EncoderReference> references, double dt,
+                             const SensorMonitorOptions& options)
     : references_(std::move(references)), dt_(dt), options_(options) {
   const auto size = static_cast<Index>(references_.size());
   last_ = reference_at_change_ = window_start_ = way_ = Vector::Zero(size);
 }
 
-void SensorWatch::reset() {
+void SensorMonitor::reset() {
   begun_ = false;
   ticks_ = 0;
   for (Vector* values : {&last_, &reference_at_change_, &window_start_, &way_}) values->setZero();
 }
 
-double SensorWatch::reference(std::size_t entry, const Vector& q_des) const {
+double SensorMonitor::reference(std::size_t entry, const Vector& q_des) const {
   const EncoderReference& found = references_[entry];
   return found.coordinate < 0 ? 0.0 : found.factor * q_des[found.coordinate];
 }
 
-SensorWatch::Finding SensorWatch::look(const Vector& position, const Vector& speed,
-                                       const Vector& q_des) {
+SensorMonitor::Finding SensorMonitor::look(const Vector& position, const Vector& speed,
+                                           const Vector& q_des) {
   const bool window_over = begun_ && ++ticks_ >= options_.window;
   for (std::size_t k = 0; k < references_.size(); ++k) {
     const auto i = static_cast<Index>(k);
@@ -53,7 +53,7 @@ SensorWatch::Finding SensorWatch::look(const Vector& position, const Vector& spe
   return {};
 }
 
-void SensorWatch::save(StateWriter& writer) const {
+void SensorMonitor::save(StateWriter& writer) const {
   writer.put(begun_ ? 1.0 : 0.0);
   writer.put(static_cast<double>(ticks_));
   for (const Vector* values : {&last_, &reference_at_change_, &window_start_, &way_}) {
@@ -61,7 +61,7 @@ void SensorWatch::save(StateWriter& writer) const {
   }
 }
 
-void SensorWatch::restore(StateReader& reader) {
+void SensorMonitor::restore(StateReader& reader) {
   begun_ = reader.get_count(1) > 0;
   ticks_ = static_cast<int>(reader.get_count(options_.window));
   for (Vector* values : {&last_, &reference_at_change_, &window_start_, &way_}) {

@@ -15,7 +15,7 @@
 namespace hurcules {
 
 // A task that is off its interval and is not being brought back as it asks.
-struct ShortTask {
+struct Shortfall {
   std::string task;
   double short_by = 0.0;             // [unit] length of the error outside its interval
   std::string unit;                  // "m" or "rad"
@@ -24,13 +24,13 @@ struct ShortTask {
   [[nodiscard]] std::string text() const;
 };
 
-struct LevelNote {
+struct LevelDiagnostics {
   std::string level;
   // of the level's equality rows on the directions that the levels above left: the smallest is the
   // distance to singularity, the product the manipulability; unit of the rows, 1 without such rows
   double smallest_singular_value = 1.0;
   double manipulability = 1.0;
-  std::vector<ShortTask> shorts;  // empty: all is well
+  std::vector<Shortfall> shortfalls;  // empty: all is well
 };
 
 // What a controller knows after a solve.
@@ -44,6 +44,6 @@ struct SolvedStack {
 };
 // none where the solver's method makes no reports
 [[nodiscard]] std::vector<LevelReport> reports_of(const Solver& solver);
-[[nodiscard]] std::vector<LevelNote> level_notes(const SolvedStack& solved);
+[[nodiscard]] std::vector<LevelDiagnostics> level_diagnostics(const SolvedStack& solved);
 
 }  // namespace hurcules

@@ -19,24 +19,25 @@ struct mjData_;
 namespace hurcules {
 
 // Assumed: insulation class B, and the time constant of a frameless motor of some kilogrammes.
-struct WindingOptions {
+struct MotorThermalOptions {
   double ambient = 25.0;        // [deg C]
   double limit = 130.0;         // [deg C] of the insulation
   double continuous = 0.6;      // share of the peak torque that a motor bears for ever
   double time_constant = 60.0;  // [s]
 };
 
-class Windings {
+class MotorThermalModel {
  public:
   // every actuator of a joint is a motor; throws Error for options out of range
-  Windings(const mjModel_* model, const MotorLosses& losses, const WindingOptions& options = {});
+  MotorThermalModel(const mjModel_* model, const MotorLosses& losses,
+                    const MotorThermalOptions& options = {});
   void reset();  // all at the ambient temperature
   // after a step: a step's heat
   void warm(const mjData_* data);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }  // of joints, (m)
   [[nodiscard]] const Vector& temperature() const { return temperature_; }        // [deg C] (m)
-  [[nodiscard]] const WindingOptions& options() const { return options_; }
+  [[nodiscard]] const MotorThermalOptions& options() const { return options_; }
   void save(StateWriter& writer) const { writer.put(temperature_); }
   void restore(StateReader& reader) { reader.get(temperature_); }
 
@@ -47,7 +48,7 @@ class Windings {
     MotorPower power;
     double resistance = 0.0;  // [K/W]
   };
-  WindingOptions options_;
+  MotorThermalOptions options_;
   double share_;  // of the way to where it ends, a step
   std::vector<Motor> motors_;
   std::vector<std::string> names_;

@@ -1,4 +1,4 @@
-#include "hurcules/sim/place_watch.hpp"
+#include "hurcules/sim/place_monitor.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -23,7 +23,7 @@ Vector3 level(const Vector3& v) {
 
 }  // namespace
 
-const std::vector<std::string>& PlaceWatch::names() {
+const std::vector<std::string>& PlaceMonitor::names() {
   static const std::vector<std::string> all = {
       "ahead_m",           "aside_m",        "heading_rad",        "stand_ahead_m",
       "stand_rad",         "hands_ahead_m",  "hands_aside_m",      "left_hand_ahead_m",
@@ -32,7 +32,7 @@ const std::vector<std::string>& PlaceWatch::names() {
   return all;
 }
 
-PlaceWatch::PlaceWatch(const mjModel* m, const std::string& body, double stand_off)
+PlaceMonitor::PlaceMonitor(const mjModel* m, const std::string& body, double stand_off)
     : body_(id_of(m, mjOBJ_BODY, body)),
       robot_(id_of(m, mjOBJ_BODY, "upper_legs")),
       eyes_(id_of(m, mjOBJ_SITE, "gaze")),
@@ -47,20 +47,20 @@ PlaceWatch::PlaceWatch(const mjModel* m, const std::string& body, double stand_o
   values_ = Vector::Zero(places_[0] < 0 ? kPlaces : kQuantities);
 }
 
-void PlaceWatch::add_log_channels(Recorder& log, const std::string& prefix) const {
+void PlaceMonitor::add_log_channels(Recorder& log, const std::string& prefix) const {
   const auto begin = names().begin();
   log.add(prefix, std::vector<std::string>(begin, begin + values_.size()), values_);
 }
 
-void PlaceWatch::save(StateWriter& writer) const {
+void PlaceMonitor::save(StateWriter& writer) const {
   for (const Vector* vector : {&error_, &values_}) writer.put(*vector);
 }
 
-void PlaceWatch::restore(StateReader& reader) {
+void PlaceMonitor::restore(StateReader& reader) {
   for (Vector* vector : {&error_, &values_}) reader.get(*vector);
 }
 
-void PlaceWatch::look(const mjModel* /*m*/, const mjData* d) {
+void PlaceMonitor::look(const mjModel* /*m*/, const mjData* d) {
   const Vector3 left = level(matrix_at(d->xmat, robot_).col(1)),
                 ahead = left.cross(Vector3::UnitZ());
 

@@ -14,7 +14,7 @@
 
 namespace hurcules {
 
-struct SensorWatchOptions {
+struct SensorMonitorOptions {
   // [rad] or [m]. The largest control error of the thesis is 7 mrad: a joint that works is nearer
   double tolerance = 0.015;
   double share = 0.05;  // of the way in the window, allowed on top for Disagrees
@@ -27,7 +27,7 @@ struct EncoderReference {
   double factor = 1.0;
 };
 
-class SensorWatch {
+class SensorMonitor {
  public:
   enum class Trouble { None, NotANumber, Stuck, Disagrees };
   struct Finding {
@@ -35,8 +35,8 @@ class SensorWatch {
     Index entry = 0;     // of the encoders
     bool speed = false;  // of encoder_speed, else encoder_position
   };
-  SensorWatch(std::vector<EncoderReference> references, double dt,
-              const SensorWatchOptions& options = {});
+  SensorMonitor(std::vector<EncoderReference> references, double dt,
+                const SensorMonitorOptions& options = {});
   void reset();
   // readings (m) and the coordinates' reference (n) of a tick
   [[nodiscard]] Finding look(const Vector& position, const Vector& speed, const Vector& q_des);
@@ -48,7 +48,7 @@ class SensorWatch {
 
   std::vector<EncoderReference> references_;  // (m)
   double dt_;
-  SensorWatchOptions options_;
+  SensorMonitorOptions options_;
   bool begun_ = false;
   int ticks_ = 0;                      // of the window
   Vector last_, reference_at_change_;  // (m)

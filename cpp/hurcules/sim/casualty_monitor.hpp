@@ -19,13 +19,13 @@ struct mjData_;
 
 namespace hurcules {
 
-class CasualtyWatch {
+class CasualtyMonitor {
  public:
   static constexpr double kLying = 0.15;  // share of the weight
   // prefix of all names of the person; throws Error where the model has nobody of this name
   // stand_off [m] >= 0: from the body's centre to the robot's where it stands square to the body,
   // the head to its left
-  CasualtyWatch(const mjModel_* model, const std::string& prefix, double stand_off);
+  CasualtyMonitor(const mjModel_* model, const std::string& prefix, double stand_off);
   void add_log_channels(Recorder& log) const;  // "casualty/NAME"
   // ways are counted from where the person lies at the first look after it
   void reset();

@@ -27,12 +27,12 @@ struct CameraError {
   static constexpr double kTurn = 0.02;                // [rad] by the distance
 };
 
-class PlaceWatch {
+class PlaceMonitor {
  public:
   // body: of the thing; where it has sites BODY_left and BODY_right, these are places to grasp.
   // stand_off [m] >= 0: from its centre to the robot's centre of mass (about which it turns) where it
   // stands square to it, the thing's x axis ahead. Throws Error where the model has no such body, or is not of Hurcules.
-  PlaceWatch(const mjModel_* model, const std::string& body, double stand_off);
+  PlaceMonitor(const mjModel_* model, const std::string& body, double stand_off);
   void add_log_channels(Recorder& log, const std::string& prefix) const;  // "PREFIX/NAME"
   // the errors of this run over their standard deviations: along, across, up, turn
   void set_error(const Vector& error) { error_ = error; }

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "hurcules/mission/mission_setup.hpp"
-#include "hurcules/sim/casualty_watch.hpp"
-#include "hurcules/sim/load_watch.hpp"
-#include "hurcules/sim/place_watch.hpp"
+#include "hurcules/sim/casualty_monitor.hpp"
+#include "hurcules/sim/load_monitor.hpp"
+#include "hurcules/sim/place_monitor.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/random.hpp"
 
 namespace hurcules {
 
-class SceneWatches {
+class SceneMonitors {
  public:
   // what the setup names, with its columns; the log reads where they are, so this stays in place.
   // Throws Error for names that the model has not.
@@ -32,10 +32,10 @@ class SceneWatches {
  private:
   const mjModel_* model_ = nullptr;
   const mjData_* data_ = nullptr;
-  std::unique_ptr<CasualtyWatch> casualty_;
-  std::unique_ptr<LoadWatch> load_;
-  std::vector<std::pair<std::string, PlaceWatch>> places_;  // by the prefix of their quantities
-  std::vector<Vector> errors_;                              // of these, over their deviations
+  std::unique_ptr<CasualtyMonitor> casualty_;
+  std::unique_ptr<LoadMonitor> load_;
+  std::vector<std::pair<std::string, PlaceMonitor>> places_;  // by the prefix of their quantities
+  std::vector<Vector> errors_;                                // of these, over their deviations
 };
 
 }  // namespace hurcules

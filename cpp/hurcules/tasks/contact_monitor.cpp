@@ -1,4 +1,4 @@
-#include "hurcules/tasks/contact_watch.hpp"
+#include "hurcules/tasks/contact_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ std::string to_string(ContactState state) {
   return "";
 }
 
-ContactWatch::ContactWatch(const ContactOptions& options, const std::string& task)
+ContactMonitor::ContactMonitor(const ContactOptions& options, const std::string& task)
     : options_(options) {
   const std::string of = " of force task '" + task + "' ";
   require(std::isfinite(options.f_min) && options.f_min > 0.0,
@@ -40,12 +40,12 @@ ContactWatch::ContactWatch(const ContactOptions& options, const std::string& tas
   release_ = 0.5 * options.f_min;
 }
 
-void ContactWatch::expect(double force_des) {
+void ContactMonitor::expect(double force_des) {
   const double size = std::abs(force_des);
   release_ = 0.5 * (size > 0.0 ? std::min(size, options_.f_min) : options_.f_min);
 }
 
-void ContactWatch::learn_step(double reading) {
+void ContactMonitor::learn_step(double reading) {
   const double change = std::abs(reading - force_);
   if (change == 0.0) return;
   if (step_ == 0.0 || change < step_) step_ = change;
@@ -55,7 +55,7 @@ void ContactWatch::learn_step(double reading) {
             std::abs(steps - std::round(steps)) < 1e-6;
 }
 
-ContactState ContactWatch::look(double reading, double position) {
+ContactState ContactMonitor::look(double reading, double position) {
   if (state_ == ContactState::Stopped || state_ == ContactState::SensorLost) return state_;
   const double dt = options_.dt;
   if (!std::isfinite(reading)) {
@@ -83,12 +83,12 @@ ContactState ContactWatch::look(double reading, double position) {
   return state_;
 }
 
-void ContactWatch::reset() {
+void ContactMonitor::reset() {
   state_ = ContactState::Free;
   force_ = quiet_ = missing_ = changed_at_ = 0.0;
 }
 
-void ContactWatch::save(StateWriter& writer) const {
+void ContactMonitor::save(StateWriter& writer) const {
   for (const double value :
        {static_cast<double>(static_cast<int>(state_)), force_, quiet_, missing_, changed_at_,
         release_, step_, changes_, coarse_ ? 1.0 : 0.0}) {
@@ -96,7 +96,7 @@ void ContactWatch::save(StateWriter& writer) const {
   }
 }
 
-void ContactWatch::restore(StateReader& reader) {
+void ContactMonitor::restore(StateReader& reader) {
   state_ = static_cast<ContactState>(reader.get_count(3));
   for (double* value : {&force_, &quiet_, &missing_, &changed_at_, &release_, &step_, &changes_})
     *value = reader.get();

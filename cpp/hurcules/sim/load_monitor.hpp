@@ -16,11 +16,11 @@ struct mjData_;
 
 namespace hurcules {
 
-class LoadWatch {
+class LoadMonitor {
  public:
   // bodies: of the thing, with sites BODY_left and BODY_right where the hands hold it; of the
   // container, "" for none. Throws Error for names that the model has not.
-  LoadWatch(const mjModel_* model, const std::string& body, const std::string& container);
+  LoadMonitor(const mjModel_* model, const std::string& body, const std::string& container);
   void add_log_channels(Recorder& log, const std::string& prefix) const;  // "PREFIX/NAME"
   // heights and ways are counted from the first look after it
   void reset();

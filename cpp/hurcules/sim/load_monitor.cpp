@@ -1,4 +1,4 @@
-#include "hurcules/sim/load_watch.hpp"
+#include "hurcules/sim/load_monitor.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -17,7 +17,7 @@ int id_of(const mjModel* m, mjtObj kind, const std::string& name) {
 
 }  // namespace
 
-const std::vector<std::string>& LoadWatch::names() {
+const std::vector<std::string>& LoadMonitor::names() {
   static const std::vector<std::string> all = {
       "on_ground",    "on_left_hand", "on_right_hand", "on_rest", "in_container", "left_grip_n",
       "right_grip_n", "knock_n",      "height_m",      "moved_m", "tilt_rad",     "sinking_mps",
@@ -25,7 +25,7 @@ const std::vector<std::string>& LoadWatch::names() {
   return all;
 }
 
-LoadWatch::LoadWatch(const mjModel* m, const std::string& body, const std::string& container)
+LoadMonitor::LoadMonitor(const mjModel* m, const std::string& body, const std::string& container)
     : body_(id_of(m, mjOBJ_BODY, body)),
       container_(container.empty() ? -1 : id_of(m, mjOBJ_BODY, container)),
       tips_{id_of(m, mjOBJ_SITE, "L_tcp"), id_of(m, mjOBJ_SITE, "R_tcp")},
@@ -49,22 +49,22 @@ LoadWatch::LoadWatch(const mjModel* m, const std::string& body, const std::strin
   values_ = Vector::Zero(kQuantities);
 }
 
-void LoadWatch::add_log_channels(Recorder& log, const std::string& prefix) const {
+void LoadMonitor::add_log_channels(Recorder& log, const std::string& prefix) const {
   log.add(prefix, names(), values_);
 }
 
-void LoadWatch::reset() {
+void LoadMonitor::reset() {
   looked_ = false;
   values_.setZero();
 }
 
-void LoadWatch::save(StateWriter& writer) const {
+void LoadMonitor::save(StateWriter& writer) const {
   writer.put(looked_ ? 1.0 : 0.0);
   writer.put(values_);
   writer.put(Vector(origin_));
 }
 
-void LoadWatch::restore(StateReader& reader) {
+void LoadMonitor::restore(StateReader& reader) {
   looked_ = reader.get_count(1) > 0;
   reader.get(values_);
   Vector origin(3);
@@ -72,7 +72,7 @@ void LoadWatch::restore(StateReader& reader) {
   origin_ = origin;
 }
 
-void LoadWatch::look(const mjModel* m, const mjData* d) {
+void LoadMonitor::look(const mjModel* m, const mjData* d) {
   values_.setZero();
   add_up(m, d);
   const Vector3 centre = vector_at(d->xpos, body_);
@@ -97,7 +97,7 @@ void LoadWatch::look(const mjModel* m, const mjData* d) {
 }
 
 // contacts of the thing by partner, and those of robot and container
-void LoadWatch::add_up(const mjModel* m, const mjData* d) {
+void LoadMonitor::add_up(const mjModel* m, const mjData* d) {
   const double weight = weight_of(m, body_);
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];

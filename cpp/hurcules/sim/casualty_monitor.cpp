@@ -1,4 +1,4 @@
-#include "hurcules/sim/casualty_watch.hpp"
+#include "hurcules/sim/casualty_monitor.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -43,7 +43,7 @@ int row_of(const mjModel* m, const std::string& sensor) {
 
 }  // namespace
 
-const std::vector<std::string>& CasualtyWatch::names() {
+const std::vector<std::string>& CasualtyMonitor::names() {
   static const std::vector<std::string> all = {
       "on_ground",        "on_left_arm",   "on_right_arm", "on_bed",
       "on_rest",          "behind_tips_m", "aside_m",      "height_m",
@@ -54,7 +54,7 @@ const std::vector<std::string>& CasualtyWatch::names() {
   return all;
 }
 
-CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix, double stand_off)
+CasualtyMonitor::CasualtyMonitor(const mjModel* m, const std::string& prefix, double stand_off)
     : stand_off_(stand_off), region_of_(static_cast<std::size_t>(m->nbody), -1) {
   require(stand_off_ >= 0.0 && std::isfinite(stand_off_),
           "a watched casualty wants a stand-off >= 0, " + std::to_string(stand_off_) + " m came");
@@ -92,24 +92,24 @@ CasualtyWatch::CasualtyWatch(const mjModel* m, const std::string& prefix, double
   values_ = Vector::Zero(kQuantities);
 }
 
-void CasualtyWatch::add_log_channels(Recorder& log) const {
+void CasualtyMonitor::add_log_channels(Recorder& log) const {
   log.add("casualty", names(), values_);
   log.add("casualty/force", regions_, forces_);
 }
 
-void CasualtyWatch::reset() {
+void CasualtyMonitor::reset() {
   looked_ = false;
   values_.setZero();
   forces_.setZero();
 }
 
-void CasualtyWatch::save(StateWriter& writer) const {
+void CasualtyMonitor::save(StateWriter& writer) const {
   writer.put(looked_ ? 1.0 : 0.0);
   for (const Vector* vector : {&values_, &forces_}) writer.put(*vector);
   writer.put(Vector(origin_));
 }
 
-void CasualtyWatch::restore(StateReader& reader) {
+void CasualtyMonitor::restore(StateReader& reader) {
   looked_ = reader.get_count(1) > 0;
   for (Vector* vector : {&values_, &forces_}) reader.get(*vector);
   Vector origin(3);
@@ -117,7 +117,7 @@ void CasualtyWatch::restore(StateReader& reader) {
   origin_ = origin;
 }
 
-void CasualtyWatch::look(const mjModel* m, const mjData* d) {
+void CasualtyMonitor::look(const mjModel* m, const mjData* d) {
   values_.setZero();
   add_up(m, d);
   const Vector3 centre = vector_at(d->subtree_com, root_);
@@ -159,7 +159,7 @@ void CasualtyWatch::look(const mjModel* m, const mjData* d) {
 }
 
 // contacts of the person, by partner and by region
-void CasualtyWatch::add_up(const mjModel* m, const mjData* d) {
+void CasualtyMonitor::add_up(const mjModel* m, const mjData* d) {
   forces_.setZero();
   const double weight = weight_of(m, root_);
   Vector3 push = Vector3::Zero();

@@ -1,4 +1,4 @@
-#include "hurcules/control/level_notes.hpp"
+#include "hurcules/control/level_diagnostics.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -115,9 +115,9 @@ bool says_something(const Task& task) {
          !task.lower().hasNaN() && !task.upper().hasNaN();
 }
 
-LevelNote note(const SolvedStack& solved, std::size_t k) {
+LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
   const StackLevel& source = solved.problem.stack().levels()[k];
-  LevelNote made;
+  LevelDiagnostics made;
   made.level = source.name;
   const LevelReport* const report = k < solved.reports.size() ? &solved.reports[k] : nullptr;
   if (report && report->singular_values.size() > 0) {
@@ -126,7 +126,7 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
   }
   if (solved.solution.status == SolverStatus::InvalidInput) {
     for (const Task* task : source.tasks)
-      if (!says_something(*task)) made.shorts.push_back({task->name(), 0.0, "", {}, true});
+      if (!says_something(*task)) made.shortfalls.push_back({task->name(), 0.0, "", {}, true});
     return made;
   }
   Index row = 0;
@@ -141,15 +141,15 @@ LevelNote note(const SolvedStack& solved, std::size_t k) {
                                     first, task->rows())) {
       continue;
     }
-    made.shorts.push_back({task->name(), short_by, unit_of(*task),
-                           holders(solved, static_cast<int>(k), report), false});
+    made.shortfalls.push_back({task->name(), short_by, unit_of(*task),
+                               holders(solved, static_cast<int>(k), report), false});
   }
   return made;
 }
 
 }  // namespace
 
-std::string ShortTask::text() const {
+std::string Shortfall::text() const {
   if (invalid) return task + ": its numbers are not finite, the controller brakes";
   char number[32];
   std::snprintf(number, sizeof number, "%.3g", short_by);
@@ -166,11 +166,11 @@ std::vector<LevelReport> reports_of(const Solver& solver) {
   return solver.reports();
 }
 
-std::vector<LevelNote> level_notes(const SolvedStack& solved) {
-  std::vector<LevelNote> notes;
+std::vector<LevelDiagnostics> level_diagnostics(const SolvedStack& solved) {
+  std::vector<LevelDiagnostics> diagnostics;
   for (std::size_t k = 0; k < solved.problem.hierarchy().size(); ++k)
-    notes.push_back(note(solved, k));
-  return notes;
+    diagnostics.push_back(diagnose(solved, k));
+  return diagnostics;
 }
 
 }  // namespace hurcules

@@ -1,6 +1,6 @@
 // Strategy: one motor on a joint that the test loads as it likes, against the law of a first-order
 // body. Not tested: whether 60 s are right for these motors; it is an assumption.
-#include "hurcules/sim/windings.hpp"
+#include "hurcules/sim/motor_thermal_model.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -33,9 +33,9 @@ constexpr const char* kMotors = R"(
   </custom>
 </mujoco>)";
 
-class WindingsTest : public testing::Test {
+class MotorThermalModelTest : public testing::Test {
  protected:
-  WindingsTest()
+  MotorThermalModelTest()
       : model_(load_model_text(kMotors)), data_(mj_makeData(model_.get()), mj_deleteData) {}
   // [deg C] of the first motor after this torque [N m] for this time
   double after(double torque, double seconds) {
@@ -47,10 +47,11 @@ class WindingsTest : public testing::Test {
 
   ModelPtr model_;
   std::unique_ptr<mjData, void (*)(mjData*)> data_;
-  std::unique_ptr<Windings> windings_ = std::make_unique<Windings>(model_.get(), MotorLosses{});
+  std::unique_ptr<MotorThermalModel> windings_ =
+      std::make_unique<MotorThermalModel>(model_.get(), MotorLosses{});
 };
 
-TEST_F(WindingsTest, AStalledMotorReachesItsLimitAfterWhatTheLawSays) {
+TEST_F(MotorThermalModelTest, AStalledMotorReachesItsLimitAfterWhatTheLawSays) {
   // peak torque would end at 25 + 105 / 0.36 = 317 deg C: 130 are there after -60 ln(1 - 0.36)
   const double seconds = -60.0 * std::log(1.0 - 0.36);
   EXPECT_NEAR(seconds, 26.8, 0.1);
@@ -58,23 +59,23 @@ TEST_F(WindingsTest, AStalledMotorReachesItsLimitAfterWhatTheLawSays) {
   EXPECT_NEAR(after(100.0, 600.0), 25.0 + 105.0 / 0.36, 0.1);
 }
 
-TEST_F(WindingsTest, TheContinuousTorqueEndsAtTheLimitAndNoTorqueAtTheAir) {
+TEST_F(MotorThermalModelTest, TheContinuousTorqueEndsAtTheLimitAndNoTorqueAtTheAir) {
   EXPECT_NEAR(after(-60.0, 900.0), 130.0, 0.01);
   EXPECT_NEAR(after(0.0, 60.0), 25.0 + 105.0 * std::exp(-1.0), 0.01);
   EXPECT_NEAR(after(0.0, 900.0), 25.0, 0.01);
 }
 
-TEST_F(WindingsTest, AMotorWithoutLimitsOrLossesStaysCold) {
+TEST_F(MotorThermalModelTest, AMotorWithoutLimitsOrLossesStaysCold) {
   after(100.0, 60.0);
   EXPECT_EQ(windings_->temperature()[1], 25.0);
-  windings_ = std::make_unique<Windings>(model_.get(), MotorLosses{.heat_at_peak = 0.0});
+  windings_ = std::make_unique<MotorThermalModel>(model_.get(), MotorLosses{.heat_at_peak = 0.0});
   EXPECT_EQ(after(100.0, 60.0), 25.0);
   EXPECT_EQ(windings_->names(), (std::vector<std::string>{"a", "b"}));
 }
 
-TEST_F(WindingsTest, RefusesWhatCannotBe) {
-  const auto text = [this](const WindingOptions& options) {
-    return error_text([&] { Windings(model_.get(), {}, options); });
+TEST_F(MotorThermalModelTest, RefusesWhatCannotBe) {
+  const auto text = [this](const MotorThermalOptions& options) {
+    return error_text([&] { MotorThermalModel(model_.get(), {}, options); });
   };
   EXPECT_TRUE(contains(text({.limit = 20.0}), "limit wants a temperature above ambient"));
   EXPECT_TRUE(contains(text({.continuous = 0.0}), "continuous wants a share"));

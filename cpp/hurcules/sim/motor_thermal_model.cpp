@@ -1,4 +1,4 @@
-#include "hurcules/sim/windings.hpp"
+#include "hurcules/sim/motor_thermal_model.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -8,7 +8,8 @@
 
 namespace hurcules {
 
-Windings::Windings(const mjModel* m, const MotorLosses& losses, const WindingOptions& options)
+MotorThermalModel::MotorThermalModel(const mjModel* m, const MotorLosses& losses,
+                                     const MotorThermalOptions& options)
     : options_(options), share_(-std::expm1(-m->opt.timestep / options.time_constant)) {
   require(std::isfinite(options.ambient) && std::isfinite(options.limit) &&
               options.limit > options.ambient,
@@ -32,11 +33,11 @@ Windings::Windings(const mjModel* m, const MotorLosses& losses, const WindingOpt
   temperature_ = Vector::Constant(static_cast<Index>(motors_.size()), options.ambient);
 }
 
-void Windings::reset() {
+void MotorThermalModel::reset() {
   temperature_.setConstant(options_.ambient);
 }
 
-void Windings::warm(const mjData* d) {
+void MotorThermalModel::warm(const mjData* d) {
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     const Motor& motor = motors_[i];
     const double heat = motor.power.heat(d->actuator_force[motor.actuator] * motor.gear);

@@ -1,7 +1,7 @@
 // Strategy: an arm of two joints whose every case can be drawn on paper: within reach nothing is
-// said; out of reach, at a limit, behind another task, the words and the lengths of the notes; the
+// said; out of reach, at a limit, behind another task, the words and the lengths of the diagnostics; the
 // singular value of its stretched posture.
-#include "hurcules/control/level_notes.hpp"
+#include "hurcules/control/level_diagnostics.hpp"
 
 #include <cmath>
 
@@ -36,7 +36,7 @@ class Notes : public testing::Test {
     robot_.set_configuration(Vector{{0.6, 0.9}});
     for (Task* task : std::initializer_list<Task*>{&limits_, &hand_, &posture_}) task->hold(robot_);
   }
-  std::vector<LevelNote> settle(const Stack& stack, int ticks = 6000) {
+  std::vector<LevelDiagnostics> settle(const Stack& stack, int ticks = 6000) {
     controller_.set_stack(stack);
     for (int i = 0; i < ticks; ++i) {
       controller_.compute(robot_);
@@ -44,7 +44,7 @@ class Notes : public testing::Test {
       controller_.integrate(q);
       robot_.set_configuration(q);
     }
-    return controller_.notes(robot_);
+    return controller_.diagnostics(robot_);
   }
   static PositionTaskOptions plane() {
     PositionTaskOptions options;
@@ -61,19 +61,19 @@ class Notes : public testing::Test {
 
 TEST_F(Notes, SayNothingWhereAllIsWell) {
   hand_.set_target(Vector{{0.5, 0.5}});
-  const std::vector<LevelNote> notes = settle(limits_ < hand_);
-  ASSERT_EQ(notes.size(), 2U);
-  EXPECT_TRUE(notes[0].shorts.empty());
-  EXPECT_TRUE(notes[1].shorts.empty());
+  const std::vector<LevelDiagnostics> diagnostics = settle(limits_ < hand_);
+  ASSERT_EQ(diagnostics.size(), 2U);
+  EXPECT_TRUE(diagnostics[0].shortfalls.empty());
+  EXPECT_TRUE(diagnostics[1].shortfalls.empty());
 }
 
 TEST_F(Notes, NameTheLimitThatHoldsATaskBack) {
   // the tip on the y axis, 0.8 m away, wants the shoulder at pi/2 - acos(0.8) = 0.93 or 2.2:
   // within; at 0.5 m behind it wants 1.5 or more: the shoulder stops at 1
   hand_.set_target(Vector{{-0.3, 0.8}});
-  const std::vector<LevelNote> notes = settle(limits_ < hand_);
-  ASSERT_EQ(notes[1].shorts.size(), 1U);
-  const ShortTask& left = notes[1].shorts[0];
+  const std::vector<LevelDiagnostics> diagnostics = settle(limits_ < hand_);
+  ASSERT_EQ(diagnostics[1].shortfalls.size(), 1U);
+  const Shortfall& left = diagnostics[1].shortfalls[0];
   EXPECT_EQ(left.held_by, std::vector<std::string>{"SH upper limit"}) << left.text();
   EXPECT_TRUE(contains(left.text(), "left hand: ")) << left.text();
   EXPECT_TRUE(contains(left.text(), " m short, held by SH upper limit")) << left.text();
@@ -84,23 +84,25 @@ TEST_F(Notes, NameTheLimitThatHoldsATaskBack) {
 
 TEST_F(Notes, NameTheTaskAboveThatTakesTheDirections) {
   hand_.set_target(Vector{{0.5, 0.5}});
-  const std::vector<LevelNote> notes = settle(limits_ < hand_ < posture_);
-  ASSERT_EQ(notes[2].shorts.size(), 1U);
-  EXPECT_EQ(notes[2].shorts[0].held_by, std::vector<std::string>{"tasks above (left hand)"});
-  EXPECT_TRUE(contains(notes[2].shorts[0].text(), " rad short, held by tasks above (left hand)"));
+  const std::vector<LevelDiagnostics> diagnostics = settle(limits_ < hand_ < posture_);
+  ASSERT_EQ(diagnostics[2].shortfalls.size(), 1U);
+  EXPECT_EQ(diagnostics[2].shortfalls[0].held_by,
+            std::vector<std::string>{"tasks above (left hand)"});
+  EXPECT_TRUE(
+      contains(diagnostics[2].shortfalls[0].text(), " rad short, held by tasks above (left hand)"));
 }
 
 TEST_F(Notes, TellHowNearTheStretchedArmIsToSingularity) {
   const double before = settle(Stack({hand_}), 1)[0].smallest_singular_value;
   hand_.set_target(Vector{{1.2, 0.0}});  // beyond its 1 m
-  const LevelNote note = settle(Stack({hand_}), 20000)[0];
+  const LevelDiagnostics note = settle(Stack({hand_}), 20000)[0];
   // at (0.6, 0.9): product 0.25 sin 0.9, sum of squares 0.75 + 0.5 cos 0.9
   EXPECT_NEAR(before, 0.1936, 1e-3);
   EXPECT_LT(note.smallest_singular_value, 0.06);
   EXPECT_LT(note.manipulability, 0.06);
-  ASSERT_EQ(note.shorts.size(), 1U);
-  EXPECT_NEAR(note.shorts[0].short_by, 0.2, 0.02);
-  EXPECT_EQ(note.shorts[0].held_by, std::vector<std::string>{"a singular posture"});
+  ASSERT_EQ(note.shortfalls.size(), 1U);
+  EXPECT_NEAR(note.shortfalls[0].short_by, 0.2, 0.02);
+  EXPECT_EQ(note.shortfalls[0].held_by, std::vector<std::string>{"a singular posture"});
 }
 
 }  // namespace

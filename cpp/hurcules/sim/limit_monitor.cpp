@@ -1,4 +1,4 @@
-#include "hurcules/sim/watch.hpp"
+#include "hurcules/sim/limit_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,14 @@ void above(const Vector& value, const Vector& largest, double& excess) {
 
 }  // namespace
 
-LimitWatch::LimitWatch(const Robot& robot, Vector max_torque)
+LimitMonitor::LimitMonitor(const Robot& robot, Vector max_torque)
     : max_velocity_(robot.size()), max_torque_(std::move(max_torque)) {
   for (Index i = 0; i < robot.size(); ++i) {
     max_velocity_[i] = robot.coordinates()[static_cast<std::size_t>(i)].max_velocity;
   }
 }
 
-void LimitWatch::look(const Telemetry& t) {
+void LimitMonitor::look(const Telemetry& t) {
   outside(t.q, t.limit_lower, t.limit_upper, measured_.position);
   above(t.qd, max_velocity_, measured_.velocity);
   above(t.torque, max_torque_, measured_.torque);
@@ -39,11 +39,11 @@ void LimitWatch::look(const Telemetry& t) {
   above(t.demand, max_torque_, commanded_.torque);
 }
 
-void LimitWatch::reset() {
+void LimitMonitor::reset() {
   measured_ = commanded_ = Excess{};
 }
 
-void LimitWatch::save(StateWriter& writer) const {
+void LimitMonitor::save(StateWriter& writer) const {
   for (const Excess& excess : {measured_, commanded_}) {
     writer.put(excess.position);
     writer.put(excess.velocity);
@@ -51,32 +51,12 @@ void LimitWatch::save(StateWriter& writer) const {
   }
 }
 
-void LimitWatch::restore(StateReader& reader) {
+void LimitMonitor::restore(StateReader& reader) {
   for (Excess* excess : {&measured_, &commanded_}) {
     excess->position = reader.get();
     excess->velocity = reader.get();
     excess->torque = reader.get();
   }
-}
-
-void FallWatch::reset(const Matrix3& R_support) {
-  up_ = R_support.transpose() * Vector3::UnitZ();
-}
-
-double FallWatch::tilt(const Matrix3& R_support) const {
-  return std::acos(std::clamp((R_support * up_).z(), -1.0, 1.0));
-}
-
-bool FallWatch::fell(const Matrix3& R_support, double height) const {
-  return height < limits_.min_height || tilt(R_support) > limits_.max_tilt;
-}
-
-void FallWatch::save(StateWriter& writer) const {
-  writer.put(up_);
-}
-
-void FallWatch::restore(StateReader& reader) {
-  for (double& value : up_) value = reader.get();
 }
 
 }  // namespace hurcules
