@@ -10,7 +10,7 @@ the safe levels.
 Episodes of 20 s go on side by side until so many control ticks have been taken; one that falls
 begins anew.
 
-    python benchmarks/random_actions.py [--ticks 1000000] [--fidelity fast] [--robot rescue]
+    python benchmarks/random_actions.py [--ticks 1000000] [--robot rescue] [--seed 0]
 """
 
 from __future__ import annotations
@@ -75,7 +75,9 @@ class Actions:
         self._now[np.arange(len(nearest)), self._turned] *= -1.0
 
 
-def run(layer: str, kind: str, ticks: int, options: dict[str, Any]) -> dict[str, Any]:
+def run(
+    layer: str, kind: str, ticks: int, options: dict[str, Any], seed: int = 0
+) -> dict[str, Any]:
     """What happened, as figures."""
     name, own = LAYERS[layer]
     env = gymnasium.make_vec(
@@ -88,8 +90,8 @@ def run(layer: str, kind: str, ticks: int, options: dict[str, Any]) -> dict[str,
     from hurcules import Quantities
 
     arms = Quantities(batch[0], ["contact_force/L_uarm", "contact_force/R_uarm"])
-    actions = Actions(kind, EPISODES, env.single_action_space.shape[0], 20.0, seed=1)
-    _, info = env.reset(seed=0)
+    actions = Actions(kind, EPISODES, env.single_action_space.shape[0], 20.0, seed=seed + 1)
+    _, info = env.reset(seed=seed)
     worst = dict.fromkeys(("limit_excess", "commanded_excess", "limit_excess_velocity"), 0.0)
     near, steps, touching, pressing, falls, episodes = np.inf, 0, 0, 0, 0, EPISODES
     begun = time.perf_counter()
@@ -125,13 +127,14 @@ def main() -> None:
     parser.add_argument("--ticks", type=int, default=1_000_000, help="of each layer and kind")
     parser.add_argument("--fidelity", default="fast")
     parser.add_argument("--robot", default="rescue")
+    parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--kinds", nargs="*", default=KINDS)
     parser.add_argument("--layers", nargs="*", default=list(LAYERS))
     given = parser.parse_args()
     options = {"fidelity": given.fidelity, "robot": given.robot}
     for layer in given.layers:
         for kind in given.kinds:
-            print(json.dumps(run(layer, kind, given.ticks, options)), flush=True)
+            print(json.dumps(run(layer, kind, given.ticks, options, given.seed)), flush=True)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -99,6 +100,48 @@ def hand_of(robot: hurcules.Robot, model: mujoco.MjModel, feet: list[str]) -> st
 
 
 @dataclass
+class Tasks:
+    """contacts < height < centre of mass + root's orientation < hand < posture."""
+
+    robot: hurcules.Robot
+    feet: list[hurcules.ContactTask]
+    levels: list[Any]
+    hand: hurcules.PositionTask | None
+    frame: str | None
+
+    @property
+    def names(self) -> list[str]:
+        """Bodies that are its feet."""
+        return [foot.name for foot in self.feet]
+
+
+def tasks_of(model: mujoco.MjModel, qpos: Vector) -> Tasks:
+    """The tasks of a robot in a posture, its centre of mass over the middle of its feet."""
+    robot = hurcules.Robot(model, floating=True)
+    robot.set_qpos(qpos)
+    names = feet_of(robot, model)
+    feet = [hurcules.ContactTask(foot, robot, foot) for foot in names]
+    level, up = np.eye(3)[:2], np.eye(3)[2:]
+    height = hurcules.CenterOfMassTask("height", robot, axes=up)
+    com = hurcules.CenterOfMassTask("centre of mass", robot, axes=level)
+    soles = [
+        robot.position(foot)
+        + robot.orientation(foot) @ hurcules.sole_points(robot, foot).mean(axis=0)
+        for foot in names
+    ]
+    middle = np.mean(soles, axis=0)
+    com.set_target(middle[:2])
+    trunk = hurcules.OrientationTask("root", robot, model.body(1).name)
+    posture = hurcules.PostureTask("posture", robot)
+    levels: list[Any] = [feet, height, [com, trunk], posture]
+    frame, hand = hand_of(robot, model, names), None
+    if frame:
+        hand = hurcules.PositionTask("hand", robot, frame)
+        levels.insert(3, hand)
+    return Tasks(robot, feet, levels, hand, frame)
+
+
+@dataclass
 class Standing:
     """A robot that stands, with its loop."""
 
@@ -109,33 +152,13 @@ class Standing:
 
 def standing(model: mujoco.MjModel, qpos: Vector) -> Standing:
     """The loop of a robot in a posture."""
-    robot = hurcules.Robot(model, floating=True)
-    robot.set_qpos(qpos)
-    feet = feet_of(robot, model)
-    contacts = [hurcules.ContactTask(foot, robot, foot) for foot in feet]
-    level, up = np.eye(3)[:2], np.eye(3)[2:]
-    height = hurcules.CenterOfMassTask("height", robot, axes=up)
-    com = hurcules.CenterOfMassTask("centre of mass", robot, axes=level)
-    soles = [
-        robot.position(foot)
-        + robot.orientation(foot) @ hurcules.sole_points(robot, foot).mean(axis=0)
-        for foot in feet
-    ]
-    middle = np.mean(soles, axis=0)
-    com.set_target(middle[:2])
-    trunk = hurcules.OrientationTask("root", robot, model.body(1).name)
-    posture = hurcules.PostureTask("posture", robot)
-    levels = [contacts, height, [com, trunk], posture]
-    channels = {}
-    frame = hand_of(robot, model, feet)
-    if frame:
-        hand = hurcules.PositionTask("hand", robot, frame)
-        levels.insert(3, hand)
-        channels["hand"] = hurcules.Twist(hand, 0.3)
+    tasks = tasks_of(model, qpos)
+    channels = {"hand": hurcules.Twist(tasks.hand, 0.3)} if tasks.hand else {}
     controller = hurcules.WholeBodyController(
-        robot, levels, channels, control="torque", torque=GAINS
+        tasks.robot, tasks.levels, channels, control="torque", torque=GAINS
     )
-    return Standing(hurcules.Simulation(model=model, controller=controller), feet, frame)
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    return Standing(simulation, tasks.names, tasks.frame)
 
 
 def pushed(loop: Standing, state: Vector, impulse: Vector) -> bool:

@@ -29,10 +29,10 @@ NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
 ARM = 1.0
 TRACK = 1  # contype of the tracks' geoms
 STANDS = 0.10  # [m] of the centre of mass within the contacts
-TIPS = 0.04  # [m] of the zero moment point within them
+TIPS = 0.08  # [m] of the zero moment point within them
 # [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
 # that give by 0.08 rad, which no encoder of a motor sees
-APART = {"rescue": 0.10, "manipulation": 0.03}
+APART = {"rescue": 0.12, "manipulation": 0.03}
 LOOK = 0.10  # [m] beyond that, pairs do not count
 # [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
 MAX_ACCELERATION = 5.0
