@@ -11,15 +11,13 @@ import numpy as np
 import hurcules
 from hurcules import disposal
 from hurcules_envs.contact import contact_tick, view
-from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.environment import Array, Group, Numbers
 from hurcules_envs.loose import Loose
 from hurcules_envs.mission import MissionEnvironment, kept
 
 __all__ = ["Dispose"]
 
 LAST = "rest"  # phase of the mission `disposal` in which the case lies in the container
-# of an episode: mass [kg], friction of the bars, place [m] ahead and to the left, heading [rad]
-MASS, FRICTION, AHEAD, LEFT, YAW = (10.0, 25.0), (0.65, 0.9), 0.05, 0.10, 0.2
 TRACKS = (0.1, 0.1)  # [m/s], [rad/s] full scale of what is added
 HANDS, TURN, SQUEEZE, JOINTS = 0.05, 0.1, 0.002, 0.1  # [m/s], [rad/s], [m/s], [rad/s]
 LED = {
@@ -112,6 +110,7 @@ class Dispose(MissionEnvironment):
 
     task_description = "Fetch the case of ordnance and put it into the container."
     moved = "load/moved_m"
+    mass, friction = (10.0, 25.0), (0.65, 0.9)
     toll = 0.001
     components: Mapping[str, tuple[str, ...]] = MappingProxyType(
         {
@@ -168,7 +167,7 @@ class Dispose(MissionEnvironment):
         bars = [f"ordnance_bar_{side}" for side in ("left", "right")]
         qpos = self.simulation.data.qpos
         own = disposal.Job().mass
-        self._case = Loose(model, qpos, "ordnance_case", mass=own, surface=bars)
+        self.fetched = Loose(model, qpos, "ordnance_case", mass=own, surface=bars)
         self.observation = (
             Group("phase", len(self._phases), "", 1.0, "1 for the present one"),
             Group("progress", 1, "", 1.0, "of the present phase"),
@@ -192,19 +191,6 @@ class Dispose(MissionEnvironment):
     def scene(self) -> mujoco.MjSpec:
         """The robot, the case ahead, the container behind it."""
         return disposal.spec(disposal.Job())
-
-    def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
-        """Mass of the case, friction of its bars."""
-        self._case.configure(model, float(values["mass"][0]), float(values["friction"][0]))
-
-    def start(self, generator: np.random.Generator) -> Start:
-        """A case near where the mission expects it."""
-        drawn = {"mass": generator.uniform(*MASS), "friction": generator.uniform(*FRICTION)}
-        ahead, left, yaw = generator.uniform(-1.0, 1.0, 3) * [AHEAD, LEFT, YAW]
-        qpos = np.array(self.simulation.data.qpos)
-        self._case.place(qpos, ahead, left, yaw)
-        places = {"ahead": float(ahead), "left": float(left), "yaw": float(yaw)}
-        return Start(qpos, drawn, drawn | places)
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """What is added to the channels; those of tasks that do not rule are not asked."""

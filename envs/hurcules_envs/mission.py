@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import Mission
 from hurcules_envs.contact import ContactEnvironment
-from hurcules_envs.environment import Array, Numbers
+from hurcules_envs.environment import Array, Numbers, Start
+from hurcules_envs.loose import Loose
 
 __all__ = ["MissionEnvironment", "kept"]
 
 LIFTS = "lift"  # phase in which what lay on the ground leaves it
+PLACES = {"ahead": 0.05, "left": 0.10, "yaw": 0.2}  # [m], [m], [rad] how far either way
 ASKS = 0.5  # of the number `phase`: beyond it a phase is asked for
 
 
@@ -28,6 +30,8 @@ class MissionEnvironment(ContactEnvironment):
     should not happen; the other terms of the reward are the same for all.
 
     Attributes:
+        fetched: what the mission is about.
+        mass, friction: [kg], of its surface: least and largest of an episode.
         moved: quantity [m]: how far what is fetched is along the ground from where it lay.
         toll: of a step, and of a full action in it: taken from the reward.
     """
@@ -40,6 +44,9 @@ class MissionEnvironment(ContactEnvironment):
         }
     )  # fmt: skip
     parameters = ("mass", "friction")
+    fetched: Loose
+    mass: tuple[float, float]
+    friction: tuple[float, float]
     moved: str
     sparse: bool
     toll = 0.01
@@ -63,6 +70,20 @@ class MissionEnvironment(ContactEnvironment):
         self._phases = self.simulation.phases
         self._last, self._lifts = self._phases.index(last), self._phases.index(LIFTS) - 1
         return made
+
+    def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
+        """Mass and friction of what is fetched."""
+        self.fetched.configure(model, float(values["mass"][0]), float(values["friction"][0]))
+
+    def start(self, generator: np.random.Generator) -> Start:
+        """It lies near where the mission expects it."""
+        drawn = {name: generator.uniform(*getattr(self, name)) for name in self.parameters}
+        places = dict(
+            zip(PLACES, generator.uniform(-1.0, 1.0, 3) * [*PLACES.values()], strict=True)
+        )
+        qpos = np.array(self.simulation.data.qpos)
+        self.fetched.place(qpos, *places.values())
+        return Start(qpos, drawn, drawn | {name: float(at) for name, at in places.items()})
 
     @abstractmethod
     def harm(self, numbers: Numbers) -> Array:

@@ -10,15 +10,13 @@ import numpy as np
 
 from hurcules import lift
 from hurcules_envs.contact import contact_tick, view
-from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.environment import Array, Group, Numbers
 from hurcules_envs.loose import limp_person
 from hurcules_envs.mission import MissionEnvironment, kept
 
 __all__ = ["Rescue"]
 
 LAST = "hold"  # phase of the mission `lift` in which he is held
-# of an episode: mass [kg], friction of the clothes, place [m] ahead and to the left, heading [rad]
-MASS, FRICTION, AHEAD, LEFT, YAW = (60.0, 90.0), (0.4, 0.6), 0.05, 0.10, 0.2
 TRACKS = (0.1, 0.1)  # [m/s], [rad/s] full scale of what is added
 HANDS, PITCH, PRESS, JOINTS = 0.05, 0.1, 0.0125, 0.1  # [m/s], [rad/s], [m/s], [rad/s]
 LEGS = {"lean": ("HIP",), "shoulders": ("LSP", "RSP"), "elbows": ("LEB", "REB")}
@@ -92,6 +90,7 @@ class Rescue(MissionEnvironment):
 
     task_description = "Lift the person and hold him before the chest."
     moved = "casualty/moved_m"
+    mass, friction = (60.0, 90.0), (0.4, 0.6)
     components: Mapping[str, tuple[str, ...]] = MappingProxyType(
         {
             "tracks": ("speed", "yaw_rate"),
@@ -135,7 +134,7 @@ class Rescue(MissionEnvironment):
         model = self.compiled(tick)
         controller = self.adopt(kept(lift.mission("lift"), LAST), model, lift.controller, LAST)
         self._coordinates = controller.plan.coordinate_names
-        self._person = limp_person(model, self.simulation.data.qpos)
+        self.fetched = limp_person(model, self.simulation.data.qpos)
         self.observation = (
             Group("phase", len(self._phases), "", 1.0, "1 for the present one"),
             Group("progress", 1, "", 1.0, "of the present phase"),
@@ -155,19 +154,6 @@ class Rescue(MissionEnvironment):
     def scene(self) -> mujoco.MjSpec:
         """The robot, and a person 3.3 m ahead."""
         return lift.spec(lift.Person())
-
-    def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
-        """Mass of the person, friction of the clothes."""
-        self._person.configure(model, float(values["mass"][0]), float(values["friction"][0]))
-
-    def start(self, generator: np.random.Generator) -> Start:
-        """A person near where the mission expects him."""
-        drawn = {"mass": generator.uniform(*MASS), "friction": generator.uniform(*FRICTION)}
-        ahead, left, yaw = generator.uniform(-1.0, 1.0, 3) * [AHEAD, LEFT, YAW]
-        qpos = np.array(self.simulation.data.qpos)
-        self._person.place(qpos, ahead, left, yaw)
-        places = {"ahead": float(ahead), "left": float(left), "yaw": float(yaw)}
-        return Start(qpos, drawn, drawn | places)
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """What is added to the channels; those of tasks that do not rule are not asked."""
