@@ -15,12 +15,11 @@ not.
 from __future__ import annotations
 
 import argparse
-import json
-import multiprocessing
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from sweeps import append, held, side_by_side
 
 import hurcules
 
@@ -60,7 +59,7 @@ def fetch(seed: int) -> dict[str, Any]:
 
 def show(path: Path) -> None:
     """Prints a line a run."""
-    runs = [json.loads(line) for line in path.read_text().splitlines()]
+    runs = held(path)
     for run in sorted(runs, key=lambda one: one["share"]):
         x, y = run["offset"]
         figures = run["figures"]
@@ -84,18 +83,13 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.show:
         return show(arguments.out)
-    done = set()
-    if arguments.out.exists():
-        done = {json.loads(line)["seed"] for line in arguments.out.read_text().splitlines()}
-    seeds = [FIRST_SEED + i for i in range(arguments.seeds) if FIRST_SEED + i not in done]
-    with (
-        multiprocessing.get_context("spawn").Pool(arguments.workers) as pool,
-        arguments.out.open("a") as file,
-    ):
-        for run in pool.imap_unordered(fetch, seeds):
-            file.write(json.dumps(run) + "\n")
-            file.flush()
-            print(run["seed"], run["success"], run["phase"], run["reason"], flush=True)
+    done = {run["seed"] for run in held(arguments.out)}
+    seeds = sorted(set(range(FIRST_SEED, FIRST_SEED + arguments.seeds)) - done)
+    append(
+        arguments.out,
+        side_by_side(fetch, seeds, arguments.workers),
+        lambda run: (run["seed"], run["success"], run["phase"], run["reason"]),
+    )
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ are left out.
 from __future__ import annotations
 
 import argparse
-import json
 from collections import Counter, defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -18,6 +17,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from sweeps import append, held
 
 import hurcules
 from hurcules import Mission
@@ -124,11 +124,14 @@ class Bench:
     def show(self, path: Path) -> None:
         """How often what came of each fault."""
         table: dict[str, Counter[str]] = defaultdict(Counter)
-        for line in path.read_text().splitlines():
-            trial = json.loads(line)
+        for trial in held(path):
             table[trial["fault"]][self.outcome(trial)] += 1
         for fault, counts in table.items():
             print(f"{fault:8} {', '.join(f'{word} {n}' for word, n in counts.most_common())}")
+
+    def _words(self, trial: Row) -> tuple[Any, ...]:
+        what = trial["fault"], trial["seed"], trial["what"]
+        return (*what, self.outcome(trial), trial["reason"])
 
     def main(self, text: str, first: int = 0) -> None:
         """Runs what is missing.
@@ -145,20 +148,14 @@ class Bench:
         arguments = parser.parse_args()
         if not arguments.show:
             kept = self.states(arguments.out.with_suffix(".npz"))
-            done = set()
-            if arguments.out.exists():
-                for line in arguments.out.read_text().splitlines():
-                    done.add((json.loads(line)["fault"], json.loads(line)["seed"]))
-            with arguments.out.open("a") as file:
-                for seed in range(first, first + arguments.seeds):
-                    for fault in arguments.faults.split(","):
-                        if (fault, seed) in done:
-                            continue
-                        trial = self.run(fault, seed, kept)
-                        file.write(json.dumps(trial) + "\n")
-                        file.flush()
-                        words = self.outcome(trial), trial["reason"]
-                        print(fault, seed, trial["what"], *words, flush=True)
+            done = {(trial["fault"], trial["seed"]) for trial in held(arguments.out)}
+            trials = (
+                self.run(fault, seed, kept)
+                for seed in range(first, first + arguments.seeds)
+                for fault in arguments.faults.split(",")
+                if (fault, seed) not in done
+            )
+            append(arguments.out, trials, self._words)
         self.show(arguments.out)
 
 

@@ -4,27 +4,29 @@
                                     [--seeds 1] [--workers 2]
 
 Each run is the mission `lift`, or `casualty`, in the physics, friction alone. A seed moves the
-person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad. Runs that
-OUT.jsonl already holds are left out, so that an interrupted sweep goes on. `--show` prints the
-success map of a file.
+person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad. With
+`--cells drawn` it draws who lies where too: within 0.3 m and 0.3 rad, friction 0.4 to 0.9. Runs
+that OUT.jsonl already holds are left out, so that an interrupted sweep goes on. `--show` prints the
+success map of a file, and what went wrong how often.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import multiprocessing
-from collections import defaultdict
+import re
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from sweeps import append, held, side_by_side
 
 import hurcules
 
 VARIATION = 1 / 3  # of 3 cm, 50 mrad, 2 mrad
-FIRST_SEED = 1000
+FIRST_SEED, FIRST_DRAWN = 1000, 4000
+HEAD = 98.1  # [m/s^2] 10 g
 NOMINAL = {"mass": 75, "offset": (0.0, 0.0), "yaw": 0.0, "friction": 0.45, "pose": "back"}
 Cell = dict[str, Any]
 
@@ -67,6 +69,26 @@ def cells(kind: str) -> Iterator[Cell]:
         raise SystemExit(f"no cells '{kind}'; there are: {', '.join(changes)}")
     for change in changes[kind]:
         yield NOMINAL | change
+
+
+def drawn(seed: int) -> Cell:
+    """Anybody on the back, anywhere within what the mission is to take."""
+    rng = np.random.default_rng(seed)
+    x, y = rng.uniform(-0.30, 0.30, 2)
+    return NOMINAL | {
+        "offset": (round(float(x), 3), round(float(y), 3)),
+        "yaw": round(float(rng.uniform(-0.3, 0.3)), 3),
+        "mass": int(rng.choice([50, 75, 90, 120])),
+        "friction": round(float(rng.uniform(0.4, 0.9)), 2),
+    }
+
+
+def settings(kind: str, seeds: int) -> Iterator[tuple[Cell, int]]:
+    """The settings of a part of the sweep, each with its seeds."""
+    if kind == "drawn":
+        yield from ((drawn(seed), seed) for seed in range(FIRST_DRAWN, FIRST_DRAWN + seeds))
+    else:
+        yield from ((cell, FIRST_SEED + seed) for cell in cells(kind) for seed in range(seeds))
 
 
 def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
@@ -115,7 +137,7 @@ def _slid(figures: dict[str, float]) -> float:
 
 def show(path: Path) -> None:
     """Prints the map: a line a cell with how many of how many, and why not."""
-    runs = [json.loads(line) for line in path.read_text().splitlines()]
+    runs = held(path)
     table = defaultdict(list)
     for run in runs:
         table[_place(run)].append(run)
@@ -133,6 +155,16 @@ def show(path: Path) -> None:
         )
     good = sum(run["success"] for run in runs)
     print(f"{good} of {len(runs)}")
+    for name, limit in (("contact_share", 1.0), ("head_mps2", HEAD)):
+        print(f"{name} over {limit:g}: {sum(run['figures'][name] > limit for run in runs)}")
+    failures = Counter(_class(run["reason"]) for run in runs if not run["success"])
+    for words, number in failures.most_common():
+        print(f"{number} times {words}")
+
+
+def _class(reason: str) -> str:
+    """A reason without what was measured."""
+    return re.sub(r"\b(is|at) (-?\d[\d.]*|nan)", r"\1 ...", reason)
 
 
 def main() -> None:
@@ -147,24 +179,18 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.show:
         return show(arguments.out)
-    done = set()
-    if arguments.out.exists():
-        done = {key(json.loads(line)) for line in arguments.out.read_text().splitlines()}
+    done = {key(run) for run in held(arguments.out)}
     tasks = [
-        (arguments.mission, cell, FIRST_SEED + seed)
+        (arguments.mission, cell, seed)
         for kind in arguments.cells.split(",")
-        for cell in cells(kind)
-        for seed in range(arguments.seeds)
-        if key(cell | {"mission": arguments.mission, "seed": FIRST_SEED + seed}) not in done
+        for cell, seed in settings(kind, arguments.seeds)
+        if key(cell | {"mission": arguments.mission, "seed": seed}) not in done
     ]
-    with (
-        multiprocessing.get_context("spawn").Pool(arguments.workers) as pool,
-        arguments.out.open("a") as file,
-    ):
-        for run in pool.imap_unordered(lift, tasks):
-            file.write(json.dumps(run) + "\n")
-            file.flush()
-            print(key(run), run["success"], run["reason"], flush=True)
+    append(
+        arguments.out,
+        side_by_side(lift, tasks, arguments.workers),
+        lambda run: (key(run), run["success"], run["reason"]),
+    )
 
 
 if __name__ == "__main__":
