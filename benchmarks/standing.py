@@ -161,6 +161,12 @@ def standing(model: mujoco.MjModel, qpos: Vector) -> Standing:
     return Standing(simulation, tasks.names, tasks.frame)
 
 
+def stands(data: mujoco.MjData, before: Vector) -> bool:
+    """Whether a robot is at rest within 0.1 m of where its root was, (3,)."""
+    still = np.abs(data.qvel).max() < 0.05
+    return bool(still and np.linalg.norm(data.qpos[:3] - before) < 0.1)
+
+
 def pushed(loop: Standing, state: Vector, impulse: Vector) -> bool:
     """Whether the robot stands again, 4 s after a push [N s]."""
     simulation = loop.simulation
@@ -171,8 +177,7 @@ def pushed(loop: Standing, state: Vector, impulse: Vector) -> bool:
     simulation.step(second // 10)
     simulation.data.xfrc_applied[1, :3] = 0.0
     simulation.step(4 * second)
-    still = np.abs(simulation.data.qvel).max() < 0.05
-    return bool(still and np.linalg.norm(simulation.data.qpos[:3] - before) < 0.1)
+    return stands(simulation.data, before)
 
 
 def row(path: Path, pushes: bool) -> str:

@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from tsid import tsid_pywrap as tsid
 
 import hurcules
-from standing import DIRECTIONS, GAINS, REACH, SPEEDS, posture_of, tasks_of
+from standing import DIRECTIONS, GAINS, REACH, SPEEDS, posture_of, stands, tasks_of
 
 NEEDS = "tsid==1.7.1 pin==3.4.0 cmeel-urdfdom==4.0.1 cmeel-tinyxml2==10.0.0"
 Vector = NDArray[np.float64]
@@ -237,8 +237,7 @@ def pushed(loop: Loop, impulse: Vector) -> bool:
         loop.go(4.0)
     except hurcules.Error:
         return False
-    still = np.abs(loop.data.qvel).max() < 0.05
-    return bool(still and np.linalg.norm(loop.data.qpos[:3] - before) < 0.1)
+    return stands(loop.data, before)
 
 
 def row(loop: Loop) -> str:

@@ -134,7 +134,7 @@ const Vector& VelocityController::solve() {
     velocity_ = velocity_.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
     if (options_.law == Law::Arrive)
       limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);
-    hold_limits(next_);
+    hold_limits();
   }
   const auto is_limit = [this](std::size_t i, bool upper) {
     if (options_.law == Law::Arrive) {
@@ -156,7 +156,7 @@ bool VelocityController::scale_velocity(const VelocityBounds& window) {
   if (!limits()) return true;
   if (options_.law == Law::Arrive) {
     limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);
-    hold_limits(next_);
+    hold_limits();
   }
   for (Index i = 0; i < velocity_.size(); ++i) {
     const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
@@ -286,7 +286,7 @@ void VelocityController::brake() {
 
 // What limits the change of a velocity may have carried it over the limits of the first levels: the
 // last of them first, so that those above have the last word.
-void VelocityController::hold_limits(const Vector& before) {
+void VelocityController::hold_limits() {
   const std::vector<StackLevel>& levels = stack().levels();
   std::size_t count = 0;
   while (count < levels.size() && (problem_.hierarchy()[count].bounds || are_limits(levels[count])))
@@ -302,7 +302,7 @@ void VelocityController::hold_limits(const Vector& before) {
       const Index rows = task->rows();
       if (task->bounds_acceleration()) {
         auto least = lower.segment(row, rows), most = upper.segment(row, rows);
-        change_rates(*task, before, options_.dt, least, most);
+        change_rates(*task, next_, options_.dt, least, most);
         for (Index i = 0; i < rows; ++i) weigh_sides(task->weights()[i], least[i], most[i]);
       }
       row += rows;

@@ -87,7 +87,7 @@ class VelocityController {
  private:
   void fill_bounds(const Task& limits, Level& level);
   void fill_rows(std::size_t k);
-  void hold_limits(const Vector& before);
+  void hold_limits();
   void brake();
   [[nodiscard]] RateLimits row_limits() const;
   [[nodiscard]] double reach_time() const;

@@ -87,8 +87,8 @@ class Task {
   // a law of its own for controllers of acceleration:
   //   lower <= J qddot + drift - acceleration_des <= upper
   [[nodiscard]] virtual bool commands_acceleration() const { return false; }
-  // it is a bound that a controller of velocities keeps too, by how they change
-  [[nodiscard]] virtual bool bounds_acceleration() const { return false; }
+  // a limit by that law: a controller of velocities keeps it too, by how they change
+  [[nodiscard]] bool bounds_acceleration() const { return commands_acceleration() && is_limit(); }
 
  protected:
   Task(const Task&) = default;

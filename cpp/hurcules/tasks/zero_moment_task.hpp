@@ -43,7 +43,6 @@ class ZeroMomentTask : public Task {
   void restore(StateReader& reader) override { Task::restore(reader); }
   [[nodiscard]] bool rows_apart() const override { return true; }
   [[nodiscard]] bool commands_acceleration() const override { return true; }
-  [[nodiscard]] bool bounds_acceleration() const override { return true; }
   [[nodiscard]] bool is_limit() const override { return true; }
 
  private:
