@@ -98,7 +98,7 @@ FIELD = (
                 "the same with blades of friction 2.0",
                 0,
                 ours=(1, 1),
-                why="he is pushed along before the blades, 0.5 m in place of 0.3 m, and then "
+                why="he is pushed along before the blades, 0.4 m in place of 0.3 m, and then "
                 "comes over them: the tracks push as hard as it takes",
             ),
             "pressed": exactly("the same with 100 N a tip", 0),
