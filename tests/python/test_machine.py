@@ -157,3 +157,11 @@ def test_a_failed_step_shows_cause_and_remedy(machine: Machine, output: str, say
     assert code == 3
     assert says in said and "logs/x.log" in said
     assert len(said.splitlines()) < 20
+
+
+def test_a_step_that_tells_its_own_remedy_gets_no_other(machine: Machine) -> None:
+    """CMake without GoogleTest and without a network: packages from PyPI are not the trouble."""
+    cause = 'CMake Error: GoogleTest is missing ("Could not resolve hostname")'
+    code, said = step(machine, f"echo '{cause}'; echo '  Remedy: libgtest-dev'; exit 1")
+    assert code == 1
+    assert said.count("Remedy") == 1 and "libgtest-dev" in said
