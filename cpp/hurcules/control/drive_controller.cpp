@@ -90,12 +90,17 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   yaw_rate_.advance(command.yaw_rate);
   learn_gauge(measured);
   const double asked = steer(measured) * gauge_ / 2.0;
-  const double go = drive_at(measured);
-  const double v = within_slip(go, measured.speed, measured.speed);
   // how fast the ground passes under the belts by turning: a gauge that was learnt elsewhere may be
   // too wide here, the real one never is
   const double turn = within_slip(asked, measured.yaw_rate * options_.gauge / 2.0,
                                   measured.yaw_rate * gauge_ / 2.0);
+  // where a fast turn rests the vehicle on its outer track, that one holds the ground and the inner one
+  // slips for both: then the middle of the belts is slower than the ground by what the turn slips
+  const double skid =
+      std::max(0.0, std::abs(turn) - std::abs(measured.yaw_rate) * options_.gauge / 2.0);
+  const double go = drive_at(measured);
+  const double v =
+      within_slip(go, measured.speed, measured.speed - std::copysign(skid, measured.speed));
   driving_slips_ = v != go;
   turning_slips_ = turn != asked;
   Belt left = belt(v - turn, measured.left, left_integral_);
@@ -105,7 +110,10 @@ DriveTorques DriveController::compute(const DriveState& measured) {
   const double excess = std::max({left.lower - left.demand, right.lower - right.demand, 0.0});
   const double shift = excess - lack;
   slow_down(measured, left, right);
-  return {settle(left, shift, left_integral_), settle(right, shift, right_integral_), false};
+  const DriveTorques torques = {std::clamp(left.demand + shift, left.lower, left.upper),
+                                std::clamp(right.demand + shift, right.lower, right.upper), false};
+  integrate(left, right, torques);
+  return torques;
 }
 
 DriveCommand DriveController::wanted(const DriveState& measured) {
@@ -207,9 +215,8 @@ DriveController::Belt DriveController::belt(double reference, double rate, doubl
   Belt result;
   result.upper = rate > 0.0 ? driving : braking;
   result.lower = rate < 0.0 ? -driving : -braking;
-  result.error = error;
-  result.integral = integral + options_.integral_gain * error * options_.dt;
-  result.demand = options_.gain * error + result.integral + feed;
+  result.change = options_.integral_gain * error * options_.dt;
+  result.demand = options_.gain * error + (integral + result.change) + feed;
   return result;
 }
 
@@ -229,14 +236,20 @@ void DriveController::slow_down(const DriveState& measured, Belt& left, Belt& ri
   }
 }
 
-// the torque that is given, and the integral that goes with it
-double DriveController::settle(const Belt& belt, double shift, double& integral) {
-  const double torque = std::clamp(belt.demand + shift, belt.lower, belt.upper);
-  // a saturated drive keeps its integral unless the error leads back
-  if (torque == belt.demand || (belt.error > 0.0) != (belt.demand > 0.0)) {
-    integral = std::clamp(belt.integral, belt.lower, belt.upper);
+// While a drive lacks torque, the integrals of driving and of turning only unwind, each on its own:
+// else a vehicle short of power would keep the torques of its last turn.
+void DriveController::integrate(const Belt& left, const Belt& right, const DriveTorques& given) {
+  double drive = 0.0, turn = 0.0;  // what is held back
+  if (left.demand != given.left || right.demand != given.right) {
+    const auto held = [](double change, double integral) {
+      return change * integral < 0.0 ? 0.0 : change;
+    };
+    drive = held((left.change + right.change) / 2.0, left_integral_ + right_integral_);
+    turn = held((right.change - left.change) / 2.0, right_integral_ - left_integral_);
   }
-  return torque;
+  left_integral_ = std::clamp(left_integral_ + left.change - drive + turn, left.lower, left.upper);
+  right_integral_ =
+      std::clamp(right_integral_ + right.change - drive - turn, right.lower, right.upper);
 }
 
 void DriveController::reset() {

@@ -4,7 +4,8 @@
 //   command -> profiles with limited acceleration and jerk -> v, omega
 //   v_c = v + k_v (v - v_ground)
 //   omega_c = omega + k (omega - omega_gyro) + b,   db/dt = k_b (omega - omega_gyro)
-//   belt references: v_c -+ omega_c B / 2, either part within the slip limit of what is measured
+//   belt references: v_c -+ omega_c B / 2, either part within the slip limit of what is measured; the
+//   ground passes under the belts' middle at v_ground or, where the outer track holds it, more slowly
 //   torque = gain (w_ref - w) + integral + mass r a / 2
 //
 // Where a drive has no more torque or power, both drives give up the same: the difference, which
@@ -95,12 +96,11 @@ class DriveController {
   // one drive in one tick: what it is to give [N m], what it can, and what led there
   struct Belt {
     double demand = 0.0, lower = 0.0, upper = 0.0;
-    double error = 0.0;     // [rad/s]
-    double integral = 0.0;  // [N m] if it goes on
+    double change = 0.0;  // [N m] of the integral in this tick
   };
   [[nodiscard]] Belt belt(double reference, double rate, double integral) const;
   void slow_down(const DriveState& measured, Belt& left, Belt& right) const;
-  static double settle(const Belt& belt, double shift, double& integral);
+  void integrate(const Belt& left, const Belt& right, const DriveTorques& given);
   DriveTorques hold();
 
   DriveOptions options_;

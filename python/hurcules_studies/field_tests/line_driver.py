@@ -52,15 +52,24 @@ class LineDriver:
         """
         turn = 0.0
         if speed != 0.0:
-            place = self.path.at(float(data.qpos[0]), float(data.qpos[1]))
+            x, y, yaw = float(data.qpos[0]), float(data.qpos[1]), yaw_of(data)
+            place = self.path.at(x, y)
             speed = math.copysign(min(abs(speed), self._most(place)), speed)
+            way = speed * self._lag(speed)
+            ahead = self.path.at(x + way * math.cos(yaw), y + way * math.sin(yaw))
             lean = -self.line_gain * place.offset * math.copysign(1.0, speed)
-            error = place.heading + min(max(lean, -0.3), 0.3) - yaw_of(data)
+            error = place.heading + min(max(lean, -0.3), 0.3) - yaw
             error = math.remainder(error, 2 * math.pi)
-            turn = self.yaw_gain * error + place.curvature * speed
+            turn = self.yaw_gain * error + ahead.curvature * speed
             if self._turns(error):
                 speed, turn = 0.0, math.copysign(min(abs(turn), TURN_RATE), turn)
         return speed, turn
+
+    def _lag(self, speed: float) -> float:
+        """Half the time [s] that the profile takes to the yaw rate of a curve at this speed."""
+        turning = self._options.turning
+        rate = abs(speed) / self.path.radius
+        return 0.5 * (rate / turning.acceleration + turning.acceleration / turning.jerk)
 
     def _turns(self, error: float) -> bool:
         """Whether the robot looks so far off that it turns in place first."""

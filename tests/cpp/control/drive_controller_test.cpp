@@ -219,6 +219,29 @@ TEST(DriveController, WhereBothDrivesLackPowerItSlowsDownUntilItTurns) {
   }
 }
 
+// A left turn, then full speed, where the drives lack power and friction keeps the vehicle straight:
+// told to turn right it is to get all that there is, nothing held back by the left turn.
+TEST(DriveController, ShortOfPowerTheDrivesDoNotKeepTheTorquesOfTheLastTurn) {
+  DriveOptions options;
+  options.max_power = options.max_braking_power = 7543.0;
+  DriveController controller(options);
+  controller.drive({1.0, 0.5});
+  for (int i = 0; i < 1000; ++i) {  // turns with nine tenths of the reference
+    const auto [speed, yaw_rate] = controller.reference();
+    const double turn = 0.9 * yaw_rate, half = turn * controller.gauge() / 2.0;
+    controller.compute(
+        {(speed - half) / options.radius, (speed + half) / options.radius, turn, speed, {}});
+  }
+  const double fast = 4.4 / options.radius;
+  DriveTorques torques;
+  for (const double yaw_rate : {0.0, -0.3}) {
+    controller.drive({5.56, yaw_rate});
+    for (int i = 0; i < 4000; ++i) torques = controller.compute({fast, fast, 0.0, 4.4, {}});
+  }
+  EXPECT_NEAR(torques.right, -7543.0 / fast, 1e-9);
+  EXPECT_NEAR(torques.left, 0.0, 1e-9);  // it slows down: the difference that it wants wants power
+}
+
 TEST(DriveController, ParksAtPosesInAllDirections) {
   constexpr double kPi = std::numbers::pi;
   for (const PlanarPose& goal :
