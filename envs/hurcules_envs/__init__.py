@@ -11,7 +11,6 @@ from hurcules_envs.registry import register
 # id: (class, steps until an episode is truncated, options)
 _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
     "Hurcules/Reach-v0": ("hurcules_envs.reach:Reach", 100, {}),
-    "Hurcules/ReachJoint-v0": ("hurcules_envs.reach:Reach", 100, {"action": "joint"}),
     "Hurcules/ReachPrecise-v0": ("hurcules_envs.reach:ReachPrecise", 150, {}),
     "Hurcules/Drive-v0": ("hurcules_envs.drive:Drive", 300, {}),
     "Hurcules/Press-v0": ("hurcules_envs.press:Press", 300, {}),
@@ -23,6 +22,11 @@ _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
     "Hurcules/Rescue-v0": ("hurcules_envs.rescue:Rescue", 1600, {}),
     "Hurcules/Dispose-v0": ("hurcules_envs.dispose:Dispose", 6000, {}),
 }
+
+# joints commanded in place of hands and forces, for comparison
+for _name in ("Reach", "Press", "Valve", "Door", "Carry", "Lift"):
+    _class, _steps, _ = _ENVIRONMENTS[f"Hurcules/{_name}-v0"]
+    _ENVIRONMENTS[f"Hurcules/{_name}Joint-v0"] = (_class, _steps, {"action": "joint"})
 
 ENVIRONMENTS = ("Hurcules/Stretch-v0", *_ENVIRONMENTS)
 

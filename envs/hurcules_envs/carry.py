@@ -113,19 +113,26 @@ class Carry(ContactEnvironment):
         "sensor/R_feel",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
         """Builds robot, table, box, controller and loop.
 
         Args:
             fidelity: "exact" or "fast".
             sparse: reward for the goal alone.
             rate: steps a second [Hz].
+            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+        self.sparse, self.rate, self.action = sparse, rate, action
         self.actions = {"box": np.array([0.15] * 3 + [0.3] * 3), "squeeze": MOST}
         model = self.compiled(tick)
         places = {
@@ -168,7 +175,7 @@ class Carry(ContactEnvironment):
         }
         for task in (left, right, squeeze):
             task.max_lead = 0.1
-        controller = hurcules.WholeBodyController(
+        controller = self.controller(
             plan,
             [[left, right, squeeze, *turns.values()], hurcules.PostureTask("posture", plan)],
             {
@@ -202,6 +209,8 @@ class Carry(ContactEnvironment):
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """The twist of the box, for both hands, and the squeeze for the right one."""
+        if self.action == "joint":
+            return action
         v, w, squeeze = action["box"][:, :3], action["box"][:, 3:], action["squeeze"]
         lever = 0.5 * (self._palm(numbers, "L") - self._palm(numbers, "R"))
         left, right = v + np.cross(w, lever), v - np.cross(w, lever)

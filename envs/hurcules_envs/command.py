@@ -150,7 +150,10 @@ def record(
 def _expert(env: Any, seen: Any) -> Any:
     if not hasattr(env.environment, "expert"):
         raise hurcules.Error(f"{env.spec.id} has no expert: give --policy FOLDER")
-    return env.environment.expert(env.numbers)[0]
+    action = env.environment.expert(env.numbers)[0]
+    if action.shape != env.action_space.shape:  # it commands hands
+        raise hurcules.Error(f"{env.spec.id} has no expert for its action: give --policy FOLDER")
+    return action
 
 
 def _acting(policy: Policy) -> Any:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import mujoco
@@ -11,7 +13,9 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import mjcf
-from hurcules_envs.environment import Array, Environment, Numbers, tick_of
+from hurcules.validation import require_known
+from hurcules_envs.commands import joint_channel
+from hurcules_envs.environment import Array, Environment, Group, Numbers, tick_of
 
 __all__ = [
     "ContactEnvironment",
@@ -42,7 +46,54 @@ def contact_tick(fidelity: str, rate: float) -> float:
 
 
 class ContactEnvironment(Environment):
-    """An environment whose scene is built from parts and differs between episodes."""
+    """An environment whose scene is built from parts and differs between episodes.
+
+    With the action "joint", for comparison, a policy commands the velocity of each coordinate's
+    reference, under the same limits, in place of hands and forces; fingers and tracks, which are no
+    coordinates, as before. It sees the coordinates in place of the references' lead.
+
+    Attributes:
+        action: "twist" or "joint".
+        beside: by channel the scale of what is commanded with the joints too.
+    """
+
+    action: str = "twist"
+    beside: Mapping[str, float | Array] = MappingProxyType({})
+
+    def controller(
+        self,
+        plan: hurcules.Robot,
+        levels: Sequence[Any],
+        channels: Mapping[str, Any],
+        **options: Any,
+    ) -> hurcules.WholeBodyController:
+        """The controller of these levels; for "joint" only limits come before the joints.
+
+        Args:
+            plan: the robot.
+            levels: of tasks, as `hurcules.WholeBodyController` takes them.
+            channels: by name, the same.
+            options: the same.
+
+        Raises:
+            hurcules.Error: another action than "twist" and "joint".
+        """
+        require_known("action", self.action, ("twist", "joint"))
+        if self.action == "joint":
+            joints = hurcules.PostureTask("joints", plan)
+            channel, scale = joint_channel(joints, plan)
+            limits = [level for level in levels if isinstance(level, hurcules.JointLimits)]
+            levels = [*limits, joints, *(level for level in levels if level not in limits)]
+            channels = {"joints": channel} | {name: channels[name] for name in self.beside}
+            self._command_joints(scale)
+        return hurcules.WholeBodyController(plan, levels, dict(channels), **options)
+
+    def _command_joints(self, scale: Array) -> None:
+        self.actions, self.components = {"joints": scale, **self.beside}, {}
+        if "q" not in self.quantities:
+            seen = [group for group in self.observation if group.name != "lead"]
+            self.observation = (*seen, Group("q", len(scale), "rad", 10.0, "coordinates"))
+            self.quantities = (*self.quantities, "q")
 
     @abstractmethod
     def scene(self) -> mujoco.MjSpec:

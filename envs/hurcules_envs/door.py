@@ -94,19 +94,26 @@ class Door(ContactEnvironment):
         "joint_velocity/door_hinge", "force/down", "contact_force/R_hand",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
         """Builds robot, door, controller and loop.
 
         Args:
             fidelity: "exact" or "fast".
             sparse: reward for success alone.
             rate: steps a second [Hz].
+            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+        self.sparse, self.rate, self.action = sparse, rate, action
         self.actions = {"across": 0.2, "down": 0.2, "force": MOST}
         model = self.compiled(tick)
         plan = place_hands(model, {"R": np.array(HAND)}, {"R_grip_1": CLOSED, "R_grip_2": CLOSED})
@@ -131,7 +138,7 @@ class Door(ContactEnvironment):
         )  # fmt: skip
         down.max_lead = 0.1
         turn = hurcules.OrientationTask("turn", plan, "R_tcp")
-        controller = hurcules.WholeBodyController(
+        controller = self.controller(
             plan,
             [[across, down], turn, hurcules.PostureTask("posture", plan)],
             {

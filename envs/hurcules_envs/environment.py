@@ -140,7 +140,10 @@ class Environment(ABC):
 
     @abstractmethod
     def observe(self, numbers: Numbers) -> Mapping[str, Array]:
-        """Observation by the name of its group, (n, size) each."""
+        """Observation by the name of its group, (n, size) each.
+
+        A group that is not there is the quantity or the entry of the memory of its name.
+        """
 
     @abstractmethod
     def reward(self, numbers: Numbers) -> Mapping[str, Array]:

@@ -304,7 +304,8 @@ class Episodes:
 
     def _observe(self, numbers: Numbers) -> dict[str, NDArray[np.float32]]:
         groups = self.environment.observe(numbers)
-        parts = [groups[group.name] for group in self.environment.observation]
+        names = [group.name for group in self.environment.observation]
+        parts = [groups[name] if name in groups else numbers[name] for name in names]
         errors = self.randomisation.errors()
         values = np.concatenate(parts, axis=1, dtype=np.float32)
         if errors is not None:

@@ -91,6 +91,7 @@ class Lift(ContactEnvironment):
         {"mass": 1, "friction": 1, "lay": 1, "held": 1, "done": 1, "fresh": 1}
     )
     parameters = ("mass", "friction")
+    beside: Mapping[str, float | Array] = MappingProxyType({"drive": np.array([SPEED, YAW_RATE])})
     components: Mapping[str, tuple[str, ...]] = MappingProxyType(
         {
             "hands": ("ahead", "left", "up"),
@@ -105,19 +106,26 @@ class Lift(ContactEnvironment):
         "sensor/casualty_lies", "sensor/L_feel", "sensor/R_feel",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
         """Builds robot, person, controller and loop.
 
         Args:
             fidelity: "exact" or "fast".
             sparse: reward for success alone.
             rate: steps a second [Hz].
+            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+        self.sparse, self.rate, self.action = sparse, rate, action
         self.actions = {
             "hands": SPEED, "pitch": PITCH_RATE, "press": MOST,
             "tracks": np.array([SPEED, YAW_RATE]),
@@ -175,7 +183,7 @@ class Lift(ContactEnvironment):
         pitch = [hurcules.AngleTask(f"{side}_pitch", plan, f"{side}_tcp") for side in "LR"]
         pelvis = hurcules.PositionTask("pelvis", plan, "pelvis", axes=[[1.0, 0.0, 0.0]])
         neck = hurcules.PostureTask("neck", plan, ["NKY", "NKP"])
-        controller = hurcules.WholeBodyController(
+        controller = self.controller(
             plan,
             [limits, hands, pitch, pelvis, neck],
             {task.name: hurcules.Twist(task, math.inf) for task in [*hands, *pitch]}
@@ -193,6 +201,8 @@ class Lift(ContactEnvironment):
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """Both hands and blades alike; a press adds what its error wants to the way down."""
+        if self.action == "joint":
+            return action
         wanted = np.maximum(action["press"], 0.0)
         down = np.clip(COMPLIANCE * (wanted + self._forces(numbers)), -DOWN, DOWN)
         down = np.where(wanted > 0.0, down, 0.0)

@@ -101,20 +101,31 @@ class Press(ContactEnvironment):
         | {"force": 1, "bias": 1}
     )
     parameters = ("place", "tilt", "stiffness", "friction")
+    quantities = (
+        "position/R_tcp", "velocity/R_tcp", "target/slide", "target/down", "value/down",
+        "value/slide", "force/down", "joint/surface",
+    )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
         """Builds robot, plate, controller and loop.
 
         Args:
             fidelity: "exact" or "fast".
             sparse: reward for the path alone, without distance and force.
             rate: steps a second [Hz].
+            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+        self.sparse, self.rate, self.action = sparse, rate, action
         self.actions = {"slide": 0.1, "down": 0.1, "force": MOST}
         model = self.compiled(tick)
         robot = hurcules.Robot(model)
@@ -130,10 +141,6 @@ class Press(ContactEnvironment):
         start.set_qpos(settled.data.qpos)
         self.simulation = self._loop(model, start, tick)
         self._hand = np.array(start.position("R_tcp"))
-        self.quantities = (
-            "position/R_tcp", "velocity/R_tcp", "target/slide", "target/down", "value/down",
-            "value/slide", "force/down", "joint/surface",
-        )  # fmt: skip
 
     def scene(self) -> mujoco.MjSpec:
         """The robot kneels behind a plate on springs."""
@@ -169,7 +176,7 @@ class Press(ContactEnvironment):
         down.max_lead = 0.05
         pitch = hurcules.AngleTask("pitch", plan, "R_tcp")
         levels = [[slide, down], pitch, hurcules.PostureTask("posture", plan)]
-        controller = hurcules.WholeBodyController(
+        controller = self.controller(
             plan,
             levels,
             {

@@ -85,24 +85,32 @@ class Valve(ContactEnvironment):
         {"place": 3, "torque": 1, "friction": 1, "angle": 1, "turned": 1, "gain": 1, "fresh": 1}
     )
     parameters = ("place", "torque", "friction")
+    beside: Mapping[str, float | Array] = MappingProxyType({"grip": 0.05})
     quantities = (
         "position/R_tcp", "velocity/R_tcp", "target/hand", "value/hand", "joint/R_grip_1",
         "joint/valve_wheel", "joint_velocity/valve_wheel", "contact_force/R_hand",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
         """Builds robot, valve, controller and loop.
 
         Args:
             fidelity: "exact" or "fast".
             sparse: reward for success alone.
             rate: steps a second [Hz].
+            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+        self.sparse, self.rate, self.action = sparse, rate, action
         self.actions = {"hand": 0.2, "grip": 0.05}
         model = self.compiled(tick)
         self._geoms = [
@@ -124,7 +132,7 @@ class Valve(ContactEnvironment):
         hand = hurcules.PositionTask("hand", plan, "R_tcp")
         hand.max_lead = 0.1
         turn = hurcules.OrientationTask("turn", plan, "R_tcp")
-        controller = hurcules.WholeBodyController(
+        controller = self.controller(
             plan,
             [hand, turn, hurcules.PostureTask("posture", plan)],
             {"hand": hurcules.Twist(hand, 0.2), "grip": hurcules.JointRate("R_grip_1", 0.05)},

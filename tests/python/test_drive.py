@@ -91,8 +91,8 @@ def test_an_arc_is_driven_as_asked_though_skid_steering_turns_less() -> None:
 def test_in_a_narrow_bend_it_goes_no_faster_than_its_outer_track_leads() -> None:
     """The load moves to the outer track, so that the middle of the belts is slower than the robot.
 
-    Reckoned as slip of driving, that difference once raised the belts' reference with the speed: told
-    1.0 m/s and 0.95 rad/s the robot ran at 2.4 m/s and turned with 0.4 rad/s.
+    Reckoned as slip of driving, that difference once raised the belts' reference with the speed:
+    told 1.0 m/s and 0.95 rad/s the robot ran at 2.4 m/s and turned with 0.4 rad/s.
     """
     robot = make()
     robot.drive.drive(1.0)

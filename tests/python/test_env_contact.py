@@ -39,7 +39,7 @@ def expert(env: SingleEnv) -> NDArray[np.float32]:
     return env.environment.expert(env.numbers)[0].astype(np.float32)
 
 
-@pytest.mark.parametrize("name", IDS)
+@pytest.mark.parametrize("name", [*IDS, *(f"Hurcules/{name}Joint-v0" for name in CLASSES)])
 def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -153,3 +153,30 @@ def test_the_reading_of_a_force_task_is_a_quantity() -> None:
     assert 5.0 < env.simulation.read(quantity)[0] < 60.0
     with pytest.raises(hurcules.Error, match="this task reads no force"):
         hurcules.Quantities(env.simulation, ["force/slide"])
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_the_twin_that_commands_joints_is_the_same_but_for_its_action(name: str) -> None:
+    """Same start, same limits: what differs is who moves the body."""
+    env, twin = single(f"Hurcules/{name}-v0"), single(f"Hurcules/{name}Joint-v0")
+    joints = [one for one in twin.action_names if one.startswith("joints_")]
+    robot = hurcules.Robot(twin.environment.simulation.model)
+    assert len(joints) == len(robot.coordinate_names)
+    assert np.array_equal(
+        twin.action_scale[: len(joints)], [min(one.max_velocity, 1.0) for one in robot.coordinates]
+    )
+    names = [group.name for group in env.environment.observation if group.name != "lead"]
+    assert [group.name for group in twin.environment.observation] == [*names, "q"]
+    one, other = env.reset(seed=1)[0], twin.reset(seed=1)[0]
+    size = len(robot.coordinate_names)
+    assert np.allclose(other[-size:], twin.numbers["q"][0], atol=1e-6)
+    lead = next((g.size for g in env.environment.observation if g.name == "lead"), 0)
+    assert len(other) == len(one) - lead + size
+    action = np.zeros(twin.action_space.shape, np.float32)
+    action[joints.index("joints_3")] = 1.0
+    before = twin.numbers["q"].copy()
+    for _ in range(10):
+        *_, info = twin.step(action)
+    moved = (twin.numbers["q"] - before)[0]
+    assert abs(moved[3]) > 0.2 * twin.action_scale[3] and abs(moved).argmax() == 3
+    assert info["commanded_excess"] == 0.0

@@ -113,6 +113,11 @@ def test_too_little_friction_is_a_fault_not_an_error():
     assert result.settings[0].faults[0].fault in ("stuck", "off the lane")
 
 
+def test_a_lap_at_full_speed_keeps_to_its_lane():
+    """This seed left it in the first bend, then on the straight behind it: see docs/drive.md."""
+    assert field_tests.repeat(field_tests.METHODS["e2829"], 5.56, "rescue", 5).fault == ""
+
+
 def test_another_driver_takes_the_place_of_ours():
     calls = []
 
