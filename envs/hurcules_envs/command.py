@@ -16,6 +16,7 @@ from hurcules.cli import results_in
 from hurcules.output import Output
 from hurcules_envs import evaluation
 from hurcules_envs.policy import Policy, full_id
+from hurcules_envs.registry import fastest_fidelity
 from hurcules_envs.running import environment_of
 
 __all__ = ["evaluate", "record", "train"]
@@ -23,7 +24,8 @@ __all__ = ["evaluate", "record", "train"]
 MISSING = "training wants Stable-Baselines3 and PyTorch: pip install 'hurcules[train]'"
 
 Fidelity = Annotated[
-    str | None, typer.Option(help="exact, fast or kinematic.", show_default="kinematic")
+    str | None,
+    typer.Option(help="exact, fast or kinematic.", show_default="the fastest that there is"),
 ]
 Robot = Annotated[str | None, typer.Option(help="rescue, manipulation or a path.")]
 
@@ -52,7 +54,7 @@ def train(
     For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`
     """
     name = full_id(environment)
-    options = _given(fidelity=fidelity or "kinematic", robot=robot, action=action)
+    options = _given(fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action)
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
         return _on_cluster(ray, name, steps, folder, options, envs, seed)

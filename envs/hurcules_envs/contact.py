@@ -26,6 +26,8 @@ __all__ = [
     "view",
 ]
 
+PHYSICS = ("exact", "fast")  # fidelities
+
 
 def contact_tick(fidelity: str, rate: float) -> float:
     """Control tick [s] of an environment that lives from forces.
@@ -42,7 +44,7 @@ def contact_tick(fidelity: str, rate: float) -> float:
             "fidelity 'kinematic' has no physics, so nothing would be touched here: "
             "wanted 'exact' or 'fast'"
         )
-    return tick_of(fidelity, rate, ("exact", "fast"))
+    return tick_of(fidelity, rate, PHYSICS)
 
 
 class ContactEnvironment(Environment):
@@ -57,6 +59,7 @@ class ContactEnvironment(Environment):
         beside: by channel the scale of what is commanded with the joints too.
     """
 
+    fidelities = PHYSICS
     action: str = "twist"
     beside: Mapping[str, float | Array] = MappingProxyType({})
 

@@ -118,10 +118,12 @@ class Environment(ABC):
         goal: how many numbers a goal has; 0: no goal environment.
         rate: steps of the policy a second [Hz].
         task_description: what is wanted, in a sentence.
+        fidelities: those that it has, the fastest last.
     """
 
     terms: ClassVar[tuple[str, ...]]
     task_description: ClassVar[str]
+    fidelities: ClassVar[tuple[str, ...]] = tuple(FIDELITIES)
 
     simulation: hurcules.Simulation
     actions: Mapping[str, float | Array]

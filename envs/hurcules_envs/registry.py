@@ -13,7 +13,7 @@ import hurcules
 from hurcules_envs.environment import Environment
 from hurcules_envs.randomisation import NAMES
 
-__all__ = ["make_environment", "register"]
+__all__ = ["fastest_fidelity", "make_environment", "register"]
 
 
 class UnknownOption(hurcules.Error, TypeError):
@@ -49,10 +49,7 @@ def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
         hurcules.Error: no such class, or no such option (`UnknownOption`); the text lists those
             that exist.
     """
-    module, _, name = path.partition(":")
-    kind = getattr(import_module(module), name, None)
-    if not (inspect.isclass(kind) and issubclass(kind, Environment)):
-        raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
+    kind = _class_of(path)
     known = [word for word in inspect.signature(kind).parameters]
     for option in options:
         if option not in known:
@@ -61,3 +58,22 @@ def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
                 f"there are: {', '.join([*known, *NAMES])}"
             )
     return kind(**options)
+
+
+def fastest_fidelity(name: str) -> str | None:
+    """The fastest fidelity of an environment; None: it is not registered, or has no choice.
+
+    Args:
+        name: its id.
+    """
+    spec = gymnasium.registry.get(name)
+    path = spec.kwargs.get("environment") if spec else None
+    return _class_of(path).fidelities[-1] if path else None
+
+
+def _class_of(path: str) -> type[Environment]:
+    module, _, name = path.partition(":")
+    kind = getattr(import_module(module), name, None)
+    if not (inspect.isclass(kind) and issubclass(kind, Environment)):
+        raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
+    return kind

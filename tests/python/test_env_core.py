@@ -15,7 +15,7 @@ from gymnasium.vector import AutoresetMode
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
-from hurcules_envs.registry import make_environment
+from hurcules_envs.registry import fastest_fidelity, make_environment
 
 FAST = {"fidelity": "kinematic"}
 IDS = [
@@ -316,3 +316,19 @@ def test_the_table_of_the_observation_is_that_of_the_space(path):
             group.bound,
         )
         assert row[4].strip() == group.text
+
+
+@pytest.mark.parametrize(
+    ("name", "fastest"),
+    [
+        ("Reach-v0", "kinematic"),
+        ("Stretch-v1", "kinematic"),
+        ("Valve-v0", "fast"),  # without physics nothing is touched
+        ("PressJoint-v0", "fast"),
+        ("Rescue-v0", "fast"),
+        ("Stretch-v0", None),  # no choice
+        ("Nothing-v0", None),
+    ],
+)
+def test_the_fastest_fidelity_is_what_training_takes(name: str, fastest: str | None) -> None:
+    assert fastest_fidelity(f"Hurcules/{name}") == fastest
