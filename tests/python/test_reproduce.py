@@ -303,8 +303,8 @@ def test_wrong_use_gives_one_line_and_exit_code_2(
 
 
 def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) -> None:
-    # in one worker: R13 to R21 take a second or two together, M08 to M10 some more
-    arguments = ["R13-R21", "M08-M10", "--out", str(tmp_path), "--workers", "1"]
+    # in one worker: whichever comes first, the others take two seconds more
+    arguments = ["M04-M06", "--out", str(tmp_path), "--workers", "1"]
     process = subprocess.Popen(
         [*COMMAND, "reproduce", *arguments],
         stdout=subprocess.PIPE,
@@ -313,7 +313,7 @@ def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) 
         start_new_session=True,
     )
     deadline = time.monotonic() + 120
-    while not (tmp_path / "claims" / "R13.json").exists() and time.monotonic() < deadline:
+    while not list(tmp_path.glob("claims/*.json")) and time.monotonic() < deadline:
         time.sleep(0.005)
     os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the workers too
     said, errors = process.communicate(timeout=60)
@@ -321,9 +321,9 @@ def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) 
     assert "Traceback" not in errors
     assert "interrupted" in said
     found = rows(tmp_path)
-    assert found["R13"]["verdict"] == "does not hold"
     open_ones = [name for name, row in found.items() if row["verdict"] == "pending"]
-    assert open_ones and found[open_ones[0]]["reason"] == "interrupted before it was measured"
+    assert 0 < len(open_ones) < len(found)
+    assert found[open_ones[0]]["reason"] == "interrupted before it was measured"
     again = call(*arguments)
     assert again.returncode == 0 and "from an earlier run" in again.stdout
     assert [name for name, row in rows(tmp_path).items() if row["verdict"] == "pending"] == []

@@ -236,20 +236,24 @@ void DriveController::slow_down(const DriveState& measured, Belt& left, Belt& ri
   }
 }
 
-// While a drive lacks torque, the integrals of driving and of turning only unwind, each on its own:
-// else a vehicle short of power would keep the torques of its last turn.
+// A drive that lacks torque keeps its integral unless the error leads back. Where both do, the
+// difference still unwinds: else a vehicle short of power would keep the torques of its last turn.
 void DriveController::integrate(const Belt& left, const Belt& right, const DriveTorques& given) {
-  double drive = 0.0, turn = 0.0;  // what is held back
-  if (left.demand != given.left || right.demand != given.right) {
-    const auto held = [](double change, double integral) {
-      return change * integral < 0.0 ? 0.0 : change;
-    };
-    drive = held((left.change + right.change) / 2.0, left_integral_ + right_integral_);
-    turn = held((right.change - left.change) / 2.0, right_integral_ - left_integral_);
+  const auto held = [](const Belt& belt, double torque) {
+    return torque != belt.demand && (belt.change > 0.0) == (belt.demand > 0.0);
+  };
+  const bool left_held = held(left, given.left), right_held = held(right, given.right);
+  double left_change = left_held ? 0.0 : left.change,
+         right_change = right_held ? 0.0 : right.change;
+  if (const double turn = (right.change - left.change) / 2.0;
+      left_held && right_held && turn * (right_integral_ - left_integral_) < 0.0) {
+    left_change = -turn;
+    right_change = turn;
   }
-  left_integral_ = std::clamp(left_integral_ + left.change - drive + turn, left.lower, left.upper);
-  right_integral_ =
-      std::clamp(right_integral_ + right.change - drive - turn, right.lower, right.upper);
+  if (left_change != 0.0)
+    left_integral_ = std::clamp(left_integral_ + left_change, left.lower, left.upper);
+  if (right_change != 0.0)
+    right_integral_ = std::clamp(right_integral_ + right_change, right.lower, right.upper);
 }
 
 void DriveController::reset() {
