@@ -9,6 +9,7 @@
 #include "annotated.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/plant.hpp"
+#include "hurcules/sim/support.hpp"
 #include "mujoco_pointer.hpp"
 #include "state.hpp"
 
@@ -82,6 +83,25 @@ Args:
 
 Returns:
   Lowest and highest torque at the joint [N m].
+)";
+
+constexpr const char* kStaticMargin =
+    R"(Distance of the centre of mass from the edge of the support, across gravity [m].
+
+It stands on the contacts that press: of the robot with what does not move, of its tracks with
+anything.
+
+Args:
+  model: mujoco.MjModel.
+  data: after a step.
+  root: body at the root of the robot.
+  carried: bodies that count to its mass while they do not touch the ground themselves.
+
+Returns:
+  Negative where it tips over, -inf in the air.
+
+Raises:
+  Error: an unknown body.
 )";
 
 std::pair<double, double> effort_range(const Plant& self, const std::string& joint, double speed) {
@@ -159,4 +179,12 @@ void bind_plant(py::module_& module) {
       .def_property_readonly(
           "brakes", [](Plant& self) -> Brakes& { return self.brakes(); },
           py::return_value_policy::reference_internal);
+  module.def(
+      "static_margin",
+      [](const ModelObject& model, const DataObject& data, const std::string& root,
+         const std::vector<std::string>& carried) {
+        const Scene scene = scene_of(model, data);
+        return static_margin(scene.model, scene.data, root, carried);
+      },
+      "model"_a, "data"_a, "root"_a, "carried"_a = std::vector<std::string>(), kStaticMargin);
 }

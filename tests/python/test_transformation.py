@@ -6,6 +6,7 @@ folding the arms, where legs and arms must collide (F03). Moves alone are tested
 Moves: docs/design/robot.md#postures. 120 kg and 2 x 30 kg are tied to the arms: see lifting.py.
 """
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -130,9 +131,7 @@ def test_bad_moves_are_refused():
         start(model, "manipulation", "drive")
 
 
-def test_the_margin_is_the_distance_to_the_nearest_edge():
-    corners = postures.hull(np.array([[0, 0], [2, 0], [2, 1], [0, 1], [1, 0.5], [1, 0]]))
-    assert len(corners) == 4
-    assert postures.inside(corners, np.array([0.7, 0.4])) == pytest.approx(0.4)
-    assert postures.inside(corners, np.array([2.3, 0.5])) == pytest.approx(-0.3)
-    assert postures.inside(corners[:2], np.array([0.0, 0.0])) == -np.inf
+def test_a_margin_of_an_unknown_body_is_refused():
+    model = models.load("rescue")
+    with pytest.raises(hurcules.Error, match="body 'legs' does not exist; there are: "):
+        postures.static_margin(model, mujoco.MjData(model), "legs")

@@ -1,7 +1,5 @@
 #include "hurcules/sim/monitors.hpp"
 
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,19 +8,6 @@
 namespace hurcules {
 
 namespace {
-
-std::vector<bool> find_tracks(const mjModel* m) {
-  std::vector<bool> found(static_cast<std::size_t>(m->ngeom), false);
-  for (int tuple = 0; tuple < m->ntuple; ++tuple) {
-    const char* const name = mj_id2name(m, mjOBJ_TUPLE, tuple);
-    if (std::string(name ? name : "").find("track_") == std::string::npos) continue;
-    for (int i = m->tuple_adr[tuple]; i < m->tuple_adr[tuple] + m->tuple_size[tuple]; ++i) {
-      if (m->tuple_objtype[i] == mjOBJ_GEOM)
-        found[static_cast<std::size_t>(m->tuple_objid[i])] = true;
-    }
-  }
-  return found;
-}
 
 bool is_worse(Index quantity, double value, double than) {
   return Monitors::falls(quantity) ? value < than : value > than;
@@ -41,13 +26,12 @@ const std::vector<std::string>& Monitors::names() {
   return names;
 }
 
-Monitors::Monitors(const mjModel* m, int robot_root, const MotorLosses& losses,
+Monitors::Monitors(const mjModel_* m, int robot_root, const MotorLosses& losses,
                    const MonitorOptions& options)
     : options_(options),
-      root_(robot_root),
       distance_(m, robot_root, options.distance),
+      support_(m, robot_root),
       windings_(m, losses, options.windings),
-      is_track_(find_tracks(m)),
       threshold_(thresholds()),
       alarm_(Vector::Zero(kQuantities)) {
   for (Index i = 0; i < kQuantities; ++i) {
@@ -68,7 +52,6 @@ Vector Monitors::thresholds() const {
 void Monitors::reset() {
   distance_.reset();
   windings_.reset();
-  support_points_ = 0;
   value_ = Vector::Zero(kQuantities);
   value_[Distance] = options_.distance.cutoff;
   value_[Temperature] = options_.windings.ambient;
@@ -76,41 +59,19 @@ void Monitors::reset() {
   alarm_.setZero();
 }
 
-void Monitors::look(const mjModel* m, mjData* d, double power) {
+void Monitors::look(const mjModel_* m, mjData_* d, double power) {
   if (!options_.on) return;
   note(Distance, distance_.measure(m, d));
-  collect_support(m, d);
-  const Vector3 gravity(m->opt.gravity[0], m->opt.gravity[1], m->opt.gravity[2]);
-  if (!polygon_.empty() && gravity.norm() > 0.0) {
-    const Vector3 com = Eigen::Map<const Vector3>(d->subtree_com + 3 * root_);
-    const Stability stands = polygon_.judge({com, m->body_subtreemass[root_], gravity});
-    note(Margin, stands.margin);
-    note(PressureMargin, stands.pressure_margin);
-    note(TipAngle, stands.tip_angle);
-    note(Energy, stands.energy);
+  if (const std::optional<Stability> stands = support_.measure(m, d)) {
+    note(Margin, stands->margin);
+    note(PressureMargin, stands->pressure_margin);
+    note(TipAngle, stands->tip_angle);
+    note(Energy, stands->energy);
   }
   windings_.warm(d);
   note(Temperature, windings_.temperature().size() > 0 ? windings_.temperature().maxCoeff()
                                                        : options_.windings.ambient);
   note(Power, power);
-}
-
-void Monitors::collect_support(const mjModel* m, const mjData* d) {
-  polygon_.clear();
-  for (int i = 0; i < d->ncon; ++i) {
-    const mjContact& contact = d->contact[i];
-    if (contact.efc_address < 0 || contact.geom[0] < 0 || contact.geom[1] < 0) continue;
-    const int body[2] = {m->geom_bodyid[contact.geom[0]], m->geom_bodyid[contact.geom[1]]};
-    const bool first = m->body_rootid[body[0]] == root_, second = m->body_rootid[body[1]] == root_;
-    if (first == second) continue;
-    const int other = first ? body[1] : body[0], own = contact.geom[first ? 0 : 1];
-    if (m->body_weldid[other] != 0 && !is_track_[static_cast<std::size_t>(own)]) continue;
-    mjtNum force[6];
-    mj_contactForce(m, d, i, force);
-    // what does not press does not carry
-    if (force[0] > 0.0) polygon_.add(Eigen::Map<const Vector3>(contact.pos), force[0]);
-  }
-  support_points_ = static_cast<Index>(polygon_.size());
 }
 
 void Monitors::note(Index quantity, double value) {

@@ -1,9 +1,8 @@
 // What runs beside the controller and sees trouble come [T §4.2.1]: self-collision, tipping over,
 // hot motors, power. It only looks: it commands nothing.
 //
-// Each tick, after the step, of the state at the beginning of the tick. It stands on the
-// contacts that press, of the robot with what does not move, and of its tracks with anything. In
-// the air the measures of standing keep their last values.
+// Each tick, after the step, of the state at the beginning of the tick. What it stands on:
+// support.hpp. In the air the measures of standing keep their last values.
 #pragma once
 
 #include <limits>
@@ -15,7 +14,7 @@
 #include "hurcules/sim/motor_thermal_model.hpp"
 #include "hurcules/sim/recorder.hpp"
 #include "hurcules/sim/self_distance.hpp"
-#include "hurcules/sim/stability.hpp"
+#include "hurcules/sim/support.hpp"
 
 struct mjModel_;
 struct mjData_;
@@ -61,24 +60,20 @@ class Monitors {
   [[nodiscard]] double threshold(Index quantity) const { return threshold_[quantity]; }
   [[nodiscard]] const SelfDistance& self_distance() const { return distance_; }
   [[nodiscard]] const MotorThermalModel& windings() const { return windings_; }
-  [[nodiscard]] Index support_points() const { return support_points_; }  // of the last tick
-  void add_log_channels(Recorder& recorder) const;                        // monitor/NAME
+  [[nodiscard]] Index support_points() const { return support_.points(); }  // of the last tick
+  void add_log_channels(Recorder& recorder) const;                          // monitor/NAME
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 
  private:
-  void collect_support(const mjModel_* model, const mjData_* data);
   void note(Index quantity, double value);
   [[nodiscard]] Vector thresholds() const;
 
   MonitorOptions options_;
-  int root_;
   SelfDistance distance_;
-  SupportPolygon polygon_;
+  Support support_;
   MotorThermalModel windings_;
-  std::vector<bool> is_track_;                // (ngeom)
   Vector threshold_, value_, worst_, alarm_;  // (kQuantities)
-  Index support_points_ = 0;
 };
 
 }  // namespace hurcules

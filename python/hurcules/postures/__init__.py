@@ -8,9 +8,9 @@ for result in player.play(postures.stand_up("rescue")):
     print(result.name, result.margin, result.worst_torque)
 """
 
-from hurcules.postures.balance import hull, inside, static_margin
+from hurcules._core import static_margin
 from hurcules.postures.moves import Move, bend, move, standing
-from hurcules.postures.player import Player, Result, joint_controller, joint_loop
+from hurcules.postures.player import Player, Result, joint_controller, joint_loop, look
 from hurcules.postures.scripts import fold_back, lift, lower, stand_up
 
 __all__ = [
@@ -19,11 +19,10 @@ __all__ = [
     "Result",
     "bend",
     "fold_back",
-    "hull",
-    "inside",
     "joint_controller",
     "joint_loop",
     "lift",
+    "look",
     "lower",
     "move",
     "stand_up",

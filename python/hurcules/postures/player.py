@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hurcules import _core
-from hurcules._core import Error
-from hurcules.postures.balance import static_margin
+from hurcules._core import Error, static_margin
 from hurcules.postures.moves import Move
 
-__all__ = ["Player", "Result", "joint_controller", "joint_loop"]
+__all__ = ["Player", "Result", "joint_controller", "joint_loop", "look"]
 
 _LOOK = 50  # steps between two looks
 
@@ -86,8 +85,6 @@ class Player:
         self.peak = model.actuator_forcerange[motors, 1].copy()
         self._speed = np.array([self._number("velocity_limit", joint) for joint in self.joints])
         self._power = np.array([self._number("power_limit", joint) for joint in self.joints])
-        self._root = int(model.body("upper_legs").id)
-        self._mine = model.body_rootid[model.geom_bodyid] == self._root
         self.reference = self.controller.joint_places
 
     def _number(self, kind: str, joint: str) -> float:
@@ -211,7 +208,7 @@ class Player:
             result.speed = max(result.speed, float((np.abs(velocity) / self._speed).max()))
             result.power = max(result.power, float((torque * velocity / self._power).max()))
             if i % _LOOK == 0:
-                self._look(result)
+                look(self.model, self.data, result, self.carried)
         result.torque = dict(zip(self.joints, share.tolist(), strict=True))
         result.error = dict(zip(self.joints, error.tolist(), strict=True))
         return result
@@ -222,13 +219,25 @@ class Player:
         if self.watch is not None:
             self.watch()
 
-    def _look(self, result: Result) -> None:
-        geoms = self.data.contact.geom
-        for pair in geoms[self._mine[geoms].all(axis=1)]:
-            first, second = sorted(self.model.geom(int(g)).name for g in pair)
-            result.collisions.add((first, second))
-        margin = static_margin(self.model, self.data, "upper_legs", self.carried)
-        result.margin = min(result.margin, margin)
+
+def look(
+    model: mujoco.MjModel, data: mujoco.MjData, result: Result, carried: Sequence[str] = ()
+) -> None:
+    """Adds to a result how the robot stands now, and which of its geoms meet.
+
+    Args:
+        model: a scene with the robot.
+        data: after a step.
+        result: what was seen before.
+        carried: bodies that count to the robot's centre of mass when they are above the ground.
+    """
+    mine = model.body_rootid[model.geom_bodyid] == model.body("upper_legs").rootid
+    geoms = data.contact.geom
+    for pair in geoms[mine[geoms].all(axis=1)]:
+        first, second = sorted(model.geom(int(g)).name for g in pair)
+        result.collisions.add((first, second))
+    margin = static_margin(model, data, "upper_legs", list(carried))
+    result.margin = min(result.margin, margin)
 
 
 def joint_controller(

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-import mujoco
 import numpy as np
 
 from hurcules import ForceLoop, postures
@@ -112,16 +111,9 @@ def press(robot: PressRobot, done: Sequence) -> None:
             robot.enable(False)
             z = ramped(OUT, robot.time, robot.time + UP)
         done.logs[name] = robot.follow(x, z, robot.time + seconds)
-        done.played(name, [_look(robot.model, robot.data, name)], robot.data.time)
-
-
-def _look(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> postures.Result:
-    """Balance and collisions of the robot at the end of a phase under task control."""
-    mine = model.body_rootid[model.geom_bodyid] == model.body("upper_legs").id
-    pairs = data.contact.geom[mine[data.contact.geom].all(axis=1)]
-    met = {(model.geom(int(a)).name, model.geom(int(b)).name) for a, b in pairs}
-    margin = postures.static_margin(model, data, "upper_legs")
-    return postures.Result(name, margin, met)
+        seen = postures.Result(name)
+        postures.look(robot.model, robot.data, seen)
+        done.played(name, [seen], robot.data.time)
 
 
 @measures("K19")
