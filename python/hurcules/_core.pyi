@@ -4104,6 +4104,29 @@ def solve_batch(
     Raises:
       Error: as Solver.solve, with the number of the problem."""
 
+def static_margin(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    root: str,
+    carried: collections.abc.Sequence[str] = [],
+) -> float:
+    """Distance of the centre of mass from the edge of the support, across gravity [m].
+
+    It stands on the contacts that press: of the robot with what does not move, of its tracks with
+    anything.
+
+    Args:
+      model: mujoco.MjModel.
+      data: after a step.
+      root: body at the root of the robot.
+      carried: bodies that count to its mass while they do not touch the ground themselves.
+
+    Returns:
+      Negative where it tips over, -inf in the air.
+
+    Raises:
+      Error: an unknown body."""
+
 def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None:
     """mj_step with the traction of the tracks; plain mj_step leaves the belts without any.
 
