@@ -84,8 +84,8 @@ struct Body {
   PositionTask pelvis{"pel", robot, "pelvis", along_x()};
   GazeTask gaze{"gaze", robot, "gaze"};
   PostureTask posture{"posture", robot};
-  std::vector<Task*> tasks{&joint,       &left,         &right,  &left_turn, &right_turn,
-                           &left_swivel, &right_swivel, &pelvis, &gaze,      &posture};
+  std::vector<Task*> tasks{&left,         &right,  &left_turn, &right_turn, &left_swivel,
+                           &right_swivel, &pelvis, &gaze,      &posture};
 };
 
 struct Run {

@@ -1,6 +1,7 @@
-// control: levels and stacks of tasks.
+// control: limits of the coordinates, levels and stacks of tasks.
 #include "bind_stack.hpp"
 
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/typing.h>
 
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "state.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -18,11 +20,30 @@ void bind_stack(py::module_& module);
 
 namespace {
 
-constexpr const char* kStackLevel = R"(Tasks of one priority.
+constexpr const char* kJointLimits =
+    R"(Ranges and speed limits of all coordinates (n,): no task, but what holds before all tasks.
+
+A controller has those of the robot; where a stack names others, these take their place. They come
+first in a stack, alone on their level.
 
 Args:
   name: shown in plots and messages.
-  tasks: sequence of Task, all on this level.
+  robot: Robot, whose limits it starts with.
+)";
+constexpr const char* kSetRange =
+    "Narrows the range of one coordinate [rad] or [m]; never wider than the robot's.";
+constexpr const char* kSetInterval =
+    "Narrows the ranges of all coordinates (n,); never wider than the robot's.";
+constexpr const char* kSetMaxVelocity = "Speed limit of one coordinate [rad/s] or [m/s], above 0.";
+constexpr const char* kSetMaxVelocities =
+    "Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none.";
+constexpr const char* kNoOrder =
+    "limits are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
+constexpr const char* kStackLevel = R"(Tasks of one priority, or limits of the coordinates.
+
+Args:
+  name: shown in plots and messages.
+  tasks: sequence of Task, all on this level, or JointLimits alone.
   rho: regularisation coefficient >= 0; a level of coordinate limits is never regularised.
 
 Raises:
@@ -32,10 +53,11 @@ constexpr const char* kStack =
     R"(Tasks by priority, first comes first: Stack([limits, [left, right], posture]).
 
 Args:
-  levels: sequence of Task, StackLevel, or a list of tasks that share a level.
+  levels: sequence of Task, StackLevel, or a list of tasks that share a level; JointLimits come
+    first, where they are named.
 
 Raises:
-  Error: a task stands twice.
+  Error: a task stands twice, or limits stand elsewhere.
 )";
 
 void keep(std::vector<py::object>& kept, py::handle object) {
@@ -51,19 +73,26 @@ Task* task_of(py::handle item) {
   return item.cast<Task*>();
 }
 
-HeldLevel make_level(const std::string& name, const py::typing::Iterable<Task>& tasks, double rho) {
-  std::vector<Task*> pointers;
+using TaskOrLimits = py::typing::Union<Task, JointLimits>;
+
+HeldLevel make_level(const std::string& name, const py::typing::Iterable<TaskOrLimits>& tasks,
+                     double rho) {
   std::vector<py::object> kept;
-  for (const py::handle task : tasks) {
-    pointers.push_back(task_of(task));
-    keep(kept, task);
+  for (const py::handle task : tasks) keep(kept, task);
+  if (kept.size() == 1 && py::isinstance<JointLimits>(kept.front())) {
+    StackLevel level(kept.front().cast<JointLimits&>());
+    level.name = name;
+    return {std::move(level), std::move(kept)};
   }
+  std::vector<Task*> pointers;
+  for (const py::object& task : kept) pointers.push_back(task_of(task));
   return {StackLevel(name, std::move(pointers), rho), std::move(kept)};
 }
 
 StackLevel one_level(py::handle item, std::vector<py::object>& kept) {
   keep(kept, item);
   if (py::isinstance<HeldLevel>(item)) return item.cast<const HeldLevel&>().level;
+  if (py::isinstance<JointLimits>(item)) return {item.cast<JointLimits&>()};
   return {*task_of(item)};
 }
 
@@ -82,7 +111,8 @@ StackLevel level_of(py::handle item, std::vector<py::object>& kept) {
 
 // what Stack takes
 using Levels = py::typing::Iterable<
-    py::typing::Union<Task, HeldLevel, py::typing::Iterable<py::typing::Union<Task, HeldLevel>>>>;
+    py::typing::Union<Task, JointLimits, HeldLevel,
+                      py::typing::Iterable<py::typing::Union<Task, JointLimits, HeldLevel>>>>;
 
 HeldStack make_stack(const Levels& levels) {
   std::vector<StackLevel> made;
@@ -98,6 +128,35 @@ std::vector<std::string> level_names(const HeldStack& self) {
   return names;
 }
 
+void bind_limits(py::module_& module) {
+  const auto copy = py::return_value_policy::copy;
+  const auto unordered = [](const JointLimits&, const py::object&) -> bool {
+    throw py::type_error(kNoOrder);
+  };
+  py::class_<JointLimits>(module, "JointLimits", kJointLimits)
+      .def(py::init<std::string, const Robot&>(), "name"_a, "robot"_a)
+      .def("set_range", &JointLimits::set_range, "coordinate"_a, "lower"_a, "upper"_a, kSetRange)
+      .def("set_interval", &JointLimits::set_interval, "lower"_a, "upper"_a, kSetInterval)
+      .def("reset_ranges", &JointLimits::reset_ranges, "The ranges of the robot again.")
+      .def("set_max_velocity", &JointLimits::set_max_velocity, "coordinate"_a, "limit"_a,
+           kSetMaxVelocity)
+      .def("set_max_velocities", &JointLimits::set_max_velocities, "limits"_a, kSetMaxVelocities)
+      .def("update", &JointLimits::update, "robot"_a, "Notes where the coordinates are.")
+      .def("state", &state<JointLimits>, kState)
+      .def("restore", &restore<JointLimits>, "state"_a, kRestore)
+      .def_property_readonly("name", &JointLimits::name)
+      .def_property_readonly("rows", &JointLimits::size, "n")
+      .def_property_readonly("lower", &JointLimits::lower, copy, "(n,) [rad] or [m]")
+      .def_property_readonly("upper", &JointLimits::upper, copy, "(n,) [rad] or [m]")
+      .def_property_readonly("max_velocity", &JointLimits::max_velocity, copy, "(n,) [rad/s]")
+      .def_property_readonly("error", &JointLimits::configuration, copy,
+                             "(n,) [rad] or [m]: q at the last update")
+      .def("__lt__", unordered)
+      .def("__gt__", unordered)
+      .def("__repr__",
+           [](const JointLimits& self) { return "JointLimits('" + self.name() + "')"; });
+}
+
 }  // namespace
 
 HeldStack hurcules_bindings::stack_of(const py::object& levels) {
@@ -106,6 +165,7 @@ HeldStack hurcules_bindings::stack_of(const py::object& levels) {
 }
 
 void bind_stack(py::module_& module) {
+  bind_limits(module);
   py::class_<HeldLevel>(module, "StackLevel", kStackLevel)
       .def(py::init(&make_level), "name"_a, "tasks"_a, "rho"_a = StackLevel::kDefaultRho)
       .def_property_readonly("name", [](const HeldLevel& self) { return self.level.name; })

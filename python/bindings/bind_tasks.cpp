@@ -13,7 +13,6 @@
 #include "hurcules/tasks/custom_task.hpp"
 #include "hurcules/tasks/damping_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
-#include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
@@ -65,14 +64,12 @@ constexpr const char* kSetWeights =
 Args:
   weights: (m,), by default 1; 0 for a row that asks for nothing.
 )";
-constexpr const char* kSetMaxVelocities =
-    "Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none.";
 constexpr const char* kDampingTask = R"(Coordinates at rest: e = 0 (m,), 0 = qdot.
 
 Takes up what other tasks leave without pulling anywhere; advance asks for another velocity.
 
 Args:
-  name, robot: see JointLimits.
+  name, robot: see PositionTask.
   coordinates: their names; none means all.
 )";
 constexpr const char* kCustomTask = R"(A task whose value a Python function measures.
@@ -80,7 +77,7 @@ constexpr const char* kCustomTask = R"(A task whose value a Python function meas
 Slower than the others by what Python takes. A copy of a controller shares the function.
 
 Args:
-  name, robot: see JointLimits.
+  name, robot: see PositionTask.
   rows: m.
   measure: called with the robot; returns value (m,) and Jacobian (m, n), or these and drift (m,),
     which is Jdot qdot.
@@ -122,26 +119,17 @@ From a fifth of it on the target goes slower; a velocity that leads back is neve
 constexpr const char* kValueTask =
     "A task whose value is a list of numbers: e = value - target, angles the short way round.";
 constexpr const char* kSetTarget = "Sets the target (m,), at rest; seen at the next update.";
-constexpr const char* kJointLimits =
-    R"(Ranges and speed limits of all coordinates; e = q (n,), J = 1.
-
-Args:
-  name: shown in plots and messages.
-  robot: Robot, whose limits it starts with.
-)";
-constexpr const char* kSetRange =
-    "Narrows the range of one coordinate [rad] or [m]; never wider than the robot's.";
-constexpr const char* kSetMaxVelocity = "Speed limit of one coordinate [rad/s] or [m/s], above 0.";
 constexpr const char* kPostureTask = R"(Coordinates at chosen positions [rad] or [m] (m,).
 
 Args:
-  name, robot: see JointLimits.
+  name, robot: see PositionTask.
   coordinates: their names, in this order; none means all.
 )";
 constexpr const char* kPositionTask = R"(The origin of a frame at a target position [m] (m,).
 
 Args:
-  name, robot: see JointLimits.
+  name: shown in plots and messages.
+  robot: Robot whose present value it starts to hold.
   frame: name of a site, body, camera or geom.
   reference: frame in whose axes the position is measured, '' for the world.
   axes: (m, 3), m = 1 to 3 directions in the axes of the reference.
@@ -173,7 +161,7 @@ constexpr const char* kSwivelTask =
 Zero where the elbow lies on the side of `direction`; fades where the arm is straight.
 
 Args:
-  name, robot: see JointLimits.
+  name, robot: see PositionTask.
   shoulder, elbow, wrist, torso: names of frames; the torso carries the shoulder.
   direction: (3,) in the axes of the torso.
 )";
@@ -184,7 +172,7 @@ A positive error: the camera looks to the left of, above the target. advance mov
 around the camera, [rad/s] (2,) to the left and upward.
 
 Args:
-  name, robot: see JointLimits.
+  name, robot: see PositionTask.
   frame: a camera, or any other frame, which then looks along its x axis.
 )";
 
@@ -256,7 +244,6 @@ void bind_task(py::module_& module) {
       .def_property_readonly("velocity_des", &Task::velocity_des, copy, "(m,)")
       .def_property_readonly("lower", &Task::lower, copy, "(m,), of the error")
       .def_property_readonly("upper", &Task::upper, copy, "(m,), of the error")
-      .def_property_readonly("bounds_coordinates", &Task::bounds_coordinates)
       .def("__lt__", [](const Task&, const py::object&) -> bool { throw py::type_error(kNoOrder); })
       .def("__gt__", [](const Task&, const py::object&) -> bool { throw py::type_error(kNoOrder); })
       .def("__repr__", [](const Task& self) {
@@ -282,17 +269,7 @@ void bind_task(py::module_& module) {
 
 void bind_coordinate_tasks(py::module_& module) {
   const auto copy = py::return_value_policy::copy;
-  const py::arg name("name"), robot("robot"), coordinate("coordinate");
-  py::class_<JointLimits, Task>(module, "JointLimits", kJointLimits)
-      .def(py::init<Name, const Robot&>(), name, robot)
-      .def("set_range", &JointLimits::set_range, coordinate, py::arg("lower"), py::arg("upper"),
-           kSetRange)
-      .def("reset_ranges", &JointLimits::reset_ranges, "The ranges of the robot again.")
-      .def_property_readonly("max_velocity", &JointLimits::max_velocity, copy, "(n,) [rad/s]")
-      .def("set_max_velocity", &JointLimits::set_max_velocity, coordinate, py::arg("limit"),
-           kSetMaxVelocity)
-      .def("set_max_velocities", &JointLimits::set_max_velocities, py::arg("limits"),
-           kSetMaxVelocities);
+  const py::arg name("name"), robot("robot");
   py::class_<DampingTask, Task>(module, "DampingTask", kDampingTask)
       .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
            py::arg("coordinates") = std::vector<Name>{});

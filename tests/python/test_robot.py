@@ -141,7 +141,6 @@ def make_tasks(robot: _core.Robot) -> list[_core.Task]:
     """One task of each kind."""
     arm = {"shoulder": "upper", "elbow": "fore", "wrist": "tip", "torso": "world"}
     return [
-        _core.JointLimits("joint", robot),
         _core.PositionTask("position", robot, "tip"),
         _core.PositionTask("height", robot, "tip", reference="fore", axes=[[0.0, 0.0, 1.0]]),
         _core.OrientationTask("orientation", robot, frame="tip", reference="upper"),
@@ -155,19 +154,18 @@ def make_tasks(robot: _core.Robot) -> list[_core.Task]:
 
 
 def test_tasks_have_the_documented_shapes(robot: _core.Robot) -> None:
-    rows = {"joint": 4, "position": 3, "orientation": 3, "gaze": 2, "com": 2, "posture": 2}
+    rows = {"position": 3, "orientation": 3, "gaze": 2, "com": 2, "posture": 2}
     for task in make_tasks(robot):
         m = rows.get(task.name, 1)
         assert task.rows == m
         assert task.jacobian.shape == (m, 4)
         for vector in (task.error, task.drift, task.velocity_des, task.lower, task.upper):
             assert vector.shape == (m,)
-        assert task.bounds_coordinates == (task.name == "joint")
         assert repr(task) == f"Task('{task.name}', rows={m})"
 
 
 def test_tasks_hold_advance_and_restore(robot: _core.Robot) -> None:
-    for task in make_tasks(robot)[1:]:
+    for task in make_tasks(robot):
         np.testing.assert_allclose(task.error, 0.0, atol=1e-14)
         state = task.state()
         velocity = np.linspace(0.1, 0.3, task.rows)
@@ -195,16 +193,39 @@ def test_limits_are_narrowed_by_name(robot: _core.Robot) -> None:
     assert (limits.lower[0], limits.upper[0], limits.max_velocity[0]) == (-1.0, 0.5, 0.25)
     with pytest.raises(_core.Error, match="'yaw' wants lower <= upper within -2"):
         limits.set_range("yaw", -3.0, 0.5)
+    state = limits.state()
     limits.reset_ranges()
     assert limits.upper[0] == 2.0
+    limits.restore(state)
+    assert limits.upper[0] == 0.5
+    limits.set_interval(limits.lower, 0.5 * limits.upper)
+    assert limits.upper[0] == 0.25
+    limits.update(robot)
+    np.testing.assert_array_equal(limits.error, robot.configuration)
+    assert (limits.name, limits.rows) == ("joint", 4)
+    assert not isinstance(limits, _core.Task)
+
+
+def test_limits_come_first_and_alone_in_a_stack(robot: _core.Robot) -> None:
+    limits, hand = _core.JointLimits("joint", robot), _core.PositionTask("hand", robot, "tip")
+    named = _core.StackLevel("ranges", [limits])
+    for levels in ([limits, hand], [[limits], hand], (limits, [hand])):
+        assert str(_core.Stack(levels)) == "joint < hand"
+    assert str(_core.Stack([named, hand])) == "ranges < hand"
+    with pytest.raises(_core.Error, match="'joint' come first in a stack, not after 'hand'"):
+        _core.Stack([hand, limits])
+    with pytest.raises(_core.Error, match="stand alone on their level"):
+        _core.Stack([[limits, hand]])
+    with pytest.raises(_core.Error, match="a level wants tasks, a JointLimits came"):
+        _core.StackLevel("both", [limits, hand])
 
 
 def test_less_than_points_to_stack(robot: _core.Robot) -> None:
-    first, second = make_tasks(robot)[:2]
+    first, second = _core.JointLimits("joint", robot), make_tasks(robot)[0]
     with pytest.raises(TypeError, match=r"Stack\(\[a, b, c\]\)"):
         first < second  # noqa: B015
     with pytest.raises(TypeError, match=r"Stack"):
-        first > second  # noqa: B015
+        second > first  # noqa: B015
 
 
 def test_closed_loop_reaches_the_target(robot: _core.Robot) -> None:

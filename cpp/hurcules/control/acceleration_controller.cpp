@@ -8,7 +8,6 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/limit_rows.hpp"
 #include "hurcules/tasks/force_task.hpp"
-#include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
 
@@ -53,15 +52,10 @@ AccelerationController::AccelerationController(const Robot& robot,
       solver_(robot.size(), options_.solver) {
   check(options_);
   if (options_.law == Law::Arrive && !robot.floating()) probe_.emplace(robot);
-  for (const Coordinate& coordinate : robot.coordinates()) {
-    const bool root = coordinate.joints.front().part >= 0;
-    rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
-                            root ? kInfinity : options_.max_acceleration, options_.return_speed});
-  }
   acceleration_ = braked_ = speed_ = next_ = Vector::Zero(robot.size());
   inertia_ = Matrix::Zero(robot.size(), robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
-  intervals_.resize(rate_limits_.size());
+  intervals_.resize(static_cast<std::size_t>(robot.size()));
 }
 
 void AccelerationController::set_stack(const Stack& stack) {
@@ -96,9 +90,11 @@ void AccelerationController::measure(const Robot& robot) {
   braked_ = options_.rest * speed_;
   Hierarchy& hierarchy = problem_.hierarchy();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
-    for (Task* task : stack().levels()[k].tasks) task->update(robot);
-    if (hierarchy[k].bounds) {
-      fill_bounds(robot, *stack().levels()[k].tasks.front(), hierarchy[k]);
+    const StackLevel& source = stack().levels()[k];
+    for (Task* task : source.tasks) task->update(robot);
+    if (source.limits) {
+      source.limits->update(robot);
+      fill_bounds(robot, *source.limits, hierarchy[k]);
     } else {
       fill_rates(k);
     }
@@ -130,11 +126,7 @@ const Vector& AccelerationController::solve() {
     contacts_.read(solver_.solution().x);
     if (has_zone_) acceleration_ += options_.damping * dead_zone_.nudge();
   }
-  for (Index i = 0; limits() && i < acceleration_.size(); ++i) {  // what rounding left
-    const AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    if (interval.lower <= interval.upper)  // not for a limit that is no number
-      acceleration_[i] = std::clamp(acceleration_[i], interval.lower, interval.upper);
-  }
+  if (limits()) hold_within(intervals_, acceleration_);  // what rounding left
   const auto is_limit = [this](std::size_t i, bool upper) {
     return upper ? intervals_[i].upper_is_limit : intervals_[i].lower_is_limit;
   };
@@ -146,12 +138,8 @@ const Vector& AccelerationController::solve() {
 bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const Vector& velocity) {
   next_ = velocity + options_.dt * acceleration_;
   if (!hurcules::scale_velocity(bounds, next_)) return false;
-  for (Index i = 0; i < next_.size(); ++i) {
-    const double most = problem_.joint_limits()
-                            ? problem_.joint_limits()->max_velocity()[i]
-                            : rate_limits_[static_cast<std::size_t>(i)].max_velocity;
-    next_[i] = std::clamp(next_[i], -most, most);
-  }
+  const Vector& most = (limits() ? *limits() : own_limits_).max_velocity();
+  next_ = next_.cwiseMax(-most).cwiseMin(most);
   acceleration_ = (next_ - velocity) / options_.dt;
   return true;
 }
@@ -188,9 +176,7 @@ void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
   for (Index i = 0; i < q.size(); ++i) {
     const double next = velocity[i] + acceleration_[i] * dt;
     const double step = 0.5 * (velocity[i] + next) * dt;  // [T 5.6.50]
-    const Task* const task = limits();
-    const double e = task ? task->error()[i] : 0.0;
-    q[i] += task ? held_step(step, task->lower()[i] - e, task->upper()[i] - e) : step;
+    q[i] += limits() ? limits()->held_step(i, step) : step;
     velocity[i] = next;
   }
 }
@@ -215,7 +201,7 @@ void AccelerationController::restore(StateReader& reader) {
   solver_.restore(reader);
 }
 
-RateLimits AccelerationController::row_limits() const {
+RateLimits AccelerationController::rate_limits() const {
   return {.dt = options_.dt,
           .horizon = options_.horizon,
           .max_velocity = kInfinity,
@@ -223,15 +209,12 @@ RateLimits AccelerationController::row_limits() const {
           .return_speed = options_.return_speed};
 }
 
-void AccelerationController::fill_bounds(const Robot& robot, const Task& task, Level& level) {
-  for (Index i = 0; i < task.rows(); ++i) {
-    const RateState state{task.lower()[i] - task.error()[i], task.upper()[i] - task.error()[i],
-                          robot.velocity()[i]};
-    RateLimits& rates = rate_limits_[static_cast<std::size_t>(i)];
-    if (const JointLimits* const own = problem_.joint_limits())
-      rates.max_velocity = own->max_velocity()[i];
+void AccelerationController::fill_bounds(const Robot& robot, const JointLimits& limits,
+                                         Level& level) {
+  for (Index i = 0; i < limits.size(); ++i) {
     AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    interval = acceleration_interval(state, rates);
+    interval =
+        acceleration_interval(limits.state(i, robot.velocity()[i]), limits.rates(i, rate_limits()));
     level.lower[i] = interval.lower + braked_[i];
     level.upper[i] = interval.upper + braked_[i];
   }
@@ -277,7 +260,7 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
     auto rate = rate_.head(task->rows());
     rate.noalias() = task->jacobian() * robot.velocity();
     if (task->is_limit() && !task->commands_acceleration()) {
-      limit_accelerations(*task, row_limits(), rate, level.lower.segment(row, task->rows()),
+      limit_accelerations(*task, rate_limits(), rate, level.lower.segment(row, task->rows()),
                           level.upper.segment(row, task->rows()));
       for (Index i = 0; i < task->rows(); ++i, ++row) {
         const double held = options_.rest * rate[i] - task->drift()[i];

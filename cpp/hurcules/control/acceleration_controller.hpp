@@ -6,7 +6,7 @@
 //   qddot* = lexicographic minimum of the levels                    [T 5.3.18]
 //   qdot* += qddot* dt,  q* += qdot* dt + qddot* dt^2 / 2           [T 5.6.50]
 //
-// A level made of one task that bounds the coordinates becomes simple bounds that brake in time
+// The limits of the coordinates become simple bounds that brake in time
 // (acceleration_interval.hpp). A task that commands accelerations has a law of its own: torque
 // limits, force control. With `rest` D the unknown is qddot + D qdot: what regularisation takes
 // from a weak direction, and a direction that no task holds, then brakes as exp(-D t) instead of
@@ -25,7 +25,6 @@
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
-#include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/loop_limits.hpp"
 
 namespace hurcules {
@@ -84,8 +83,8 @@ class AccelerationController {
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
   // the coordinate limits that hold, null when none do; to narrow a range, say
-  [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
-  [[nodiscard]] Task* limits() { return problem_.bounds_task(); }
+  [[nodiscard]] const JointLimits* limits() const { return problem_.limits(); }
+  [[nodiscard]] JointLimits* limits() { return problem_.limits(); }
   // what each level fell short of at the last compute, and why; makes its texts when asked
   [[nodiscard]] std::vector<LevelDiagnostics> diagnostics(const Robot& robot) const {
     return level_diagnostics({robot, problem_, solver_.solution(), reports_of(solver_),
@@ -96,17 +95,16 @@ class AccelerationController {
   void restore(StateReader& reader);
 
  private:
-  void fill_bounds(const Robot& robot, const Task& limits, Level& level);
+  void fill_bounds(const Robot& robot, const JointLimits& limits, Level& level);
   void fill_rates(std::size_t k);
   void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
-  [[nodiscard]] RateLimits row_limits() const;
+  [[nodiscard]] RateLimits rate_limits() const;
   void add_friction(const Robot& robot, VectorRef torque) const;
 
   AccelerationControllerOptions options_;
-  bool floating_;                        // its root is a coordinate
-  std::vector<RateLimits> rate_limits_;  // (n)
-  JointLimits own_limits_;               // those of the robot
-  LoopLimits loop_limits_;               // the same
+  bool floating_;           // its root is a coordinate
+  JointLimits own_limits_;  // those of the robot
+  LoopLimits loop_limits_;  // the same
   StackProblem problem_;
   ContactForces contacts_;
   Solver solver_;

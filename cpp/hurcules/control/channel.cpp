@@ -25,8 +25,6 @@ Vector spread_over(Vector scale, Index rows) {
 }
 
 void require_target(const std::string& name, ChannelKind kind, const Task& task) {
-  require(!task.bounds_coordinates(),
-          "channel '" + name + "' wants a task with a target, '" + task.name() + "' has none");
   if (kind == ChannelKind::Force) {
     require(dynamic_cast<const ForceTask*>(&task),
             "channel '" + name + "' wants a ForceTask, '" + task.name() + "' is none");

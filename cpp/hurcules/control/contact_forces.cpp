@@ -57,13 +57,13 @@ Stack ContactForces::completed(const Stack& stack) {
 
 void ContactForces::place(StackProblem& problem) {
   if (size_ == 0) return;
-  require(problem.bounds_task() != nullptr,
+  require(problem.limits() != nullptr,
           "contacts want the limits of the coordinates in the stack: enforce_limits");
   problem.bounds().lower.tail(size_).setZero();
   problem.bounds().upper.tail(size_).setConstant(std::numeric_limits<double>::infinity());
   const std::vector<StackLevel>& levels = problem.stack().levels();
   level_ = 0;
-  while (levels[level_].tasks.front() != &torques_) ++level_;
+  while (levels[level_].limits || levels[level_].tasks.front() != &torques_) ++level_;
 }
 
 void ContactForces::fill(Hierarchy& hierarchy) const {

@@ -42,7 +42,7 @@ void DeadZone::set_stack(const Stack& stack, Index n) {
 }
 
 void DeadZone::apply(std::span<const double> weights, std::span<const double> gains,
-                     const Task* limits, SaddleProbe* probe, Hierarchy& hierarchy) {
+                     const JointLimits* limits, SaddleProbe* probe, Hierarchy& hierarchy) {
   rank_ = 0;
   pressed_.setZero();
   nudge_.setZero();
@@ -81,7 +81,7 @@ void DeadZone::add_held(Eigen::VectorXi& held) const {
   }
 }
 
-double DeadZone::slope_of(std::size_t k, const Level& level, const Task* limits) {
+double DeadZone::slope_of(std::size_t k, const Level& level, const JointLimits* limits) {
   find_pull(level);
   remove_known(pull_);
   if (limits) hold_pressed_joints(k, *limits);
@@ -158,10 +158,10 @@ void DeadZone::find_pull(const Level& level) {
 }
 
 // takes from the pull what presses joints against their limits, the more the nearer they are
-void DeadZone::hold_pressed_joints(std::size_t k, const Task& limits) {
+void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
   Index last = rank_;
   for (Index i = 0; i < pull_.size() && last < known_.rows(); ++i) {
-    const double q = limits.error()[i];
+    const double q = limits.configuration()[i];
     const double distance = pull_[i] > 0.0 ? limits.upper()[i] - q : q - limits.lower()[i];
     const double held = 1.0 - std::max(0.0, distance) / kNearLimit;
     if (!(held > 0.0) || pull_[i] == 0.0) continue;

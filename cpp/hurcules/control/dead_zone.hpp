@@ -42,8 +42,8 @@ class DeadZone {
   // weights: w a level (task_speed.hpp), gains: K / max(1, F) [1/s]; limits: of the coordinates,
   // measured, null for none; probe: looks at
   // where the robot stands, null for saddles like any other place
-  void apply(std::span<const double> weights, std::span<const double> gains, const Task* limits,
-             SaddleProbe* probe, Hierarchy& hierarchy);
+  void apply(std::span<const double> weights, std::span<const double> gains,
+             const JointLimits* limits, SaddleProbe* probe, Hierarchy& hierarchy);
   // [rad/s] (n), on top of what the hierarchy asks for: off a saddle, else 0
   [[nodiscard]] const Vector& nudge() const { return nudge_; }
   // what a level was left at the last apply, 0 to 1
@@ -58,7 +58,7 @@ class DeadZone {
 
  private:
   // the slope of a level; leaves its pull
-  [[nodiscard]] double slope_of(std::size_t k, const Level& level, const Task* limits);
+  [[nodiscard]] double slope_of(std::size_t k, const Level& level, const JointLimits* limits);
   // 1 where the level whose pull is known stands at a saddle, 0 where not; nudges it off one
   [[nodiscard]] double saddle_at(std::size_t k, const Level& level, double gain,
                                  SaddleProbe& probe);
@@ -67,7 +67,7 @@ class DeadZone {
                                     SaddleProbe& probe);
   void add_strong_rows(const Level& level);
   void find_pull(const Level& level);
-  void hold_pressed_joints(std::size_t k, const Task& limits);
+  void hold_pressed_joints(std::size_t k, const JointLimits& limits);
   void add_direction();
   void remove_known(VectorRef direction);
 

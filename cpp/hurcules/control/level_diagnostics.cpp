@@ -125,6 +125,8 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
     made.manipulability = report->singular_values.prod();
   }
   if (solved.solution.status == SolverStatus::InvalidInput) {
+    if (source.limits && !source.limits->are_numbers())
+      made.shortfalls.push_back({source.limits->name(), 0.0, "", {}, true});
     for (const Task* task : source.tasks)
       if (!says_something(*task)) made.shortfalls.push_back({task->name(), 0.0, "", {}, true});
     return made;
@@ -133,7 +135,7 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
   for (const Task* task : source.tasks) {
     const Index first = row;
     row += task->rows();
-    if (task->bounds_coordinates() || k >= solved.solution.violations.size()) continue;
+    if (k >= solved.solution.violations.size()) continue;
     const double short_by = outside(*task);
     const bool shortened = solved.zone && solved.zone->share(k) < 1.0 - kShare;
     if (short_by < kSmall) continue;

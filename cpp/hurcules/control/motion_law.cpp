@@ -21,7 +21,7 @@ class LawOf : public MotionLaw {
   const Hierarchy& hierarchy() const override { return controller_.hierarchy(); }
   const Solution& solution() const override { return controller_.solution(); }
   const Eigen::VectorXi& active_limits() const override { return controller_.active_limits(); }
-  const Task* limits() const override { return controller_.limits(); }
+  const JointLimits* limits() const override { return controller_.limits(); }
   std::vector<LevelDiagnostics> diagnostics(const Robot& plan) const override {
     return controller_.diagnostics(plan);
   }

@@ -44,7 +44,7 @@ class MotionLaw {
   [[nodiscard]] virtual const Hierarchy& hierarchy() const = 0;
   [[nodiscard]] virtual const Solution& solution() const = 0;
   [[nodiscard]] virtual const Eigen::VectorXi& active_limits() const = 0;
-  [[nodiscard]] virtual const Task* limits() const = 0;
+  [[nodiscard]] virtual const JointLimits* limits() const = 0;
   // [1/s] at which an error of a task vanishes
   [[nodiscard]] virtual double rate() const = 0;
   [[nodiscard]] virtual std::vector<LevelDiagnostics> diagnostics(const Robot& plan) const = 0;

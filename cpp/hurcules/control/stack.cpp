@@ -11,12 +11,23 @@ namespace hurcules {
 namespace {
 
 void check(const StackLevel& level) {
-  require(!level.tasks.empty(),
+  require(level.limits || !level.tasks.empty(),
           "a level of a stack wants at least one task; '" + level.name + "' has none");
   require(level.rho >= 0.0 && std::isfinite(level.rho),
           "level '" + level.name + "' wants a finite rho >= 0, got " + std::to_string(level.rho));
   for (const Task* task : level.tasks) {
     require(task != nullptr, "level '" + level.name + "' holds a task that does not exist (null)");
+  }
+}
+
+void check_limits_first(const std::vector<StackLevel>& levels) {
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    const JointLimits* const limits = levels[k].limits;
+    if (!limits) continue;
+    require(limits != levels.front().limits, "'" + limits->name() + "' stands twice in one stack");
+    require(!levels.front().limits, "a stack wants at most one level of coordinate limits");
+    throw Error("limits '" + limits->name() + "' come first in a stack, not after '" +
+                levels[k - 1].name + "': they hold before all tasks");
   }
 }
 
@@ -35,6 +46,9 @@ void check_each_task_once(const std::vector<StackLevel>& levels) {
 
 StackLevel::StackLevel(Task& task) : name(task.name()), tasks{&task} {}
 
+StackLevel::StackLevel(JointLimits& joint_limits)
+    : name(joint_limits.name()), limits(&joint_limits) {}
+
 StackLevel::StackLevel(std::string level_name, std::vector<Task*> level_tasks, double level_rho)
     : name(std::move(level_name)), tasks(std::move(level_tasks)), rho(level_rho) {
   check(*this);
@@ -42,6 +56,7 @@ StackLevel::StackLevel(std::string level_name, std::vector<Task*> level_tasks, d
 
 Stack::Stack(std::vector<StackLevel> levels) : levels_(std::move(levels)) {
   for (const StackLevel& level : levels_) check(level);
+  check_limits_first(levels_);
   check_each_task_once(levels_);
 }
 
@@ -52,6 +67,8 @@ std::string Stack::text() const {
 }
 
 StackLevel operator+(const StackLevel& a, const StackLevel& b) {
+  require(!a.limits && !b.limits, "limits of the coordinates stand alone on their level; '" +
+                                      a.name + "' and '" + b.name + "' cannot be one level");
   require(a.rho == b.rho, "levels '" + a.name + "' and '" + b.name +
                               "' have different rho and cannot be one level");
   std::vector<Task*> tasks = a.tasks;

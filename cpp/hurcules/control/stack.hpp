@@ -1,25 +1,29 @@
 // Tasks by priority, written as the thesis writes it:  Stack stack = joint < hpos < hpitch < pel <
 // gaze;
 //
-// `a < b`: a comes before b. `a + b`: on one level. The stack points at the tasks; whoever made
-// them keeps them.
+// `a < b`: a comes before b. `a + b`: on one level. Limits of the coordinates (joint) are no task:
+// named, they come first and take the place of the controller's own. The stack points at tasks and
+// limits; whoever made them keeps them.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "hurcules/control/joint_limits.hpp"
 #include "hurcules/tasks/task.hpp"
 
 namespace hurcules {
 
 struct StackLevel {
-  StackLevel(Task& task);  // implicit on purpose: a task alone is a level
+  StackLevel(Task& task);           // implicit on purpose: a task alone is a level
+  StackLevel(JointLimits& limits);  // the same
   StackLevel(std::string name, std::vector<Task*> tasks, double rho = kDefaultRho);
 
   static constexpr double kDefaultRho = 0.1;  // [T §4.3]
 
   std::string name;
   std::vector<Task*> tasks;
+  JointLimits* limits = nullptr;  // a level of limits; it has no tasks
   double rho = kDefaultRho;
 };
 

@@ -1,10 +1,10 @@
 // A stack as the hierarchy that a controller fills tick by tick: one level of the solver for each
 // of the stack, sized once.
 //
-// A level made of one task that bounds the coordinates becomes simple bounds; a stack has at most
-// one such level.
+// The limits of the coordinates become simple bounds.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hurcules/control/stack.hpp"
@@ -12,7 +12,6 @@
 
 namespace hurcules {
 
-class JointLimits;
 class LoopLimits;
 
 class StackProblem {
@@ -21,30 +20,26 @@ class StackProblem {
   explicit StackProblem(Index n) : n_(n) {}
   // With `own` these limits come first where the stack names none; `loops`, if it has rows, next to
   // them. `others`: unknowns after those of the tasks, whose columns are left at zero. Throws Error
-  // for tasks of another robot and for a second level of limits.
+  // for tasks and limits of another robot.
   void set_stack(const Stack& stack, JointLimits* own = nullptr, LoopLimits* loops = nullptr,
                  Index others = 0);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }
   [[nodiscard]] Hierarchy& hierarchy() { return hierarchy_; }
   [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
-  // the level of coordinate limits, -1 without one, and its task, null without one
-  [[nodiscard]] int bounds_level() const { return bounds_level_; }
-  [[nodiscard]] Task* bounds_task() const { return bounds_task_; }
-  [[nodiscard]] const JointLimits* joint_limits() const { return joint_limits_; }
-  // the same level as the solver has it; only with one
-  [[nodiscard]] Level& bounds() { return hierarchy_[static_cast<std::size_t>(bounds_level_)]; }
-  [[nodiscard]] const Level& bounds() const {
-    return hierarchy_[static_cast<std::size_t>(bounds_level_)];
-  }
+  // the coordinate limits that hold, null where none do; their level is the first, else -1
+  [[nodiscard]] JointLimits* limits() { return limits_; }
+  [[nodiscard]] const JointLimits* limits() const { return limits_; }
+  [[nodiscard]] int bounds_level() const { return limits_ ? 0 : -1; }
+  // the same level as the solver has it; only with limits
+  [[nodiscard]] Level& bounds() { return hierarchy_.front(); }
+  [[nodiscard]] const Level& bounds() const { return hierarchy_.front(); }
 
  private:
   Index n_;
   Stack stack_;
   Hierarchy hierarchy_;
-  Task* bounds_task_ = nullptr;
-  const JointLimits* joint_limits_ = nullptr;  // the same, when it is this kind of task
-  int bounds_level_ = -1;
+  JointLimits* limits_ = nullptr;
 };
 
 // Which coordinates are held back by their position limits: -1, 0, 1 each. `is_limit` says whether
@@ -61,8 +56,14 @@ void find_held(const Solution& solution, int bounds_level, const IsLimit& is_lim
   }
 }
 
-// moves a coordinate (signed distances to its limits) by a step: inside the limits it ends at the
-// limit at most, outside it may only lead back
-[[nodiscard]] double held_step(double step, double to_lower, double to_upper);
+// each value within the interval of its coordinate; not where a limit is no number
+template <class Interval>
+void hold_within(const std::vector<Interval>& intervals, VectorRef values) {
+  for (Index i = 0; i < values.size(); ++i) {
+    const Interval& interval = intervals[static_cast<std::size_t>(i)];
+    if (interval.lower <= interval.upper)
+      values[i] = std::clamp(values[i], interval.lower, interval.upper);
+  }
+}
 
 }  // namespace hurcules

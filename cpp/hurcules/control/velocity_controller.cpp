@@ -8,7 +8,6 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/limit_rows.hpp"
-#include "hurcules/tasks/joint_limits.hpp"
 
 namespace hurcules {
 
@@ -48,10 +47,7 @@ void limit_change(const Vector& before, double allowed, const std::vector<RateIn
                   VectorRef velocity) {
   const double wanted = (velocity - before).cwiseAbs().maxCoeff();
   if (wanted > allowed) velocity = before + allowed / wanted * (velocity - before);
-  for (Index i = 0; i < velocity.size(); ++i) {
-    const RateInterval& interval = intervals[static_cast<std::size_t>(i)];
-    velocity[i] = std::clamp(velocity[i], interval.lower, interval.upper);
-  }
+  hold_within(intervals, velocity);
 }
 
 }  // namespace
@@ -67,13 +63,9 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
           "no velocity can be given to a free root; a robot that floats wants an "
           "AccelerationController, or a stack by torques");
   if (options_.law == Law::Arrive) probe_.emplace(robot);
-  for (const Coordinate& coordinate : robot.coordinates()) {
-    rate_limits_.push_back({options_.dt, options_.horizon, coordinate.max_velocity,
-                            options_.max_acceleration, options_.return_speed});
-  }
   velocity_ = next_ = offset_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
-  intervals_.resize(rate_limits_.size());
+  intervals_.resize(static_cast<std::size_t>(robot.size()));
 }
 
 void VelocityController::set_stack(const Stack& stack) {
@@ -108,8 +100,9 @@ void VelocityController::measure(const Robot& robot) {
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     const StackLevel& source = stack().levels()[k];
     for (Task* task : source.tasks) task->update(robot);
-    if (hierarchy[k].bounds) {
-      fill_bounds(*source.tasks.front(), hierarchy[k]);
+    if (source.limits) {
+      source.limits->update(robot);
+      fill_bounds(*source.limits, hierarchy[k]);
     } else {
       fill_rows(k);
     }
@@ -139,7 +132,7 @@ const Vector& VelocityController::solve() {
   const auto is_limit = [this](std::size_t i, bool upper) {
     if (options_.law == Law::Arrive) {
       const auto row = static_cast<Index>(i);
-      const double most = rate_limits_[i].max_velocity;
+      const double most = limits()->max_velocity()[row];
       return upper ? problem_.bounds().upper[row] == intervals_[i].most && intervals_[i].most < most
                    : problem_.bounds().lower[row] == intervals_[i].least &&
                          intervals_[i].least > -most;
@@ -170,9 +163,7 @@ bool VelocityController::scale_velocity(const VelocityBounds& window) {
 void VelocityController::integrate(VectorRef q) const {
   for (Index i = 0; i < q.size(); ++i) {
     const double step = velocity_[i] * options_.dt;
-    const Task* const task = limits();
-    const double e = task ? task->error()[i] : 0.0;
-    q[i] += task ? held_step(step, task->lower()[i] - e, task->upper()[i] - e) : step;
+    q[i] += limits() ? limits()->held_step(i, step) : step;
   }
 }
 
@@ -244,7 +235,7 @@ double VelocityController::reach_time() const {
   return options_.law == Law::Arrive ? std::max(kForesight, options_.dt) : options_.dt;
 }
 
-RateLimits VelocityController::row_limits() const {
+RateLimits VelocityController::rate_limits() const {
   return {.dt = options_.dt,
           .horizon = options_.horizon,
           .max_velocity = kInfinity,
@@ -252,15 +243,10 @@ RateLimits VelocityController::row_limits() const {
           .return_speed = options_.return_speed};
 }
 
-void VelocityController::fill_bounds(const Task& limits, Level& level) {
+void VelocityController::fill_bounds(const JointLimits& limits, Level& level) {
   for (Index i = 0; i < velocity_.size(); ++i) {
-    const RateState state{limits.lower()[i] - limits.error()[i],
-                          limits.upper()[i] - limits.error()[i], velocity_[i]};
-    RateLimits& rates = rate_limits_[static_cast<std::size_t>(i)];
-    if (const JointLimits* const own = problem_.joint_limits())
-      rates.max_velocity = own->max_velocity()[i];
     RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    interval = rate_interval(state, rates);
+    interval = rate_interval(limits.state(i, velocity_[i]), limits.rates(i, rate_limits()));
     if (options_.law == Law::Arrive) {
       const double reach = options_.max_acceleration * reach_time();
       level.lower[i] = std::clamp(velocity_[i] - reach, interval.least, interval.most);
@@ -277,11 +263,7 @@ void VelocityController::brake() {
   const double change = options_.max_acceleration * options_.dt;
   for (Index i = 0; i < velocity_.size(); ++i)
     velocity_[i] = next_[i] - std::clamp(next_[i], -change, change);
-  for (Index i = 0; limits() && i < velocity_.size(); ++i) {
-    const RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    if (interval.lower <= interval.upper)  // not for a limit that is no number
-      velocity_[i] = std::clamp(velocity_[i], interval.lower, interval.upper);
-  }
+  if (limits()) hold_within(intervals_, velocity_);
 }
 
 // What limits the change of a velocity may have carried it over the limits of the first levels: the
@@ -329,7 +311,7 @@ void VelocityController::fill_rows(std::size_t k) {
     if (task->bounds_acceleration()) {
       change_rates(*task, velocity_, reach_time(), lower, upper);
     } else if (task->is_limit()) {
-      limit_rates(*task, row_limits(), lower, upper);
+      limit_rates(*task, rate_limits(), lower, upper);
     } else {
       wanted_rates(*task, options_.gain, most, lower, upper);
     }

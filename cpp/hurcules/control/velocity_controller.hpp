@@ -21,7 +21,6 @@
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
-#include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/loop_limits.hpp"
 
 namespace hurcules {
@@ -76,8 +75,8 @@ class VelocityController {
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }
   // the coordinate limits that hold, null when none do; to narrow a range, say
-  [[nodiscard]] const Task* limits() const { return problem_.bounds_task(); }
-  [[nodiscard]] Task* limits() { return problem_.bounds_task(); }
+  [[nodiscard]] const JointLimits* limits() const { return problem_.limits(); }
+  [[nodiscard]] JointLimits* limits() { return problem_.limits(); }
   void reset();  // at rest, cold
   // goes on at this velocity (n), cold, with a transition
   void take_over(const Vector& velocity);
@@ -85,19 +84,18 @@ class VelocityController {
   void restore(StateReader& reader);
 
  private:
-  void fill_bounds(const Task& limits, Level& level);
+  void fill_bounds(const JointLimits& limits, Level& level);
   void fill_rows(std::size_t k);
   void hold_limits();
   void brake();
-  [[nodiscard]] RateLimits row_limits() const;
+  [[nodiscard]] RateLimits rate_limits() const;
   [[nodiscard]] double reach_time() const;
   void begin_transition();
   void add_transition();
 
   VelocityControllerOptions options_;
-  std::vector<RateLimits> rate_limits_;  // (n)
-  JointLimits own_limits_;               // those of the robot
-  LoopLimits loop_limits_;               // the same
+  JointLimits own_limits_;  // those of the robot
+  LoopLimits loop_limits_;  // the same
   StackProblem problem_;
   Solver solver_;
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)

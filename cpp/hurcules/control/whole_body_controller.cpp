@@ -60,6 +60,33 @@ std::unique_ptr<MotionLaw> law_of(const Robot& plan, const NamedStack& stack,
   return make_law(plan, stack.stack, options.acceleration);
 }
 
+std::unique_ptr<Task> copy_of(const Task& task) {
+  return task.clone();
+}
+std::unique_ptr<JointLimits> copy_of(const JointLimits& limits) {
+  return std::make_unique<JointLimits>(limits);
+}
+
+// one copy of each that is asked for
+template <class T>
+struct Copies {
+  std::vector<std::unique_ptr<T>> kept;
+  std::map<const T*, T*> copies;
+  T* of(const T* one) {
+    T*& copy = copies[one];
+    if (!copy) {
+      kept.push_back(copy_of(*one));
+      copy = kept.back().get();
+    }
+    return copy;
+  }
+};
+
+template <class T>
+void add_once(T* one, std::vector<T*>& all) {
+  if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+}
+
 // all tasks of a stack, in its order
 std::vector<Task*> tasks_of(const Stack& stack) {
   std::vector<Task*> all;
@@ -116,13 +143,10 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
 void WholeBodyController::collect_tasks() {
   for (const NamedStack& stack : stacks_) {
     for (Task* const task : tasks_of(stack.stack)) {
-      const bool known = std::find(tasks_.begin(), tasks_.end(), task) != tasks_.end();
-      if (known) continue;
-      if (!task->bounds_coordinates()) {
-        tasks_.push_back(task);
-      } else if (std::find(limits_.begin(), limits_.end(), task) == limits_.end()) {
-        limits_.push_back(task);
-      }
+      add_once(task, tasks_);
+    }
+    for (const StackLevel& level : stack.stack.levels()) {
+      if (level.limits) add_once(level.limits, limits_);
     }
   }
   require_distinct(tasks_, "tasks");
@@ -165,37 +189,31 @@ Task& WholeBodyController::task(const std::string& name) const {
 }
 
 std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& robot) const {
-  std::map<const Task*, Task*> copies;
-  std::vector<std::unique_ptr<Task>> kept;
-  const auto copied = [&](Task* task) {
-    Task*& copy = copies[task];
-    if (!copy) {
-      kept.push_back(task->clone());
-      copy = kept.back().get();
-    }
-    return copy;
-  };
+  Copies<Task> tasks;
+  Copies<JointLimits> limits;
   std::vector<NamedStack> stacks;
   for (const NamedStack& stack : stacks_) {
     std::vector<StackLevel> levels = stack.stack.levels();
     for (StackLevel& level : levels) {
-      for (Task*& task : level.tasks) task = copied(task);
+      for (Task*& task : level.tasks) task = tasks.of(task);
+      if (level.limits) level.limits = limits.of(level.limits);
     }
     stacks.push_back({stack.name, Stack(std::move(levels)), stack.order});
   }
   std::vector<Channel> channels;
   for (const Channel& channel : channels_) {
-    channels.push_back(channel.task() ? channel.with_task(*copied(channel.task())) : channel);
+    channels.push_back(channel.task() ? channel.with_task(*tasks.of(channel.task())) : channel);
   }
   auto copy = std::make_unique<WholeBodyController>(robot, std::move(stacks), std::move(channels),
                                                     options_);
   for (const ForceReading& reading : forces_) {
     ForceReading other = reading;
-    other.task = static_cast<ForceTask*>(copied(reading.task));
+    other.task = static_cast<ForceTask*>(tasks.of(reading.task));
     if (reading.spring) other.spring = std::make_shared<SpringForce>(*reading.spring);
     copy->forces_.push_back(std::move(other));
   }
-  copy->kept_ = std::move(kept);
+  copy->kept_ = std::move(tasks.kept);
+  copy->kept_limits_ = std::move(limits.kept);
   return copy;
 }
 
@@ -509,7 +527,7 @@ void WholeBodyController::save(StateWriter& writer) const {
     writer.put(*vector);
   }
   for (const Task* task : tasks_) task->save(writer);
-  for (const Task* task : limits_) task->save(writer);
+  for (const JointLimits* limits : limits_) limits->save(writer);
   for (const auto& law : laws_) law->save(writer);
   servo_.save(writer);
   if (drive_) drive_->save(writer);
@@ -523,7 +541,7 @@ void WholeBodyController::restore(StateReader& reader) {
     reader.get(*vector);
   }
   for (Task* task : tasks_) task->restore(reader);
-  for (Task* task : limits_) task->restore(reader);
+  for (JointLimits* limits : limits_) limits->restore(reader);
   for (const auto& law : laws_) law->restore(reader);
   servo_.restore(reader);
   if (drive_) drive_->restore(reader);

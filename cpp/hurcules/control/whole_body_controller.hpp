@@ -77,8 +77,9 @@ class WholeBodyController {
   // same names and shapes
   [[nodiscard]] std::unique_ptr<WholeBodyController> clone(const Robot& robot) const;
 
-  // a task that lives as long as the controller
+  // a task, or limits, that live as long as the controller
   void keep(std::unique_ptr<Task> task) { kept_.push_back(std::move(task)); }
+  void keep(std::unique_ptr<JointLimits> limits) { kept_limits_.push_back(std::move(limits)); }
 
   // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold.
   void reset(const Vector& qpos);
@@ -169,9 +170,11 @@ class WholeBodyController {
   Robot plan_;
   std::unique_ptr<Robot> sensed_;  // for Delta channels; null without one
   std::vector<std::unique_ptr<Task>> kept_;
+  std::vector<std::unique_ptr<JointLimits>> kept_limits_;
   std::vector<NamedStack> stacks_;
   std::vector<std::unique_ptr<MotionLaw>> laws_;
-  std::vector<Task*> tasks_, limits_;         // of all stacks
+  std::vector<Task*> tasks_;                  // of all stacks
+  std::vector<JointLimits*> limits_;          // that they name
   std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
   std::vector<Channel> channels_;
   std::vector<std::vector<Index>> moved_;  // (channels) joints of Joints channels

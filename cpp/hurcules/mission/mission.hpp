@@ -93,7 +93,7 @@ class Mission : public Supervisor {
   MissionSetup setup_;
   MissionTable table_;
   double variation_;
-  const Task* limits_;  // of the first stack, null for none
+  const JointLimits* limits_;  // of the first stack, null for none
   Vector initial_qpos_;
   std::vector<PhaseRow> rows_;
   std::vector<int> brakes_;  // actuators whose brakes the table names

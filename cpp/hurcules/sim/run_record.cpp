@@ -102,7 +102,7 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
   world.velocities_of(sensed.qvel, t.qd);
   world.velocities_of(sensed.seen_qvel, t.seen_qd);
   t.q_des = controller.q_des();
-  const Task* const limits = controller.law().limits();
+  const JointLimits* const limits = controller.law().limits();
   if (controller.moves_joints()) {  // no mode: the ranges of the joints
     for (Index i = 0; i < world.size(); ++i) {
       t.limit_lower[i] = world.coordinates()[static_cast<std::size_t>(i)].lower;

@@ -75,8 +75,6 @@ class Task {
   [[nodiscard]] const Vector& acceleration_des() const { return acceleration_des_; }  // (m)
   [[nodiscard]] const Vector& lower() const { return lower_; }  // (m), of the error
   [[nodiscard]] const Vector& upper() const { return upper_; }  // (m)
-  // limits of the coordinates themselves: J is the identity, the solver takes them as simple bounds
-  [[nodiscard]] virtual bool bounds_coordinates() const { return false; }
   // its interval is a limit: controllers brake before its sides as before those of joints
   // (limit_rows.hpp), and a level of such tasks alone is not regularised
   [[nodiscard]] virtual bool is_limit() const { return false; }

@@ -34,7 +34,7 @@ class Notes : public testing::Test {
  protected:
   Notes() {
     robot_.set_configuration(Vector{{0.6, 0.9}});
-    for (Task* task : std::initializer_list<Task*>{&limits_, &hand_, &posture_}) task->hold(robot_);
+    for (Task* task : std::initializer_list<Task*>{&hand_, &posture_}) task->hold(robot_);
   }
   std::vector<LevelDiagnostics> settle(const Stack& stack, int ticks = 6000) {
     controller_.set_stack(stack);

@@ -44,6 +44,14 @@ TEST_F(Stacks, RefuseATaskThatStandsTwice) {
   EXPECT_TRUE(contains(text, "'joint' stands twice")) << text;
 }
 
+TEST_F(Stacks, WantLimitsFirstAndAlone) {
+  JointLimits other("other", robot_);
+  EXPECT_EQ((joint_ < hand_).levels()[0].limits, &joint_);
+  EXPECT_TRUE(contains(error_text([&] { (void)(hand_ < joint_); }), "come first in a stack"));
+  EXPECT_TRUE(contains(error_text([&] { (void)(joint_ < other); }), "at most one level"));
+  EXPECT_TRUE(contains(error_text([&] { (void)(StackLevel(joint_) + hand_); }), "alone"));
+}
+
 TEST_F(Stacks, RefuseLevelsWithoutTasksAndBadRegularisation) {
   EXPECT_TRUE(contains(error_text([] { StackLevel("empty", {}); }), "at least one task"));
   EXPECT_TRUE(contains(error_text([&] { StackLevel("bad", {&hand_}, -1.0); }), "rho"));

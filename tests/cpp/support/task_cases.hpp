@@ -9,7 +9,6 @@
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
-#include "hurcules/tasks/joint_limits.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
@@ -39,7 +38,6 @@ inline std::vector<TaskCase> arm_cases() {
   const Matrix two = (Matrix(2, 3) << 1, 0, 0, 0, 0.6, 0.8).finished();
   const SwivelTaskOptions swivel{"shoulder", "elbow", "tip", "world", {0.2, 0.3, -1}};
   return {
-      task_case<JointLimits>("arm_limits", kArm),
       task_case<PostureTask>("arm_posture", kArm),
       task_case<PositionTask>("arm_position", kArm, std::string("tip")),
       task_case<PositionTask>("arm_two_directions", kArm, std::string("forearm"),
@@ -61,7 +59,6 @@ inline std::vector<TaskCase> twin_cases() {
   const SwivelTaskOptions left{"sh_l", "fa_l", "hand_l", "chest"};
   const SwivelTaskOptions leg{"toe_r", "fa_r", "hand_l", "head", {1, 1, 0}};
   return {
-      task_case<JointLimits>("twin_limits", kTwin),
       task_case<PostureTask>("twin_posture", kTwin, std::vector<std::string>{"WST", "KN"}),
       task_case<PositionTask>("twin_position", kTwin, std::string("hand_l")),
       task_case<PositionTask>("twin_toe_of_a_coupled_leg", kTwin, std::string("toe_r")),

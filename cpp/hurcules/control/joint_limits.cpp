@@ -1,0 +1,125 @@
+#include "hurcules/control/joint_limits.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kNoNumber = 1e20;  // from here on a side is infinite
+
+}  // namespace
+
+JointLimits::JointLimits(std::string name, const Robot& robot)
+    : name_(std::move(name)),
+      identity_(robot.identity()),
+      coordinates_(robot.coordinate_names()),
+      robot_lower_(robot.size()),
+      robot_upper_(robot.size()),
+      max_velocity_(robot.size()),
+      configuration_(robot.configuration()) {
+  for (Index i = 0; i < robot.size(); ++i) {
+    const Coordinate& coordinate = robot.coordinates()[static_cast<std::size_t>(i)];
+    of_root_.push_back(coordinate.joints.front().part >= 0);
+    robot_lower_[i] = coordinate.lower;
+    robot_upper_[i] = coordinate.upper;
+    max_velocity_[i] = coordinate.max_velocity;
+  }
+  reset_ranges();
+}
+
+void JointLimits::update(const Robot& robot) {
+  require(robot.identity() == identity_,
+          "limits '" + name_ + "' were made for another robot: " + std::to_string(size()) +
+              " coordinates are wanted, " + std::to_string(robot.size()) +
+              " came, or the models differ");
+  configuration_ = robot.configuration();
+}
+
+void JointLimits::save(StateWriter& writer) const {
+  for (const Vector* vector : {&lower_, &upper_, &max_velocity_}) writer.put(*vector);
+}
+
+void JointLimits::restore(StateReader& reader) {
+  for (Vector* vector : {&lower_, &upper_, &max_velocity_}) reader.get(*vector);
+}
+
+void JointLimits::set_range(const std::string& coordinate, double lower, double upper) {
+  const Index i = index(coordinate);
+  require_range(i, lower, upper);
+  lower_[i] = lower;
+  upper_[i] = upper;
+}
+
+void JointLimits::reset_ranges() {
+  lower_ = robot_lower_;
+  upper_ = robot_upper_;
+}
+
+void JointLimits::set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper) {
+  require_size(lower.size(), "lower sides");
+  require_size(upper.size(), "upper sides");
+  for (Index i = 0; i < size(); ++i) require_range(i, lower[i], upper[i]);
+  lower_ = lower;
+  upper_ = upper;
+}
+
+void JointLimits::set_max_velocity(const std::string& coordinate, double limit) {
+  const Index i = index(coordinate);
+  if (!(limit > 0))
+    throw Error("velocity limit of coordinate '" + coordinate + "' wants to be above 0, " +
+                std::to_string(limit) + " came");
+  max_velocity_[i] = limit;
+}
+
+void JointLimits::set_max_velocities(const ConstVectorRef& limits) {
+  require_size(limits.size(), "velocity limits");
+  for (Index i = 0; i < size(); ++i)
+    set_max_velocity(coordinates_[static_cast<std::size_t>(i)], limits[i]);
+}
+
+RateState JointLimits::state(Index i, double velocity) const {
+  return {lower_[i] - configuration_[i], upper_[i] - configuration_[i], velocity};
+}
+
+RateLimits JointLimits::rates(Index i, const RateLimits& controller) const {
+  RateLimits rates = controller;
+  rates.max_velocity = max_velocity_[i];
+  if (of_root_[static_cast<std::size_t>(i)])
+    rates.max_acceleration = std::numeric_limits<double>::infinity();
+  return rates;
+}
+
+double JointLimits::held_step(Index i, double step) const {
+  return std::clamp(step, std::min(lower_[i] - configuration_[i], 0.0),
+                    std::max(upper_[i] - configuration_[i], 0.0));
+}
+
+Index JointLimits::index(const std::string& coordinate) const {
+  const auto found = std::find(coordinates_.begin(), coordinates_.end(), coordinate);
+  if (found == coordinates_.end())
+    throw Error(unknown_name("coordinate", coordinate, coordinates_));
+  return found - coordinates_.begin();
+}
+
+void JointLimits::require_size(Index size, const char* what) const {
+  if (size == lower_.size()) return;
+  throw Error(std::string(what) + " of '" + name_ + "' want " + std::to_string(lower_.size()) +
+              " values, " + std::to_string(size) + " came");
+}
+
+void JointLimits::require_range(Index i, double lower, double upper) const {
+  const bool holds_numbers = lower < kNoNumber && upper > -kNoNumber;
+  if (robot_lower_[i] <= lower && lower <= upper && upper <= robot_upper_[i] && holds_numbers)
+    return;
+  throw Error("range of coordinate '" + coordinates_[static_cast<std::size_t>(i)] +
+              "' wants lower <= upper within " + std::to_string(robot_lower_[i]) + " .. " +
+              std::to_string(robot_upper_[i]) + " of the robot, " + std::to_string(lower) + " .. " +
+              std::to_string(upper) + " came");
+}
+
+}  // namespace hurcules
