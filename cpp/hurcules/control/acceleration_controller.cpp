@@ -44,6 +44,8 @@ void check(const AccelerationControllerOptions& options) {
 AccelerationController::AccelerationController(const Robot& robot,
                                                AccelerationControllerOptions options)
     : options_(std::move(options)),
+      rates_{options_.dt, options_.horizon, kInfinity, options_.max_acceleration,
+             options_.return_speed},
       floating_(robot.floating()),
       own_limits_("limits", robot),
       loop_limits_("limits of loops", robot),
@@ -201,20 +203,11 @@ void AccelerationController::restore(StateReader& reader) {
   solver_.restore(reader);
 }
 
-RateLimits AccelerationController::rate_limits() const {
-  return {.dt = options_.dt,
-          .horizon = options_.horizon,
-          .max_velocity = kInfinity,
-          .max_acceleration = options_.max_acceleration,
-          .return_speed = options_.return_speed};
-}
-
 void AccelerationController::fill_bounds(const Robot& robot, const JointLimits& limits,
                                          Level& level) {
   for (Index i = 0; i < limits.size(); ++i) {
     AccelerationInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    interval =
-        acceleration_interval(limits.state(i, robot.velocity()[i]), limits.rates(i, rate_limits()));
+    interval = acceleration_interval(limits.state(i, robot.velocity()[i]), limits.rates(i, rates_));
     level.lower[i] = interval.lower + braked_[i];
     level.upper[i] = interval.upper + braked_[i];
   }
@@ -260,7 +253,7 @@ void AccelerationController::fill_rows(const Robot& robot, const StackLevel& sou
     auto rate = rate_.head(task->rows());
     rate.noalias() = task->jacobian() * robot.velocity();
     if (task->is_limit() && !task->commands_acceleration()) {
-      limit_accelerations(*task, rate_limits(), rate, level.lower.segment(row, task->rows()),
+      limit_accelerations(*task, rates_, rate, level.lower.segment(row, task->rows()),
                           level.upper.segment(row, task->rows()));
       for (Index i = 0; i < task->rows(); ++i, ++row) {
         const double held = options_.rest * rate[i] - task->drift()[i];

@@ -98,10 +98,10 @@ class AccelerationController {
   void fill_bounds(const Robot& robot, const JointLimits& limits, Level& level);
   void fill_rates(std::size_t k);
   void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
-  [[nodiscard]] RateLimits rate_limits() const;
   void add_friction(const Robot& robot, VectorRef torque) const;
 
   AccelerationControllerOptions options_;
+  RateLimits rates_;        // of a row, which has no speed limit
   bool floating_;           // its root is a coordinate
   JointLimits own_limits_;  // those of the robot
   LoopLimits loop_limits_;  // the same

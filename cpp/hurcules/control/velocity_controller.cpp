@@ -54,6 +54,8 @@ void limit_change(const Vector& before, double allowed, const std::vector<RateIn
 
 VelocityController::VelocityController(const Robot& robot, VelocityControllerOptions options)
     : options_(std::move(options)),
+      rates_{options_.dt, options_.horizon, kInfinity, options_.max_acceleration,
+             options_.return_speed},
       own_limits_("limits", robot),
       loop_limits_("limits of loops", robot),
       problem_(robot.size()),
@@ -235,18 +237,10 @@ double VelocityController::reach_time() const {
   return options_.law == Law::Arrive ? std::max(kForesight, options_.dt) : options_.dt;
 }
 
-RateLimits VelocityController::rate_limits() const {
-  return {.dt = options_.dt,
-          .horizon = options_.horizon,
-          .max_velocity = kInfinity,
-          .max_acceleration = options_.max_acceleration,
-          .return_speed = options_.return_speed};
-}
-
 void VelocityController::fill_bounds(const JointLimits& limits, Level& level) {
   for (Index i = 0; i < velocity_.size(); ++i) {
     RateInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    interval = rate_interval(limits.state(i, velocity_[i]), limits.rates(i, rate_limits()));
+    interval = rate_interval(limits.state(i, velocity_[i]), limits.rates(i, rates_));
     if (options_.law == Law::Arrive) {
       const double reach = options_.max_acceleration * reach_time();
       level.lower[i] = std::clamp(velocity_[i] - reach, interval.least, interval.most);
@@ -311,7 +305,7 @@ void VelocityController::fill_rows(std::size_t k) {
     if (task->bounds_acceleration()) {
       change_rates(*task, velocity_, reach_time(), lower, upper);
     } else if (task->is_limit()) {
-      limit_rates(*task, rate_limits(), lower, upper);
+      limit_rates(*task, rates_, lower, upper);
     } else {
       wanted_rates(*task, options_.gain, most, lower, upper);
     }

@@ -88,12 +88,12 @@ class VelocityController {
   void fill_rows(std::size_t k);
   void hold_limits();
   void brake();
-  [[nodiscard]] RateLimits rate_limits() const;
   [[nodiscard]] double reach_time() const;
   void begin_transition();
   void add_transition();
 
   VelocityControllerOptions options_;
+  RateLimits rates_;        // of a row, which has no speed limit
   JointLimits own_limits_;  // those of the robot
   LoopLimits loop_limits_;  // the same
   StackProblem problem_;
