@@ -38,7 +38,9 @@ def model() -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_string(ARM)
 
 
-def send(robot: hurcules.Robot, first: list[hurcules.Task], velocity: list[float]) -> list[float]:
+def send(
+    robot: hurcules.Robot, first: list[hurcules.Task | hurcules.JointLimits], velocity: list[float]
+) -> list[float]:
     """Sends the tip along below the first levels for 2 s: the least error of the last of these."""
     hand = hurcules.PositionTask("hand", robot, "tip", axes=[[1, 0, 0], [0, 0, 1]])
     controller = hurcules.VelocityController(robot)
