@@ -1,6 +1,7 @@
-// Every task that a stack can be made of: missions reach the tasks through the controller's room.
+// Every task, and the limits, that a stack can be made of: missions reach the tasks through the controller's room.
 #pragma once
 
+#include "hurcules/control/joint_limits.hpp"
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
