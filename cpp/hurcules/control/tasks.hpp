@@ -1,4 +1,4 @@
-// Every task, and the limits, that a stack can be made of: missions reach the tasks through the controller's room.
+// All that a stack can be made of: missions reach the tasks through the room of the controllers.
 #pragma once
 
 #include "hurcules/control/joint_limits.hpp"
