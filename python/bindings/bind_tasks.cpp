@@ -268,7 +268,6 @@ void bind_task(py::module_& module) {
 }
 
 void bind_coordinate_tasks(py::module_& module) {
-  const auto copy = py::return_value_policy::copy;
   const py::arg name("name"), robot("robot");
   py::class_<DampingTask, Task>(module, "DampingTask", kDampingTask)
       .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
