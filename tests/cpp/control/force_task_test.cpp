@@ -36,8 +36,7 @@ struct Press {
   explicit Press(const ForceTaskOptions& options, double stiffness = 1e4)
       : force("force", robot, "tip", options), G(stiffness) {
     robot.set_keyframe("home");
-    for (Task* task : std::initializer_list<Task*>{&joint, &across, &force, &posture})
-      task->hold(robot);
+    for (Task* task : std::initializer_list<Task*>{&across, &force, &posture}) task->hold(robot);
     floor = robot.position(tip).z() - 0.02;
     velocity.set_stack(stack());
   }

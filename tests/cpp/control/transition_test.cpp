@@ -18,8 +18,7 @@ class Transition : public testing::Test {
  protected:
   Transition() {
     robot_.set_keyframe("home");
-    for (Task* task : std::initializer_list<Task*>{&joint_, &hand_, &gaze_, &posture_})
-      task->hold(robot_);
+    for (Task* task : std::initializer_list<Task*>{&hand_, &gaze_, &posture_}) task->hold(robot_);
   }
   void tick(VelocityController& controller) {
     const Vector before = controller.velocity();

@@ -22,7 +22,7 @@ class Controller : public testing::Test {
  protected:
   Controller() {
     robot_.set_keyframe("home");
-    for (Task* task : std::initializer_list<Task*>{&joint_, &hand_, &gaze_, &posture_}) {
+    for (Task* task : std::initializer_list<Task*>{&hand_, &gaze_, &posture_}) {
       task->hold(robot_);
     }
     for (const std::string& name : robot_.coordinate_names()) joint_.set_max_velocity(name, 1.5);
