@@ -688,8 +688,6 @@ class Task:
         """Measures at the robot's present configuration."""
 
     @property
-    def bounds_coordinates(self) -> bool: ...
-    @property
     def drift(self) -> NDArray[np.float64]:
         """(m,): Jdot qdot"""
 
@@ -763,37 +761,13 @@ class ValueTask(Task):
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 
-class JointLimits(Task):
-    """Ranges and speed limits of all coordinates; e = q (n,), J = 1.
-
-    Args:
-      name: shown in plots and messages.
-      robot: Robot, whose limits it starts with."""
-
-    def __init__(self, name: str, robot: Robot) -> None: ...
-    def reset_ranges(self) -> None:
-        """The ranges of the robot again."""
-
-    def set_max_velocities(self, limits: ArrayLike) -> None:
-        """Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none."""
-
-    def set_max_velocity(self, coordinate: str, limit: float) -> None:
-        """Speed limit of one coordinate [rad/s] or [m/s], above 0."""
-
-    def set_range(self, coordinate: str, lower: float, upper: float) -> None:
-        """Narrows the range of one coordinate [rad] or [m]; never wider than the robot's."""
-
-    @property
-    def max_velocity(self) -> NDArray[np.float64]:
-        """(n,) [rad/s]"""
-
 class DampingTask(Task):
     """Coordinates at rest: e = 0 (m,), 0 = qdot.
 
     Takes up what other tasks leave without pulling anywhere; advance asks for another velocity.
 
     Args:
-      name, robot: see JointLimits.
+      name, robot: see PositionTask.
       coordinates: their names; none means all."""
 
     def __init__(
@@ -806,7 +780,7 @@ class CustomTask(ValueTask):
     Slower than the others by what Python takes. A copy of a controller shares the function.
 
     Args:
-      name, robot: see JointLimits.
+      name, robot: see PositionTask.
       rows: m.
       measure: called with the robot; returns value (m,) and Jacobian (m, n), or these and drift (m,),
         which is Jdot qdot.
@@ -822,7 +796,7 @@ class PostureTask(ValueTask):
     """Coordinates at chosen positions [rad] or [m] (m,).
 
     Args:
-      name, robot: see JointLimits.
+      name, robot: see PositionTask.
       coordinates: their names, in this order; none means all."""
 
     def __init__(
@@ -842,7 +816,8 @@ class PositionTask(PointTask):
     """The origin of a frame at a target position [m] (m,).
 
     Args:
-      name, robot: see JointLimits.
+      name: shown in plots and messages.
+      robot: Robot whose present value it starts to hold.
       frame: name of a site, body, camera or geom.
       reference: frame in whose axes the position is measured, '' for the world.
       axes: (m, 3), m = 1 to 3 directions in the axes of the reference."""
@@ -955,7 +930,7 @@ class SwivelTask(ValueTask):
     Zero where the elbow lies on the side of `direction`; fades where the arm is straight.
 
     Args:
-      name, robot: see JointLimits.
+      name, robot: see PositionTask.
       shoulder, elbow, wrist, torso: names of frames; the torso carries the shoulder.
       direction: (3,) in the axes of the torso."""
 
@@ -978,7 +953,7 @@ class GazeTask(Task):
     around the camera, [rad/s] (2,) to the left and upward.
 
     Args:
-      name, robot: see JointLimits.
+      name, robot: see PositionTask.
       frame: a camera, or any other frame, which then looks along its x axis."""
 
     def __init__(self, name: str, robot: Robot, frame: str) -> None: ...
@@ -1413,19 +1388,79 @@ class ForceTask(PositionTask):
     def learnt_stiffness(self) -> float:
         """[N/m] given or learnt"""
 
-class StackLevel:
-    """Tasks of one priority.
+class JointLimits:
+    """Ranges and speed limits of all coordinates (n,): no task, but what holds before all tasks.
+
+    A controller has those of the robot; where a stack names others, these take their place. They come
+    first in a stack, alone on their level.
 
     Args:
       name: shown in plots and messages.
-      tasks: sequence of Task, all on this level.
+      robot: Robot, whose limits it starts with."""
+
+    def __gt__(self, arg0: Any) -> bool: ...
+    def __init__(self, name: str, robot: Robot) -> None: ...
+    def __lt__(self, arg0: Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def reset_ranges(self) -> None:
+        """The ranges of the robot again."""
+
+    def restore(self, state: collections.abc.Sequence[float]) -> None:
+        """Goes on from what state() gave."""
+
+    def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
+        """Narrows the ranges of all coordinates (n,); never wider than the robot's."""
+
+    def set_max_velocities(self, limits: ArrayLike) -> None:
+        """Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none."""
+
+    def set_max_velocity(self, coordinate: str, limit: float) -> None:
+        """Speed limit of one coordinate [rad/s] or [m/s], above 0."""
+
+    def set_range(self, coordinate: str, lower: float, upper: float) -> None:
+        """Narrows the range of one coordinate [rad] or [m]; never wider than the robot's."""
+
+    def state(self) -> list[float]:
+        """What must be kept between ticks, as a flat list; see restore."""
+
+    def update(self, robot: Robot) -> None:
+        """Notes where the coordinates are."""
+
+    @property
+    def error(self) -> NDArray[np.float64]:
+        """(n,) [rad] or [m]: q at the last update"""
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """(n,) [rad] or [m]"""
+
+    @property
+    def max_velocity(self) -> NDArray[np.float64]:
+        """(n,) [rad/s]"""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def rows(self) -> int:
+        """n"""
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """(n,) [rad] or [m]"""
+
+class StackLevel:
+    """Tasks of one priority, or limits of the coordinates.
+
+    Args:
+      name: shown in plots and messages.
+      tasks: sequence of Task, all on this level, or JointLimits alone.
       rho: regularisation coefficient >= 0; a level of coordinate limits is never regularised.
 
     Raises:
       Error: no task, or a rho that is negative or not finite."""
 
     def __init__(
-        self, name: str, tasks: collections.abc.Iterable[Task], rho: float = 0.1
+        self, name: str, tasks: collections.abc.Iterable[Task | JointLimits], rho: float = 0.1
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1439,15 +1474,19 @@ class Stack:
     """Tasks by priority, first comes first: Stack([limits, [left, right], posture]).
 
     Args:
-      levels: sequence of Task, StackLevel, or a list of tasks that share a level.
+      levels: sequence of Task, StackLevel, or a list of tasks that share a level; JointLimits come
+        first, where they are named.
 
     Raises:
-      Error: a task stands twice."""
+      Error: a task stands twice, or limits stand elsewhere."""
 
     def __init__(
         self,
         levels: collections.abc.Iterable[
-            Task | StackLevel | collections.abc.Iterable[Task | StackLevel]
+            Task
+            | JointLimits
+            | StackLevel
+            | collections.abc.Iterable[Task | JointLimits | StackLevel]
         ],
     ) -> None: ...
     def __len__(self) -> int: ...
