@@ -33,10 +33,10 @@ JointLimits::JointLimits(std::string name, const Robot& robot)
 }
 
 void JointLimits::update(const Robot& robot) {
-  require(robot.identity() == identity_,
-          "limits '" + name_ + "' were made for another robot: " + std::to_string(size()) +
-              " coordinates are wanted, " + std::to_string(robot.size()) +
-              " came, or the models differ");
+  if (robot.identity() != identity_)
+    throw Error("limits '" + name_ + "' were made for another robot: " + std::to_string(size()) +
+                " coordinates are wanted, " + std::to_string(robot.size()) +
+                " came, or the models differ");
   configuration_ = robot.configuration();
 }
 
