@@ -130,8 +130,8 @@ void require_single(const mjModel& m, const std::string& name) {
   const int joint = mj_name2id(&m, mjOBJ_JOINT, name.c_str());
   if (joint < 0 || is_single(m, joint)) return;
   require(m.jnt_type[joint] == mjJNT_FREE,
-          "joint '" + name + "' is a ball joint and can be no coordinate: three hinges in its place, " +
-              "one after the other in one body about the axes 1 0 0, 0 1 0 and 0 0 1, can");
+          "joint '" + name + "' is a ball joint and can be no coordinate: three hinges in its " +
+              "place, one after the other in one body about the axes 1 0 0, 0 1 0 and 0 0 1, can");
   throw Error("joint '" + name + "' is free and can be no coordinate by name: Robot(model, " +
               "floating=True) makes it six");
 }

@@ -1,6 +1,7 @@
 // Strategy: linkages whose passive joints follow: a four-bar, a leg with a rod between balls, a curve
-// and a tendon, loops over the ground, a load, a hand on a door. Truth: MuJoCo's own residuals, differences of poses, and its constrained forward
-// dynamics, which know nothing of the shares.
+// and a tendon, loops over the ground, a load, a hand on a door. Truth: MuJoCo's own
+// residuals, differences of poses, and its constrained forward dynamics, which know nothing of the
+// shares.
 #include <mujoco/mujoco.h>
 
 #include <Eigen/QR>
