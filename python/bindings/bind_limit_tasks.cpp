@@ -39,7 +39,7 @@ constexpr const char* kContactTask =
 
 For stacks by torques (AccelerationController.torque). Its points neither slide nor lift; the forces at
 them are unknowns of the hierarchy, inside pyramids within the friction cones. A stack has its contacts
-on one level; the torque limits of the robot follow by themselves, and at the end the least forces.
+on one level; the torque limits of the robot come before it by themselves, and at the end the least forces.
 
 Args:
   name: shown in plots and messages.

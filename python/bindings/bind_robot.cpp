@@ -107,8 +107,9 @@ constexpr const char* kMassMatrix =
 constexpr const char* kFollowers =
     R"(list[str]: joints that follow the coordinates, as constraints of the model close loops with them.
 
-Constraints are connect, weld, tendon and joint equalities. Such a joint belongs to the tree of the
-coordinates and has neither an actuator nor a spring. It moves with the coordinates in poses,
+Constraints are connect, weld, tendon and joint equalities, between parts of the robot, to the ground
+and to other bodies. Such a joint has no spring and, unless `joints` named the coordinates, no
+actuator; no root of a robot follows. It moves with the coordinates in poses,
 Jacobians and dynamics, and its range is a limit of every stack.
 )";
 constexpr const char* kLeftOut =

@@ -560,8 +560,9 @@ class Robot:
     def followers(self) -> list[str]:
         """list[str]: joints that follow the coordinates, as constraints of the model close loops with them.
 
-        Constraints are connect, weld, tendon and joint equalities. Such a joint belongs to the tree of the
-        coordinates and has neither an actuator nor a spring. It moves with the coordinates in poses,
+        Constraints are connect, weld, tendon and joint equalities, between parts of the robot, to the ground
+        and to other bodies. Such a joint has no spring and, unless `joints` named the coordinates, no
+        actuator; no root of a robot follows. It moves with the coordinates in poses,
         Jacobians and dynamics, and its range is a limit of every stack."""
 
     @property
@@ -980,7 +981,7 @@ class ContactTask(Task):
 
     For stacks by torques (AccelerationController.torque). Its points neither slide nor lift; the forces at
     them are unknowns of the hierarchy, inside pyramids within the friction cones. A stack has its contacts
-    on one level; the torque limits of the robot follow by themselves, and at the end the least forces.
+    on one level; the torque limits of the robot come before it by themselves, and at the end the least forces.
 
     Args:
       name: shown in plots and messages.

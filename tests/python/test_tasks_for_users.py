@@ -274,3 +274,65 @@ def test_what_is_held_is_named() -> None:
     assert text.startswith("4 joints of the robot are held")
     assert "l3, l4, l5, l6" in text
     assert hurcules.Robot(model, joints=[f"l{i}" for i in range(1, 7)]).left_out == ""
+
+
+BALL = """<mujoco><worldbody><body><joint name="lift" axis="0 1 0"/><geom size=".1"/>
+  <body pos="0 0 .3"><joint name="wrist" type="ball"/><geom size=".1"/></body></body></worldbody>
+  <actuator><motor joint="lift"/><motor joint="wrist" gear="1 0 0"/></actuator></mujoco>"""
+MUSCLE = """<mujoco><worldbody><body><joint name="elbow" axis="0 1 0" range="-90 90"/>
+  <geom size=".1"/></body></worldbody><actuator><muscle joint="elbow"/></actuator></mujoco>"""
+
+
+def test_a_ball_joint_is_named_with_what_to_do() -> None:
+    model = mujoco.MjModel.from_xml_string(BALL)
+    robot = hurcules.Robot(model)
+    assert robot.coordinate_names == ["lift"]
+    assert "wrist (ball)" in robot.left_out
+    assert "three hinges may stand for a ball" in robot.left_out
+    with pytest.raises(hurcules.Error, match=r"'wrist' is a ball joint.*three hinges"):
+        hurcules.Robot(model, joints=["lift", "wrist"])
+    floating = BALL.replace('<joint name="lift" axis="0 1 0"/>', '<freejoint name="root"/>')
+    floating = floating.replace('<motor joint="lift"/>', "")
+    with pytest.raises(hurcules.Error, match=r"'root' is free.*floating=True"):
+        hurcules.Robot(mujoco.MjModel.from_xml_string(floating), joints=["root"])
+
+
+def test_a_muscle_moves_in_the_plan_and_is_refused_in_the_physics() -> None:
+    model = mujoco.MjModel.from_xml_string(MUSCLE)
+    robot = hurcules.Robot(model)
+    assert robot.coordinate_names == ["elbow"]
+    with pytest.raises(hurcules.Error, match=r"'elbow'.*muscle.*with_motors"):
+        hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+
+
+DOOR = """<mujoco><compiler angle="radian" autolimits="true"/><option timestep="0.001"/>
+  <default><geom contype="0" conaffinity="0"/><joint armature="0.1"/></default><worldbody>
+  <body pos="0 0 1"><joint name="a" axis="0 0 1"/><geom size=".05" pos=".15 .1 0" mass="1"/>
+    <body pos="0.3 0.2 0"><joint name="b" axis="0 0 1"/><geom size=".05" pos=".15 0 0" mass="1"/>
+      <body name="hand" pos="0.3 0 0"><joint name="c" axis="0 0 1"/><geom size=".04" mass=".5"/>
+        <site name="tip"/></body></body></body>
+  <body name="door" pos="0.6 -0.5 1"><joint name="door" axis="0 0 1" range="-1.5 0.4"/>
+    <geom type="box" pos="0 .4 0" size=".02 .4 .6" mass="8"/>
+    <site name="handle" pos="0 .7 0"/></body>
+  </worldbody><equality><weld name="grip" body1="hand" body2="door" anchor="0 .7 0"/></equality>
+  <actuator><motor joint="a"/><motor joint="b"/><motor joint="c"/></actuator></mujoco>"""
+
+
+def test_a_hand_leads_a_door_and_the_loop_over_the_ground_stays_closed() -> None:
+    model = mujoco.MjModel.from_xml_string(DOOR)
+    assert "do not keep: grip" in hurcules.Robot(model).left_out
+    robot = hurcules.Robot(model, joints=["b"])
+    assert robot.followers == ["a", "c", "door"]
+    assert robot.left_out == ""
+    hand = hurcules.PositionTask("hand", robot, "tip")
+    controller = hurcules.WholeBodyController(robot, [hand])
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    # where the handle is when the door has turned by 0.3 rad
+    hand.set_target([0.6 - 0.7 * np.sin(0.3), -0.5 + 0.7 * np.cos(0.3), 1.0])
+    for _ in range(40):
+        simulation.step(100)
+        plan = controller.plan
+        assert np.linalg.norm(plan.position("tip") - plan.position("handle")) < 1e-6
+    data = simulation.data
+    assert data.joint("door").qpos[0] == pytest.approx(0.3, abs=0.01)
+    assert np.linalg.norm(data.site("tip").xpos - data.site("handle").xpos) < 2e-3

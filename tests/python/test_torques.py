@@ -109,3 +109,32 @@ def test_the_controller_gives_torques_without_a_simulation() -> None:
     assert np.abs(torque[6:]).max() > 1.0
     carried = sum(controller.contact_force(foot) for foot in feet)
     assert carried == pytest.approx([0.0, 0.0, 9.81 * 16.0], abs=1e-6)
+
+
+def test_a_fallen_robot_asks_for_no_torque_beyond_its_limits_and_says_what_yields() -> None:
+    robot = quadruped()
+    model = mujoco.MjModel.from_xml_path(str(QUADRUPED))
+    data = mujoco.MjData(model)
+    data.qpos[:] = robot.qpos
+    data.qpos[2:7] = [0.25, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]  # on its side
+    feet = [hurcules.ContactTask(leg, robot, f"{leg}_shank") for leg in ("FL", "FR", "HL", "HR")]
+    com = hurcules.CenterOfMassTask("com", robot)
+    controller = hurcules.AccelerationController(
+        robot, hurcules.AccelerationControllerOptions(dt=model.opt.timestep)
+    )
+    controller.set_stack(hurcules.Stack([feet, com, hurcules.PostureTask("posture", robot)]))
+    limits = np.array([coordinate.max_effort for coordinate in robot.coordinates[6:]])
+    motors = [coordinate.joints[0].actuator for coordinate in robot.coordinates[6:]]
+    told = set()
+    for tick in range(1000):
+        robot.set_qpos(data.qpos)
+        robot.set_velocity(data.qvel)
+        controller.compute(robot)
+        torque = controller.torque(robot)[6:]
+        assert (np.abs(torque) <= limits).all()
+        if tick % 50 == 0:
+            for level in controller.diagnostics(robot):
+                told.update(short.task for short in level.shortfalls)
+        data.ctrl[motors] = torque
+        mujoco.mj_step(model, data)
+    assert told & {"FL", "FR", "HL", "HR"}

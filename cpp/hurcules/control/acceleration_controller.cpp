@@ -8,6 +8,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/limit_rows.hpp"
 #include "hurcules/tasks/force_task.hpp"
+#include "hurcules/tasks/torque_limits.hpp"
 
 namespace hurcules {
 
@@ -37,6 +38,17 @@ void check(const AccelerationControllerOptions& options) {
           "rest wants a rate >= 0 [1/s], below 0.66 / dt");
   require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
   require(options.friction >= 0.0 && options.friction <= 1.0, "friction wants a share from 0 to 1");
+}
+
+// drives give no more, whatever a limit above asks for; a free root has none, its first coordinates
+void clamp_torque(const Stack& stack, Index root, VectorRef torque) {
+  for (const StackLevel& level : stack.levels()) {
+    for (const Task* task : level.tasks) {
+      if (!dynamic_cast<const TorqueLimits*>(task)) continue;
+      for (Index i = root; i < torque.size(); ++i)
+        torque[i] = std::max(task->lower()[i], std::min(torque[i], task->upper()[i]));
+    }
+  }
 }
 
 }  // namespace
@@ -157,6 +169,7 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
   }
   contacts_.relieve(torque);
   add_friction(robot, torque);
+  clamp_torque(stack(), robot.root_size(), torque);
 }
 
 // towards the velocity that the levels want: a joint that friction holds has none that tells where

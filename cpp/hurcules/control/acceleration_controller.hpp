@@ -68,7 +68,8 @@ class AccelerationController {
   void integrate(VectorRef q, VectorRef velocity) const;
   // inverse dynamics: what the drives must give for qddot* and, in contact, against the forces that
   // the stack's force tasks read, beside what its contacts carry, and dry friction on the way to
-  // the velocity v that the levels want: M qddot* + h + J' f - E lambda + c sgn(v), (n) [N m]
+  // the velocity v that the levels want: M qddot* + h + J' f - E lambda + c sgn(v), (n) [N m]; within
+  // the torque limits of the stack, also where limits above them ask for more (diagnostics)
   void torque(const Robot& robot, VectorRef torque) const;
   // F in W [N] that the last solution wants of a contact of the stack
   [[nodiscard]] Vector3 contact_force(const Task& contact) const {

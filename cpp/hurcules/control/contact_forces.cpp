@@ -33,8 +33,10 @@ Stack ContactForces::completed(const Stack& stack) {
   size_ = 0;
   std::vector<StackLevel> levels;
   for (const StackLevel& level : stack.levels()) {
-    levels.push_back(level);
-    if (!has_contacts(level)) continue;
+    if (!has_contacts(level)) {
+      levels.push_back(level);
+      continue;
+    }
     require(contacts_.empty(),
             "a stack wants its contacts on one level; '" + level.name + "' is the second");
     for (const Task* task : level.tasks) {
@@ -45,6 +47,7 @@ Stack ContactForces::completed(const Stack& stack) {
       size_ += contact->edges();
     }
     levels.push_back(StackLevel("torque limits", {&torques_}, 0.0));
+    levels.push_back(level);
   }
   require(size_ > 0 || !floating_,
           "the root of the robot floats: a stack wants contacts (ContactTask) that carry it");

@@ -1,12 +1,12 @@
 // The forces of a stack's contacts, as unknowns beside the accelerations.
 //
 //   x = [qddot + D qdot (n); lambda / (m g) (f)],  lambda >= 0         contact_task.hpp
-//   contacts          J qddot + Jdot qdot = -L J qdot
 //   torque limits     -tau <= M qddot + h - sum E_c lambda_c <= tau    tau = 0 of a free root: what
 //                                                                      moves it are contacts alone
+//   contacts          J qddot + Jdot qdot = -L J qdot                  they yield to torque limits
 //   ... the stack's own levels ...
 //   least forces      lambda = 0, as near as what is above leaves: it spreads the load
-// The first level of the stack that has contacts is followed by the torque limits. Forces are
+// The torque limits come before the level of the stack that has contacts. Forces are
 // counted in the robot's weight, so that regularisation weighs them beside accelerations.
 #pragma once
 

@@ -30,6 +30,13 @@ const ServoGains& row_of(const std::vector<ServoGains>& table, const std::string
 
 constexpr double kOpen = 1e-9;  // [m] or [rad] of a loop
 
+bool follows(const Robot& robot, const JointActuator& actuator) {
+  const Closures* const loops = robot.closures();
+  for (Index f = 0; loops && f < loops->size(); ++f)
+    if (loops->dof(f) == actuator.dof) return true;
+  return false;
+}
+
 // the i-th point of an even, never repeating sequence in 0 .. 1, another one for each coordinate
 double spread(int i, Index coordinate) {
   const double x =
@@ -115,7 +122,9 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
   }
   coordinate_joints_ = static_cast<Index>(motors_.size());
   for (std::size_t i = 0; i < actuators.size(); ++i) {
-    if (!taken[i]) add(i, -1, 1.0);
+    if (taken[i]) continue;
+    add(i, -1, 1.0);
+    motors_.back().idle = follows(robot, actuators[i]);
   }
   pid_ = JointPid(triple_pole(drives, dt));
   error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
@@ -233,7 +242,8 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
     const Rest& rest = rests_[static_cast<std::size_t>(i)];
     error_.position[i] = position_[i] - state.qpos[motor.qpos];
     error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
-    pid_.limit(i, rest.on ? EffortRange{} : status.range);
+    const bool idle = motors_[static_cast<std::size_t>(i)].idle;
+    pid_.limit(i, rest.on || idle ? EffortRange{} : status.range);
     if (rest.over) pid_.take_over(i, error_, status.brake_load - feed_forward_[i]);
   }
   const Vector& torque = pid_.compute(error_, feed_forward_);

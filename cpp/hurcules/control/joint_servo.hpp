@@ -106,6 +106,7 @@ class JointServo {
     double factor = 1.0;    // joint = factor * coordinate
     double share = 1.0;     // of the coordinate's effort
     double inertia = 0.0;   // rated
+    bool idle = false;      // its joint follows coordinates (closures.hpp), which bear all of it
   };
   struct Rest {
     bool on = false;    // the brake holds, the motor is without power

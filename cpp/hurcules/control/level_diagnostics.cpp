@@ -6,9 +6,11 @@
 #include <cstdio>
 
 #include "hurcules/tasks/balance_task.hpp"
+#include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/point_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
+#include "hurcules/tasks/torque_limits.hpp"
 #include "hurcules/tasks/zero_moment_task.hpp"
 
 namespace hurcules {
@@ -16,11 +18,14 @@ namespace hurcules {
 namespace {
 
 constexpr double kSmall = 1e-3;  // [m] or [rad] errors below it are nobody's concern
+constexpr double kUnkept = 0.1;  // [N m] or [m/s^2] the same
 constexpr double kShare = 0.1;   // of what a task asks for; regularisation leaves less than that
 
 const char* unit_of(const Task& task) {
   if (dynamic_cast<const PoseTask*>(&task)) return "m and rad";
   if (dynamic_cast<const ZeroMomentTask*>(&task)) return "m^2/s^2";
+  if (dynamic_cast<const TorqueLimits*>(&task)) return "N m";
+  if (dynamic_cast<const ContactTask*>(&task)) return "m/s^2";
   const bool length = dynamic_cast<const PointTask*>(&task) ||
                       dynamic_cast<const DistanceTask*>(&task) ||
                       dynamic_cast<const BalanceTask*>(&task);
@@ -109,6 +114,19 @@ bool is_kept_from(const Level& level, const Vector& violation, Index row, Index 
   return violation.segment(row, rows).cwiseAbs().maxCoeff() > kShare * asked && asked > 0.0;
 }
 
+// rows that are kept or not, and have no error that comes back
+bool has_no_target(const Task& task) {
+  return dynamic_cast<const ContactTask*>(&task) || dynamic_cast<const TorqueLimits*>(&task);
+}
+
+// what a solution leaves of the rows of a task, in their unit
+double unkept(const Task& task, const Vector& violation, Index first) {
+  double sum = 0.0;
+  for (Index i = 0; i < task.rows(); ++i)
+    if (task.weights()[i] > 0.0) sum += std::pow(violation[first + i] / task.weights()[i], 2);
+  return std::sqrt(sum);
+}
+
 bool says_something(const Task& task) {
   return task.error().allFinite() && task.jacobian().allFinite() && task.drift().allFinite() &&
          task.velocity_des().allFinite() && task.acceleration_des().allFinite() &&
@@ -136,6 +154,13 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
     const Index first = row;
     row += task->rows();
     if (k >= solved.solution.violations.size()) continue;
+    if (has_no_target(*task)) {
+      const double left = unkept(*task, solved.solution.violations[k], first);
+      if (left > kUnkept)
+        made.shortfalls.push_back({task->name(), left, unit_of(*task),
+                                   holders(solved, static_cast<int>(k), report), false});
+      continue;
+    }
     const double short_by = outside(*task);
     const bool shortened = solved.zone && solved.zone->share(k) < 1.0 - kShare;
     if (short_by < kSmall) continue;

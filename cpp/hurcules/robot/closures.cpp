@@ -31,7 +31,14 @@ std::unique_ptr<mjModel, void (*)(mjModel*)> of_constraints(const mjModel& model
 }
 
 int dofs_of(const mjModel& m, int joint) {
-  return m.jnt_type[joint] == mjJNT_BALL ? 3 : 1;
+  switch (m.jnt_type[joint]) {
+    case mjJNT_FREE:
+      return 6;
+    case mjJNT_BALL:
+      return 3;
+    default:
+      return 1;
+  }
 }
 
 // of at most kMostRows rows: flexible bodies have other constraints
@@ -48,10 +55,11 @@ bool meet(const std::vector<bool>& a, const std::vector<bool>& b) {
 
 }  // namespace
 
-Closures::Closures(const mjModel& model, const std::vector<Coordinate>& coordinates)
+Closures::Closures(const mjModel& model, const std::vector<Coordinate>& coordinates, bool chosen)
     : model_(of_constraints(model)),
       data_(nullptr, mj_deleteData),
-      loops_(static_cast<std::size_t>(model.neq), false) {
+      loops_(static_cast<std::size_t>(model.neq), false),
+      felt_(static_cast<std::size_t>(model.nv), false) {
   for (const Coordinate& coordinate : coordinates) {
     coordinates_.emplace_back();
     for (const DrivenJoint& joint : coordinate.joints)
@@ -62,7 +70,7 @@ Closures::Closures(const mjModel& model, const std::vector<Coordinate>& coordina
   ahead_ = Vector::Zero(model.nq);
   data_.reset(mj_makeData(model_.get()));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
-  find();
+  find(chosen);
   const auto n = static_cast<Index>(coordinates_.size());
   normal_ = Matrix::Zero(size(), size());
   share_ = Matrix::Zero(size(), n);
@@ -76,9 +84,9 @@ bool Closures::keeps(int equality) const {
 }
 
 // from the coordinates on, constraint by constraint
-void Closures::find() {
+void Closures::find(bool chosen) {
   const mjModel& m = *model_;
-  std::vector<bool> moves(static_cast<std::size_t>(m.nv), false), may = joints_that_may(m);
+  std::vector<bool> moves(static_cast<std::size_t>(m.nv), false), may = joints_that_may(chosen);
   for (const auto& joints : coordinates_) {
     for (const auto& [dof, factor] : joints) {
       moves[static_cast<std::size_t>(dof)] = true;
@@ -108,8 +116,10 @@ void Closures::find() {
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       if (loops_[i] || !meet(touched[i], moves) || !meet(touched[i], may)) continue;
       loops_[i] = found = true;
-      for (std::size_t dof = 0; dof < may.size(); ++dof)
+      for (std::size_t dof = 0; dof < may.size(); ++dof) {
+        felt_[dof] = felt_[dof] || touched[i][dof];
         if (touched[i][dof] && may[dof]) take(m.dof_jntid[dof], moves, may);
+      }
     }
   }
   std::sort(followers_.begin(), followers_.end(),
@@ -117,20 +127,25 @@ void Closures::find() {
   C_f_ = Matrix::Zero(C_.rows(), size());
 }
 
-// of the coordinates' tree, without an actuator and without a spring: (nv)
-std::vector<bool> Closures::joints_that_may(const mjModel& m) const {
+// without an actuator, or chosen, and without a spring; of the coordinates' trees no root: (nv)
+std::vector<bool> Closures::joints_that_may(bool chosen) const {
+  const mjModel& m = *model_;
   std::vector<bool> may(static_cast<std::size_t>(m.nv), false);
-  const int tree = m.body_rootid[m.dof_bodyid[coordinates_.front().front().first]];
+  std::vector<bool> is_robot(static_cast<std::size_t>(m.nbody), false);
+  for (const auto& joints : coordinates_)
+    for (const auto& [dof, factor] : joints)
+      is_robot[static_cast<std::size_t>(m.body_rootid[m.dof_bodyid[dof]])] = true;
   for (int j = 0; j < m.njnt; ++j) {
-    const bool own = m.body_rootid[m.jnt_bodyid[j]] == tree && m.jnt_type[j] != mjJNT_FREE;
-    for (int k = 0; own && k < dofs_of(m, j); ++k)
-      may[static_cast<std::size_t>(m.jnt_dofadr[j] + k)] =
-          m.jnt_stiffness[j] == 0.0 && actuator_of(m, j) < 0;
+    const auto tree = static_cast<std::size_t>(m.body_rootid[m.jnt_bodyid[j]]);
+    const bool root = m.jnt_type[j] == mjJNT_FREE && is_robot[tree];
+    const bool idle = m.jnt_stiffness[j] == 0.0 && (chosen || actuator_of(m, j) < 0);
+    for (int k = 0; !root && idle && k < dofs_of(m, j); ++k)
+      may[static_cast<std::size_t>(m.jnt_dofadr[j] + k)] = true;
   }
   return may;
 }
 
-// a joint follows from here on, all of a ball joint
+// a joint follows from here on, all of a ball or a free joint
 void Closures::take(int joint, std::vector<bool>& moves, std::vector<bool>& may) {
   for (int k = 0; k < dofs_of(*model_, joint); ++k) {
     const int dof = model_->jnt_dofadr[joint] + k;
@@ -143,7 +158,7 @@ void Closures::take(int joint, std::vector<bool>& moves, std::vector<bool>& may)
 Closures::Follower Closures::follower(int dof) const {
   const mjModel& m = *model_;
   const int joint = m.dof_jntid[dof];
-  const bool limited = m.jnt_limited[joint] && m.jnt_type[joint] != mjJNT_BALL;
+  const bool limited = m.jnt_limited[joint] && dofs_of(m, joint) == 1;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   return {joint_name(m, joint), dof, m.jnt_qposadr[joint],
           limited ? m.jnt_range[2 * joint] : -kNone, limited ? m.jnt_range[2 * joint + 1] : kNone};

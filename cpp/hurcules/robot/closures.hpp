@@ -3,9 +3,11 @@
 //   c(qpos) = 0           connect, weld, tendon and joint equalities that tie them to coordinates
 //   v_f = G v             G = -C_f^+ C_S,  C = dc/dqpos,  C_S: its columns by coordinate
 //   a_f = G a + g         g = -C_f^+ (dC/dt qvel)
-// They are degrees of freedom of the coordinates' tree without an actuator and without a spring: a
-// crank of a four-bar linkage, a rod between two balls. The inverse is damped, so that G stays
-// bounded where a linkage is stretched. What the constraints are comes from MuJoCo.
+// They are degrees of freedom without an actuator and without a spring: a crank of a four-bar linkage,
+// a rod between two balls, a door in a hand, a body that is welded to it. Where the coordinates were
+// chosen by name, joints with an actuator may follow too. The roots of robots never do. The inverse is
+// damped, so that G stays bounded where a linkage is stretched. What the constraints are comes from
+// MuJoCo.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -29,11 +31,12 @@ class Closures {
   struct Follower {
     std::string joint;
     int dof = 0;                      // address in qvel
-    int qpos = 0;                     // address in qpos; of a ball joint its first
-    double lower = 0.0, upper = 0.0;  // [rad] or [m], -inf and inf without; of a ball joint without
+    int qpos = 0;                     // address in qpos; of a ball or a free joint its first
+    double lower = 0.0, upper = 0.0;  // [rad] or [m], -inf and inf without; of those two without
   };
 
-  Closures(const mjModel_& model, const std::vector<Coordinate>& coordinates);
+  // chosen: somebody named the coordinates, so that joints with an actuator may follow
+  Closures(const mjModel_& model, const std::vector<Coordinate>& coordinates, bool chosen);
   ~Closures();
 
   [[nodiscard]] Index size() const { return static_cast<Index>(followers_.size()); }  // f
@@ -41,6 +44,8 @@ class Closures {
   [[nodiscard]] int dof(Index f) const { return followers_[static_cast<std::size_t>(f)].dof; }
   // the equality is one of these loops
   [[nodiscard]] bool keeps(int equality) const;
+  // a loop moves with this degree of freedom, at the model's first posture or beside it
+  [[nodiscard]] bool feels(int dof) const { return felt_[static_cast<std::size_t>(dof)]; }
 
   // G at a configuration (nq), as it is
   void measure(const double* qpos);
@@ -58,8 +63,8 @@ class Closures {
   [[nodiscard]] double error() const { return error_; }  // largest |c| [m] or [rad]
 
  private:
-  void find();
-  [[nodiscard]] std::vector<bool> joints_that_may(const mjModel_& model) const;
+  void find(bool chosen);
+  [[nodiscard]] std::vector<bool> joints_that_may(bool chosen) const;
   void take(int joint, std::vector<bool>& moves, std::vector<bool>& may);
   [[nodiscard]] Follower follower(int dof) const;
   // C and c of the loops, at a configuration
@@ -74,6 +79,7 @@ class Closures {
   std::vector<std::vector<std::pair<int, double>>> coordinates_;  // (n) dofs and factors
   std::vector<Follower> followers_;                               // in the order of their dofs
   std::vector<bool> loops_;                                       // (neq)
+  std::vector<bool> felt_;                                        // (nv)
   Index rows_ = 0;                                                // of the last linearize
   Matrix C_, C_f_;                                                // (most rows, nv), (most rows, f)
   Vector c_, rate_;                                               // (most rows)

@@ -125,6 +125,17 @@ bool take_root(const mjModel& m, std::vector<std::string>& names) {
   return false;
 }
 
+// why a joint of this name can be none
+void require_single(const mjModel& m, const std::string& name) {
+  const int joint = mj_name2id(&m, mjOBJ_JOINT, name.c_str());
+  if (joint < 0 || is_single(m, joint)) return;
+  require(m.jnt_type[joint] == mjJNT_FREE,
+          "joint '" + name + "' is a ball joint and can be no coordinate: three hinges in its " +
+              "place, one after the other in one body about the axes 1 0 0, 0 1 0 and 0 0 1, can");
+  throw Error("joint '" + name + "' is free and can be no coordinate by name: Robot(model, " +
+              "floating=True) makes it six");
+}
+
 // each name among the tuples' coordinates, then among the joints
 std::vector<Coordinate> chosen(const mjModel& m, std::vector<Coordinate> all,
                                const std::vector<std::string>& names) {
@@ -134,6 +145,7 @@ std::vector<Coordinate> chosen(const mjModel& m, std::vector<Coordinate> all,
     const auto same = [&](const Coordinate& coordinate) { return coordinate.name == name; };
     const auto one = std::find_if(all.begin(), all.end(), same);
     if (one == all.end()) {
+      require_single(m, name);
       std::vector<std::string> existing;
       for (const Coordinate& coordinate : all) existing.push_back(coordinate.name);
       throw Error(unknown_name("joint", name, existing));

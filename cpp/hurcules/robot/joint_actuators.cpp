@@ -24,7 +24,8 @@ void require_affine(const mjModel* m, int actuator, const std::string& joint) {
   require(affine,
           "the actuator '" + name_of(m, mjOBJ_ACTUATOR, actuator) + "' of joint '" + joint +
               "' wants to be a motor, or a position or velocity servo without a state of its "
-              "own: the joint servo commands effort");
+              "own (muscle, filter, integrator): the joint servo commands effort. Take the "
+              "actuator out of the model, and hurcules.with_motors gives the joint a motor");
 }
 
 JointActuator read(const mjModel* m, int a) {

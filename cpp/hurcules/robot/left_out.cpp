@@ -13,6 +13,7 @@ namespace hurcules {
 namespace {
 
 constexpr double kTight = 1e-6;    // of a loop that stays closed
+constexpr const char* kBall = " (ball)";
 constexpr std::size_t kShown = 8;  // names, then how many more
 
 std::string listed(const std::vector<std::string>& names) {
@@ -47,8 +48,11 @@ class Kept {
   [[nodiscard]] std::vector<std::string> joints() const {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
-      const bool root = m_.jnt_type[j] == mjJNT_FREE;
-      if (!root && !has(j) && moves(m_.jnt_bodyid[j])) names.push_back(name_of(m_, mjOBJ_JOINT, j));
+      if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
+      const bool ball = m_.jnt_type[j] == mjJNT_BALL;
+      // where nothing is a coordinate, nothing but balls is left
+      if (moves(m_.jnt_bodyid[j]) || trees_.empty())
+        names.push_back(name_of(m_, mjOBJ_JOINT, j) + (ball ? kBall : ""));
     }
     return names;
   }
@@ -104,10 +108,12 @@ std::string left_out(const Robot& robot) {
   if (!joints.empty()) {
     text = std::to_string(joints.size()) + " joints of the robot are held, they belong to no " +
            "coordinate: " + listed(joints) + "; Robot(model, joints=[...]) says which move";
+    if (text.find(kBall) != std::string::npos) text += ", three hinges may stand for a ball";
   }
   if (!constraints.empty()) {
     text += std::string(text.empty() ? "" : ". ") +
-            "Constraints of the model that the coordinates do not keep: " + listed(constraints);
+            "Constraints of the model that the coordinates do not keep: " + listed(constraints) +
+            "; where joints=[...] names as many as they leave free, the others follow";
   }
   return text;
 }

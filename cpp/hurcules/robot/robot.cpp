@@ -66,7 +66,8 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   const mjModel& m = *model_;
   coordinates_ = find_coordinates(m, joints, floating);
   floating_ = size() > 0 && coordinates_[0].joints[0].part == 0;
-  if (!names_coordinates(m)) closures_ = std::make_unique<Closures>(m, coordinates_);
+  if (!names_coordinates(m))
+    closures_ = std::make_unique<Closures>(m, coordinates_, !joints.empty());
   if (closures_ && closures_->size() == 0) closures_.reset();
   data_.reset(mj_makeData(&m));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
@@ -225,6 +226,9 @@ void Robot::stand_on(Frame frame) {
                           body + "' cannot hold it");
   require(root_qpos_ >= 0, "a robot stands on a body of a tree with a free joint; '" + body +
                                "' is bolted to the world");
+  require(!closures_ || !closures_->feels(root_dof_),
+          "a robot that is tied to the ground or to another robot stands there, on '" + body +
+              "' it cannot: Robot(model, floating=True) moves its root by contacts");
   const bool stood = support_ >= 0;
   support_ = frame.id;
   if (stood) {

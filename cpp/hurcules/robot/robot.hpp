@@ -5,8 +5,8 @@
 // such tuples every hinge or slide joint that has an actuator is a coordinate, and without
 // actuators every hinge or slide joint; joints that an equality constraint of the model couples
 // linearly (the mimic joints of a URDF) are one. Joints that other constraints tie to coordinates
-// follow them (closures.hpp). All other joints are held: free, ball, belts, other bodies
-// (left_out.hpp).
+// follow them (closures.hpp), those of other bodies and of the ground too. All other joints are held:
+// free, ball, belts, other bodies (left_out.hpp).
 // With `floating` the free joint at the root is six coordinates more, in front: its position in W and
 // its rotation vector in W [m], [rad]; their velocities are those of MuJoCo's free joint, [m/s] in W
 // and [rad/s] in the axes of the root. Nothing drives them but contacts (contact_task.hpp).

@@ -56,13 +56,15 @@ std::vector<Screws::Driven> Screws::driven_of(const mjModel& model,
                         .part = joint.part});
   for (Index f = 0; closures && f < closures->size(); ++f) {
     const int dof = closures->dof(f), joint = model.dof_jntid[dof];
-    const bool ball = model.jnt_type[joint] == mjJNT_BALL;
+    const int type = model.jnt_type[joint];
+    const int first = type == mjJNT_FREE ? 0 : 3;  // a ball joint is the turns alone
+    const int part = type == mjJNT_FREE || type == mjJNT_BALL ? dof - model.jnt_dofadr[joint] : -1;
     driven.push_back({.coordinate = -1,
                       .follower = f,
                       .joint = joint,
                       .body = model.dof_bodyid[dof],
                       .factor = 1.0,
-                      .part = ball ? 3 + dof - model.jnt_dofadr[joint] : -1});
+                      .part = part < 0 ? -1 : first + part});
   }
   std::sort(driven.begin(), driven.end(), [](const Driven& a, const Driven& b) {
     return std::pair(a.joint, a.part) < std::pair(b.joint, b.part);

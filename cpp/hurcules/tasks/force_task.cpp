@@ -92,13 +92,22 @@ void ForceTask::sense(const Robot& robot, double force) {
   if (now != mode_) {
     offset_ = now == Mode::Hold ? 0.0 : before - wish_;  // a stop is at once
     age_ = 0.0;
+    entry_ = monitor_.force();
     if (now == Mode::Force) law_.reset();
   } else {
     age_ = std::min(age_ + dt, options_.blend);
   }
   mode_ = now;
-  wish_ += offset_ * fade(age_, options_.blend);
+  wish_ += blended();
   show();
+}
+
+// what is left of the way that the frame came: where it presses on, none from the wanted force on
+double ForceTask::blended() const {
+  const double left = offset_ * fade(age_, options_.blend);
+  if (mode_ != Mode::Force || left * force_des_ <= 0.0) return left;
+  const double lacked = force_des_ - entry_, lacks = force_des_ - force();
+  return lacked * force_des_ > 0.0 ? left * std::clamp(lacks / lacked, 0.0, 1.0) : 0.0;
 }
 
 double ForceTask::wish(Mode mode) {
@@ -124,7 +133,7 @@ void ForceTask::show() {
     return;
   }
   if (mode_ == Mode::Motion) {
-    velocity_des_[0] = motion_ + offset_ * fade(age_, options_.blend);
+    velocity_des_[0] = motion_ + blended();
   } else {
     velocity_des_[0] = wish_;
     error_[0] = 0.0;  // the law alone decides
@@ -140,6 +149,7 @@ void ForceTask::hold(const Robot& robot) {
   ValueTask::hold(robot);
   motion_ = wish_ = offset_ = rate_ = last_ = 0.0;
   age_ = options_.blend;
+  entry_ = 0.0;
   sensed_ = false;
 }
 
@@ -166,7 +176,7 @@ void ForceTask::save(StateWriter& writer) const {
   estimate_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
+        wish_, offset_, age_, entry_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -179,7 +189,9 @@ void ForceTask::restore(StateReader& reader) {
   force_des_ = reader.get();
   enabled_ = reader.get_count(1) > 0;
   mode_ = static_cast<Mode>(reader.get_count(2));
-  for (double* value : {&motion_, &wish_, &offset_, &age_, &rate_, &last_}) *value = reader.get();
+  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &rate_, &last_}) {
+    *value = reader.get();
+  }
   sensed_ = reader.get_count(1) > 0;
 }
 

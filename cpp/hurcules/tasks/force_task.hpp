@@ -4,8 +4,9 @@
 // law moves the same row (force_law.hpp); f is what the robot exerts on the environment along the
 // axis, so pressing down with 5 N is -5 N along z [T 5.4.27]. The row never comes or goes: what
 // changes is what it asks for, and it goes over from the speed that the frame has within the blend
-// time, so that no joint speed jumps as in [T Fig. 5.17]; with blend = 0 it jumps. When f_max is
-// passed or the sensor is lost the row holds its place until reset, and lets itself be led away from
+// time, so that no joint speed jumps as in [T Fig. 5.17]; with blend = 0 it jumps. What still presses
+// on fades with the force that is missing too: on hard ground a blend is no impact of its own. When
+// f_max is passed or the sensor is lost the row holds its place until reset, and lets itself be led away from
 // the contact only; the mission decides what else stops.
 //
 // Each tick: sense(robot, f), then the controller. FirstOrder is a row for both controllers, the
@@ -67,7 +68,7 @@ class ForceTask : public PositionTask {
   enum class Mode { Motion, Force, Hold };
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] double wish(Mode mode);  // of the row, without the blend
-  void begin(Mode mode, double rate);
+  [[nodiscard]] double blended() const;  // what the blend adds
   void show();  // the row as the controller sees it
 
   ForceTaskOptions options_;
@@ -80,6 +81,7 @@ class ForceTask : public PositionTask {
   double motion_ = 0.0;  // [m/s] of the reference
   double wish_ = 0.0;    // [m/s] or [m/s^2], blend included
   double offset_ = 0.0, age_ = 0.0;
+  double entry_ = 0.0;   // [N] read when the mode changed
   double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
   double last_ = 0.0;  // [m] s at the last sense
   bool sensed_ = false;

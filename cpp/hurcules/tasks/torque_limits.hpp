@@ -21,6 +21,9 @@ class TorqueLimits : public Task {
   void hold(const Robot& robot) override { update(robot); }
   void advance(const ConstVectorRef& velocity, double dt) override;
   [[nodiscard]] bool commands_acceleration() const override { return true; }
+  [[nodiscard]] std::string row_name(const Robot& robot, Index row) const override {
+    return robot.coordinates()[static_cast<std::size_t>(row)].name + " torque limit";
+  }
   void save(StateWriter& writer) const override { Task::save(writer); }
   void restore(StateReader& reader) override { Task::restore(reader); }
 

@@ -168,6 +168,8 @@ TEST_F(Acceleration, KeepsTorquesWithinTheirLimits) {
     const bool limits_first = dynamic.active_limits().cwiseAbs().sum() > 0;
     dynamic.compute(robot_);
     dynamic.torque(robot_, tau);
+    ASSERT_LE((tau.cwiseAbs() - limit).maxCoeff(), 0.0) << "tick " << i;
+    robot_.inverse_dynamics(dynamic.acceleration(), tau);  // what the rows alone keep
     const double over = (tau.cwiseAbs() - limit).maxCoeff();
     (limits_first || dynamic.active_limits().cwiseAbs().sum() > 0 ? braking : excess) =
         std::max(limits_first ? braking : excess, over);

@@ -59,7 +59,7 @@ class Contacts : public testing::Test {
 TEST_F(Contacts, CarryTheWeightAtRest) {
   controller_.set_stack(contacts() < com_ < trunk_ < posture_);
   EXPECT_EQ(controller_.stack().text(),
-            "limits < contacts < torque limits < centre of mass < trunk < posture < least forces");
+            "limits < torque limits < contacts < centre of mass < trunk < posture < least forces");
   const Vector acceleration = controller_.compute(robot_);
   EXPECT_TRUE(near(acceleration, Vector::Zero(robot_.size()), 1e-6));
   EXPECT_TRUE(near(carried(controller_), Vector3(0, 0, 9.81 * mass_), 1e-6));
@@ -107,6 +107,28 @@ TEST_F(Contacts, TellWhatFrictionForbids) {
   for (const LevelDiagnostics& note : controller_.diagnostics(robot_))
     for (const Shortfall& task : note.shortfalls) told = told || contains(task.text(), "friction");
   EXPECT_TRUE(told);
+}
+
+// on its side the feet are no contacts: they yield, told with what holds them, before a torque passes
+TEST_F(Contacts, YieldToTorqueLimits) {
+  controller_.set_stack(contacts() < com_ < posture_);
+  Vector qpos = robot_.qpos();
+  qpos.segment<4>(3) << std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0;
+  robot_.set_qpos(qpos);
+  Vector velocity = Vector::Zero(robot_.size());
+  velocity[2] = 5.0;  // [m/s] off the ground, which does not pull
+  robot_.set_velocity(velocity);
+  controller_.compute(robot_);
+  const Vector given = torque(controller_);
+  EXPECT_TRUE(near(given.head<6>(), Vector::Zero(6), 1e-6));
+  for (Index i = 6; i < robot_.size(); ++i)
+    EXPECT_LE(std::abs(given[i]),
+              robot_.coordinates()[static_cast<std::size_t>(i)].max_effort + 1e-9);
+  std::string told;
+  for (const LevelDiagnostics& note : controller_.diagnostics(robot_))
+    for (const Shortfall& task : note.shortfalls) told += task.text() + "\n";
+  EXPECT_TRUE(contains(told, "m/s^2 short, held by")) << told;
+  EXPECT_FALSE(contains(told, "torque limits:")) << told;
 }
 
 TEST_F(Contacts, RefuseStacksThatCannotBe) {

@@ -139,11 +139,25 @@ TEST(ForceTask, LearnsTheStiffnessAndSettlesAsFastOnSoftAndStiffGround) {
   }
 }
 
+// the blend leads the frame on, but no further than to the force that is wanted, 5 N, and what one
+// period at the speed of approach adds to it, 5 N: a reading is one period old
+TEST(ForceTask, ABlendIsNoImpactOfItsOwn) {
+  Press press(first_order(3e-4, 1e5), 1e5);
+  double most = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    press.tick(-0.05);
+    most = std::max(most, -press.reading());
+  }
+  EXPECT_LT(most, 10.0);
+  EXPECT_NEAR(press.reading(), -5.0, 0.05);
+}
+
 TEST(ForceTask, StopsAboveTheLargestForceUntilReset) {
-  // K13: blend so long that 1e5 N/m are pressed beyond 150 N
-  ForceTaskOptions options = first_order(1e-4, 1e5, 2.0);
+  // K13: so fast that 1e5 N/m are pressed beyond 20 N in one period
+  ForceTaskOptions options = first_order(1e-4, 1e5);
+  options.contact.f_max = 20.0;
   Press press(options, 1e5);
-  press.run(3000, -0.05);
+  press.run(1000, -0.35);
   EXPECT_EQ(press.force.state(), ContactState::Stopped);
   const double force = press.reading();
   press.run(1000, -0.05);

@@ -1,6 +1,7 @@
 // Strategy: linkages whose passive joints follow: a four-bar, a leg with a rod between balls, a curve
-// and a tendon. Truth: MuJoCo's own residuals, differences of poses, and its constrained forward
-// dynamics, which know nothing of the shares.
+// and a tendon, loops over the ground, a load, a hand on a door. Truth: MuJoCo's own
+// residuals, differences of poses, and its constrained forward dynamics, which know nothing of the
+// shares.
 #include <mujoco/mujoco.h>
 
 #include <Eigen/QR>
@@ -21,6 +22,16 @@ using namespace hurcules_test;
 class ClosedChain : public testing::TestWithParam<const char*> {
  protected:
   ClosedChain() : model_(load_model_text(GetParam())), robot_(model_) {}
+
+  // potential energy of all bodies [J]
+  double potential() const {
+    std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model_.get()), mj_deleteData);
+    Eigen::Map<Vector>(data->qpos, model_->nq) = robot_.qpos();
+    mj_kinematics(model_.get(), data.get());
+    mj_comPos(model_.get(), data.get());
+    mj_energyPos(model_.get(), data.get());
+    return data->energy[0];
+  }
 
   // at random near the start, moving
   void place(unsigned seed) {
@@ -135,7 +146,7 @@ TEST_P(ClosedChain, TorquesOfInverseDynamicsGiveThePower) {
       robot_.set_configuration(q + t * v + 0.5 * t * t * a);
       robot_.mass_matrix(M);
       const Vector moving = v + t * a;
-      return 0.5 * moving.dot(M * moving) + robot_.weight() * robot_.com()[2];
+      return 0.5 * moving.dot(M * moving) + potential();
     };
     EXPECT_NEAR((energy(e) - energy(-e)) / (2 * e), torque.dot(v), 1e-5) << seed;
   }
@@ -165,6 +176,42 @@ TEST(ClosedChains, LeaveFlexibleBodiesAlone) {
   EXPECT_EQ(left_out(robot), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Linkages, ClosedChain, testing::Values(kFourBar, kRod, kCurve));
+// three joints have a motor and the hand leaves one free: as they are, the loop opens and is named;
+// where one leads by name the others follow, with the door and its range
+TEST(ClosedChains, FollowTheJointsThatWereChosen) {
+  const ModelPtr model = load_model_text(kDoor);
+  const Robot all(model);
+  EXPECT_EQ(all.size(), 3);
+  EXPECT_TRUE(contains(left_out(all), "do not keep: grip"));
+  EXPECT_TRUE(contains(left_out(all), "joints=[...]"));
+  Robot robot(model, {"c"});
+  EXPECT_EQ(robot.size(), 1);
+  EXPECT_EQ(robot.closures()->size(), 3);
+  EXPECT_EQ(left_out(robot), "");
+  Vector q(1);
+  for (q[0] = 0.0; q[0] < 0.5; q[0] += 0.01) {
+    robot.set_configuration(q);
+    EXPECT_LT(robot.closures()->error(), 1e-12);
+  }
+  // at the end of its way the door has turned, and the hand is where its handle was
+  const double angle = robot.qpos()[3];
+  EXPECT_GT(std::abs(angle), 0.1);
+  const Vector3 handle(0.6 - 0.7 * std::sin(angle), -0.5 + 0.7 * std::cos(angle), 1.0);
+  EXPECT_TRUE(near(robot.position(robot.frame("tip")), handle, 1e-10));
+}
+
+// where the root moves with the joints, the loop over the ground would have to count it
+TEST(ClosedChains, OverTheGroundRefuseAnotherSupport) {
+  std::string text = kTied;
+  text.insert(text.find("<joint name=\"crank\""), "<freejoint name='root'/><geom size='0.1'/>"
+                                                  "<body name='first'>");
+  text.insert(text.find("</worldbody>"), "</body>");
+  Robot robot(load_model_text(text));
+  EXPECT_EQ(robot.closures()->size(), 2);
+  EXPECT_TRUE(contains(error_text([&] { robot.stand_on("coupler"); }), "tied to the ground"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Linkages, ClosedChain,
+                         testing::Values(kFourBar, kRod, kCurve, kPiston, kTied, kLoad));
 
 }  // namespace
