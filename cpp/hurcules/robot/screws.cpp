@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hurcules/robot/closures.hpp"
+#include "hurcules/robot/each_screw.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
@@ -80,12 +80,6 @@ void Screws::find_above() {
     for (std::size_t j = 0; j < driven_.size(); ++j)
       if (driven_[j].body == body) joints.push_back(static_cast<Index>(j));
   }
-}
-
-template <class Act>
-void Screws::each_coordinate(const Driven& joint, Act&& act) const {
-  if (joint.coordinate >= 0) return act(joint.coordinate, 1.0);
-  for (Index i = 0; i < velocity_.size(); ++i) act(i, closures_->share()(joint.follower, i));
 }
 
 Vector3 Screws::origin(int body) const {
@@ -186,6 +180,31 @@ void Screws::rotation_jacobian(int body, MatrixRef J) const {
   fill(body, J, [](const Screw& screw) -> Vector3 { return screw.head<3>(); });
 }
 
+void Screws::separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
+                        Eigen::Ref<Eigen::RowVectorXd> row) const {
+  row.setZero();
+  // what moves both comes first in both lists, and moves them alike along the way between them
+  const std::vector<Index>&a = above(first.body), &b = above(second.body);
+  const auto apart = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  add_rates({apart.first, a.end()}, first, -direction, row);
+  add_rates({apart.second, b.end()}, second, direction, row);
+  if (stands(first.body) == stands(second.body)) return;
+  const bool stands_first = stands(first.body);
+  add_rates(above(support_), stands_first ? first : second, stands_first ? direction : -direction,
+            row);
+}
+
+void Screws::add_rates(std::span<const Index> joints, const BodyPoint& at,
+                       const Vector3& direction,
+                       Eigen::Ref<Eigen::RowVectorXd> row) const {
+  const Vector3 moment = (at.point - origin(at.body)).cross(direction);
+  for (const Index j : joints) {
+    const Screw& screw = driven(j).screw;
+    const double rate = moment.dot(screw.head<3>()) + direction.dot(screw.tail<3>());
+    each_coordinate(driven(j), [&](Index i, double share) { row[i] += share * rate; });
+  }
+}
+
 Screw Screws::velocity_of(int body) const {
   Screw twist = stands(body) ? root_velocity_ : Screw::Zero();
   for (const Index j : above(body)) twist += driven(j).speed * driven(j).screw;
@@ -204,10 +223,6 @@ Vector3 Screws::point_drift(const Vector3& point, int body) const {
   const Vector3 r = point - origin(body), w = twist.head<3>();
   const Vector3 v = twist.tail<3>() + w.cross(r);
   return rate.tail<3>() + Vector3(rate.head<3>()).cross(r) + w.cross(v);
-}
-
-Vector3 Screws::angular_velocity(int body) const {
-  return velocity_of(body).head<3>();
 }
 
 Vector3 Screws::rotation_drift(int body) const {
