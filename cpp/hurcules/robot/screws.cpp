@@ -183,19 +183,29 @@ void Screws::rotation_jacobian(int body, MatrixRef J) const {
 void Screws::separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
                         Eigen::Ref<Eigen::RowVectorXd> row) const {
   row.setZero();
-  // what moves both comes first in both lists, and moves them alike along the way between them
-  const std::vector<Index>&a = above(first.body), &b = above(second.body);
+  // what moves both comes first in both lists
+  const std::span<const Index> a = above(first.body), b = above(second.body);
   const auto apart = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   add_rates({apart.first, a.end()}, first, -direction, row);
   add_rates({apart.second, b.end()}, second, direction, row);
-  if (stands(first.body) == stands(second.body)) return;
-  const bool stands_first = stands(first.body);
-  add_rates(above(support_), stands_first ? first : second, stands_first ? direction : -direction,
-            row);
+  // it turns the way between them, which matters where that is not along the direction
+  const Vector3 moment = (second.point - first.point).cross(direction);
+  const auto turn = [&](Index j, double sign) {
+    const double rate = sign * moment.dot(driven(j).screw.head<3>());
+    each_coordinate(driven(j), [&](Index i, double share) { row[i] += share * rate; });
+  };
+  for (auto j = a.begin(); j != apart.first; ++j) turn(*j, 1.0);
+  const bool first_stands = stands(first.body), second_stands = stands(second.body);
+  if (first_stands && second_stands) {
+    for (const Index j : above(support_)) turn(j, -1.0);
+  } else if (first_stands) {
+    add_rates(above(support_), first, direction, row);
+  } else if (second_stands) {
+    add_rates(above(support_), second, -direction, row);
+  }
 }
 
-void Screws::add_rates(std::span<const Index> joints, const BodyPoint& at,
-                       const Vector3& direction,
+void Screws::add_rates(std::span<const Index> joints, const BodyPoint& at, const Vector3& direction,
                        Eigen::Ref<Eigen::RowVectorXd> row) const {
   const Vector3 moment = (at.point - origin(at.body)).cross(direction);
   for (const Index j : joints) {
