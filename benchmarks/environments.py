@@ -5,7 +5,7 @@ two do. Numbers of a busy machine compare as ratios only: `--figures` gives medi
 which everything that is compared takes its turn.
 
 Run:  python benchmarks/environments.py [--seconds 2] [--rounds 3] [IDS]
-      python benchmarks/environments.py --figures [--seconds 1] [--rounds 9]
+      python benchmarks/environments.py --figures [--seconds 1] [--rounds 9] [memory stretch ...]
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from statistics import median
 from typing import Any
+from unittest.mock import patch
 
 import gymnasium
 import mujoco
@@ -26,7 +28,7 @@ import numpy as np
 import hurcules
 import hurcules_envs
 from hurcules import scenes
-from hurcules_envs.stretch_goal import DISTANCE, LATERAL, StretchGoal
+from hurcules_envs.stretch_goal import DISTANCE, LATERAL, Stretch
 from hurcules_envs.vector import NativeVectorEnv
 
 IDS = [name for name in hurcules_envs.ENVIRONMENTS if name != "Hurcules/Stretch-v0"]
@@ -35,7 +37,7 @@ Clock = Callable[[], float]
 Step = Callable[[], None]
 
 
-class LimpStretch(StretchGoal):
+class LimpStretch(Stretch):
     """`Stretch-v1` before a person who has joints."""
 
     @staticmethod
@@ -172,8 +174,8 @@ def stretch_figures(wanted: argparse.Namespace) -> None:
     """The scene of the stretch with a limp person, a frozen one, and at 4 ms."""
     kinds = {
         "limp": (f"{__name__}:LimpStretch", "exact"),
-        "frozen": ("hurcules_envs.stretch_goal:StretchGoal", "exact"),
-        "fast": ("hurcules_envs.stretch_goal:StretchGoal", "fast"),
+        "frozen": ("hurcules_envs.stretch_goal:Stretch", "exact"),
+        "fast": ("hurcules_envs.stretch_goal:Stretch", "fast"),
     }
     vectors = {k: NativeVectorEnv(path, 4, 100, 1, fidelity=f) for k, (path, f) in kinds.items()}
     found = rates({k: stepper(v, 0) for k, v in vectors.items()}, time.process_time, wanted)
@@ -201,17 +203,17 @@ def reach_figures(wanted: argparse.Namespace) -> None:
 def tick_figures(wanted: argparse.Namespace) -> None:
     """A tick of the controller, from what is sensed to the servo, by the clock of the loop."""
     for name, fidelity in ((REACH, "exact"), ("Hurcules/Stretch-v1", "exact")):
-        vector = gymnasium.make_vec(name, num_envs=1, threads=1, fidelity=fidelity)
-        own = vector.environment.simulation
-        timed = hurcules.Simulation(model=own.model, controller=own.controller, timed=True)
+        with patch.object(hurcules, "Simulation", partial(hurcules.Simulation, timed=True)):
+            vector = gymnasium.make_vec(name, num_envs=1, threads=1, fidelity=fidelity)
+        timed = vector.environment.simulation
         scale = np.array(timed.command_scale)
         generator, medians = np.random.default_rng(0), []
         for _ in range(wanted.rounds):
             timed.reset()
             for _ in range(20):
                 timed.step(50, generator.uniform(-1, 1, scale.shape) * np.minimum(scale, 0.3))
-            stages = timed.timings
-            spent = sum(stages[s] for s in ("sense", "kinematics", "problem", "solve", "servo"))
+            stages = timed.timings()
+            spent = sum(stages[s] for s in ("sense", "kinematics", "hierarchy", "solve", "servo"))
             medians.append(1e6 * float(np.median(spent)))
         show(f"{name} {fidelity}: controller, median of its ticks", np.array(medians), "us", 1)
 
@@ -261,7 +263,7 @@ def work(wanted: argparse.Namespace) -> None:
     print(rate(step, wanted.seconds, time.perf_counter), flush=True)
 
 
-def memory_figures() -> None:
+def memory_figures(wanted: argparse.Namespace) -> None:
     """Memory that an episode takes beside the first ones."""
     for name, fidelity in ((REACH, "kinematic"), (REACH, "fast"), ("Hurcules/Drive-v0", "fast"),
                            ("Hurcules/Lift-v0", "fast")):  # fmt: skip
@@ -317,6 +319,16 @@ def torch_threads() -> None:
     torch.set_num_threads(1)
 
 
+FIGURES: dict[str, Callable[[argparse.Namespace], None]] = {
+    "memory": memory_figures,
+    "stretch": stretch_figures,
+    "reach": reach_figures,
+    "tick": tick_figures,
+    "threads": thread_figures,
+    "collection": collection_figures,
+}
+
+
 def main() -> None:
     """Prints the tables, or the figures of docs/environments.md."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -324,18 +336,15 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=3, help="the best of these counts")
     parser.add_argument("--figures", action="store_true", help="the figures of the page instead")
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
-    parser.add_argument("ids", nargs="*")
+    parser.add_argument("ids", nargs="*", help="of environments, or of --figures: "
+                        + ", ".join(FIGURES))  # fmt: skip
     wanted = parser.parse_args()
     if wanted.worker:
         return work(wanted)
     if not wanted.figures:
         return tables(wanted)
-    memory_figures()
-    stretch_figures(wanted)
-    reach_figures(wanted)
-    tick_figures(wanted)
-    thread_figures(wanted)
-    collection_figures(wanted)
+    for name in wanted.ids or FIGURES:
+        FIGURES[name](wanted)
     return None
 
 
