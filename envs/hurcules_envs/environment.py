@@ -85,6 +85,7 @@ class Numbers:
         self.dt = dt
         self.finished = finished
         self._endings = endings
+        self._rows: dict[tuple[str, ...], Array] = {}
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
@@ -97,8 +98,13 @@ class Numbers:
         return self._values[name] if name in self._values else self.memory[name]
 
     def row(self, *names: str) -> Array:
-        """Several of them side by side, (n, ...)."""
-        return np.concatenate([self[name] for name in names], axis=1)
+        """Several of them side by side, (n, ...); not to be written to."""
+        row = self._rows.get(names)
+        if row is None:
+            row = np.concatenate([self[name] for name in names], axis=1)
+            if all(name in self._values for name in names):  # these stay as they are
+                self._rows[names] = row
+        return row
 
 
 class Environment(ABC):

@@ -160,7 +160,7 @@ class Episodes:
         """
         views = self._read()
         numbers = self._numbers(views)
-        over = self.batch.finished
+        over = numbers.finished
         self.numbers = numbers
         environment = self.environment
         if remember is not None:
@@ -237,7 +237,7 @@ class Episodes:
         if not np.isfinite(values).all():
             bad = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
             raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
-        return np.clip(values, -1.0, 1.0)
+        return np.maximum(np.minimum(values, 1.0), -1.0)
 
     def _copy_simulation(self, *, own_models: bool) -> None:
         """A batch of copies of the environment's simulation."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -225,5 +226,10 @@ def _observation(step: Step) -> Any:
 
 
 def _info(step: Step) -> dict[str, Any]:
-    known = np.ones(len(step.reward), dtype=bool)
-    return {**step.info, **{f"_{name}": known.copy() for name in step.info}}
+    known = np.ones((len(step.info), len(step.reward)), dtype=bool)  # a row each
+    return {**step.info, **dict(zip(map(_mask_of, step.info), known, strict=True))}
+
+
+@cache
+def _mask_of(name: str) -> str:
+    return f"_{name}"

@@ -47,7 +47,8 @@ double sphere_gap(const mjModel* m, const mjData* d, int first, int second) {
   return between - m->geom_rbound[first] - m->geom_rbound[second];
 }
 
-double box_gap(const mjModel* m, const mjData* d, int first, int second) {
+double box_gap(const mjModel* m, const mjData* d, std::pair<int, int> geoms, double enough) {
+  const auto [first, second] = geoms;
   if (m->geom_type[first] == mjGEOM_PLANE || m->geom_type[second] == mjGEOM_PLANE) {
     return -std::numeric_limits<double>::infinity();
   }
@@ -58,15 +59,19 @@ double box_gap(const mjModel* m, const mjData* d, int first, int second) {
   const Vector3 along_a = t.cwiseAbs() - a.half - size * b.half;
   const Vector3 along_b = (R.transpose() * t).cwiseAbs() - b.half - size.transpose() * a.half;
   double gap = std::max(along_a.maxCoeff(), along_b.maxCoeff());
-  // across an edge of each
+  if (gap >= enough) return gap;
+  // across an edge of each, e_i x R e_j
   for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
-      const Vector3 axis = Vector3::Unit(i).cross(R.col(j));
-      const double length = axis.norm();
+      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const double between = std::abs(t[i2] * R(i1, j) - t[i1] * R(i2, j)) -
+                             a.half[i1] * size(i2, j) - a.half[i2] * size(i1, j) -
+                             b.half[j1] * size(i, j2) - b.half[j2] * size(i, j1);
+      if (between <= 0.0 && gap >= 0.0) continue;
+      const double length = std::sqrt(R(i1, j) * R(i1, j) + R(i2, j) * R(i2, j));
       if (length < 1e-6) continue;  // parallel edges: the axes above tell
-      const double reach =
-          axis.cwiseAbs().dot(a.half) + (R.transpose() * axis).cwiseAbs().dot(b.half);
-      gap = std::max(gap, (std::abs(axis.dot(t)) - reach) / length);
+      gap = std::max(gap, between / length);
     }
   }
   return gap;

@@ -74,14 +74,7 @@ std::string geom_name(const Robot& robot, int geom) {
 
 GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most,
                            std::size_t count)
-    : model_(robot.model()),
-      data_(mj_makeData(model_.get()), mj_deleteData),
-      pairs_(std::move(pairs)),
-      most_(most),
-      seen_(count),
-      near_(count),
-      jacobian_(Matrix::Zero(3, robot.size())) {
-  require(data_ != nullptr, "MuJoCo has no memory for this model");
+    : model_(robot.model()), pairs_(std::move(pairs)), most_(most), seen_(count), near_(count) {
   require(std::isfinite(most) && most > 0.0, "the largest distance wants a positive number [m]");
   for (const GeomPair& pair : pairs_) {
     Pair entry;
@@ -94,16 +87,13 @@ GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, doub
 
 GeomDistance::GeomDistance(const GeomDistance& other)
     : model_(other.model_),
-      data_(mj_makeData(model_.get()), mj_deleteData),
       pairs_(other.pairs_),
       most_(other.most_),
       bodies_(other.bodies_),
       geoms_(other.geoms_),
       table_(other.table_),
       seen_(other.seen_),
-      near_(other.near_),
-      jacobian_(other.jacobian_) {
-  require(data_ != nullptr, "MuJoCo has no memory for this model");
+      near_(other.near_) {
   for (Geom& geom : geoms_) geom.tick = 0;
   list_.reserve(pairs_.size());
 }
@@ -129,16 +119,19 @@ std::size_t GeomDistance::add_geom(int id) {
 }
 
 const std::vector<GeomDistance::Near>& GeomDistance::measure(const Robot& robot) {
+  data_ = &robot.geom_poses();
   place_bodies(robot);
   if (list_is_old()) make_list();
   renew_reported();
+  double enough = threshold();
   for (const Index index : list_) {
     Pair& candidate = pair(index);
-    const double enough = threshold();
     if (candidate.reported || bound(candidate, enough) >= enough) continue;
     const Seen found = look(index);
     candidate.bound = found.distance;
-    if (found.distance < enough) report(found);
+    if (found.distance >= enough) continue;
+    report(found);
+    enough = threshold();
   }
   return near_;
 }
@@ -166,14 +159,17 @@ bool GeomDistance::list_is_old() const {
 
 void GeomDistance::make_list() {
   list_.clear();
+  // ways are counted from here on
+  for (Pair& entry : table_) {
+    entry.bound -= body_of(entry.first).moved + body_of(entry.second).moved - entry.moved;
+    entry.moved = 0.0;
+  }
   for (Body& body : bodies_) {
     body.seen = body.pose;
     body.moved = 0.0;
   }
-  for (std::size_t i = 0; i < table_.size(); ++i) {
-    table_[i].moved = -std::numeric_limits<double>::infinity();  // what it knew is old
+  for (std::size_t i = 0; i < table_.size(); ++i)
     if (bound(table_[i], most_ + kSkin) < most_ + kSkin) list_.push_back(static_cast<Index>(i));
-  }
   listed_ = true;
 }
 
@@ -202,9 +198,7 @@ void GeomDistance::renew_reported() {
       near_[i] = now(seen);
     }
     if (near_[i].distance < most_) continue;
-    entry.reported = false;
-    entry.bound = 0.0;
-    entry.moved = -std::numeric_limits<double>::infinity();
+    forget(entry);
     seen.pair = near_[i].pair = -1;
   }
 }
@@ -216,7 +210,7 @@ GeomDistance::Seen GeomDistance::look(Index index) {
   place(second);
   std::array<double, 6> points{};
   const double distance =
-      mj_geomDistance(model_.get(), data_.get(), first.id, second.id, most_ + kSkin, points.data());
+      mj_geomDistance(model_.get(), data_, first.id, second.id, most_ + kSkin, points.data());
   const Vector3 p(points[0], points[1], points[2]),
       apart = Vector3(points[3], points[4], points[5]) - p;
   const Skeleton::Pose &a = body_of(entry.first).pose, &b = body_of(entry.second).pose;
@@ -244,6 +238,12 @@ GeomDistance::Near GeomDistance::now(const Seen& seen) const {
   return near;
 }
 
+// a pair that is reported no more; nothing is known about it
+void GeomDistance::forget(Pair& pair) {
+  pair.reported = false;
+  pair.bound = -std::numeric_limits<double>::infinity();
+}
+
 // [m] a pair below it has a place
 double GeomDistance::threshold() const {
   double farthest = 0.0;
@@ -264,12 +264,7 @@ void GeomDistance::report(const Seen& seen) {
     }
     if (near_[i].distance > near_[place].distance) place = i;
   }
-  if (near_[place].pair >= 0) {
-    Pair& left = pair(near_[place].pair);
-    left.reported = false;
-    left.bound = 0.0;
-    left.moved = -std::numeric_limits<double>::infinity();
-  }
+  if (near_[place].pair >= 0) forget(pair(near_[place].pair));
   pair(seen.pair).reported = true;
   seen_[place] = seen;
   near_[place] = now(seen);
@@ -292,26 +287,22 @@ double GeomDistance::bound(Pair& pair, double enough) {
   place(first);
   place(second);
   pair.moved = moved;
-  pair.bound = sphere_gap(model_.get(), data_.get(), first.id, second.id);
+  pair.bound = sphere_gap(model_.get(), data_, first.id, second.id);
   if (pair.bound < enough)
-    pair.bound = std::max(pair.bound, box_gap(model_.get(), data_.get(), first.id, second.id));
+    pair.bound = std::max(pair.bound, box_gap(model_.get(), data_, {first.id, second.id}, enough));
   return pair.bound;
 }
 
 void GeomDistance::gradient(const Robot& robot, const Near& near,
-                            Eigen::Ref<Eigen::RowVectorXd> row) {
-  row.setZero();
+                            Eigen::Ref<Eigen::RowVectorXd> row) const {
   const Pair& entry = pair(near.pair);
-  add_jacobian(robot, entry.second, near.second, near.direction, row);
-  add_jacobian(robot, entry.first, near.first, -near.direction, row);
+  robot.separation(moved_point(entry.first, near.first), moved_point(entry.second, near.second),
+                   near.direction, row);
 }
 
-void GeomDistance::add_jacobian(const Robot& robot, std::size_t geom, const Vector3& point,
-                                const Vector3& direction, Eigen::Ref<Eigen::RowVectorXd> row) {
+BodyPoint GeomDistance::moved_point(std::size_t geom, const Vector3& point) const {
   const Body& body = body_of(geom);
-  if (body.own || body.id == 0) return;
-  robot.point_jacobian(point, body.id, jacobian_);
-  row.noalias() += direction.transpose() * jacobian_;
+  return {body.own ? 0 : body.id, point};
 }
 
 double GeomDistance::rate(const Near& near) const {
@@ -375,7 +366,7 @@ void GeomDistance::restore(StateReader& reader) {
     reader.get(body.linear);
     reader.get(body.angular);
   }
-  for (Pair& entry : table_) entry.reported = false;
+  for (Pair& entry : table_) forget(entry);
   for (Seen& seen : seen_) {
     const double index = reader.get();
     require(

@@ -7,8 +7,7 @@
 // twentieth of their distance; in between, their nearest points move with the bodies.
 #pragma once
 
-#include <array>
-#include <memory>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,7 +56,7 @@ class GeomDistance {
   const std::vector<Near>& measure(const Robot& robot);
   [[nodiscard]] const std::vector<Near>& near() const { return near_; }
   // row (n) [m/rad]: how the distance changes with the coordinates; 0 where the pair just touches
-  void gradient(const Robot& robot, const Near& near, Eigen::Ref<Eigen::RowVectorXd> row);
+  void gradient(const Robot& robot, const Near& near, Eigen::Ref<Eigen::RowVectorXd> row) const;
   // [m/s] the part of its change that comes from bodies of set_motion
   [[nodiscard]] double rate(const Near& near) const;
 
@@ -73,7 +72,7 @@ class GeomDistance {
     int id = 0;
     double radius = 0.0;                  // [m] of a ball about its origin around its geoms
     Skeleton::Pose pose = {}, seen = {};  // now, and when the list was made
-    double moved = 0.0;                   // [m] by which no point of it has moved more, in all
+    double moved = 0.0;  // [m] by which no point of it has moved more, since then
     Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
     bool own = false;  // of set_motion
   };
@@ -87,7 +86,7 @@ class GeomDistance {
     std::size_t first = 0, second = 0;  // of geoms_
     bool reported = false;
     // [m] the distance was at least `bound` when the bodies had moved by `moved`
-    double bound = 0.0, moved = 0.0;
+    double bound = -std::numeric_limits<double>::infinity(), moved = 0.0;
   };
   // what was measured for a pair that is reported
   struct Seen {
@@ -108,6 +107,7 @@ class GeomDistance {
   [[nodiscard]] Near now(const Seen& seen) const;
   void renew_reported();
   void report(const Seen& seen);
+  static void forget(Pair& pair);
   [[nodiscard]] double threshold() const;
   [[nodiscard]] Body& body_of(std::size_t geom) { return bodies_[geoms_[geom].body]; }
   [[nodiscard]] const Body& body_of(std::size_t geom) const { return bodies_[geoms_[geom].body]; }
@@ -118,12 +118,12 @@ class GeomDistance {
   [[nodiscard]] const Pair& pair(Index index) const {
     return table_[static_cast<std::size_t>(index)];
   }
-  void add_jacobian(const Robot& robot, std::size_t geom, const Vector3& point,
-                    const Vector3& direction, Eigen::Ref<Eigen::RowVectorXd> row);
+  // as the coordinates move it
+  [[nodiscard]] BodyPoint moved_point(std::size_t geom, const Vector3& point) const;
   [[nodiscard]] Vector3 velocity(std::size_t geom, const Vector3& point) const;
 
   ModelPtr model_;
-  std::unique_ptr<mjData_, void (*)(mjData_*)> data_;  // for the poses of geoms alone
+  mjData_* data_ = nullptr;  // of the robot that is measured, for the poses of geoms
   std::vector<GeomPair> pairs_;
   double most_;
   std::vector<Body> bodies_;
@@ -134,7 +134,6 @@ class GeomDistance {
   Index tick_ = 0;
   std::vector<Seen> seen_;  // (count)
   std::vector<Near> near_;  // (count) the same now
-  Matrix jacobian_;         // scratch (3, n)
 };
 
 }  // namespace hurcules

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hurcules/robot/each_dof.hpp"
+#include "hurcules/robot/momentum.hpp"
 
 namespace hurcules {
 namespace {
@@ -46,19 +47,40 @@ std::pair<const double*, const double*> local(const mjModel& m, Frame frame) {
   return {m.geom_pos + 3 * i, m.geom_quat + 4 * i};
 }
 
-// I w + m c x v: of an inertia as MuJoCo keeps it (xx, yy, zz, xy, xz, yz, m c, m) and a motion (w, v)
-// at the same point
-Vector3 angular_momentum(const double* inertia, const double* motion) {
-  const double* const i = inertia;
-  Matrix3 about;
-  about << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
-  return about * vector(motion) + vector(i + 6).cross(vector(motion + 3));
+// adds what the joints of a body, which stands at this pose, give a point by these velocities
+void add_joints(const mjModel& m, int body, Skeleton::Pose pose, const double* qpos,
+                const double* qvel, const Vector3& at, Twist& twist) {
+  const int first = m.body_jntadr[body];
+  // the last one first: those before do not move with it
+  for (int joint = first + m.body_jntnum[body] - 1; joint >= first; --joint) {
+    const double* const v = qvel + m.jnt_dofadr[joint];
+    const Vector3 axis = pose.R * vector(m.jnt_axis + 3 * joint);
+    Vector3 anchor = pose.p + pose.R * vector(m.jnt_pos + 3 * joint), spin = Vector3::Zero();
+    switch (m.jnt_type[joint]) {
+      case mjJNT_FREE:
+        anchor = pose.p;
+        twist.linear += vector(v);
+        spin = pose.R * vector(v + 3);
+        break;
+      case mjJNT_BALL:
+        spin = pose.R * vector(v);
+        break;
+      case mjJNT_SLIDE:
+        twist.linear += v[0] * axis;
+        break;
+      default:
+        spin = v[0] * axis;
+    }
+    twist.angular += spin;
+    twist.linear += spin.cross(at - anchor);
+    if (joint > first) pose = Skeleton::before(m, joint, pose, qpos);
+  }
 }
 
 }  // namespace
 
 Skeleton::Pose Robot::pose(Frame frame) const {
-  const Skeleton::Pose carrier = screws_->pose(body_of(*model_, frame));
+  const Skeleton::Pose carrier = screws().pose(body_of(*model_, frame));
   if (frame.type == mjOBJ_BODY) return carrier;
   const auto [p, q] = local(*model_, frame);
   return carrier *
@@ -66,7 +88,7 @@ Skeleton::Pose Robot::pose(Frame frame) const {
 }
 
 Vector3 Robot::position(Frame frame) const {
-  const Skeleton::Pose carrier = screws_->pose(body_of(*model_, frame));
+  const Skeleton::Pose carrier = screws().pose(body_of(*model_, frame));
   if (frame.type == mjOBJ_BODY) return carrier.p;
   return carrier.p + carrier.R * vector(local(*model_, frame).first);
 }
@@ -86,69 +108,62 @@ Matrix3 Robot::view_orientation(Frame frame) const {
 
 Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
   assert(qvel.size() == model_->nv);
-  need_com();
+  const mjModel& m = *model_;
   const Vector3 at = position(frame);
-  mj_jac(model_.get(), data_.get(), full_.data(), turn_.data(), at.data(), body_of(*model_, frame));
   Twist twist;
-  for (int dof = 0; dof < model_->nv; ++dof) {
-    twist.linear += qvel[dof] * full_.col(dof);
-    twist.angular += qvel[dof] * turn_.col(dof);
-  }
+  for (int body = body_of(m, frame); body > 0; body = m.body_parentid[body])
+    add_joints(m, body, screws().pose(body), qpos_.data(), qvel.data(), at, twist);
   return twist;
 }
 
 void Robot::position_jacobian(Frame frame, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
-  screws_->point_jacobian(position(frame), body_of(*model_, frame), J);
+  screws().point_jacobian(position(frame), body_of(*model_, frame), J);
 }
 
 void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
-  screws_->rotation_jacobian(body_of(*model_, frame), J);
+  screws().rotation_jacobian(body_of(*model_, frame), J);
 }
 
 void Robot::point_jacobian(const Vector3& point, int body, MatrixRef J) const {
   assert(J.rows() == 3 && J.cols() == size());
-  screws_->point_jacobian(point, body, J);
+  screws().point_jacobian(point, body, J);
 }
 
 bool Robot::moves(Frame frame) const {
-  return screws_->moves(body_of(*model_, frame));
+  return screws().moves(body_of(*model_, frame));
 }
 
 Vector3 Robot::position_drift(Frame frame) const {
-  return screws_->point_drift(position(frame), body_of(*model_, frame));
+  return screws().point_drift(position(frame), body_of(*model_, frame));
 }
 
 Vector3 Robot::rotation_drift(Frame frame) const {
-  return screws_->rotation_drift(body_of(*model_, frame));
+  return screws().rotation_drift(body_of(*model_, frame));
 }
 
 Vector3 Robot::point_drift(const Vector3& point, int body) const {
-  return screws_->point_drift(point, body);
+  return screws().point_drift(point, body);
+}
+
+void Robot::separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
+                       Eigen::Ref<Eigen::RowVectorXd> row) const {
+  assert(row.size() == size());
+  screws().separation(first, second, direction, row);
 }
 
 Vector3 Robot::com() const {
-  need_com();
-  return vector(data_->subtree_com + 3 * tree_);
+  return momentum().com();
 }
 
 void Robot::com_jacobian(MatrixRef J) const {
-  need_com();
-  mj_jacSubtreeCom(model_.get(), data_.get(), full_.data(), tree_);
-  reduce(full_, J);
+  assert(J.rows() == 3 && J.cols() == size());
+  momentum().com_jacobian(screws(), J);
 }
 
 Vector3 Robot::com_drift() const {
-  const mjModel& m = *model_;
-  Vector3 force = Vector3::Zero();
-  need_kinematics();
-  if (!screws_->moving() || m.body_subtreemass[tree_] == 0) return force;
-  for (int body = tree_; body < m.nbody; ++body) {
-    if (m.body_rootid[body] != tree_ || m.body_mass[body] == 0) continue;
-    force += m.body_mass[body] * screws_->point_drift(vector(data_->xipos + 3 * body), body);
-  }
-  return force / m.body_subtreemass[tree_];
+  return momentum().com_drift(screws());
 }
 
 double Robot::mass() const {
@@ -164,54 +179,31 @@ Vector3 Robot::gravity() const {
 }
 
 void Robot::angular_momentum_jacobian(MatrixRef A) const {
-  need_com();
-  mj_crb(model_.get(), data_.get());
-  full_.setZero();
-  for (int dof = 0; dof < model_->nv; ++dof) {
-    const int body = model_->dof_bodyid[dof];
-    if (model_->body_rootid[body] != tree_) continue;
-    full_.col(dof) = angular_momentum(data_->crb + 10 * body, data_->cdof + 6 * dof);
-  }
-  reduce(full_, A);
+  assert(A.rows() == 3 && A.cols() == size());
+  momentum().angular_jacobian(screws(), A);
 }
 
 Vector3 Robot::angular_momentum_drift() const {
-  const mjModel& m = *model_;
-  Vector3 moment = Vector3::Zero();
-  need_com();
-  if (!screws_->moving()) return moment;
-  const Vector3 c = com();
-  for (int body = tree_; body < m.nbody; ++body) {
-    if (m.body_rootid[body] != tree_ || m.body_mass[body] == 0) continue;
-    const Vector3 p = vector(data_->xipos + 3 * body), w = screws_->angular_velocity(body);
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(data_->ximat + 9 * body);
-    const Vector3 inertia = vector(m.body_inertia + 3 * body);
-    const auto times = [&](const Vector3& v) -> Vector3 {
-      return R * inertia.cwiseProduct(R.transpose() * v);
-    };
-    moment += m.body_mass[body] * (p - c).cross(screws_->point_drift(p, body)) +
-              times(screws_->rotation_drift(body)) + w.cross(times(w));
-  }
-  return moment;
+  return momentum().angular_drift(screws());
 }
 
 void Robot::mass_matrix(MatrixRef M) const {
   assert(M.rows() == size() && M.cols() == size());
-  need_com();
+  need_mujoco();
   mj_crb(model_.get(), data_.get());
   mj_fullM(model_.get(), data_.get(), inertia_.data());
   // M = S' inertia S, S the motion of all joints by coordinate
   for (Index k = 0; k < size(); ++k) {
-    momentum_.setZero();
-    each_dof(k, [&](int dof, double factor) { momentum_ += factor * inertia_.col(dof); });
+    column_.setZero();
+    each_dof(k, [&](int dof, double factor) { column_ += factor * inertia_.col(dof); });
     if (support_ >= 0)
       for (Index r = 0; r < 6; ++r)
-        momentum_ += screws_->root_motion()(r, k) * inertia_.col(root_dof_ + r);
+        column_ += screws().root_motion()(r, k) * inertia_.col(root_dof_ + r);
     for (Index i = 0; i < size(); ++i) {
       M(i, k) = 0;
-      each_dof(i, [&](int dof, double factor) { M(i, k) += factor * momentum_[dof]; });
+      each_dof(i, [&](int dof, double factor) { M(i, k) += factor * column_[dof]; });
       if (support_ >= 0)
-        M(i, k) += screws_->root_motion().col(i).dot(momentum_.segment<6>(root_dof_));
+        M(i, k) += screws().root_motion().col(i).dot(column_.segment<6>(root_dof_));
     }
   }
 }
@@ -225,17 +217,17 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   for (Index i = 0; i < size(); ++i) {
     each_dof(i, [&](int dof, double factor) { qacc[dof] += factor * acceleration[i]; });
     if (support_ >= 0)
-      qacc.segment<6>(root_dof_) += acceleration[i] * screws_->root_motion().col(i);
+      qacc.segment<6>(root_dof_) += acceleration[i] * screws().root_motion().col(i);
   }
   for (Index f = 0; closures_ && f < closures_->size(); ++f)
     qacc[closures_->dof(f)] += closures_->drift()[f];
-  if (support_ >= 0 && screws_->moving()) {
+  if (support_ >= 0 && screws().moving()) {
     // what the root accelerates with when the coordinates do not
     const Frame root{mjOBJ_BODY, tree_};
     qacc.segment<3>(root_dof_) += position_drift(root);
     qacc.segment<3>(root_dof_ + 3) += orientation(root).transpose() * rotation_drift(root);
   }
-  need_com();
+  need_mujoco();
   mj_comVel(&m, d);
   mj_rne(&m, d, 1, efforts_.data());
   mj_passive(&m, d);
@@ -243,7 +235,7 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
     efforts_[dof] += m.dof_armature[dof] * d->qacc[dof] - d->qfrc_passive[dof];
   for (Index i = 0; i < size(); ++i) {
     torque[i] =
-        support_ >= 0 ? screws_->root_motion().col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
+        support_ >= 0 ? screws().root_motion().col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;
     each_dof(i, [&](int dof, double factor) { torque[i] += factor * efforts_[dof]; });
   }
 }
@@ -252,9 +244,9 @@ void Robot::floating_inertia(const ConstVectorRef& acceleration, VectorRef torqu
   assert(floats() && acceleration.size() == size() && torque.size() == size());
   const mjModel& m = *model_;
   mjData* const d = data_.get();
-  need_com();
+  need_mujoco();
   mj_crb(&m, d);
-  Vector& qacc = momentum_;  // scratch
+  Vector& qacc = column_;  // scratch
   qacc.setZero();
   Eigen::Matrix<double, 6, 6> root;
   for (Index r = 0; r < 6; ++r) {
@@ -271,18 +263,6 @@ void Robot::floating_inertia(const ConstVectorRef& acceleration, VectorRef torqu
   for (Index i = 0; i < size(); ++i) {
     torque[i] = 0.0;
     each_dof(i, [&](int dof, double factor) { torque[i] += factor * efforts_[dof]; });
-  }
-}
-
-void Robot::reduce(const Matrix& full, MatrixRef J) const {
-  assert(J.rows() == 3 && J.cols() == size());
-  Eigen::Matrix<double, 3, 6> root = Eigen::Matrix<double, 3, 6>::Zero();
-  if (support_ >= 0) root = full.middleCols<6>(root_dof_);
-  for (Index i = 0; i < size(); ++i) {
-    Vector3 column = Vector3::Zero();
-    if (support_ >= 0) column = root * screws_->root_motion().col(i);
-    each_dof(i, [&](int dof, double factor) { column += factor * full.col(dof); });
-    J.col(i) = column;
   }
 }
 

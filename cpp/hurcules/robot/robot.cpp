@@ -14,6 +14,7 @@
 #include "hurcules/base/pose.hpp"
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/momentum.hpp"
 
 namespace hurcules {
 namespace {
@@ -76,10 +77,8 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       dry_friction_[i] += std::abs(joint.factor) * m.dof_frictionloss[joint.dof];
-  full_ = Matrix::Zero(3, m.nv);
-  turn_ = Matrix::Zero(3, m.nv);
   inertia_ = Matrix::Zero(m.nv, m.nv);
-  momentum_ = Vector::Zero(m.nv);
+  column_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);
   if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
   const int joint = m.body_jntnum[tree_] > 0 ? m.body_jntadr[tree_] : -1;
@@ -160,7 +159,7 @@ void Robot::set_configuration(const ConstVectorRef& q) {
     closures_->close(qpos_.data(), change_);
   }
   keep_support();
-  screws_->place(qpos_.data());
+  screws_stale_ = std::max(screws_stale_, Stale::Places);
   note_motion();
 }
 
@@ -241,7 +240,7 @@ void Robot::stand_on(Frame frame) {
 
 void Robot::note_support() {
   if (support_ < 0) return;
-  const Skeleton::Pose stands = screws_->pose(support_);
+  const Skeleton::Pose stands = screws().pose(support_);
   p_WS_ = stands.p;
   R_WS_ = stands.R;
 }
@@ -257,18 +256,18 @@ void Robot::keep_support() {
 
 void Robot::find_screws() {
   screws_ = std::make_unique<Screws>(*model_, coordinates_, closures_.get(), tree_, support_);
+  momentum_ = std::make_unique<Momentum>(*model_, tree_, screws_->skeleton());
 }
 
 void Robot::read_qpos() {
   if (closures_) closures_->measure(qpos_.data());
-  screws_->note(qpos_.data());
-  screws_->place(qpos_.data());
+  screws_stale_ = Stale::All;
   note_support();
   note_motion();
 }
 
 void Robot::note_motion() {
-  fresh_ = com_ = false;
+  fresh_ = false;
   coordinates_of(qpos_, q_);
   note_velocity();
 }
@@ -279,23 +278,35 @@ void Robot::note_velocity() {
       data_->qvel[closures_->dof(f)] = closures_->share().row(f).dot(v_);
     closures_->set_velocity(qpos_.data(), data_->qvel);
   }
-  screws_->set_velocity(v_);
-  if (support_ < 0) return;
-  Eigen::Map<Screw>(data_->qvel + root_dof_).noalias() = screws_->root_motion() * v_;
+  screws_stale_ = std::max(screws_stale_, Stale::Velocity);
 }
 
-void Robot::need_kinematics() const {
+const Screws& Robot::screws() const {
+  if (screws_stale_ == Stale::Nothing) return *screws_;
+  if (screws_stale_ == Stale::All) screws_->note(qpos_.data());
+  if (screws_stale_ >= Stale::Places) screws_->place(qpos_.data());
+  screws_->set_velocity(v_);
+  momentum_stale_ = std::max(momentum_stale_, screws_stale_);
+  screws_stale_ = Stale::Nothing;
+  return *screws_;
+}
+
+const Momentum& Robot::momentum() const {
+  const Screws& screws = this->screws();
+  if (momentum_stale_ == Stale::All) momentum_->note(screws.skeleton());
+  if (momentum_stale_ >= Stale::Places) momentum_->place(screws);
+  momentum_stale_ = Stale::Nothing;
+  return *momentum_;
+}
+
+void Robot::need_mujoco() const {
+  if (support_ >= 0)
+    Eigen::Map<Screw>(data_->qvel + root_dof_).noalias() = screws().root_motion() * v_;
   if (fresh_) return;
   std::copy(qpos_.begin(), qpos_.end(), data_->qpos);
   mj_kinematics(lean_.get(), data_.get());
-  fresh_ = true;
-}
-
-void Robot::need_com() const {
-  need_kinematics();
-  if (com_) return;
   mj_comPos(model_.get(), data_.get());
-  com_ = true;
+  fresh_ = true;
 }
 
 }  // namespace hurcules

@@ -27,6 +27,7 @@ struct mjData_;
 namespace hurcules {
 
 class Closures;
+class Momentum;
 
 using ModelPtr = std::shared_ptr<const mjModel_>;
 
@@ -151,6 +152,9 @@ class Robot {
   [[nodiscard]] Vector3 position_drift(Frame frame) const;
   [[nodiscard]] Vector3 rotation_drift(Frame frame) const;
   [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;  // of point_jacobian
+  // (n) how fast the second point leaves the first along a direction (W), by coordinate
+  void separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
+                  Eigen::Ref<Eigen::RowVectorXd> row) const;
   // centre of mass of the tree that holds the first coordinate: [m] in W, (3, n), [m/s^2]
   [[nodiscard]] Vector3 com() const;
   void com_jacobian(MatrixRef J) const;
@@ -181,6 +185,9 @@ class Robot {
   //   (M_cc - M_cb M_bb^-1 M_bc) a,   b: the root.   [rad/s^2] (n) -> [N m] (n); for one that floats
   void floating_inertia(const ConstVectorRef& acceleration, VectorRef torque) const;
 
+  // memory for the poses of geoms, which no answer here needs: for who looks at geoms (geom_distance.hpp)
+  [[nodiscard]] mjData_& geom_poses() const { return *data_; }
+
  private:
   void find_screws();   // where another body comes to stand
   void read_qpos();     // all of it, after a change
@@ -188,20 +195,24 @@ class Robot {
   void note_support();  // where the support stands
   void note_motion();   // of configuration and velocity
   void note_velocity();
-  // what MuJoCo keeps about the configuration: poses of all bodies; centres of mass
-  void need_kinematics() const;
-  void need_com() const;
+  // what is reckoned when somebody asks: poses and screws of the coordinates; masses; what MuJoCo keeps
+  // about the configuration
+  [[nodiscard]] const Screws& screws() const;
+  [[nodiscard]] const Momentum& momentum() const;
+  void need_mujoco() const;
   // each joint that coordinate i moves, by its address in qvel and its velocity at that of 1
   template <class Act>
   void each_dof(Index i, Act&& act) const;
-  // (3, nv) of the model -> (3, n) of the coordinates
-  void reduce(const Matrix& full, MatrixRef J) const;
 
   ModelPtr model_;
   std::unique_ptr<const mjModel_, void (*)(const mjModel_*)> lean_;  // the same without geoms
   std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
   std::unique_ptr<Closures> closures_;
-  std::unique_ptr<Screws> screws_;  // of the coordinates
+  // what has changed since somebody asked, each with what comes before it
+  enum class Stale { Nothing, Velocity, Places, All };
+  std::unique_ptr<Screws> screws_;      // of the coordinates
+  std::unique_ptr<Momentum> momentum_;  // of their tree
+  mutable Stale screws_stale_ = Stale::All, momentum_stale_ = Stale::All;
   std::vector<Coordinate> coordinates_;
   Vector q_, v_, qpos_;
   Vector dry_friction_, change_;  // (n), the latter scratch
@@ -211,12 +222,10 @@ class Robot {
   bool floating_ = false;
   Vector3 p_WS_ = Vector3::Zero();  // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();
-  mutable bool fresh_ = false, com_ = false;  // need_kinematics, need_com were there
-  mutable Matrix full_;                       // scratch for Jacobians, (3, nv)
-  mutable Matrix turn_;                       // the same
-  mutable Matrix inertia_;                    // scratch for the mass matrix, (nv, nv)
-  mutable Vector momentum_;                   // (nv)
-  mutable Vector efforts_;                    // scratch for inverse dynamics, (nv)
+  mutable bool fresh_ = false;  // need_mujoco was there
+  mutable Matrix inertia_;      // scratch for the mass matrix, (nv, nv)
+  mutable Vector column_;       // (nv)
+  mutable Vector efforts_;      // scratch for inverse dynamics, (nv)
 };
 
 }  // namespace hurcules

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hurcules/robot/closures.hpp"
+#include "hurcules/robot/each_screw.hpp"
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
@@ -82,12 +82,6 @@ void Screws::find_above() {
     for (std::size_t j = 0; j < driven_.size(); ++j)
       if (driven_[j].body == body) joints.push_back(static_cast<Index>(j));
   }
-}
-
-template <class Act>
-void Screws::each_coordinate(const Driven& joint, Act&& act) const {
-  if (joint.coordinate >= 0) return act(joint.coordinate, 1.0);
-  for (Index i = 0; i < velocity_.size(); ++i) act(i, closures_->share()(joint.follower, i));
 }
 
 Vector3 Screws::origin(int body) const {
@@ -188,6 +182,41 @@ void Screws::rotation_jacobian(int body, MatrixRef J) const {
   fill(body, J, [](const Screw& screw) -> Vector3 { return screw.head<3>(); });
 }
 
+void Screws::separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
+                        Eigen::Ref<Eigen::RowVectorXd> row) const {
+  row.setZero();
+  // what moves both comes first in both lists
+  const std::span<const Index> a = above(first.body), b = above(second.body);
+  const auto apart = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  add_rates({apart.first, a.end()}, first, -direction, row);
+  add_rates({apart.second, b.end()}, second, direction, row);
+  // it turns the way between them, which matters where that is not along the direction
+  const Vector3 moment = (second.point - first.point).cross(direction);
+  const auto turn = [&](Index j, double sign) {
+    const double rate = sign * moment.dot(driven(j).screw.head<3>());
+    each_coordinate(driven(j), [&](Index i, double share) { row[i] += share * rate; });
+  };
+  for (auto j = a.begin(); j != apart.first; ++j) turn(*j, 1.0);
+  const bool first_stands = stands(first.body), second_stands = stands(second.body);
+  if (first_stands && second_stands) {
+    for (const Index j : above(support_)) turn(j, -1.0);
+  } else if (first_stands) {
+    add_rates(above(support_), first, direction, row);
+  } else if (second_stands) {
+    add_rates(above(support_), second, -direction, row);
+  }
+}
+
+void Screws::add_rates(std::span<const Index> joints, const BodyPoint& at, const Vector3& direction,
+                       Eigen::Ref<Eigen::RowVectorXd> row) const {
+  const Vector3 moment = (at.point - origin(at.body)).cross(direction);
+  for (const Index j : joints) {
+    const Screw& screw = driven(j).screw;
+    const double rate = moment.dot(screw.head<3>()) + direction.dot(screw.tail<3>());
+    each_coordinate(driven(j), [&](Index i, double share) { row[i] += share * rate; });
+  }
+}
+
 Screw Screws::velocity_of(int body) const {
   Screw twist = stands(body) ? root_velocity_ : Screw::Zero();
   for (const Index j : above(body)) twist += driven(j).speed * driven(j).screw;
@@ -206,10 +235,6 @@ Vector3 Screws::point_drift(const Vector3& point, int body) const {
   const Vector3 r = point - origin(body), w = twist.head<3>();
   const Vector3 v = twist.tail<3>() + w.cross(r);
   return rate.tail<3>() + Vector3(rate.head<3>()).cross(r) + w.cross(v);
-}
-
-Vector3 Screws::angular_velocity(int body) const {
-  return velocity_of(body).head<3>();
 }
 
 Vector3 Screws::rotation_drift(int body) const {

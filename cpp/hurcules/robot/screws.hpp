@@ -8,6 +8,7 @@
 // A root that stands on another body s moves by -V_s and accelerates by -A_s: then s does not.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "hurcules/base/types.hpp"
@@ -23,6 +24,12 @@ struct Coordinate;
 // Angular and linear velocity in W of what is fixed to a body, the linear one of the point that is
 // at the origin of the body's tree at this moment; or their rates.
 using Screw = Eigen::Matrix<double, 6, 1>;
+
+// A point of a body.
+struct BodyPoint {
+  int body = 0;
+  Vector3 point = Vector3::Zero();  // [m] in W
+};
 
 class Screws {
  public:
@@ -46,12 +53,21 @@ class Screws {
   // velocity of a point of a body, and angular velocity of the body, by coordinate: (3, n) in W
   void point_jacobian(const Vector3& point, int body, MatrixRef J) const;
   void rotation_jacobian(int body, MatrixRef J) const;
+  // (n) how fast the second point leaves the first along a direction, by coordinate
+  void separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
+                  Eigen::Ref<Eigen::RowVectorXd> row) const;
+  // act(i, body, S): coordinate i moves the body, and all below it, by S; several add up
+  template <class Act>  // each_screw.hpp
+  void each_screw(Act&& act) const;
   // what they accelerate with when the coordinates do not
   [[nodiscard]] Vector3 point_drift(const Vector3& point, int body) const;
   [[nodiscard]] Vector3 rotation_drift(int body) const;
-  // [rad/s] in W at the velocity of set_velocity
-  [[nodiscard]] Vector3 angular_velocity(int body) const;
+  // of a body, at the velocity of set_velocity, while it is moving
+  [[nodiscard]] Screw velocity_of(int body) const;
+  [[nodiscard]] Screw rate_of(int body) const;
   [[nodiscard]] bool moving() const { return moving_; }  // only then is there a drift
+  [[nodiscard]] Vector3 origin(int body) const;          // of its tree
+  [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
   // (6, n): qvel of a root that stands on another body, by coordinate
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& root_motion() const {
     return root_motion_;
@@ -81,14 +97,14 @@ class Screws {
   // the coordinates that move a joint, each with the joint's velocity at its velocity 1
   template <class Act>
   void each_coordinate(const Driven& joint, Act&& act) const;
-  [[nodiscard]] Vector3 origin(int body) const;  // of its tree
   // its tree stands on something else than the root
   [[nodiscard]] bool stands(int body) const;
   // (3, n): `of` a screw of each coordinate
   template <class Of>
   void fill(int body, MatrixRef J, Of&& of) const;
-  [[nodiscard]] Screw velocity_of(int body) const;
-  [[nodiscard]] Screw rate_of(int body) const;
+  // to a row, by coordinate: how fast the joints move a point along a direction
+  void add_rates(std::span<const Index> joints, const BodyPoint& at, const Vector3& direction,
+                 Eigen::Ref<Eigen::RowVectorXd> row) const;
   void note_root();
 
   const mjModel_* model_;

@@ -124,4 +124,18 @@ Pose Skeleton::between(const mjModel& m, int ancestor, int body, const double* q
   return pose;
 }
 
+Pose Skeleton::before(const mjModel& m, int joint, const Pose& pose, const double* qpos) {
+  const int address = m.jnt_qposadr[joint];
+  const auto axis = vector(m.jnt_axis + 3 * joint), own = vector(m.jnt_pos + 3 * joint);
+  const double* const q = qpos + address;
+  if (m.jnt_type[joint] == mjJNT_SLIDE)
+    return {pose.p - (q[0] - m.qpos0[address]) * (pose.R * axis), pose.R};
+  const Vector3 anchor = pose.p + pose.R * own;
+  const Matrix3 R =
+      pose.R * (m.jnt_type[joint] == mjJNT_BALL
+                    ? Matrix3(rotation(q).transpose())
+                    : Eigen::AngleAxisd(m.qpos0[address] - q[0], axis).toRotationMatrix());
+  return {anchor - R * own, R};
+}
+
 }  // namespace hurcules

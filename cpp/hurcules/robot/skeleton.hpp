@@ -28,6 +28,20 @@ class Skeleton {
   void place(const mjModel_& model, const double* qpos);
 
   [[nodiscard]] Pose pose(int body) const;
+  // the bones, parents first; -1 stands for the world
+  [[nodiscard]] int bones() const { return static_cast<int>(bones_.size()); }
+  [[nodiscard]] int body_of(int bone) const { return at(bone).body; }
+  [[nodiscard]] int parent_of(int bone) const { return at(bone).parent; }
+  [[nodiscard]] Pose of_bone(int bone) const {
+    return bone < 0 ? Pose{} : poses_[static_cast<std::size_t>(bone)];
+  }
+  // on which a body hangs, and how: in the bone, or in W
+  [[nodiscard]] int bone_of(int body) const {
+    return bodies_[static_cast<std::size_t>(body)].bone;
+  }
+  [[nodiscard]] const Pose& hanging(int body) const {
+    return bodies_[static_cast<std::size_t>(body)].pose;
+  }
   // of driven joint j, in W
   [[nodiscard]] const Vector3& axis(Index j) const { return axes_[static_cast<std::size_t>(j)]; }
   [[nodiscard]] const Vector3& anchor(Index j) const {
@@ -36,6 +50,9 @@ class Skeleton {
   // pose of a body in an ancestor of its, by the joints in between
   [[nodiscard]] static Pose between(const mjModel_& model, int ancestor, int body,
                                     const double* qpos);
+  // where a body was that stands at this pose before its last joint, this one, moved it
+  [[nodiscard]] static Pose before(const mjModel_& model, int joint, const Pose& pose,
+                                   const double* qpos);
 
  private:
   struct Bone {
@@ -49,9 +66,7 @@ class Skeleton {
     Pose pose;  // in the bone, or in W
   };
   void find_bones(const mjModel_& model, const std::vector<int>& driven, int root);
-  [[nodiscard]] Pose of_bone(int bone) const {
-    return bone < 0 ? Pose{} : poses_[static_cast<std::size_t>(bone)];
-  }
+  [[nodiscard]] const Bone& at(int bone) const { return bones_[static_cast<std::size_t>(bone)]; }
 
   std::vector<Bone> bones_;  // parents first
   std::vector<Pose> poses_;  // of the bones in W

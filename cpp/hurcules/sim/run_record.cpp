@@ -93,8 +93,7 @@ void RunRecord::reset() {
   previous_alarm_.setZero();
 }
 
-void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed& sensed,
-                            Frame support, const std::optional<Frame>& target) {
+void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed& sensed) {
   Telemetry& t = telemetry;
   const Robot &world = sensed.world, &seen = sensed.seen;
   t.q = world.configuration();
@@ -115,6 +114,12 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
   t.lag = t.q_des - t.seen_q;
   t.to_lower = t.seen_q - t.limit_lower;
   t.to_upper = t.limit_upper - t.seen_q;
+}
+
+void RunRecord::note_base(const Sensed& sensed, Frame support,
+                          const std::optional<Frame>& target) {
+  Telemetry& t = telemetry;
+  const Robot &world = sensed.world, &seen = sensed.seen;
   t.base_position = world.position(support);
   t.base_rotation = rotation_log(world.orientation(support));
   const Matrix3 R = seen.orientation(support);

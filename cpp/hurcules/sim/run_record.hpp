@@ -19,7 +19,7 @@ class RunRecord {
   struct Sensed {
     const Robot& world;
     const Robot& seen;
-    Eigen::Map<const Vector> qvel;  // (nv) true
+    const Vector& qvel;             // (nv) true
     const Vector& seen_qvel;        // (nv)
   };
   // of a controller, whose stacks, joints and commands name the channels
@@ -28,8 +28,9 @@ class RunRecord {
   RunRecord& operator=(const RunRecord&) = delete;
 
   void reset();
-  void note_sensed(const WholeBodyController& controller, const Sensed& sensed, Frame support,
-                   const std::optional<Frame>& target);
+  void note_sensed(const WholeBodyController& controller, const Sensed& sensed);
+  // where the support is and how it moves
+  void note_base(const Sensed& sensed, Frame support, const std::optional<Frame>& target);
   // after solve: the answer, and the errors of the tasks at the plan
   void note_solution(const WholeBodyController& controller);
   void note_servo(const WholeBodyController& controller);

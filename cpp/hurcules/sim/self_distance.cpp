@@ -78,7 +78,7 @@ double SelfDistance::measure(const mjModel* m, mjData* d) {
   const auto look = [&](Index index) {
     const Pair& pair = pairs_[static_cast<std::size_t>(index)];
     if (sphere_gap(m, d, pair.first, pair.second) >= least) return;
-    if (box_gap(m, d, pair.first, pair.second) >= least) return;
+    if (box_gap(m, d, {pair.first, pair.second}, least) >= least) return;
     const double distance = mj_geomDistance(m, d, pair.first, pair.second, least, nullptr);
     if (distance >= least) return;
     least = distance;

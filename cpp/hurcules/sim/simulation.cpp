@@ -105,6 +105,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       initial_qpos_(controller_->plan().qpos()),
       seen_qpos_(world_.qpos()),
       seen_qvel_(Vector::Zero(plant_.model()->nv)),
+      true_qvel_(seen_qvel_),
       summed_(Vector::Zero(controller_->scale().size())),
       wished_(Vector::Zero(world_.size())),
       support_(controller_->plan().support()) {
@@ -220,15 +221,23 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
 // what the joint encoders and the base say
 void Simulation::sense() {
   seen_qpos_ = std::as_const(plant_).qpos();
-  seen_qvel_ = std::as_const(plant_).qvel();
-  world_.set_qpos(seen_qpos_);
+  true_qvel_ = seen_qvel_ = std::as_const(plant_).qvel();
+  // the first tick of a step finds what was observed after the last one
+  if (world_.qpos() != seen_qpos_) world_.set_qpos(seen_qpos_);
   std::fill(fresh_.begin(), fresh_.end(), false);
+  base_fresh_ = false;
   if (seen_) {
     sensors_.overwrite(seen_qpos_, seen_qvel_);
     seen_->set_qpos(seen_qpos_);
   }
-  record_.note_sensed(*controller_, {world_, seen(), std::as_const(plant_).qvel(), seen_qvel_},
-                      support_, target_);
+  record_.note_sensed(*controller_, {world_, seen(), true_qvel_, seen_qvel_});
+  if (supervisor_ || options_.record) note_base();
+}
+
+void Simulation::note_base() const {
+  if (base_fresh_) return;
+  record_.note_base({world_, seen(), true_qvel_, seen_qvel_}, support_, target_);
+  base_fresh_ = true;
 }
 
 RobotState Simulation::sensed() {
@@ -271,7 +280,8 @@ void Simulation::advance_plant() {
 
 // without physics: coordinates, joints that were moved one by one, and the tracks, as commanded
 void Simulation::advance_plan() {
-  placed_->set_qpos(std::as_const(plant_).qpos());
+  if (placed_->qpos() != std::as_const(plant_).qpos())
+    placed_->set_qpos(std::as_const(plant_).qpos());
   placed_->set_configuration(controller_->q_des());
   seen_qpos_ = placed_->qpos();
   const JointServo& servo = controller_->servo();
@@ -368,13 +378,20 @@ const Task& Simulation::measured_task(std::size_t number) const {
 }
 
 const Telemetry& Simulation::telemetry() const {
+  note_base();
   if (plant_.is_sound()) measure_world();
   return record_.telemetry;
 }
 
 const Recorder& Simulation::observation(bool measured) const {
+  note_base();
   if (measured && plant_.is_sound()) measure_world();
   return record_.observation;
+}
+
+const Recorder& Simulation::log() const {
+  note_base();
+  return record_.log;
 }
 
 void Simulation::end(Ending ending, double time) {

@@ -99,7 +99,7 @@ class Simulation {
 
   [[nodiscard]] const std::vector<std::string>& levels() const { return record_.names().levels; }
   [[nodiscard]] const Telemetry& telemetry() const;
-  [[nodiscard]] const Recorder& log() const { return record_.log; }
+  [[nodiscard]] const Recorder& log() const;
   [[nodiscard]] const Recorder& timings() const { return record_.timings; }  // [s] a stage and tick
   // what a policy sees now: its channels and snapshot()
   // (measured: the errors of the tasks too)
@@ -141,6 +141,7 @@ class Simulation {
   [[nodiscard]] RobotState sensed();
   [[nodiscard]] const Robot& seen() const { return seen_ ? *seen_ : world_; }
   void measure_world() const;
+  void note_base() const;
   void observe();
   void end(Ending ending, double time);
 
@@ -157,14 +158,16 @@ class Simulation {
   Monitors monitors_;
   LimitMonitor limit_monitor_;
   FallMonitor fall_monitor_;
-  // What is measured at the real robot is measured when somebody looks: the next three change then.
+  // What is measured at the real robot is measured when somebody looks: the next four change then.
   mutable RunRecord record_;
   mutable std::vector<std::unique_ptr<Task>> measured_;  // the controller's tasks, there
   mutable std::vector<bool> fresh_;                      // of them: as it stands now
+  mutable bool base_fresh_ = false;                      // the same of the support
   std::vector<const Task*> planned_tasks_, measured_tasks_;
   mutable std::vector<double> task_state_;  // scratch
   Vector initial_qpos_;                     // (nq)
   Vector seen_qpos_, seen_qvel_;            // (nq), (nv) as sensed
+  Vector true_qvel_;                        // (nv) when they were
   Vector summed_;                           // (k) the supervisor's command and somebody else's
   Vector wished_;                           // [rad] (n) q* if the motors had held it
   SensorMonitor::Finding finding_;          // why it is held

@@ -4,6 +4,15 @@
 
 namespace hurcules {
 
+namespace {
+
+// what the coordinates never move: the support of a root that they do not move either
+bool stands(const Robot& robot, Frame frame) {
+  return frame == robot.support() && robot.root_qpos() >= 0 && !robot.floating();
+}
+
+}  // namespace
+
 void PointMotion::measure(const Robot& robot, Frame frame) {
   position = robot.position(frame);
   robot.position_jacobian(frame, jacobian);
@@ -51,6 +60,14 @@ Reference::Reference(const Robot& robot, Frame frame)
 
 void Reference::measure(const Robot& robot) {
   if (!frame_) return;
+  if (stands(robot, *frame_)) {
+    origin_.rest_at(robot.position(*frame_));
+    rotation_.orientation = robot.view_orientation(*frame_);
+    rotation_.velocity.setZero();
+    rotation_.drift.setZero();
+    rotation_.jacobian.setZero();
+    return;
+  }
   origin_.measure(robot, *frame_);
   rotation_.measure(robot, *frame_);
 }

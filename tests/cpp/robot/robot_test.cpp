@@ -5,8 +5,11 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
@@ -222,7 +225,8 @@ TEST(Robot, CoupledMassMatrixGivesTheEnergyOfBothLegs) {
 
 TEST(Robot, CenterOfMassJacobianAndDriftEqualDifferences) {
   Robot robot(load_model_text(kTwin));
-  for (unsigned seed = 0; seed < 10; ++seed) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    if (seed == 10) robot.stand_on("leg_l");
     RandomMotion random(seed);
     random.move(robot);
     const Vector q = robot.configuration(), v = random.vector(13, 1.0);
@@ -243,6 +247,86 @@ TEST(Robot, CenterOfMassJacobianAndDriftEqualDifferences) {
     robot.set_configuration(q - kStep * v);
     robot.com_jacobian(Jh);
     EXPECT_TRUE(near(drift, (ahead - Jh * v) / (2 * kStep), 1e-8)) << "seed " << seed;
+  }
+}
+
+// a root, and bodies with several joints of every kind, few of them coordinates
+constexpr const char* kManyJoints = R"(
+<mujoco>
+  <compiler angle="radian"/>
+  <worldbody>
+    <body name="root" pos="0 0 1"><freejoint/><geom size="0.1" pos="0.05 0 0.1" mass="3"/>
+      <body name="stacked" pos="0.1 0.2 0.3" euler="0.3 0.2 0.1">
+        <joint name="a" axis="0 1 0" pos="0.05 0 0"/>
+        <joint name="b" type="slide" axis="1 0 1"/>
+        <joint name="c" axis="1 0.2 0" pos="0 0.1 0.02"/>
+        <geom size="0.1" pos="0 0 0.2" mass="2"/>
+        <body name="hung" pos="0 0.1 0.2">
+          <joint name="d" axis="0 0 1"/><joint name="e" type="ball" pos="0.1 0 0"/>
+          <geom type="box" size="0.1 0.2 0.05" pos="0.1 0 0" euler="0.4 0 0" mass="1"/>
+          <site name="tip" pos="0.1 0.2 0.3"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>)";
+
+TEST(Robot, TwistCenterOfMassAndMomentumAreMuJoCos) {
+  Robot robot(load_model_text(kManyJoints), {"a", "d"});
+  const mjModel* const m = robot.model().get();
+  const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(m), mj_deleteData);
+  const Frame tip = robot.frame("tip");
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    RandomMotion random(seed);
+    random.move(robot);
+    const Vector qvel = random.vector(m->nv, 1.0);
+    std::copy(robot.qpos().begin(), robot.qpos().end(), d->qpos);
+    std::copy(qvel.begin(), qvel.end(), d->qvel);
+    mj_forward(m, d.get());
+    double wanted[6];
+    mj_objectVelocity(m, d.get(), tip.type, tip.id, wanted, 0);
+    const Twist twist = robot.twist(tip, qvel);
+    EXPECT_TRUE(near(twist.angular, Eigen::Map<const Vector3>(wanted), 1e-12)) << seed;
+    EXPECT_TRUE(near(twist.linear, Eigen::Map<const Vector3>(wanted + 3), 1e-12)) << seed;
+    EXPECT_TRUE(near(robot.com(), Eigen::Map<const Vector3>(d->subtree_com + 3), 1e-12)) << seed;
+    // by the coordinates alone
+    const int a = robot.coordinates()[0].joints[0].dof, b = robot.coordinates()[1].joints[0].dof;
+    Matrix J(3, 2), A(3, 2), full(3, m->nv);
+    robot.com_jacobian(J);
+    mj_jacSubtreeCom(m, d.get(), full.data(), 1);
+    EXPECT_TRUE(near(J.col(0), full.col(a), 1e-12)) << seed;
+    EXPECT_TRUE(near(J.col(1), full.col(b), 1e-12)) << seed;
+    for (int dof = 0; dof < m->nv; ++dof)
+      if (dof != a && dof != b) d->qvel[dof] = 0.0;
+    mj_forward(m, d.get());
+    mj_subtreeVel(m, d.get());
+    robot.angular_momentum_jacobian(A);
+    EXPECT_TRUE(near(A * Eigen::Vector2d(qvel[a], qvel[b]),
+                     Eigen::Map<const Vector3>(d->subtree_angmom + 3), 1e-12))
+        << seed;
+  }
+}
+
+TEST(Robot, SeparationIsWhatTheJacobiansOfBothPointsSay) {
+  for (const char* support : {"", "leg_l"}) {
+    Robot robot(load_model_text(kTwin));
+    if (*support) robot.stand_on(support);
+    for (const auto& [first, second] : {std::pair{"hand_l", "hand_r"}, {"fa_l", "chest"},
+                                        {"toe_l", "hand_r"}, {"base", "ball"}, {"ball", "head"}}) {
+      RandomMotion random(7);
+      random.move(robot);
+      const Frame a = robot.frame(first), b = robot.frame(second);
+      const Vector3 p = robot.position(a), q = robot.position(b), way = (q - p).normalized();
+      Matrix Ja(3, 13), Jb(3, 13);
+      robot.position_jacobian(a, Ja);
+      robot.position_jacobian(b, Jb);
+      const auto body_of = [&](Frame frame) {
+        return frame.type == mjOBJ_SITE ? robot.model()->site_bodyid[frame.id] : frame.id;
+      };
+      Eigen::RowVectorXd row(13);
+      robot.separation({body_of(a), p}, {body_of(b), q}, way, row);
+      EXPECT_TRUE(near(row, way.transpose() * (Jb - Ja), 1e-12)) << first << " " << second;
+    }
   }
 }
 

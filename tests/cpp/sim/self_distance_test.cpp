@@ -84,7 +84,7 @@ TEST(SelfDistance, BoxesAreNeverFurtherThanTheirShapes) {
     mj_kinematics(world.model.get(), world.data.get());
     for (int a = 0; a < 4; ++a) {
       for (int b = a + 1; b < 4; ++b) {
-        const double gap = box_gap(world.model.get(), world.data.get(), a, b);
+        const double gap = box_gap(world.model.get(), world.data.get(), {a, b}, 1e9);
         const double distance =
             mj_geomDistance(world.model.get(), world.data.get(), a, b, 10.0, nullptr);
         if (distance <= 0.0) continue;  // shapes that meet: any gap up to zero will do
