@@ -13,6 +13,8 @@ constexpr int kMostCleanings = 3;
 constexpr double kEnough = 0.1;
 // what is left is noise altogether (squared)
 constexpr double kNothing = 1e-36;
+// what the other rows left of a row is no more than its rounding (squared)
+constexpr double kRounding = 1e-29;
 
 }  // namespace
 
@@ -77,7 +79,9 @@ Index OrthogonalFactor::pivots_before(Index row) const {
 
 void OrthogonalFactor::take_cleaned(Index i, double norm2, double tolerance, double* side) {
   double *v = rest_.row(i), *l = L_.row(i), *part = part_.data() + padded(columns_);
-  const double left = project(v, part, kernels::chosen->dot(stride(), v, v));
+  const double before = kernels::chosen->dot(stride(), v, v);
+  if (before <= kRounding * norm2) return;
+  const double left = project(v, part, before);
   for (Index j = 0; j < rank_; ++j) {
     l[j] += part[j];
     if (side) side[i] -= part[j] * side[pivot_[j]];

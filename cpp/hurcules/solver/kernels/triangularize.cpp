@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hurcules/solver/kernels/kernels.hpp"
+
 namespace hurcules {
 
 template <class Block>
@@ -25,8 +27,28 @@ void triangularize(Block& block, Index rows, Index columns) {
   }
 }
 
-template void triangularize(Matrix&, Index, Index);
 template void triangularize(Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>&, Index,
                             Index);
+
+void triangularize(PaddedRows& block, Index rows, Index columns, double* work) {
+  const Index stride = block.stride();
+  double *sum = work, *v = work + stride;
+  for (Index j = 0; j < columns; ++j) {
+    double norm2 = 0.0;
+    const double* entry = block.row(j) + j;
+    for (Index i = 0; i < rows - j; ++i, entry += stride) {
+      v[i] = *entry;
+      norm2 += v[i] * v[i];
+    }
+    const double alpha = v[0] > 0.0 ? -std::sqrt(norm2) : std::sqrt(norm2);
+    v[0] -= alpha;
+    if (v[0] == 0.0) continue;
+    // from a column on where a vector begins
+    const Index first = j / 4 * 4;
+    kernels::chosen->reflect(block.row(j) + first, rows - j, padded(columns + 1) - first, stride, v,
+                             1.0 / (-alpha * v[0]), sum);
+    block.row(j)[j] = alpha;
+  }
+}
 
 }  // namespace hurcules

@@ -18,7 +18,7 @@ void LevelSolver::reserve(Index unknowns, Index rows, Index most_own, Index leve
   optimality_.reserve(unknowns, rows);
   certificate_.reserve(unknowns, rows);
   // every level may hold every row, once for its violation and once for its smallest step
-  held_.reserve(2 * levels * rows);
+  held_.reserve(2 * (levels + 1) * rows);  // ... and the last one the multipliers sought anew
   found_.reserve(rows);
 }
 
@@ -263,37 +263,62 @@ void LevelSolver::forget() {
 double LevelSolver::prove(Strategy strategy, double rho, bool done) {
   record_->rho = rho;
   record_->own_norm = problem_.own_norm();
-  list_held();
+  list_held(begin_held_);
   if (!values_known_) rows_->values(level_ + 1, x_, candidates_.value.data());
   values_known_ = true;
   x_scale_ = kernels::chosen->largest(rows_->stride(), x_);
   if (!(x_scale_ > 1.0) && x_scale_ == x_scale_) x_scale_ = 1.0;
   if (believed(strategy)) return 0.0 * x_scale_;  // NaN where x is
-  const double residual = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
-                                               x_scale_, *record_, held_);
-  // a cold start is sooner done than multipliers sought anew
-  if (residual <= tolerance::kProven || strategy == Strategy::WarmStart || !done) return residual;
-  return prove_anew(residual);
-}
-
-double LevelSolver::prove_anew(double residual) {
+  double residual = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
+                                         x_scale_, *record_, held_);
+  if (residual <= tolerance::kProven || !done) return residual;
   // where it is not the multipliers there is nothing to gain; behind a smooth transition only
   // combinations of rows above hold x
   if (!std::isfinite(residual) || record_->worsened > tolerance::kProven ||
       !nullspace_->weighted_basis().whole()) {
     return residual;
   }
+  residual = prove_in_basis(residual);
+  // a cold start is sooner done than multipliers sought in long double
+  if (residual <= tolerance::kProven || strategy == Strategy::WarmStart) return residual;
+  return prove_anew(residual);
+}
+
+double LevelSolver::prove_in_basis(double residual) {
+  nullspace_->complete(*rows_);
+  if (!certificate_.find_in_basis(*rows_, *nullspace_, level_, x_above_, x_scale_, *record_)) {
+    return residual;
+  }
+  const std::size_t found = held_.size();
+  const int found_norm = begin_norm_;
+  certificate_.keep({held_.data() + begin_held_, held_.data() + found}, held_, begin_norm_);
+  list_held(found);
+  const double anew = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
+                                           x_scale_, *record_, held_);
+  const bool better = anew < residual;
+  if (better) {
+    held_.erase(held_.begin() + begin_held_, held_.begin() + found);
+    begin_norm_ -= static_cast<int>(found - begin_held_);
+  } else {
+    held_.resize(found);
+    begin_norm_ = found_norm;
+  }
+  list_held(begin_held_);
+  return better ? anew : residual;
+}
+
+double LevelSolver::prove_anew(double residual) {
   const double anew = std::max(record_->worsened, certificate_.find(*rows_, *nullspace_, level_,
                                                                     x_above_, x_scale_, *record_));
   if (!(anew < residual)) return residual;
   held_.resize(begin_held_);
-  certificate_.keep(held_, begin_norm_);
-  list_held();
+  certificate_.keep({}, held_, begin_norm_);
+  list_held(begin_held_);
   return anew;
 }
 
-void LevelSolver::list_held() {
-  record_->first_held = static_cast<int>(begin_held_);
+void LevelSolver::list_held(std::size_t first) {
+  record_->first_held = static_cast<int>(first);
   record_->held = begin_norm_ - record_->first_held;
   record_->first_norm = begin_norm_;
   record_->norm = static_cast<int>(held_.size()) - begin_norm_;

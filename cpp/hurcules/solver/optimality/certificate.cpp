@@ -20,6 +20,9 @@ constexpr double kViolated = tolerance::kProven;
 constexpr Long kLongRounding = 1e-10L;
 // an own violated row depends on those before it
 constexpr Long kOwnRank = 1e-13L;
+// coordinates in the basis are rounded in double: a row of which less is free is not used there,
+// and a pull of less is none, relative to the forces
+constexpr Long kLeastFree = 1e-6L, kNoPull = 1e-13L;
 
 }  // namespace
 
@@ -28,7 +31,7 @@ void Certificate::reserve(Index unknowns, Index rows) {
   // both sides of a row may be at their limits
   balance_.reserve(unknowns, 2 * rows);
   for (auto* v : {&violation_, &step_}) v->reserve(2 * rows);
-  pushing_.resize(std::max<std::size_t>(pushing_.size(), rows));
+  does_.resize(std::max<std::size_t>(does_.size(), rows));
   for (auto* v : {&force_, &unit_, &parts_, &free_}) {
     v->resize(std::max<std::size_t>(v->size(), unknowns));
   }
@@ -43,8 +46,14 @@ Long Certificate::dot(int row, const double* x) const {
   return sum;
 }
 
+void Certificate::fill_coordinates(const Row& row) {
+  const double* e = nullspace_->coordinates(row) + first_;
+  for (Index j = 0; j < columns_; ++j) unit_[j] = e[j] / row.norm;
+}
+
 void Certificate::fill_unit(int row) {
   const Row& r = (*rows_)[row];
+  if (first_ != kNoBasis) return fill_coordinates(r);
   const Index n = rows_->unknowns();
   if (r.dense < 0) {
     std::fill_n(unit_.begin(), n, 0.0L);
@@ -104,13 +113,12 @@ void Certificate::settle_violated() {
 }
 
 void Certificate::push(int row, Side side, std::vector<Push>& pushes) {
-  const Index n = rows_->unknowns();
   fill_unit(row);
   Long* c = balance_.place();
   const Long left = basis_.remove(unit_.data(), c, parts_.data());
-  if (left <= tolerance::kLost) return;
+  if (left <= (first_ == kNoBasis ? Long{tolerance::kLost} : kLeastFree)) return;
   const Long scale = static_cast<int>(side) / left;
-  for (Index j = 0; j < n; ++j) c[j] *= scale;
+  for (Index j = 0; j < columns_; ++j) c[j] *= scale;
   balance_.add();
   pushes.push_back({row, side, left, 0.0L});
 }
@@ -150,14 +158,30 @@ double Certificate::balance(const Long* v, Long scale, std::vector<Push>& pushes
                                                 (1.0L + kRounding / weakest)));
 }
 
-double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, int k,
-                         const double* x_above, double x_scale, const LevelRecord& record) {
+void Certificate::start(const RowTable& rows, const NullspaceBasis& nullspace, int k,
+                        const double* x_above, double x_scale, const LevelRecord& record) {
   rows_ = &rows;
   nullspace_ = &nullspace;
   x_above_ = x_above;
   x_ = record.x.data();
   x_scale_ = x_scale;
   level_ = k;
+  columns_ = rows.unknowns();
+  first_ = kNoBasis;
+  violation_.clear();
+  step_.clear();
+}
+
+// the step -> force_
+void Certificate::find_step() {
+  for (Index j = 0; j < rows_->unknowns(); ++j) {
+    force_[j] = static_cast<Long>(x_[j]) - x_above_[j];
+  }
+}
+
+double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, int k,
+                         const double* x_above, double x_scale, const LevelRecord& record) {
+  start(rows, nullspace, k, x_above, x_scale, record);
   const Index n = rows.unknowns();
   basis_.start(n);
   use_equalities(0, nullspace.rank_before(k));
@@ -165,8 +189,6 @@ double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, 
   const Long least = tolerance::kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
   const Long scale = std::max(own_forces(record.rho), least);
   balance_.start(n);
-  violation_.clear();
-  step_.clear();
   push_limits(0, rows.begin(k), true, violation_);
   double worst = scale > 0.0L ? balance(force_.data(), scale, violation_) : 0.0;
   if (record.rho > tolerance::kProximal * record.own_norm) return worst;
@@ -175,19 +197,67 @@ double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, 
   balance_.start(n);
   push_limits(0, rows.begin(k), true, step_);
   push_limits(rows.begin(k), rows.begin(k + 1), false, step_);
-  for (Index j = 0; j < n; ++j) force_[j] = static_cast<Long>(x_[j]) - x_above[j];
+  find_step();
   return std::max(worst, balance(force_.data(), x_scale, step_));
 }
 
-void Certificate::keep(std::vector<HeldRow>& held, int& begin_norm) {
-  std::fill_n(pushing_.begin(), rows_->size(), 0);
+bool Certificate::violated() const {
+  for (int i = rows_->begin(level_); i < rows_->begin(level_ + 1); ++i) {
+    const Row& row = (*rows_)[i];
+    if (!row.equality && std::abs(violation(i)) > kViolated * row.norm * x_scale_) return true;
+  }
+  return false;
+}
+
+void Certificate::use_directions(Index first) {
+  first_ = first;
+  columns_ = rows_->unknowns() - first;
+  basis_.start(columns_);
+  balance_.start(columns_);
+  for (Index j = 0; j < columns_; ++j) {
+    const double* q = nullspace_->direction(first + j);
+    free_[j] = 0.0L;
+    for (Index i = 0; i < rows_->unknowns(); ++i) free_[j] += q[i] * force_[i];
+  }
+}
+
+void Certificate::balance_in_basis(double size, std::vector<Push>& pushes) {
+  balance_.solve(free_.data(), kNoPull * size);
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    pushes[i].weight = balance_.weight(static_cast<Index>(i)) / pushes[i].left;
+  }
+}
+
+bool Certificate::find_in_basis(const RowTable& rows, const NullspaceBasis& nullspace, int k,
+                                const double* x_above, double x_scale, const LevelRecord& record) {
+  start(rows, nullspace, k, x_above, x_scale, record);
+  if (violated()) return false;
+  const double size = static_cast<double>(own_forces(record.rho));
+  use_directions(nullspace.rank_before(k));
+  push_limits(0, rows.begin(k), true, violation_);
+  balance_in_basis(size, violation_);
+  if (record.rho > tolerance::kProximal * record.own_norm) return true;
+  find_step();
+  use_directions(nullspace.rank_before(k + 1));
+  push_limits(0, rows.begin(k), true, step_);
+  push_limits(rows.begin(k), rows.begin(k + 1), false, step_);
+  balance_in_basis(x_scale, step_);
+  return true;
+}
+
+void Certificate::keep(std::span<const HeldRow> found, std::vector<HeldRow>& held,
+                       int& begin_norm) {
+  std::fill_n(does_.begin(), rows_->size(), kNothing);
+  for (const HeldRow& row : found) {
+    if (row.role == Role::Violation) does_[row.row] = kSettled;
+  }
   const auto multiplier = [&](const Push& push) {
     return static_cast<double>(push.weight / (*rows_)[push.row].norm);
   };
   for (const Push& push : violation_) {
     if (push.weight == 0.0L) continue;
     held.push_back({push.row, push.side, multiplier(push), Role::Violation});
-    pushing_[push.row] = 1;
+    does_[push.row] = kPushes;
   }
   for (int i = rows_->begin(level_); i < rows_->begin(level_ + 1); ++i) {
     const Row& row = (*rows_)[i];
@@ -196,12 +266,17 @@ void Certificate::keep(std::vector<HeldRow>& held, int& begin_norm) {
     if (std::abs(v) <= kViolated * row.norm * x_scale_) continue;
     const Side side = v > 0.0L ? Side::Upper : Side::Lower;
     held.push_back({i, side, static_cast<double>(std::abs(v)), Role::Violation});
-    pushing_[i] = 1;
+    does_[i] = kPushes;
+  }
+  for (const Push& push : step_) {
+    if (push.weight == 0.0L || does_[push.row] != kSettled) continue;
+    held.push_back({push.row, push.side, 0.0, Role::Violation});
+    does_[push.row] = kPushes;
   }
   begin_norm = static_cast<int>(held.size());
   for (const Push& push : step_) {
     if (push.weight == 0.0L) continue;
-    const Role role = pushing_[push.row] ? Role::Idle : Role::SmallestStep;
+    const Role role = does_[push.row] == kPushes ? Role::Idle : Role::SmallestStep;
     held.push_back({push.row, push.side, multiplier(push), role});
   }
 }

@@ -11,6 +11,7 @@
 // rounding alone, and no more than the forces: multipliers that round by more prove nothing.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "hurcules/solver/optimality/nonnegative_least_squares.hpp"
@@ -27,11 +28,18 @@ class Certificate {
   // whole. Then `keep` lists its rows.
   double find(const RowTable& rows, const NullspaceBasis& nullspace, int k, const double* x_above,
               double x_scale, const LevelRecord& record);
-  // the rows with their multipliers, those of the smallest step from begin_norm on
-  void keep(std::vector<HeldRow>& held, int& begin_norm);
+  // The same in the coordinates of the basis, which is complete: at a tenth of the cost, but no
+  // more exact than double, so that the multipliers are still to be proven. False where own
+  // inequality rows are violated.
+  bool find_in_basis(const RowTable& rows, const NullspaceBasis& nullspace, int k,
+                     const double* x_above, double x_scale, const LevelRecord& record);
+  // The rows with their multipliers, those of the smallest step from begin_norm on. What `found`
+  // had as settling the violation still does, be its push no more than rounding.
+  void keep(std::span<const HeldRow> found, std::vector<HeldRow>& held, int& begin_norm);
 
  private:
   using Long = long double;
+  static constexpr Index kNoBasis = -1;
   struct Push {
     int row;
     Side side;
@@ -39,6 +47,13 @@ class Certificate {
     Long weight;  // of the row at length one
   };
 
+  void start(const RowTable& rows, const NullspaceBasis& nullspace, int k, const double* x_above,
+             double x_scale, const LevelRecord& record);
+  // vectors are coordinates in the free directions from `first` on
+  void use_directions(Index first);
+  void balance_in_basis(double size, std::vector<Push>& pushes);
+  void find_step();
+  [[nodiscard]] bool violated() const;
   void use_equalities(Index first, Index end);
   // rho^2 t + sum v_i a_i of the own rows -> force_; the size of what is in it
   Long own_forces(double rho);
@@ -48,8 +63,9 @@ class Certificate {
   // what of v the pushes do not balance, relative to `scale`
   double balance(const Long* v, Long scale, std::vector<Push>& pushes);
   [[nodiscard]] Long dot(int row, const double* x) const;
-  // row / |a| -> unit_
+  // row / |a| -> unit_, or its coordinates
   void fill_unit(int row);
+  void fill_coordinates(const Row& row);
   [[nodiscard]] Long violation(int row) const;  // signed, of an own row
 
   const RowTable* rows_ = nullptr;
@@ -58,10 +74,13 @@ class Certificate {
   const double* x_ = nullptr;
   double x_scale_ = 1.0;
   int level_ = 0;
+  Index columns_ = 0;       // of the vectors
+  Index first_ = kNoBasis;  // direction that they begin with, where they are coordinates
   ExtendedPrecisionBasis basis_;  // of rows that take directions away
   NonnegativeLeastSquares balance_;
   std::vector<Push> violation_, step_;
-  std::vector<char> pushing_;  // (rows) against the violations
+  enum Does : char { kNothing, kSettled, kPushes };
+  std::vector<Does> does_;  // (rows) against the violations
   std::vector<Long> force_, unit_, parts_, free_;
 };
 

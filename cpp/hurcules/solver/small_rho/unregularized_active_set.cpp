@@ -211,9 +211,17 @@ bool UnregularizedActiveSet::mend_weak() {
   return moved;
 }
 
+// Then what they push against the step is not one set of numbers but many, of which the proof finds
+// one that pulls nowhere; these say nothing.
+bool UnregularizedActiveSet::crowded() const {
+  const std::size_t held = group_[kLimits].size() + group_[kSmallest].size();
+  return remembered_ && static_cast<Index>(held) > level_->free() - level_->own();
+}
+
 // lets the limit go that pulls most: against the violations first, then against the step
 bool UnregularizedActiveSet::drop_negative(Budget& budget) {
   for (const RowGroup group : {kLimits, kSmallest}) {
+    if (group == kSmallest && crowded()) continue;
     double largest = 0.0;
     for (Index i = step_.begin(group); i < step_.end(group); ++i) {
       largest = std::max(largest, std::abs(step_.rows()[i].multiplier));
@@ -270,7 +278,8 @@ bool UnregularizedActiveSet::solve(double rho, Budget& budget, double* x,
     if (!std::isfinite(size_) || (remembered_ && contradictory())) break;
     if (mend_unmet() || advance(budget) || mend_own()) continue;
     step_.balance_violation(rho, target_.data(), candidates_->target.data());
-    if (mend_weak()) continue;
+    // what a row of the last solve settles is known, and told by the proof where it changed
+    if (!remembered_ && mend_weak()) continue;
     step_.balance_step();
     if (drop_negative(budget)) continue;
     found = true;

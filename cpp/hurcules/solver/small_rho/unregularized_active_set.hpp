@@ -46,6 +46,8 @@ class UnregularizedActiveSet {
   bool mend_own();
   bool mend_weak();
   bool drop_negative(Budget& budget);
+  // more limits of the last solve are held than the level leaves directions
+  [[nodiscard]] bool crowded() const;
 
   void keep(double rho, std::vector<HeldRow>& held, int& begin_norm) const;
   [[nodiscard]] double beyond(const GroupedRow& held) const;  // target - limit, outwards
