@@ -18,7 +18,7 @@ void LevelSolver::reserve(Index unknowns, Index rows, Index most_own, Index leve
   optimality_.reserve(unknowns, rows);
   certificate_.reserve(unknowns, rows);
   // every level may hold every row, once for its violation and once for its smallest step
-  held_.reserve(2 * (levels + 1) * rows);  // ... and the last one the multipliers sought anew
+  held_.reserve(2 * (levels + 1) * rows);  // ... and the last one what was sought anew
   found_.reserve(rows);
 }
 
@@ -263,7 +263,7 @@ void LevelSolver::forget() {
 double LevelSolver::prove(Strategy strategy, double rho, bool done) {
   record_->rho = rho;
   record_->own_norm = problem_.own_norm();
-  list_held(begin_held_);
+  list_held();
   if (!values_known_) rows_->values(level_ + 1, x_, candidates_.value.data());
   values_known_ = true;
   x_scale_ = kernels::chosen->largest(rows_->stride(), x_);
@@ -278,32 +278,29 @@ double LevelSolver::prove(Strategy strategy, double rho, bool done) {
       !nullspace_->weighted_basis().whole()) {
     return residual;
   }
-  residual = prove_in_basis(residual);
-  // a cold start is sooner done than multipliers sought in long double
+  residual = prove_step(residual);
+  // a cold start is sooner done than all multipliers sought anew
   if (residual <= tolerance::kProven || strategy == Strategy::WarmStart) return residual;
   return prove_anew(residual);
 }
 
-double LevelSolver::prove_in_basis(double residual) {
-  nullspace_->complete(*rows_);
-  if (!certificate_.find_in_basis(*rows_, *nullspace_, level_, x_above_, x_scale_, *record_)) {
+double LevelSolver::prove_step(double residual) {
+  const std::size_t end = held_.size();
+  const bool smallest = static_cast<std::size_t>(begin_norm_) < end &&
+                        record_->rho <= tolerance::kProximal * record_->own_norm;
+  if (!smallest || !certificate_.find_step(*rows_, *nullspace_, candidates_, level_, x_above_,
+                                           x_scale_, *record_, held_)) {
     return residual;
   }
-  const std::size_t found = held_.size();
-  const int found_norm = begin_norm_;
-  certificate_.keep({held_.data() + begin_held_, held_.data() + found}, held_, begin_norm_);
-  list_held(found);
+  // in front of those that the strategy found
+  record_->norm = static_cast<int>(held_.size() - end);
+  const auto begin = held_.begin() + begin_norm_;
+  const auto found = std::rotate(begin, held_.begin() + end, held_.end());
   const double anew = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
                                            x_scale_, *record_, held_);
   const bool better = anew < residual;
-  if (better) {
-    held_.erase(held_.begin() + begin_held_, held_.begin() + found);
-    begin_norm_ -= static_cast<int>(found - begin_held_);
-  } else {
-    held_.resize(found);
-    begin_norm_ = found_norm;
-  }
-  list_held(begin_held_);
+  better ? held_.erase(found, held_.end()) : held_.erase(begin, found);
+  list_held();
   return better ? anew : residual;
 }
 
@@ -312,13 +309,13 @@ double LevelSolver::prove_anew(double residual) {
                                                                     x_above_, x_scale_, *record_));
   if (!(anew < residual)) return residual;
   held_.resize(begin_held_);
-  certificate_.keep({}, held_, begin_norm_);
-  list_held(begin_held_);
+  certificate_.keep(held_, begin_norm_);
+  list_held();
   return anew;
 }
 
-void LevelSolver::list_held(std::size_t first) {
-  record_->first_held = static_cast<int>(first);
+void LevelSolver::list_held() {
+  record_->first_held = static_cast<int>(begin_held_);
   record_->held = begin_norm_ - record_->first_held;
   record_->first_norm = begin_norm_;
   record_->norm = static_cast<int>(held_.size()) - begin_norm_;

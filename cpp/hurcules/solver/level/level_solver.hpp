@@ -82,12 +82,12 @@ class LevelSolver {
   // the record of the level, and its proof: the worst residual; multipliers are not sought anew for
   // a point that was not finished
   double prove(Strategy strategy, double rho, bool done = true);
-  // Multipliers sought anew, where those that the strategy found prove nothing: in the coordinates
-  // of the basis first, then in long double.
-  double prove_in_basis(double residual);
+  // Multipliers sought anew, where those that the strategy found prove nothing: those of the step
+  // alone, in the basis, and all in long double.
+  double prove_step(double residual);
   double prove_anew(double residual);
-  // the held rows from the first on -> the record
-  void list_held(std::size_t first);
+  // the rows that are held -> the record
+  void list_held();
   // no proof was asked for, and the strategy is usually right
   [[nodiscard]] bool believed(Strategy strategy) const {
     return !proof_ && strategy < Strategy::ExtendedPrecision;

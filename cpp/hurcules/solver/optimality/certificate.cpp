@@ -21,8 +21,8 @@ constexpr Long kLongRounding = 1e-10L;
 // an own violated row depends on those before it
 constexpr Long kOwnRank = 1e-13L;
 // coordinates in the basis are rounded in double: a row of which less is free is not used there,
-// and a pull of less is none, relative to the forces
-constexpr Long kLeastFree = 1e-6L, kNoPull = 1e-13L;
+// and a pull of less is none, relative to max(1, |x|)
+constexpr double kLeastFree = 1e-6, kNoPull = 1e-13;
 
 }  // namespace
 
@@ -31,7 +31,8 @@ void Certificate::reserve(Index unknowns, Index rows) {
   // both sides of a row may be at their limits
   balance_.reserve(unknowns, 2 * rows);
   for (auto* v : {&violation_, &step_}) v->reserve(2 * rows);
-  does_.resize(std::max<std::size_t>(does_.size(), rows));
+  for (PaddedVector* v : {&moved_, &coordinates_}) v->reserve(padded(unknowns) + 4);
+  pushing_.resize(std::max<std::size_t>(pushing_.size(), rows));
   for (auto* v : {&force_, &unit_, &parts_, &free_}) {
     v->resize(std::max<std::size_t>(v->size(), unknowns));
   }
@@ -46,14 +47,8 @@ Long Certificate::dot(int row, const double* x) const {
   return sum;
 }
 
-void Certificate::fill_coordinates(const Row& row) {
-  const double* e = nullspace_->coordinates(row) + first_;
-  for (Index j = 0; j < columns_; ++j) unit_[j] = e[j] / row.norm;
-}
-
 void Certificate::fill_unit(int row) {
   const Row& r = (*rows_)[row];
-  if (first_ != kNoBasis) return fill_coordinates(r);
   const Index n = rows_->unknowns();
   if (r.dense < 0) {
     std::fill_n(unit_.begin(), n, 0.0L);
@@ -113,12 +108,13 @@ void Certificate::settle_violated() {
 }
 
 void Certificate::push(int row, Side side, std::vector<Push>& pushes) {
+  const Index n = rows_->unknowns();
   fill_unit(row);
   Long* c = balance_.place();
   const Long left = basis_.remove(unit_.data(), c, parts_.data());
-  if (left <= (first_ == kNoBasis ? Long{tolerance::kLost} : kLeastFree)) return;
+  if (left <= tolerance::kLost) return;
   const Long scale = static_cast<int>(side) / left;
-  for (Index j = 0; j < columns_; ++j) c[j] *= scale;
+  for (Index j = 0; j < n; ++j) c[j] *= scale;
   balance_.add();
   pushes.push_back({row, side, left, 0.0L});
 }
@@ -166,17 +162,63 @@ void Certificate::start(const RowTable& rows, const NullspaceBasis& nullspace, i
   x_ = record.x.data();
   x_scale_ = x_scale;
   level_ = k;
-  columns_ = rows.unknowns();
-  first_ = kNoBasis;
   violation_.clear();
   step_.clear();
 }
 
-// the step -> force_
-void Certificate::find_step() {
-  for (Index j = 0; j < rows_->unknowns(); ++j) {
-    force_[j] = static_cast<Long>(x_[j]) - x_above_[j];
+void Certificate::push_in_basis(int row, const Candidates& candidates) {
+  const Row& r = (*rows_)[row];
+  if (r.equality || r.norm == 0.0) return;
+  const bool above = r.level < level_;
+  const double stands = candidates.value[r.candidate], stood = candidates.above[r.candidate];
+  const double room = kAtLimit * r.norm * x_scale_;
+  const double upper = above ? std::max(r.upper, stood) : r.upper;
+  const double lower = above ? std::min(r.lower, stood) : r.lower;
+  const Index first = nullspace_->rank_before(level_ + 1), columns = rows_->unknowns() - first;
+  const double* e = nullspace_->coordinates(r) + first;
+  double norm2 = 0.0;
+  for (Index j = 0; j < columns; ++j) norm2 += e[j] * e[j];
+  const double left = std::sqrt(norm2) / r.norm;
+  if (left <= kLeastFree) return;
+  for (const Side side : {Side::Upper, Side::Lower}) {
+    const bool up = side == Side::Upper;
+    if (up ? stands < upper - room : stands > lower + room) continue;
+    const double scale = static_cast<double>(side) / (left * r.norm);
+    Long* c = balance_.place();
+    for (Index j = 0; j < columns; ++j) c[j] = scale * e[j];
+    balance_.add();
+    step_.push_back({row, side, left, 0.0L});
   }
+}
+
+bool Certificate::find_step(const RowTable& rows, const NullspaceBasis& nullspace,
+                            const Candidates& candidates, int k, const double* x_above,
+                            double x_scale, const LevelRecord& record,
+                            std::vector<HeldRow>& held) {
+  if (Candidates::violated(rows, k, candidates.value, kViolated / tolerance::kBroken * x_scale)) {
+    return false;
+  }
+  start(rows, nullspace, k, x_above, x_scale, record);
+  const kernels::Table& kernel = *kernels::chosen;
+  const Index first = nullspace.rank_before(k + 1), columns = rows.unknowns() - first;
+  kernel.scaled_difference(rows.stride(), 1.0, x_, x_above, moved_.data());
+  kernel.dots(nullspace.direction(first), columns, rows.stride(), moved_.data(),
+              coordinates_.data());
+  std::copy_n(coordinates_.data(), columns, free_.begin());
+  balance_.start(columns);
+  for (int i = 0; i < rows.begin(k + 1); ++i) push_in_basis(i, candidates);
+  balance_.solve(free_.data(), kNoPull * x_scale);
+  std::fill_n(pushing_.begin(), rows.size(), 0);
+  for (int h = record.first_held; h < record.first_norm; ++h) pushing_[held[h].row] = 1;
+  for (std::size_t i = 0; i < step_.size(); ++i) {
+    const Push& push = step_[i];
+    const Long weight = balance_.weight(static_cast<Index>(i)) / push.left;
+    if (weight == 0.0L) continue;
+    const Role role = pushing_[push.row] ? Role::Idle : Role::SmallestStep;
+    held.push_back(
+        {push.row, push.side, static_cast<double>(weight / rows[push.row].norm), role});
+  }
+  return true;
 }
 
 double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, int k,
@@ -197,67 +239,19 @@ double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, 
   balance_.start(n);
   push_limits(0, rows.begin(k), true, step_);
   push_limits(rows.begin(k), rows.begin(k + 1), false, step_);
-  find_step();
+  for (Index j = 0; j < n; ++j) force_[j] = static_cast<Long>(x_[j]) - x_above[j];
   return std::max(worst, balance(force_.data(), x_scale, step_));
 }
 
-bool Certificate::violated() const {
-  for (int i = rows_->begin(level_); i < rows_->begin(level_ + 1); ++i) {
-    const Row& row = (*rows_)[i];
-    if (!row.equality && std::abs(violation(i)) > kViolated * row.norm * x_scale_) return true;
-  }
-  return false;
-}
-
-void Certificate::use_directions(Index first) {
-  first_ = first;
-  columns_ = rows_->unknowns() - first;
-  basis_.start(columns_);
-  balance_.start(columns_);
-  for (Index j = 0; j < columns_; ++j) {
-    const double* q = nullspace_->direction(first + j);
-    free_[j] = 0.0L;
-    for (Index i = 0; i < rows_->unknowns(); ++i) free_[j] += q[i] * force_[i];
-  }
-}
-
-void Certificate::balance_in_basis(double size, std::vector<Push>& pushes) {
-  balance_.solve(free_.data(), kNoPull * size);
-  for (std::size_t i = 0; i < pushes.size(); ++i) {
-    pushes[i].weight = balance_.weight(static_cast<Index>(i)) / pushes[i].left;
-  }
-}
-
-bool Certificate::find_in_basis(const RowTable& rows, const NullspaceBasis& nullspace, int k,
-                                const double* x_above, double x_scale, const LevelRecord& record) {
-  start(rows, nullspace, k, x_above, x_scale, record);
-  if (violated()) return false;
-  const double size = static_cast<double>(own_forces(record.rho));
-  use_directions(nullspace.rank_before(k));
-  push_limits(0, rows.begin(k), true, violation_);
-  balance_in_basis(size, violation_);
-  if (record.rho > tolerance::kProximal * record.own_norm) return true;
-  find_step();
-  use_directions(nullspace.rank_before(k + 1));
-  push_limits(0, rows.begin(k), true, step_);
-  push_limits(rows.begin(k), rows.begin(k + 1), false, step_);
-  balance_in_basis(x_scale, step_);
-  return true;
-}
-
-void Certificate::keep(std::span<const HeldRow> found, std::vector<HeldRow>& held,
-                       int& begin_norm) {
-  std::fill_n(does_.begin(), rows_->size(), kNothing);
-  for (const HeldRow& row : found) {
-    if (row.role == Role::Violation) does_[row.row] = kSettled;
-  }
+void Certificate::keep(std::vector<HeldRow>& held, int& begin_norm) {
+  std::fill_n(pushing_.begin(), rows_->size(), 0);
   const auto multiplier = [&](const Push& push) {
     return static_cast<double>(push.weight / (*rows_)[push.row].norm);
   };
   for (const Push& push : violation_) {
     if (push.weight == 0.0L) continue;
     held.push_back({push.row, push.side, multiplier(push), Role::Violation});
-    does_[push.row] = kPushes;
+    pushing_[push.row] = 1;
   }
   for (int i = rows_->begin(level_); i < rows_->begin(level_ + 1); ++i) {
     const Row& row = (*rows_)[i];
@@ -266,17 +260,12 @@ void Certificate::keep(std::span<const HeldRow> found, std::vector<HeldRow>& hel
     if (std::abs(v) <= kViolated * row.norm * x_scale_) continue;
     const Side side = v > 0.0L ? Side::Upper : Side::Lower;
     held.push_back({i, side, static_cast<double>(std::abs(v)), Role::Violation});
-    does_[i] = kPushes;
-  }
-  for (const Push& push : step_) {
-    if (push.weight == 0.0L || does_[push.row] != kSettled) continue;
-    held.push_back({push.row, push.side, 0.0, Role::Violation});
-    does_[push.row] = kPushes;
+    pushing_[i] = 1;
   }
   begin_norm = static_cast<int>(held.size());
   for (const Push& push : step_) {
     if (push.weight == 0.0L) continue;
-    const Role role = does_[push.row] == kPushes ? Role::Idle : Role::SmallestStep;
+    const Role role = pushing_[push.row] ? Role::Idle : Role::SmallestStep;
     held.push_back({push.row, push.side, multiplier(push), role});
   }
 }

@@ -11,7 +11,6 @@
 // rounding alone, and no more than the forces: multipliers that round by more prove nothing.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "hurcules/solver/optimality/nonnegative_least_squares.hpp"
@@ -28,18 +27,18 @@ class Certificate {
   // whole. Then `keep` lists its rows.
   double find(const RowTable& rows, const NullspaceBasis& nullspace, int k, const double* x_above,
               double x_scale, const LevelRecord& record);
-  // The same in the coordinates of the basis, which is complete: at a tenth of the cost, but no
-  // more exact than double, so that the multipliers are still to be proven. False where own
-  // inequality rows are violated.
-  bool find_in_basis(const RowTable& rows, const NullspaceBasis& nullspace, int k,
-                     const double* x_above, double x_scale, const LevelRecord& record);
-  // The rows with their multipliers, those of the smallest step from begin_norm on. What `found`
-  // had as settling the violation still does, be its push no more than rounding.
-  void keep(std::span<const HeldRow> found, std::vector<HeldRow>& held, int& begin_norm);
+  // Only the multipliers of the step, in the coordinates of the basis, which is complete: no more
+  // exact than double, so that they are still to be proven, but at next to no cost. `held`, the
+  // rows that push against the violations, gets them behind; false where own inequality rows are
+  // violated.
+  bool find_step(const RowTable& rows, const NullspaceBasis& nullspace,
+                 const Candidates& candidates, int k, const double* x_above, double x_scale,
+                 const LevelRecord& record, std::vector<HeldRow>& held);
+  // the rows with their multipliers, those of the smallest step from begin_norm on
+  void keep(std::vector<HeldRow>& held, int& begin_norm);
 
  private:
   using Long = long double;
-  static constexpr Index kNoBasis = -1;
   struct Push {
     int row;
     Side side;
@@ -49,23 +48,19 @@ class Certificate {
 
   void start(const RowTable& rows, const NullspaceBasis& nullspace, int k, const double* x_above,
              double x_scale, const LevelRecord& record);
-  // vectors are coordinates in the free directions from `first` on
-  void use_directions(Index first);
-  void balance_in_basis(double size, std::vector<Push>& pushes);
-  void find_step();
-  [[nodiscard]] bool violated() const;
   void use_equalities(Index first, Index end);
   // rho^2 t + sum v_i a_i of the own rows -> force_; the size of what is in it
   Long own_forces(double rho);
   void settle_violated();
   void push_limits(int first, int end, bool above, std::vector<Push>& pushes);
   void push(int row, Side side, std::vector<Push>& pushes);
+  // a row that may stand at its limit, in the free directions of the levels below
+  void push_in_basis(int row, const Candidates& candidates);
   // what of v the pushes do not balance, relative to `scale`
   double balance(const Long* v, Long scale, std::vector<Push>& pushes);
   [[nodiscard]] Long dot(int row, const double* x) const;
-  // row / |a| -> unit_, or its coordinates
+  // row / |a| -> unit_
   void fill_unit(int row);
-  void fill_coordinates(const Row& row);
   [[nodiscard]] Long violation(int row) const;  // signed, of an own row
 
   const RowTable* rows_ = nullptr;
@@ -74,14 +69,12 @@ class Certificate {
   const double* x_ = nullptr;
   double x_scale_ = 1.0;
   int level_ = 0;
-  Index columns_ = 0;       // of the vectors
-  Index first_ = kNoBasis;  // direction that they begin with, where they are coordinates
   ExtendedPrecisionBasis basis_;  // of rows that take directions away
   NonnegativeLeastSquares balance_;
   std::vector<Push> violation_, step_;
-  enum Does : char { kNothing, kSettled, kPushes };
-  std::vector<Does> does_;  // (rows) against the violations
+  std::vector<char> pushing_;  // (rows) against the violations
   std::vector<Long> force_, unit_, parts_, free_;
+  PaddedVector moved_, coordinates_;  // the step, and in the free directions
 };
 
 }  // namespace hurcules
