@@ -6,9 +6,14 @@
 
 namespace hurcules {
 
-template <class Block>
-void triangularize(Block& block, Index rows, Index columns) {
-  using Scalar = typename Block::Scalar;
+namespace {
+
+// of so few columns the vectors of a kernel would be mostly padding
+constexpr Index kFewColumns = 3;
+
+// entry by entry
+template <class Scalar, class At>
+void triangularize_entries(At block, Index rows, Index columns) {
   for (Index j = 0; j < columns; ++j) {
     Scalar norm2 = 0.0;
     for (Index i = j; i < rows; ++i) norm2 += block(i, j) * block(i, j);
@@ -27,11 +32,25 @@ void triangularize(Block& block, Index rows, Index columns) {
   }
 }
 
+}  // namespace
+
+template <class Block>
+void triangularize(Block& block, Index rows, Index columns) {
+  using Scalar = typename Block::Scalar;
+  triangularize_entries<Scalar>(
+      [&](Index i, Index j) -> Scalar& { return block(i, j); }, rows, columns);
+}
+
 template void triangularize(Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>&, Index,
                             Index);
 
 void triangularize(PaddedRows& block, Index rows, Index columns, double* work) {
   const Index stride = block.stride();
+  if (columns <= kFewColumns) {
+    return triangularize_entries<double>(
+        [first = block.row(0), stride](Index i, Index j) -> double& { return first[i * stride + j]; },
+        rows, columns);
+  }
   double *sum = work, *v = work + stride;
   for (Index j = 0; j < columns; ++j) {
     double norm2 = 0.0;

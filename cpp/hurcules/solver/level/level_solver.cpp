@@ -269,8 +269,8 @@ double LevelSolver::prove(Strategy strategy, double rho, bool done) {
   x_scale_ = kernels::chosen->largest(rows_->stride(), x_);
   if (!(x_scale_ > 1.0) && x_scale_ == x_scale_) x_scale_ = 1.0;
   if (believed(strategy)) return 0.0 * x_scale_;  // NaN where x is
-  double residual = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
-                                         x_scale_, *record_, held_);
+  const double residual = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
+                                               x_scale_, *record_, held_);
   if (residual <= tolerance::kProven || !done) return residual;
   // where it is not the multipliers there is nothing to gain; behind a smooth transition only
   // combinations of rows above hold x
@@ -278,13 +278,13 @@ double LevelSolver::prove(Strategy strategy, double rho, bool done) {
       !nullspace_->weighted_basis().whole()) {
     return residual;
   }
-  residual = prove_step(residual);
-  // a cold start is sooner done than all multipliers sought anew
-  if (residual <= tolerance::kProven || strategy == Strategy::WarmStart) return residual;
-  return prove_anew(residual);
+  // A cold start is sooner done than all multipliers sought anew. In double they tell no weak row
+  // from rounding, so that they prove only a set that was proven before.
+  return strategy == Strategy::WarmStart ? prove_step(residual) : prove_anew(residual);
 }
 
 double LevelSolver::prove_step(double residual) {
+  nullspace_->complete(*rows_);
   const std::size_t end = held_.size();
   const bool smallest = static_cast<std::size_t>(begin_norm_) < end &&
                         record_->rho <= tolerance::kProximal * record_->own_norm;
