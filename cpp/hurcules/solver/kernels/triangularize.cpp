@@ -48,7 +48,9 @@ void triangularize(PaddedRows& block, Index rows, Index columns, double* work) {
   const Index stride = block.stride();
   if (columns <= kFewColumns) {
     return triangularize_entries<double>(
-        [first = block.row(0), stride](Index i, Index j) -> double& { return first[i * stride + j]; },
+        [first = block.row(0), stride](Index i, Index j) -> double& {
+          return first[i * stride + j];
+        },
         rows, columns);
   }
   double *sum = work, *v = work + stride;
