@@ -33,6 +33,8 @@ struct Shape {
 };
 inline const Shape kRobot = {19, {3, 3, 3, 3, 3, 2, 2}};
 inline const Shape kTwoRobots = {38, {6, 6, 3, 6, 6, 3, 8}};
+// accelerations, forces and torques of a humanoid: the last level asks more than there is freedom
+inline const Shape kHumanoid = {88, {33, 3, 2, 97}};
 
 // offset + amplitude sin(2 pi frequency t + phase)
 struct Wave {

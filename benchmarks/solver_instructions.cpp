@@ -1,8 +1,8 @@
 // Solves one set of problems under callgrind: only the solves inside measured_solve() are counted
 // (valgrind --tool=callgrind --toggle-collect=measured_solve), see count_instructions.py.
 //
-// solver_instructions UNKNOWNS SET RHO WARM PROBLEMS   UNKNOWNS 19 or 38, SET 0 to 3, WARM 0: cold,
-// 1: the same problem again, 2: its targets jumped
+// solver_instructions UNKNOWNS SET RHO WARM PROBLEMS   UNKNOWNS 19, 38 or 88, SET 0 to 3, WARM 0:
+// cold, 1: the same problem again, 2: its targets jumped
 #include <cstdlib>
 
 #include "hurcules/solver/solver.hpp"
@@ -16,7 +16,8 @@ extern "C" __attribute__((noinline)) void measured_solve(hurcules::Solver& solve
 int main(int argc, char** argv) {
   using namespace hurcules_benchmark;
   if (argc != 6) return 1;
-  const Shape& shape = std::atoi(argv[1]) == 19 ? kRobot : kTwoRobots;
+  const int unknowns = std::atoi(argv[1]);
+  const Shape& shape = unknowns == 19 ? kRobot : unknowns == 38 ? kTwoRobots : kHumanoid;
   const Conflict conflict = kConflicts[std::atoi(argv[2])];
   const double rho = std::atof(argv[3]);
   const int warm = std::atoi(argv[4]);

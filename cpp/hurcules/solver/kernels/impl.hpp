@@ -203,6 +203,7 @@ constexpr Table kTable = {
     .axpys = axpys,
     .project = project,
     .eliminate = eliminate,
+    .reflect = reflect,
     .copy_rows = copy_rows,
     .scaled_difference = scaled_difference,
     .norm2_along = norm2_along,

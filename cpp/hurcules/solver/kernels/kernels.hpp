@@ -62,6 +62,10 @@ struct Table {
   // to three rows behind the last are read and written.
   void (*eliminate)(const double* pivot, double scale, double* rows, Size count, Size stride,
                     double* coordinates);
+  // A reflection of columns: row i -= scale v[i] sum, sum = sum_i v[i] row i, in the first `size`
+  // numbers of the rows
+  void (*reflect)(double* rows, Size count, Size size, Size stride, const double* v, double scale,
+                  double* sum);
   // `count` rows of `length` numbers, one behind the other, to rows `stride` apart
   void (*copy_rows)(const double* from, Size count, Size length, double* to, Size stride);
   // out = s (a - b); |out|^2

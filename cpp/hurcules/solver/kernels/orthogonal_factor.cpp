@@ -14,6 +14,22 @@ constexpr double kEnough = 0.1;
 // what is left is noise altogether (squared)
 constexpr double kNothing = 1e-36;
 
+// v of |v|^2 = norm2 minus its parts along the rows of Q; what is left, squared. Where that is
+// `least` or less no second pass is needed.
+double remove_parts(const PaddedRows& Q, Index rank, double* v, double* part, double norm2,
+                    double least) {
+  const kernels::Table& kernel = *kernels::chosen;
+  std::fill_n(part, padded(rank), 0.0);
+  double left = norm2;
+  for (int pass = 0; pass < kMostCleanings && rank > 0; ++pass) {
+    const double before = left;
+    left = kernel.project(Q.row(0), rank, Q.stride(), v, part);
+    // twice is enough, unless nearly nothing was left
+    if (left >= kEnough * before || left <= least) break;
+  }
+  return left;
+}
+
 }  // namespace
 
 void OrthogonalFactor::reserve(Index rows, Index columns) {
@@ -34,16 +50,7 @@ void OrthogonalFactor::start(Index rows, Index columns) {
 }
 
 double OrthogonalFactor::project(double* v, double* part, double norm2) const {
-  const kernels::Table& kernel = *kernels::chosen;
-  std::fill_n(part, padded(rank_), 0.0);
-  double left = norm2;
-  for (int pass = 0; pass < kMostCleanings && rank_ > 0; ++pass) {
-    const double before = left;
-    left = kernel.project(Q_.row(0), rank_, stride(), v, part);
-    // twice is enough, unless nearly nothing was left
-    if (left >= kEnough * before || left <= kNothing * norm2) break;
-  }
-  return left;
+  return remove_parts(Q_, rank_, v, part, norm2, kNothing * norm2);
 }
 
 void OrthogonalFactor::run(Index first, Index end, const double* norm2, double tolerance,
@@ -77,12 +84,15 @@ Index OrthogonalFactor::pivots_before(Index row) const {
 
 void OrthogonalFactor::take_cleaned(Index i, double norm2, double tolerance, double* side) {
   double *v = rest_.row(i), *l = L_.row(i), *part = part_.data() + padded(columns_);
-  const double left = project(v, part, kernels::chosen->dot(stride(), v, v));
+  // a row that depends on the others is known to rounding after one pass
+  const double least = tolerance * tolerance * norm2;
+  const double left =
+      remove_parts(Q_, rank_, v, part, kernels::chosen->dot(stride(), v, v), least);
   for (Index j = 0; j < rank_; ++j) {
     l[j] += part[j];
     if (side) side[i] -= part[j] * side[pivot_[j]];
   }
-  if (!(left > tolerance * tolerance * norm2)) return;
+  if (!(left > least)) return;
   const double length = std::sqrt(left), scale = 1.0 / length;
   l[rank_] = length;
   double* q = Q_.row(rank_);

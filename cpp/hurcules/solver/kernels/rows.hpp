@@ -19,6 +19,36 @@ void axpys(const double* rows, Size count, Size stride, const double* s, double*
   for (; i < count; ++i) axpy(stride, s[i], rows + i * stride, y);
 }
 
+void reflect(double* rows, Size count, Size size, Size stride, const double* v, double scale,
+             double* sum) {
+  for (Size j = 0; j < size; j += kWidth) store(sum + j, Pack{});
+  Size i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const double* r = rows + i * stride;
+    const Pack v0 = spread(v[i]), v1 = spread(v[i + 1]), v2 = spread(v[i + 2]),
+               v3 = spread(v[i + 3]);
+    for (Size j = 0; j < size; j += kWidth) {
+      const Pack left = v0 * load(r + j) + v1 * load(r + stride + j);
+      const Pack right = v2 * load(r + 2 * stride + j) + v3 * load(r + 3 * stride + j);
+      store(sum + j, load(sum + j) + (left + right));
+    }
+  }
+  for (; i < count; ++i) axpy(size, v[i], rows + i * stride, sum);
+  for (i = 0; i + 4 <= count; i += 4) {
+    double* r = rows + i * stride;
+    const Pack v0 = spread(scale * v[i]), v1 = spread(scale * v[i + 1]),
+               v2 = spread(scale * v[i + 2]), v3 = spread(scale * v[i + 3]);
+    for (Size j = 0; j < size; j += kWidth) {
+      const Pack s = load(sum + j);
+      store(r + j, load(r + j) - v0 * s);
+      store(r + stride + j, load(r + stride + j) - v1 * s);
+      store(r + 2 * stride + j, load(r + 2 * stride + j) - v2 * s);
+      store(r + 3 * stride + j, load(r + 3 * stride + j) - v3 * s);
+    }
+  }
+  for (; i < count; ++i) axpy(size, -scale * v[i], sum, rows + i * stride);
+}
+
 double project(const double* rows, Size count, Size stride, double* v, double* part) {
   Pack left = {};
   for (Size i = 0; i < count; i += 4) {

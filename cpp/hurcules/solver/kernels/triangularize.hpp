@@ -2,12 +2,15 @@
 #pragma once
 
 #include "hurcules/base/types.hpp"
+#include "hurcules/solver/kernels/padded.hpp"
 
 namespace hurcules {
 
-// makes the first `columns` columns of a block (rows, columns + 1) upper triangular; the last
-// column is a right-hand side
+// Makes the first `columns` columns of a block (rows, columns + 1) upper triangular; the last
+// column is a right-hand side. What stands below the diagonal then has no meaning.
 template <class Block>
 void triangularize(Block& block, Index rows, Index columns);
+// the same by the kernels; `work` has room for a row and a column
+void triangularize(PaddedRows& block, Index rows, Index columns, double* work);
 
 }  // namespace hurcules

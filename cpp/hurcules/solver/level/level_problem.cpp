@@ -37,9 +37,8 @@ void with_size(Index size, F f) {
 
 void LevelProblem::reserve(Index unknowns, Index rows, Index most_own) {
   const Index own = std::min(unknowns, most_own);
-  if (stacked_.rows() < rows + own || stacked_.cols() < own + 1) {
-    stacked_.resize(rows + own, own + 1);
-  }
+  stacked_.reserve(rows + own, own + 1);
+  work_.reserve(rows + own + padded(own + 1));
   R_.reserve(own * own);
   for (PaddedVector* v : {&inverse_, &c_, &t_, &t_free_}) v->reserve(padded(unknowns) + 4);
   r_.reserve(rows + 4);
@@ -144,22 +143,22 @@ void LevelProblem::factor_by_cholesky() {
 }
 
 void LevelProblem::factor_by_householder() {
+  stacked_.shape(own_ + 1);
   Index count = 0;
   for (; count < equalities_; ++count) {
-    for (Index j = 0; j < own_; ++j) stacked_(count, j) = own_row(count)[j];
-    stacked_(count, own_) = r_[count];
+    std::copy_n(own_row(count), own_, stacked_.row(count));
+    stacked_.row(count)[own_] = r_[count];
   }
-  if (rho_ > 0.0) {
-    for (Index j = 0; j < own_; ++j, ++count) {
-      stacked_.row(count).head(own_ + 1).setZero();
-      stacked_(count, j) = rho_;
-    }
+  for (Index j = 0; rho_ > 0.0 && j < own_; ++j, ++count) {
+    std::fill_n(stacked_.row(count), own_ + 1, 0.0);
+    stacked_.row(count)[j] = rho_;
   }
-  triangularize(stacked_, count, own_);
+  triangularize(stacked_, count, own_, work_.data());
   for (Index j = 0; j < own_; ++j) {
-    for (Index l = j; l < own_; ++l) R_[j * own_ + l] = stacked_(j, l);
-    c_[j] = stacked_(j, own_);
-    inverse_[j] = 1.0 / stacked_(j, j);
+    const double* row = stacked_.row(j);
+    for (Index l = j; l < own_; ++l) R_[j * own_ + l] = row[l];
+    c_[j] = row[own_];
+    inverse_[j] = 1.0 / row[j];
   }
 }
 

@@ -92,9 +92,10 @@ class LevelProblem {
   Index lead_ = 0, body_ = 0;
   double rho_ = 0.0, per_rho_ = 0.0, target_size_ = 0.0, own_norm_ = 0.0;
   PaddedVector R_;               // (own, own) upper triangular, rows own_ apart
-  Matrix stacked_;               // Householder's block
+  PaddedRows stacked_;           // Householder's block
   PaddedVector inverse_, c_;     // 1 / diagonal; R^-T Lk' r
   PaddedVector t_, t_free_, r_;  // coefficients; residuals
+  PaddedVector work_;
 };
 
 }  // namespace hurcules

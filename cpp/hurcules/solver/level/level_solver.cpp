@@ -18,7 +18,7 @@ void LevelSolver::reserve(Index unknowns, Index rows, Index most_own, Index leve
   optimality_.reserve(unknowns, rows);
   certificate_.reserve(unknowns, rows);
   // every level may hold every row, once for its violation and once for its smallest step
-  held_.reserve(2 * levels * rows);
+  held_.reserve(2 * (levels + 1) * rows);  // ... and the last one what was sought anew
   found_.reserve(rows);
 }
 
@@ -271,18 +271,40 @@ double LevelSolver::prove(Strategy strategy, double rho, bool done) {
   if (believed(strategy)) return 0.0 * x_scale_;  // NaN where x is
   const double residual = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
                                                x_scale_, *record_, held_);
-  // a cold start is sooner done than multipliers sought anew
-  if (residual <= tolerance::kProven || strategy == Strategy::WarmStart || !done) return residual;
-  return prove_anew(residual);
-}
-
-double LevelSolver::prove_anew(double residual) {
+  if (residual <= tolerance::kProven || !done) return residual;
   // where it is not the multipliers there is nothing to gain; behind a smooth transition only
   // combinations of rows above hold x
   if (!std::isfinite(residual) || record_->worsened > tolerance::kProven ||
       !nullspace_->weighted_basis().whole()) {
     return residual;
   }
+  // A cold start is sooner done than all multipliers sought anew. In double they tell no weak row
+  // from rounding, so that they prove only a set that was proven before.
+  return strategy == Strategy::WarmStart ? prove_step(residual) : prove_anew(residual);
+}
+
+double LevelSolver::prove_step(double residual) {
+  nullspace_->complete(*rows_);
+  const std::size_t end = held_.size();
+  const bool smallest = static_cast<std::size_t>(begin_norm_) < end &&
+                        record_->rho <= tolerance::kProximal * record_->own_norm;
+  if (!smallest || !certificate_.find_step(*rows_, *nullspace_, candidates_, level_, x_above_,
+                                           x_scale_, *record_, held_)) {
+    return residual;
+  }
+  // in front of those that the strategy found
+  record_->norm = static_cast<int>(held_.size() - end);
+  const auto begin = held_.begin() + begin_norm_;
+  const auto found = std::rotate(begin, held_.begin() + end, held_.end());
+  const double anew = optimality_.residual(*rows_, *nullspace_, candidates_, level_, x_above_,
+                                           x_scale_, *record_, held_);
+  const bool better = anew < residual;
+  better ? held_.erase(found, held_.end()) : held_.erase(begin, found);
+  list_held();
+  return better ? anew : residual;
+}
+
+double LevelSolver::prove_anew(double residual) {
   const double anew = std::max(record_->worsened, certificate_.find(*rows_, *nullspace_, level_,
                                                                     x_above_, x_scale_, *record_));
   if (!(anew < residual)) return residual;

@@ -82,7 +82,9 @@ class LevelSolver {
   // the record of the level, and its proof: the worst residual; multipliers are not sought anew for
   // a point that was not finished
   double prove(Strategy strategy, double rho, bool done = true);
-  // multipliers sought anew, where those that the strategy found prove nothing
+  // Multipliers sought anew, where those that the strategy found prove nothing: after a warm start
+  // those of the step, in the basis; else all, in long double.
+  double prove_step(double residual);
   double prove_anew(double residual);
   // the rows that are held -> the record
   void list_held();

@@ -78,6 +78,8 @@ const Solution& Lexicographic::solve(HierarchyView hierarchy) {
   const double* x = solve_levels(hierarchy);
   kept_.keep(rows_, records_, level_.held(), solution_.final_levels, solution_.working_set);
   fill_solution(x);
+  // a set that proved nothing is no start for the next solve
+  if (solution_.status == SolverStatus::ReducedAccuracy) kept_.clear();
   if (!options_.proof) solution_.optimality = std::numeric_limits<double>::quiet_NaN();
   return solution_;
 }

@@ -37,7 +37,7 @@ void NonnegativeLeastSquares::start(Index columns) {
   size_ = 0;
 }
 
-void NonnegativeLeastSquares::solve(const Long* b) {
+void NonnegativeLeastSquares::solve(const Long* b, Long no_pull) {
   b_ = b;
   std::fill_n(weight_.begin(), size_, 0.0L);
   std::fill_n(state_.begin(), size_, State::Out);
@@ -45,7 +45,7 @@ void NonnegativeLeastSquares::solve(const Long* b) {
   find_rest();
   const Index most = 3 * size_ + 30;
   for (Index round = 0; round < most; ++round) {
-    const Index i = most_pulling();
+    const Index i = most_pulling(no_pull);
     if (i < 0) break;
     if (!enter(i) || !settle(i)) {
       // rounding: until something else helped it may not come in again
@@ -63,8 +63,8 @@ void NonnegativeLeastSquares::solve(const Long* b) {
   add_up();
 }
 
-Index NonnegativeLeastSquares::most_pulling() const {
-  Long best = 0.0L;
+Index NonnegativeLeastSquares::most_pulling(Long no_pull) const {
+  Long best = no_pull;
   for (Index j = 0; j < columns_; ++j) best += kNoPull * std::abs(b_[j]);
   Index found = -1;
   for (Index i = 0; i < size_; ++i) {

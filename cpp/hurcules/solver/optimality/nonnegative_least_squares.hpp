@@ -23,8 +23,8 @@ class NonnegativeLeastSquares {
   [[nodiscard]] Long* place() { return &directions_[size_ * columns_]; }
   // what was put there counts
   void add() { ++size_; }
-  // finds y for b (columns)
-  void solve(const Long* b);
+  // finds y for b (columns); a pull of `no_pull` or less counts as none
+  void solve(const Long* b, Long no_pull = 0.0L);
 
   [[nodiscard]] Index size() const { return size_; }
   [[nodiscard]] Long weight(Index i) const { return weight_[i]; }
@@ -36,8 +36,8 @@ class NonnegativeLeastSquares {
   enum class State : char { Out, In, Barred };
 
   [[nodiscard]] const Long* direction(Index i) const { return &directions_[i * columns_]; }
-  // the direction that pulls most at what is left, or -1
-  [[nodiscard]] Index most_pulling() const;
+  // the direction that pulls most at what is left, and more than `no_pull`, or -1
+  [[nodiscard]] Index most_pulling(Long no_pull) const;
   // takes a direction in; false when it depends on those that are
   bool enter(Index i);
   // to the best weights of what is in; a direction whose weight vanishes leaves; false when it is

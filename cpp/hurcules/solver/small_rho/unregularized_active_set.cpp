@@ -50,8 +50,13 @@ void UnregularizedActiveSet::start(const RowTable& rows, const NullspaceBasis& n
 
 // by how much `value` breaks rows above, beyond what rounding does
 double UnregularizedActiveSet::worst_above(double x_scale) const {
-  double worst = 0.0;
   const int level = level_->level();
+  if (!level_->has_slacks()) {
+    return kernels::chosen->worst_excess(rows_->candidates(level + 1), candidates_->value.data(),
+                                         candidates_->limits(*rows_),
+                                         tolerance::kBroken * x_scale, 0.0);
+  }
+  double worst = 0.0;
   for (int i = 0; i < rows_->begin(level); ++i) {
     const Row& row = (*rows_)[i];
     if (row.equality) continue;
@@ -211,9 +216,16 @@ bool UnregularizedActiveSet::mend_weak() {
   return moved;
 }
 
+// Then what they push against the step is not one set of numbers but many.
+bool UnregularizedActiveSet::crowded() const {
+  const std::size_t held = group_[kLimits].size() + group_[kSmallest].size();
+  return static_cast<Index>(held) > level_->free() - level_->own();
+}
+
 // lets the limit go that pulls most: against the violations first, then against the step
-bool UnregularizedActiveSet::drop_negative(Budget& budget) {
+bool UnregularizedActiveSet::drop_negative(Budget& budget, bool fixed) {
   for (const RowGroup group : {kLimits, kSmallest}) {
+    if (group == kSmallest && fixed) continue;
     double largest = 0.0;
     for (Index i = step_.begin(group); i < step_.end(group); ++i) {
       largest = std::max(largest, std::abs(step_.rows()[i].multiplier));
@@ -270,9 +282,12 @@ bool UnregularizedActiveSet::solve(double rho, Budget& budget, double* x,
     if (!std::isfinite(size_) || (remembered_ && contradictory())) break;
     if (mend_unmet() || advance(budget) || mend_own()) continue;
     step_.balance_violation(rho, target_.data(), candidates_->target.data());
-    if (mend_weak()) continue;
+    // where more rows of the last solve hold than there are directions they fix the step, whatever
+    // they push: which of them settle the violation is known, and the proof finds the rest
+    const bool fixed = remembered_ && round == 0 && crowded();
+    if (!fixed && mend_weak()) continue;
     step_.balance_step();
-    if (drop_negative(budget)) continue;
+    if (drop_negative(budget, fixed)) continue;
     found = true;
     break;
   }

@@ -45,7 +45,10 @@ class UnregularizedActiveSet {
   bool advance(Budget& budget);
   bool mend_own();
   bool mend_weak();
-  bool drop_negative(Budget& budget);
+  // `fixed`: only those that pull against the violations
+  bool drop_negative(Budget& budget, bool fixed);
+  // more limits are held than the level leaves directions
+  [[nodiscard]] bool crowded() const;
 
   void keep(double rho, std::vector<HeldRow>& held, int& begin_norm) const;
   [[nodiscard]] double beyond(const GroupedRow& held) const;  // target - limit, outwards

@@ -18,9 +18,8 @@ constexpr double kOwnRounding = 1e-15;
 void UnregularizedStep::reserve(Index unknowns, Index rows) {
   factor_.reserve(rows, unknowns);
   all_.reserve(rows);
-  if (block_.rows() < rows + 2 * unknowns || block_.cols() < unknowns + 1) {
-    block_.resize(rows + 2 * unknowns, unknowns + 1);
-  }
+  block_.reserve(rows + 2 * unknowns, unknowns + 1);
+  work_.reserve(rows + 3 * unknowns + 4);
   norm2_.reserve(rows);
   for (PaddedVector* v : {&y_, &t_, &force_, &push_}) v->reserve(padded(unknowns) + 4);
 }
@@ -106,25 +105,27 @@ void UnregularizedStep::meet(RowGroup group) {
 void UnregularizedStep::least_squares(double rho) {
   const Index first = this->first(kOwn), columns = rank_[kOwn] - first;
   Index count = 0;
+  block_.shape(columns + 1);
   for (Index i = begin(kOwn); i < end_[kOwn]; ++i, ++count) {
     const double* l = factor_.coordinates(i);
     double rest = all_[i].limit - rows_->dot(all_[i].row, x_above_);
     for (Index j = 0; j < first; ++j) rest -= l[j] * y_[j];
-    for (Index j = 0; j < columns; ++j) block_(count, j) = l[first + j];
-    block_(count, columns) = rest;
+    std::copy_n(l + first, columns, block_.row(count));
+    block_.row(count)[columns] = rest;
   }
   if (rho > 0.0) {
     for (Index j = 0; j < columns; ++j, ++count) {
-      block_.row(count).head(columns + 1).setZero();
-      block_(count, j) = rho;
+      std::fill_n(block_.row(count), columns + 1, 0.0);
+      block_.row(count)[j] = rho;
     }
     add_smallest(rho, count);
   }
-  triangularize(block_, count, columns);
+  triangularize(block_, count, columns, work_.data());
   for (Index j = columns - 1; j >= 0; --j) {
-    double sum = block_(j, columns);
-    for (Index l = j + 1; l < columns; ++l) sum -= block_(j, l) * y_[first + l];
-    y_[first + j] = sum / block_(j, j);
+    const double* row = block_.row(j);
+    double sum = row[columns];
+    for (Index l = j + 1; l < columns; ++l) sum -= row[l] * y_[first + l];
+    y_[first + j] = sum / row[j];
   }
 }
 
@@ -136,13 +137,14 @@ void UnregularizedStep::add_smallest(double rho, Index& count) {
     const double* l = factor_.coordinates(factor_.pivot(s));
     double rest = row.limit - rows_->dot(row.row, x_above_);
     for (Index j = 0; j < first; ++j) rest -= l[j] * y_[j];
-    for (Index j = 0; j < columns; ++j) block_(count, j) = rho * l[first + j];
-    block_(count, columns) = rho * rest;
+    double* out = block_.row(count);
+    for (Index j = 0; j < columns; ++j) out[j] = rho * l[first + j];
+    out[columns] = rho * rest;
     for (Index b = rank_[kOwn]; b < s; ++b) {
-      block_.row(count).head(columns + 1) -=
-          l[b] * block_.row(begin_last + b - rank_[kOwn]).head(columns + 1);
+      const double* before = block_.row(begin_last + b - rank_[kOwn]);
+      for (Index j = 0; j <= columns; ++j) out[j] -= l[b] * before[j];
     }
-    block_.row(count).head(columns + 1) /= l[s];
+    for (Index j = 0; j <= columns; ++j) out[j] /= l[s];
   }
 }
 

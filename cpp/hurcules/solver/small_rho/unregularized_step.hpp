@@ -78,8 +78,8 @@ class UnregularizedStep {
   std::vector<GroupedRow> all_;
   Index end_[kRowGroups] = {}, rank_[kRowGroups] = {};
   OrthogonalFactor factor_;
-  Matrix block_;
-  PaddedVector norm2_, y_, t_, force_, push_;
+  PaddedRows block_;
+  PaddedVector norm2_, y_, t_, force_, push_, work_;
 };
 
 }  // namespace hurcules
