@@ -102,6 +102,8 @@ std::vector<std::string> level_names(const HeldStack& self) {
 
 HeldStack hurcules_bindings::stack_of(const py::object& levels) {
   if (py::isinstance<HeldStack>(levels)) return levels.cast<const HeldStack&>();
+  require(py::isinstance<py::iterable>(levels) && !py::isinstance<py::str>(levels),
+          "levels want a Stack or a list of tasks, a " + type_of(levels) + " came");
   return make_stack(levels.cast<py::iterable>());
 }
 
