@@ -12,8 +12,10 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 import hurcules
+import hurcules_envs
 from hurcules.cli import results_in
 from hurcules.output import Output
+from hurcules.validation import require_known
 from hurcules_envs import evaluation
 from hurcules_envs.policy import Policy, full_id
 from hurcules_envs.registry import fastest_fidelity
@@ -33,9 +35,9 @@ Robot = Annotated[str | None, typer.Option(help="rescue, manipulation or a path.
 def train(
     environment: Annotated[str, typer.Argument(help="Reach-v0, Drive-v0, ...")],
     algo: Annotated[str, typer.Option(help="ppo, sac or her.")] = "ppo",
-    steps: Annotated[int, typer.Option(help="Of all episodes together.")] = 100_000,
-    envs: Annotated[int, typer.Option(help="Episodes side by side.")] = 16,
-    seed: Annotated[int, typer.Option(help="Of networks and episodes.")] = 0,
+    steps: Annotated[int, typer.Option(help="Of all episodes together.", min=1)] = 100_000,
+    envs: Annotated[int, typer.Option(help="Episodes side by side.", min=1)] = 16,
+    seed: Annotated[int, typer.Option(help="Of networks and episodes.", min=0)] = 0,
     fidelity: Fidelity = None,
     robot: Robot = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
@@ -44,7 +46,7 @@ def train(
         str | None,
         typer.Option(help="Address of a Ray cluster, auto, or local: PPO by RLlib."),
     ] = None,
-    judge: Annotated[int, typer.Option(help="Episodes of the evaluation, in exact.")] = 100,
+    judge: Annotated[int, typer.Option(help="Episodes of the evaluation, in exact.", min=1)] = 100,
 ) -> None:
     """Train a policy that commands a robot in task space, then judge it in the full physics.
 
@@ -53,7 +55,7 @@ def train(
 
     For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`
     """
-    name = full_id(environment)
+    name = _known(environment)
     options = _given(fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action)
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
@@ -117,8 +119,8 @@ def record(
     policy: Annotated[
         str, typer.Option(help="expert, an ONNX file, a folder, or Reach-v0.")
     ] = "expert",
-    episodes: Annotated[int, typer.Option(help="How many.")] = 100,
-    seed: Annotated[int, typer.Option(help="Of the first one.")] = 0,
+    episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
+    seed: Annotated[int, typer.Option(help="Of the first one.", min=0)] = 0,
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     out: Annotated[Path | None, results_in("out/data")] = None,
@@ -131,7 +133,7 @@ def record(
     """
     from hurcules_envs import recording
 
-    name, author, source = full_id(environment), "expert", ""
+    name, author, source = _known(environment), "expert", ""
     act: Any = _expert
     if policy != "expert":
         network, author = Policy(policy), "policy"
@@ -179,10 +181,10 @@ def _judge(
 ) -> None:
     policy = Policy(source)
     name, options = environment_of(policy, environment, fidelity=fidelity, robot=robot)
+    beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
+    output = Output(out or beside, ())
     result = evaluation.evaluate(policy, name, episodes, **options)
     figures = asdict(result) | {"environment": name, "options": options}
-    beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
-    output = Output(out or beside, ("evaluation.json",))
     output.write_json("evaluation.json", figures)
     words = ", ".join(f"{key} {value}" for key, value in options.items())
     console.print(f"{name} ({words}), {episodes} episodes")
@@ -192,6 +194,13 @@ def _judge(
     console.print(f"  over a limit   {1e3 * result.limit_excess:.1f} mrad at most, measured")
     console.print(f"  self-contact   {result.self_contacts:.2%} of the steps")
     console.print(f"  {output.saved[0]}")
+
+
+def _known(environment: str) -> str:
+    """The id of an environment that exists."""
+    name = full_id(environment)
+    require_known("environment", name, hurcules_envs.ENVIRONMENTS)
+    return name
 
 
 def _training() -> Any:

@@ -64,6 +64,8 @@ def known_ranges(options: Mapping[str, Any], *others: str) -> Mapping[str, Any]:
     Raises:
         hurcules.Error: another one; the text lists those that exist, `others` too.
     """
+    if not isinstance(options, Mapping):
+        raise hurcules.Error(f"options: wanted a dictionary, got {options!r}")
     for option in options:
         hurcules.validation.require_known("reset option", str(option), [*others, *NAMES])
     return options

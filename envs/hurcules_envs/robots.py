@@ -124,7 +124,7 @@ class Postures:
 
 
 def load_robot(
-    robot: str, frames: Sequence[str] | None = None, joints: Sequence[str] | None = None
+    robot: str | Path, frames: Sequence[str] | None = None, joints: Sequence[str] | None = None
 ) -> RobotSetup:
     """Loads a robot by name or path.
 
@@ -136,7 +136,10 @@ def load_robot(
     Raises:
         hurcules.Error: an unknown name, no frames, or a frame that does not exist.
     """
-    return _load(robot, None if frames is None else tuple(frames), joints and tuple(joints))
+    if not isinstance(robot, str | Path):
+        known = ", ".join(hurcules.models.names())
+        raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
+    return _load(str(robot), None if frames is None else tuple(frames), joints and tuple(joints))
 
 
 @lru_cache(maxsize=8)

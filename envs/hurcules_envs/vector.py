@@ -62,7 +62,11 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         ranges, options = split(options)
         self.environment = make_environment(environment, options)
         self._episodes = Episodes(self.environment, num_envs, threads, flat=flat, ranges=ranges)
-        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        mode = str(getattr(autoreset_mode, "value", autoreset_mode))
+        hurcules.validation.require_known(
+            "autoreset mode", mode, [one.value for one in AutoresetMode]
+        )
+        self.autoreset_mode = AutoresetMode(mode)
         self.metadata = {
             "autoreset_mode": self.autoreset_mode,
             "render_modes": [],

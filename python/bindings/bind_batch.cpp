@@ -133,7 +133,7 @@ void restore_batch(SimulationBatch& self, const Matrix& states,
 void bind_batch(py::module_& module) {
   using Batch = SimulationBatch;
   const auto item = [](Batch& self, std::size_t i) -> Simulation& {
-    if (i >= self.size()) throw py::index_error();
+    if (i >= self.size()) throw py::index_error("a batch of " + std::to_string(self.size()));
     return self[i];
   };
   py::class_<Batch>(module, "SimulationBatch", kBatch)

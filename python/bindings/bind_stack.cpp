@@ -161,6 +161,8 @@ void bind_limits(py::module_& module) {
 
 HeldStack hurcules_bindings::stack_of(const py::object& levels) {
   if (py::isinstance<HeldStack>(levels)) return levels.cast<const HeldStack&>();
+  require(py::isinstance<py::iterable>(levels) && !py::isinstance<py::str>(levels),
+          "levels want a Stack or a list of tasks, a " + type_of(levels) + " came");
   return make_stack(levels.cast<py::iterable>());
 }
 

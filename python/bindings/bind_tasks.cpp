@@ -13,6 +13,7 @@
 #include "hurcules/tasks/custom_task.hpp"
 #include "hurcules/tasks/damping_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
+#include "hurcules/tasks/manipulability_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
@@ -101,11 +102,21 @@ Args:
   reference: frame of the robot.
 )";
 constexpr const char* kSetPose =
-    R"(Sets the target, at rest; seen at the next update.
+    R"(Sets the target; seen at the next update.
 
 Args:
   position: (3,) [m].
   orientation: (3, 3) rotation; None keeps the one that it has.
+  velocity: (6,) [m/s], [rad/s] at which the target moves, fed forward until the next call that sets
+    or moves it; None: at rest.
+)";
+constexpr const char* kSetTurn =
+    R"(Sets the target; seen at the next update.
+
+Args:
+  target: (3, 3) rotation.
+  velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
+    moves it; None: at rest.
 )";
 constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
@@ -118,7 +129,27 @@ From a fifth of it on the target goes slower; a velocity that leads back is neve
 )";
 constexpr const char* kValueTask =
     "A task whose value is a list of numbers: e = value - target, angles the short way round.";
-constexpr const char* kSetTarget = "Sets the target (m,), at rest; seen at the next update.";
+constexpr const char* kSetTarget =
+    R"(Sets the target; seen at the next update.
+
+Args:
+  target: (m,).
+  velocity: (m,) [unit/s] at which the target moves, fed forward until the next call that sets or
+    moves it; None: at rest. Who leads a target so sets it anew each tick.
+)";
+constexpr const char* kManipulabilityTask =
+    R"(How far a frame is from a singularity: s (1,), the product of the singular values of its Jacobian.
+
+set_target(s_min) with set_interval([0], [inf]) keeps it above s_min; a target that is out of reach
+makes it as large as the levels above allow. Slower than others: differences of kinematics.
+
+Args:
+  name, robot, frame: see PositionTask.
+  axes: (m, 3), m = 1 to 3 directions in the world that count.
+  turns: rotations [rad] count beside positions [m].
+)";
+constexpr const char* kWorldPosition = "where the point is (3,) [m] in the world, at the last update";
+constexpr const char* kWorldTarget = "where it shall be (3,) [m] in the world, for drawing";
 constexpr const char* kPostureTask = R"(Coordinates at chosen positions [rad] or [m] (m,).
 
 Args:
@@ -252,7 +283,13 @@ void bind_task(py::module_& module) {
   py::class_<ValueTask, Task>(module, "ValueTask", kValueTask)
       .def_property_readonly("value", &ValueTask::value, copy, "s (m,), at the last update")
       .def_property_readonly("target", &ValueTask::target, copy, "s_des (m,)")
-      .def("set_target", &ValueTask::set_target, py::arg("target"), kSetTarget)
+      .def(
+          "set_target",
+          [](ValueTask& task, const ConstVectorRef& target, const std::optional<Vector>& velocity) {
+            if (!velocity) return task.set_target(target);
+            task.set_reference(target, *velocity, Vector::Zero(task.rows()));
+          },
+          py::arg("target"), py::arg("velocity") = py::none(), kSetTarget)
       .def_property("max_lead", &ValueTask::max_lead, &ValueTask::set_max_lead, kMaxLead)
       .def_property(
           "leash",
@@ -274,6 +311,13 @@ void bind_coordinate_tasks(py::module_& module) {
            py::arg("coordinates") = std::vector<Name>{});
   py::class_<CustomTask, ValueTask>(module, "CustomTask", kCustomTask)
       .def(py::init(&custom_task), name, robot, py::arg("rows"), py::arg("measure"));
+  py::class_<ManipulabilityTask, ValueTask>(module, "ManipulabilityTask", kManipulabilityTask)
+      .def(py::init([](Name n, const Robot& r, const Name& frame, Matrix rows, bool turns) {
+             return std::make_unique<ManipulabilityTask>(
+                 std::move(n), r, frame, ManipulabilityTaskOptions{std::move(rows), turns});
+           }),
+           name, robot, py::arg("frame"), py::arg("axes") = ManipulabilityTaskOptions{}.axes,
+           py::arg("turns") = ManipulabilityTaskOptions{}.turns);
   py::class_<PostureTask, ValueTask>(module, "PostureTask", kPostureTask)
       .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
            py::arg("coordinates") = std::vector<Name>{});
@@ -286,8 +330,10 @@ void bind_pose_tasks(py::module_& module) {
     return std::make_unique<PoseTask>(std::move(n), r, f, PoseTaskOptions{std::move(ref)});
   };
   const auto set_target = [](PoseTask& task, const Vector3& position,
-                             const std::optional<Matrix3>& orientation) {
+                             const std::optional<Matrix3>& orientation,
+                             const std::optional<Vector>& velocity) {
     task.set_target(position, orientation.value_or(task.target_orientation()));
+    if (velocity) task.advance(*velocity, 0.0);
   };
   py::class_<PoseTask, Task>(module, "PoseTask", kPoseTask)
       .def(py::init(pose), name, robot, frame, py::arg("reference") = PoseTaskOptions{}.reference)
@@ -295,8 +341,12 @@ void bind_pose_tasks(py::module_& module) {
       .def_property_readonly("orientation", &PoseTask::orientation, copy, "R_RF (3, 3)")
       .def_property_readonly("target_position", &PoseTask::target_position, copy, "(3,) [m]")
       .def_property_readonly("target_orientation", &PoseTask::target_orientation, copy, "(3, 3)")
+      .def_property_readonly("world_position", &PoseTask::world_position, kWorldPosition)
+      .def_property_readonly("world_target", &PoseTask::world_target, kWorldTarget)
+      .def_property_readonly("world_target_orientation", &PoseTask::world_target_orientation,
+                             "how it shall be turned (3, 3) in the world, for drawing")
       .def("set_target", set_target, py::arg("position"), py::arg("orientation") = py::none(),
-           kSetPose);
+           py::arg("velocity") = py::none(), kSetPose);
   py::class_<RelativePoseTask, PoseTask>(module, "RelativePoseTask", kRelativePoseTask)
       .def(py::init<Name, const Robot&, const Name&, const Name&>(), name, robot, frame,
            py::arg("reference"));
@@ -317,7 +367,9 @@ void bind_point_tasks(py::module_& module) {
   };
   const auto copy = py::return_value_policy::copy;
   py::class_<PointTask, ValueTask>(module, "PointTask", "A point of the robot at a target.")
-      .def_property_readonly("position", &PointTask::position, copy, "p_RF (3,) [m]");
+      .def_property_readonly("position", &PointTask::position, copy, "p_RF (3,) [m]")
+      .def_property_readonly("world_position", &PointTask::world_position, kWorldPosition)
+      .def_property_readonly("world_target", &PointTask::world_target, kWorldTarget);
   py::class_<PositionTask, PointTask>(module, "PositionTask", kPositionTask)
       .def(py::init(position), name, robot, py::arg("frame"), reference, axes);
   py::class_<CenterOfMassTask, PointTask>(module, "CenterOfMassTask", kCenterOfMassTask)
@@ -342,8 +394,13 @@ void bind_rotation_tasks(py::module_& module) {
       .def(py::init(orientation), name, robot, frame, reference)
       .def_property_readonly("orientation", &OrientationTask::orientation, copy, "R_RF (3, 3)")
       .def_property_readonly("target", &OrientationTask::target, copy, "R_des (3, 3)")
-      .def("set_target", &OrientationTask::set_target, py::arg("target"),
-           "Sets the target, a rotation (3, 3), at rest; seen at the next update.");
+      .def(
+          "set_target",
+          [](OrientationTask& task, const Matrix3& target, const std::optional<Vector>& velocity) {
+            task.set_target(target);
+            if (velocity) task.advance(*velocity, 0.0);
+          },
+          py::arg("target"), py::arg("velocity") = py::none(), kSetTurn);
   py::enum_<AngleKind>(module, "AngleKind", "Which angle an AngleTask measures.")
       .value("Elevation", AngleKind::Elevation)
       .value("Heading", AngleKind::Heading);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "annotated.hpp"
+#include "arrays.hpp"
 #include "bind_stack.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
@@ -175,7 +176,7 @@ Vector scale_of(const py::object& scale) {
   if (py::isinstance<py::float_>(scale) || py::isinstance<py::int_>(scale)) {
     return Vector::Constant(1, scale.cast<double>());
   }
-  return scale.cast<Vector>();
+  return vector_of(scale, "the scale of a channel", "a number or (k,)");
 }
 
 template <ChannelKind kind>
@@ -341,6 +342,12 @@ void bind_whole_body(py::module_& module) {
     if (self.moves_joints()) return std::nullopt;
     return self.stacks()[self.active()].name;
   };
+  const auto tasks = [](const WholeBodyController& self) {
+    std::vector<Task*> all;
+    for (const StackLevel& level : self.law().stack().levels())
+      all.insert(all.end(), level.tasks.begin(), level.tasks.end());
+    return all;
+  };
   const auto names = [](const WholeBodyController& self) {
     std::vector<std::string> all;
     for (const NamedStack& stack : self.stacks()) all.push_back(stack.name);
@@ -398,6 +405,8 @@ void bind_whole_body(py::module_& module) {
                              "(k,) the last one, as held to scale")
       .def_property_readonly("stacks", names, "names of the stacks")
       .def_property_readonly("active", active, "the stack that rules; None while joints are moved")
+      .def_property_readonly("tasks", tasks, py::return_value_policy::reference_internal,
+                             "the tasks of the stack that rules, in decreasing priority")
       .def_property_readonly("joints", joints, "(m,) joints with a servo")
       .def_property_readonly("joint_places", places, "(m,) [rad] or [m] where the servos hold them")
       .def_property_readonly("joint_error", error, "(m,) [rad] or [m] place minus sensed")

@@ -71,6 +71,7 @@ from hurcules._core import (  # noqa: E402
     JointRates,
     Lead,
     LevelDiagnostics,
+    ManipulabilityTask,
     Measure,
     MissionSetup,
     MissionTable,
@@ -125,6 +126,7 @@ from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
 from hurcules.urdf import load_urdf, on_floor  # noqa: E402
+from hurcules.view import watch  # noqa: E402
 
 _reprs.install()
 
@@ -190,6 +192,7 @@ __all__ = [
     "JointRates",
     "Lead",
     "LevelDiagnostics",
+    "ManipulabilityTask",
     "Measure",
     "Mission",
     "MissionSetup",
@@ -256,5 +259,6 @@ __all__ = [
     "sole_points",
     "step",
     "transfer_bed",
+    "watch",
     "with_motors",
 ]

@@ -735,8 +735,13 @@ class Task:
 class ValueTask(Task):
     """A task whose value is a list of numbers: e = value - target, angles the short way round."""
 
-    def set_target(self, target: ArrayLike) -> None:
-        """Sets the target (m,), at rest; seen at the next update."""
+    def set_target(self, target: ArrayLike, velocity: ArrayLike | None = None) -> None:
+        """Sets the target; seen at the next update.
+
+        Args:
+          target: (m,).
+          velocity: (m,) [unit/s] at which the target moves, fed forward until the next call that sets or
+            moves it; None: at rest. Who leads a target so sets it anew each tick."""
 
     @property
     def leash(self) -> float:
@@ -793,6 +798,21 @@ class CustomTask(ValueTask):
         self, name: str, robot: Robot, rows: int, measure: collections.abc.Callable[..., Any]
     ) -> None: ...
 
+class ManipulabilityTask(ValueTask):
+    """How far a frame is from a singularity: s (1,), the product of the singular values of its Jacobian.
+
+    set_target(s_min) with set_interval([0], [inf]) keeps it above s_min; a target that is out of reach
+    makes it as large as the levels above allow. Slower than others: differences of kinematics.
+
+    Args:
+      name, robot, frame: see PositionTask.
+      axes: (m, 3), m = 1 to 3 directions in the world that count.
+      turns: rotations [rad] count beside positions [m]."""
+
+    def __init__(
+        self, name: str, robot: Robot, frame: str, axes: ArrayLike = ..., turns: bool = False
+    ) -> None: ...
+
 class PostureTask(ValueTask):
     """Coordinates at chosen positions [rad] or [m] (m,).
 
@@ -810,6 +830,14 @@ class PointTask(ValueTask):
     @property
     def position(self) -> NDArray[np.float64]:
         """p_RF (3,) [m]"""
+
+    @property
+    def world_position(self) -> NDArray[np.float64]:
+        """where the point is (3,) [m] in the world, at the last update"""
+
+    @property
+    def world_target(self) -> NDArray[np.float64]:
+        """where it shall be (3,) [m] in the world, for drawing"""
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 
@@ -847,12 +875,19 @@ class PoseTask(Task):
       name, robot, frame, reference: see PositionTask."""
 
     def __init__(self, name: str, robot: Robot, frame: str, reference: str = "") -> None: ...
-    def set_target(self, position: ArrayLike, orientation: ArrayLike | None = None) -> None:
-        """Sets the target, at rest; seen at the next update.
+    def set_target(
+        self,
+        position: ArrayLike,
+        orientation: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+    ) -> None:
+        """Sets the target; seen at the next update.
 
         Args:
           position: (3,) [m].
-          orientation: (3, 3) rotation; None keeps the one that it has."""
+          orientation: (3, 3) rotation; None keeps the one that it has.
+          velocity: (6,) [m/s], [rad/s] at which the target moves, fed forward until the next call that sets
+            or moves it; None: at rest."""
 
     @property
     def orientation(self) -> NDArray[np.float64]:
@@ -869,6 +904,18 @@ class PoseTask(Task):
     @property
     def target_position(self) -> NDArray[np.float64]:
         """(3,) [m]"""
+
+    @property
+    def world_position(self) -> NDArray[np.float64]:
+        """where the point is (3,) [m] in the world, at the last update"""
+
+    @property
+    def world_target(self) -> NDArray[np.float64]:
+        """where it shall be (3,) [m] in the world, for drawing"""
+
+    @property
+    def world_target_orientation(self) -> NDArray[np.float64]:
+        """how it shall be turned (3, 3) in the world, for drawing"""
 
 class RelativePoseTask(PoseTask):
     """The pose of a frame in another frame of the robot: a PoseTask whose reference moves too.
@@ -889,8 +936,13 @@ class OrientationTask(Task):
       name, robot, frame, reference: see PositionTask."""
 
     def __init__(self, name: str, robot: Robot, frame: str, reference: str = "") -> None: ...
-    def set_target(self, target: ArrayLike) -> None:
-        """Sets the target, a rotation (3, 3), at rest; seen at the next update."""
+    def set_target(self, target: ArrayLike, velocity: ArrayLike | None = None) -> None:
+        """Sets the target; seen at the next update.
+
+        Args:
+          target: (3, 3) rotation.
+          velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
+            moves it; None: at rest."""
 
     @property
     def orientation(self) -> NDArray[np.float64]:
@@ -2719,6 +2771,10 @@ class WholeBodyController:
     @property
     def stacks(self) -> list[str]:
         """names of the stacks"""
+
+    @property
+    def tasks(self) -> list[Task]:
+        """the tasks of the stack that rules, in decreasing priority"""
 
     @property
     def torque(self) -> NDArray[np.float64]:

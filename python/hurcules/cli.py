@@ -327,13 +327,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return _complete()(arguments, standalone_mode=False) or 0
     except typer.TyperException as error:
-        return _complain(error.format_message(), USAGE)
+        return _complain(
+            _with_value(error, sys.argv[1:] if arguments is None else arguments), USAGE
+        )
     except WriteError as error:
         return _complain(str(error), FAILED)
     except Error as error:
         return _complain(str(error), USAGE)
     except (KeyboardInterrupt, typer.Abort):
         return _complain("interrupted", INTERRUPTED)
+
+
+def _with_value(error: typer.TyperException, words: Sequence[str]) -> str:
+    """What typer says, and the value that came where it does not say that."""
+    text = error.format_message()
+    options = getattr(getattr(error, "param", None), "opts", [])
+    if isinstance(error, typer.BadParameter) and "got" not in text:
+        for option, value in zip(words, [*words[1:], ""], strict=True):
+            name, _, inside = option.partition("=")
+            if name in options:
+                return f"{text}, got {inside or value!r}"
+    return text
 
 
 def _complain(text: str, code: int) -> int:

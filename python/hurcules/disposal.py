@@ -28,7 +28,7 @@ from hurcules._core import (
     Twist,
     WholeBodyController,
 )
-from hurcules.mission_options import pair, read_options, record, require_offset
+from hurcules.mission_options import in_words_of, pair, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
 __all__ = ["Job", "controller", "job", "mission", "model", "parameters_of", "spec"]
@@ -94,15 +94,16 @@ def model(job: Job) -> mujoco.MjModel:
 def spec(job: Job) -> mujoco.MjSpec:
     """The same, not compiled yet."""
     dx, dy = job.offset
-    return scenes.make(
-        "disposal",
-        robot="manipulation",
-        mass=job.mass,
-        grip=job.friction,
-        distance=DISTANCE + dx,
-        lateral=dy,
-        heading=job.yaw,
-    )
+    with in_words_of({"grip": "friction", "heading": "yaw"}):
+        return scenes.make(
+            "disposal",
+            robot="manipulation",
+            mass=job.mass,
+            grip=job.friction,
+            distance=DISTANCE + dx,
+            lateral=dy,
+            heading=job.yaw,
+        )
 
 
 def mission() -> Mission:

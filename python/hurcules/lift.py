@@ -32,7 +32,7 @@ from hurcules._core import (
     Twist,
     WholeBodyController,
 )
-from hurcules.mission_options import pair, read_options, record, require_offset
+from hurcules.mission_options import in_words_of, pair, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
 __all__ = [
@@ -115,16 +115,17 @@ def model(person: Person) -> mujoco.MjModel:
 def spec(person: Person) -> mujoco.MjSpec:
     """The same, not compiled yet."""
     dx, dy = person.offset
-    return scenes.make(
-        "casualty",
-        robot="rescue",
-        mass=person.mass,
-        lying=person.pose,
-        distance=DISTANCE + dx,
-        lateral=dy,
-        heading=person.yaw,
-        cloth=person.friction,
-    )
+    with in_words_of({"lying": "pose", "heading": "yaw", "cloth": "friction"}):
+        return scenes.make(
+            "casualty",
+            robot="rescue",
+            mass=person.mass,
+            lying=person.pose,
+            distance=DISTANCE + dx,
+            lateral=dy,
+            heading=person.yaw,
+            cloth=person.friction,
+        )
 
 
 def mission(name: str = "lift") -> Mission:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import fields
 from typing import Any, TypeVar
 
 from hurcules._core import Error
 
-__all__ = ["pair", "read_options", "record", "require_offset"]
+__all__ = ["in_words_of", "pair", "read_options", "record", "require_offset"]
 
 Record = TypeVar("Record")
 
@@ -33,6 +34,8 @@ def read_options(
         if option not in readers:
             raise Error(f"no such option: {option}; there are: {', '.join(readers)}")
         value = value or (rest.pop(0) if rest else "")
+        if not value:
+            raise Error(f"{option} wants a value")
         try:
             found[option.removeprefix("--")] = readers[option](value)
         except ValueError:
@@ -58,12 +61,33 @@ def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]
     return kind(**parameters)
 
 
+@contextmanager
+def in_words_of(words: Mapping[str, str]) -> Iterator[None]:
+    """Errors name a scene's parameters as the mission calls them.
+
+    Args:
+        words: the mission's name by the scene's.
+
+    Raises:
+        Error: as it was raised inside, "casualty: yaw wants ..." for "casualty: heading wants ...".
+    """
+    try:
+        yield
+    except Error as error:
+        noun, _, rest = str(error).partition(": ")
+        name, _, wanted = rest.partition(" ")
+        if name not in words:
+            raise
+        raise Error(f"{noun}: {words[name]} {wanted}") from None
+
+
 def require_offset(noun: str, offset: Sequence[float]) -> None:
     """Two numbers [m], ahead and to the left.
 
     Raises:
         Error: others; the text begins with the noun.
     """
-    if len(offset) != 2 or not all(math.isfinite(number) for number in offset):
+    numbers = isinstance(offset, Sequence) and all(isinstance(one, int | float) for one in offset)
+    if not numbers or len(offset) != 2 or not all(math.isfinite(number) for number in offset):
         wanted = "offset wants two numbers, ahead and to the left"
         raise Error(f"{noun}: {wanted}, got {offset!r}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,8 @@ class Output:
             for name in names:
                 (folder / name).unlink(missing_ok=True)
         except OSError as error:
-            raise Error(f"--out: cannot write to {folder}: {error.strerror}") from error
+            reason = "it is a file" if folder.is_file() else error.strerror
+            raise Error(f"--out: cannot write to {folder}: {reason}") from error
 
     def write(self, name: str, writer: Callable[[Path], None]) -> Path:
         """Writes a file under another name and renames it when it is whole.
@@ -58,7 +60,8 @@ class Output:
         Raises:
             WriteError: disk full, no permission, ...
         """
-        path, part = self.folder / name, self.folder / f"part-{name}"
+        path = self.folder / name
+        part = self.folder / f"part-{os.getpid()}-{name}"  # two runs may share a folder
         try:
             writer(part)
             part.replace(path)

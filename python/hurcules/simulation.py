@@ -10,13 +10,13 @@ import math
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hurcules import _core, models
+from hurcules import _core, drawing, models
 from hurcules._core import (
     Error,
     FallOptions,
@@ -34,6 +34,7 @@ MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/de
 
 Array = NDArray[np.float64]
 Command = Mapping[str, ArrayLike] | ArrayLike
+Options = TypeVar("Options")
 
 
 def missions() -> list[str]:
@@ -106,11 +107,11 @@ class Simulation(_core.Simulation):
             method=method,
             record=record,
             timed=timed,
-            sensors=sensors or SensorOptions(),
-            monitors=monitors or MonitorOptions(),
-            max_seconds=max_seconds,
+            sensors=_options("sensors", sensors, SensorOptions),
+            monitors=_options("monitors", monitors, MonitorOptions),
+            max_seconds=_max_seconds(max_seconds),
             physics=physics,
-            fall=fall or FallOptions(),
+            fall=_options("fall", fall, FallOptions),
             adds_command=adds_command,
         )
         if (model is None) != (controller is None):
@@ -128,6 +129,8 @@ class Simulation(_core.Simulation):
             controller = rows.controller(model)
         self.mission: str | None
         if controller is not None:
+            if not isinstance(controller, WholeBodyController):
+                raise Error(f"controller: wanted a WholeBodyController, got {controller!r}")
             self.mission = table.setup.name if table else None
             self.model = _model(model)
             if physics:
@@ -174,7 +177,34 @@ class Simulation(_core.Simulation):
         Raises:
             Error: an unknown channel, a wrong shape, or numbers that are not finite.
         """
+        if not isinstance(n, int | np.integer):
+            raise Error(f"step wants a whole number of ticks, got {n!r}")
         return super().step(n, None if command is None else _flat(self.controller, command))
+
+    def picture(
+        self,
+        width: int = 640,
+        height: int = 480,
+        camera: str | mujoco.MjvCamera | None = None,
+    ) -> NDArray[np.uint8]:
+        """What it looks like now: targets, the ways to them, joints at their limits.
+
+        Args:
+            width: [pixels].
+            height: [pixels].
+            camera: of the model, by name, or one of MuJoCo's; None looks at all of it.
+
+        Returns:
+            (height, width, 3) red, green, blue.
+
+        Raises:
+            RendererError: there is no OpenGL that works.
+            Error: the model has no such camera.
+        """
+        return drawing.picture(self, width, height, camera)
+
+    def _repr_html_(self) -> str:
+        return drawing.html(self)
 
     def __repr__(self) -> str:
         """What runs, and how far it is."""
@@ -234,14 +264,14 @@ class SimulationBatch(_core.SimulationBatch):
 def _flat(controller: WholeBodyController, command: Command, rows: int | None = None) -> Array:
     """A command as one array, (k,) or (rows, k)."""
     if not isinstance(command, Mapping):
-        return np.asarray(command, dtype=np.float64)
+        return _numbers("a command", command)
     known = [name for name, _ in controller.channels]
     for name in command:
         require_known("channel", name, known)
     parts = []
     for name, size in controller.channels:
         shape = (size,) if rows is None else (rows, size)
-        part = np.asarray(command.get(name, np.zeros(shape)), dtype=np.float64)
+        part = _numbers(f"channel {name!r}", command.get(name, np.zeros(shape)))
         if part.shape != shape and part.size != math.prod(shape):
             raise Error(f"channel {name!r}: wanted shape {shape}, got {part.shape}")
         parts.append(part.reshape(shape))
@@ -281,10 +311,35 @@ def _warn_of_floating(model: mujoco.MjModel, controller: WholeBodyController) ->
         )
 
 
+def _numbers(what: str, values: ArrayLike) -> Array:
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise Error(f"{what}: wanted numbers, got {values!r}") from None
+
+
 def _model(model: mujoco.MjModel | str | Path | None) -> mujoco.MjModel:
-    if isinstance(model, str | Path):
+    if isinstance(model, mujoco.MjModel):
+        return model
+    if not isinstance(model, str | Path):
+        raise Error(f"model: wanted a mujoco.MjModel or the path of one, got {model!r}")
+    try:
         return mujoco.MjModel.from_xml_path(str(model))
-    return model
+    except ValueError as error:
+        raise Error(f"cannot read {model}: {' '.join(str(error).split())}") from None
+
+
+def _options(name: str, value: Options | None, kind: type[Options]) -> Options:
+    if value is not None and not isinstance(value, kind):
+        raise Error(f"{name}: wanted {kind.__name__}, got {value!r}")
+    return value or kind()
+
+
+def _max_seconds(value: object) -> float:
+    number = isinstance(value, int | float | np.integer | np.floating)
+    if not number or not (seconds := float(value)) > 0:  # type: ignore[arg-type]
+        raise Error(f"max_seconds: wanted a time above 0 [s], got {value!r}")
+    return seconds
 
 
 def _seed(value: object) -> int:

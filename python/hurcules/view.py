@@ -15,10 +15,11 @@ import mujoco
 
 from hurcules import models
 from hurcules._core import Error, Plant
-from hurcules.simulation import Simulation, missions
+from hurcules.drawing import draw
+from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
 
-__all__ = ["view"]
+__all__ = ["view", "watch"]
 
 FPS = 60  # pictures a second
 
@@ -35,7 +36,51 @@ def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
     Raises:
         Error: nothing has this name, a file is no model, or there is no display.
     """
-    model, data, advance = _subject(name, seed)
+    if name in missions():
+        watch(Simulation(name, seed, record=False), seconds=seconds)
+    else:
+        _show(*_subject(name), lambda scene: None, seconds)
+
+
+def watch(
+    simulation: Simulation,
+    command: Command | Callable[[Simulation], Command | None] | None = None,
+    seconds: float | None = None,
+) -> None:
+    """Shows a simulation in MuJoCo's viewer, in real time, until its window is closed.
+
+    What its controller does is drawn: targets, the ways to them, joints at their limits.
+
+    Args:
+        simulation: goes on from where it is, as long as it is not finished.
+        command: as for `Simulation.step`, or a function of the simulation that gives one.
+        seconds: close the window after this time [s].
+
+    Raises:
+        Error: there is no display, or a command that `Simulation.step` refuses.
+    """
+
+    def advance(n: int) -> None:
+        now = command(simulation) if callable(command) else command
+        ticks = round(n * simulation.model.opt.timestep / simulation.dt)
+        if ticks and not simulation.finished:
+            simulation.step(ticks, now)
+
+    def mark(scene: mujoco.MjvScene) -> None:
+        scene.ngeom = 0
+        draw(scene, simulation)
+
+    _show(simulation.model, simulation.data, advance, mark, seconds)
+
+
+def _show(
+    model: Any,
+    data: Any,
+    advance: Callable[[int], Any],
+    mark: Callable[[Any], None],
+    seconds: float | None,
+) -> None:
+    """Opens the window; `advance` takes steps of the physics, `mark` draws into its own scene."""
     _require_display()
     import mujoco.viewer
 
@@ -50,17 +95,15 @@ def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
                 # a machine that is too slow shows slow motion, not ever longer leaps
                 until = min(begun + passed, data.time + 2.0 / FPS)
                 advance(round((until - data.time) / model.opt.timestep))
+                mark(window.user_scn)
             window.sync()
             time.sleep(max(0.0, 1.0 / FPS - (time.perf_counter() - started - passed)))
     for thread in set(threading.enumerate()) - threads:
         thread.join()  # the window still draws this model
 
 
-def _subject(name: str, seed: int) -> tuple[Any, Any, Callable[[int], Any]]:
+def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:
     """Model, state, and what takes so many steps."""
-    if name in missions():
-        simulation = Simulation(name, seed, record=False)
-        return simulation.model, simulation.data, lambda n: n and simulation.step(n)
     path = Path(name)
     if path.suffix in (".xml", ".mjb", ".urdf"):
         model = _read(path)

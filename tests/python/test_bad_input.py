@@ -27,6 +27,17 @@ def simulation() -> hurcules.Simulation:
     return hurcules.Simulation("stretch", record=False)
 
 
+def arm_model() -> mujoco.MjModel:
+    text = ARM.replace("</mujoco>", '<actuator><motor joint="elbow"/></actuator></mujoco>')
+    return mujoco.MjModel.from_xml_string(text)
+
+
+def whole_body() -> hurcules.WholeBodyController:
+    arm = hurcules.Robot(arm_model())
+    hand = hurcules.PositionTask("hand", arm, "hand")
+    return hurcules.WholeBodyController(arm, [hand], {"hand": hurcules.Twist(hand, 1.0)})
+
+
 def controller(method: str) -> Any:
     options = hurcules.VelocityControllerOptions(solver=rhqp.SolverOptions(method=method))
     return hurcules.VelocityController(robot(), options)
@@ -50,6 +61,47 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
     "negative seed of a reset": (lambda: simulation().reset(-1), "whole number .* got -1"),
     "variation": (lambda: hurcules.Simulation(variation=np.nan), "variation: .*>= 0, got nan"),
     "variation that is no number": (lambda: hurcules.Simulation(variation="x"), ">= 0, got 'x'"),  # type: ignore[arg-type]
+    "parameter that is no pair": (
+        lambda: hurcules.Simulation("casualty", parameters={"offset": 1}),
+        "offset wants two numbers, ahead and to the left, got 1",
+    ),
+    "time that is none": (lambda: hurcules.Simulation(max_seconds=np.nan), "above 0 .*got nan"),
+    "time below zero": (lambda: hurcules.Simulation(max_seconds=-1.0), "max_seconds: .*got -1"),
+    "sensors that are none": (
+        lambda: hurcules.Simulation(sensors=True),  # type: ignore[arg-type]
+        "sensors: wanted SensorOptions, got True",
+    ),
+    "controller that is none": (
+        lambda: hurcules.Simulation(model=arm_model(), controller=robot()),  # type: ignore[arg-type]
+        r"wanted a WholeBodyController, got Robot\(1",
+    ),
+    "model of a simulation": (
+        lambda: hurcules.Simulation(model=3, controller=whole_body()),  # type: ignore[arg-type]
+        "model: wanted a mujoco.MjModel or the path of one, got 3",
+    ),
+    "path of a simulation": (
+        lambda: hurcules.Simulation(model="/no/such.xml", controller=whole_body()),
+        "cannot read /no/such.xml",
+    ),
+    "half a tick": (lambda: simulation().step(1.5), "whole number of ticks, got 1.5"),  # type: ignore[arg-type]
+    "words in a command": (
+        lambda: hurcules.Simulation(model=arm_model(), controller=whole_body()).step(
+            1, {"hand": "up"}
+        ),
+        "channel 'hand': wanted numbers, got 'up'",
+    ),
+    "a task in place of levels": (
+        lambda: hurcules.WholeBodyController(robot(), hurcules.PostureTask("posture", robot())),
+        "levels want a Stack or a list of tasks, a PostureTask came",
+    ),
+    "scale of a channel": (
+        lambda: hurcules.Twist(hurcules.PostureTask("posture", robot()), "fast"),  # type: ignore[arg-type]
+        r"scale of a channel wants real numbers of shape a number or \(k,\)",
+    ),
+    "mask of a batch": (
+        lambda: hurcules.SimulationBatch(simulation(), 2, 1).step(1, None, [True]),
+        "one entry for each of its 2 simulations, 1 came",
+    ),
     "scene": (lambda: hurcules.models.load(scene="moon"), "'moon' does not exist; .* flat"),
     "robot": (lambda: hurcules.models.load("nobody"), "'nobody' does not exist; .* rescue"),
     "shape of a command": (lambda: simulation().step(1, np.zeros(3)), r"\b11\b.* 3$"),

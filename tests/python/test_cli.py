@@ -3,6 +3,7 @@
 Called in this process through `hurcules.cli.main`, which is what the console script calls.
 """
 
+import os
 import re
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 
 import hurcules
 from hurcules import cli, doctor
+from hurcules.output import Output, void
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
@@ -89,6 +91,26 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "--method", "magic"], "magic"),
         (["run", "--seed", "-1"], "seed: wanted a whole number from 0 to 2**64 - 1, got -1"),
         (["run", "--seed", "x"], "--seed"),
+        (["run", "--seed", "abc"], "as an integer, got 'abc'"),
+        (["run", "--seed=abc"], "as an integer, got 'abc'"),
+        (["run", "casualty", "--mass"], "--mass wants a value"),
+        (
+            ["run", "casualty", "--yaw", "200"],
+            "casualty: yaw wants a number from -3.142 to 3.142 rad",
+        ),
+        (
+            ["run", "lift", "--pose", "sitting"],
+            "pose wants one of back, left, front, right, got 's",
+        ),
+        (["run", "disposal", "--friction", "-1"], "disposal: friction wants a number from"),
+        (
+            ["train", "Fly-v0"],
+            "environment 'Hurcules/Fly-v0' does not exist; there are: Hurcules/S",
+        ),
+        (["train", "Reach-v0", "--steps", "0"], "'--steps'"),
+        (["record", "Fly-v0"], "environment 'Hurcules/Fly-v0' does not exist"),
+        (["record", "Reach-v0", "--episodes", "0"], "greater than or equal to 1, got '0'"),
+        (["run", "--out", __file__], "test_cli.py: it is a file"),
         (["run", "--seed", str(2**64)], "seed: wanted a whole number"),
         (["run", "--out", ""], "'--out': wanted the name of a folder, got ''"),
         (["run", "--seconds", "x"], "--seconds"),
@@ -126,3 +148,17 @@ def test_the_console_script_ends_with_the_code_of_main() -> None:
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("hurcules: error: mission or test method 'nowhere'")
     assert "Traceback" not in done.stderr
+
+
+def test_two_runs_may_write_to_one_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = Output(tmp_path, ()), Output(tmp_path, ())
+
+    def write(path: Path) -> None:  # while another process writes the same file
+        path.write_text("first")
+        monkeypatch.setattr(os, "getpid", lambda: -1)
+        second.write("log.txt", lambda other: void(other.write_text("second")))
+        monkeypatch.undo()
+
+    first.write("log.txt", write)
+    assert (tmp_path / "log.txt").read_text() == "first"
+    assert [path.name for path in tmp_path.iterdir()] == ["log.txt"]

@@ -223,6 +223,7 @@ BAD = [
     ({"action": "torque"}, "action 'torque' does not exist"),
     ({"robot": "spot"}, "robot: wanted"),
     ({"robot": __file__}, "wants frames"),
+    ({"robot": 3}, "robot: wanted manipulation, rescue or the path of an MJCF file, got 3"),
     ({"tolerance": -1.0}, "tolerance: wanted"),
     ({"rate": 1000.0}, "rate: wanted"),
     ({"colour": "red"}, "option 'colour' does not exist"),
@@ -251,6 +252,10 @@ def test_a_bad_action_says_what_was_wanted():
         bad = np.zeros((2, 6))
         bad[1, 2] = np.inf
         vector.step(bad)
+    with pytest.raises(hurcules.Error, match="options: wanted a dictionary, got 3"):
+        env.reset(options=3)
+    with pytest.raises(hurcules.Error, match="autoreset mode 'never' does not exist; there are: N"):
+        gym.make_vec("Hurcules/Reach-v0", num_envs=2, autoreset_mode="never", **FAST)
     with pytest.raises(hurcules.Error, match="reset option 'goal' does not exist; there are: fric"):
         env.reset(options={"goal": 1})
 

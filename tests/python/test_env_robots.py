@@ -84,6 +84,14 @@ def test_a_binary_model_has_the_same_bits(files: tuple[str, str]) -> None:
         np.testing.assert_array_equal(value, seen[1][name])
 
 
+def test_a_path_and_one_hand_will_do(files: tuple[str, str]) -> None:
+    env = gym.make(
+        "Hurcules/Reach-v0", fidelity="kinematic", robot=Path(files[0]), frames=("l_tip",)
+    )
+    assert env.action_space.shape == (3,)
+    env.close()
+
+
 def test_a_file_that_is_no_model_says_so(tmp_path: Path) -> None:
     broken = tmp_path / "broken.mjb"
     broken.write_bytes(b"nothing")

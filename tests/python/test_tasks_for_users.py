@@ -187,6 +187,73 @@ def test_a_task_in_python_is_a_task(model: mujoco.MjModel) -> None:
         hurcules.CustomTask("wrong", robot, 1, lambda robot: 1 / 0)
 
 
+def test_manipulability_is_kept_above_a_bound(model: mujoco.MjModel) -> None:
+    # a hand led to the end of its reach stops where the arm would get nearer to a singularity
+    def lead(*above: hurcules.Task) -> hurcules.Robot:
+        robot = hurcules.Robot(model)
+        robot.set_configuration([0.3, 0.4, -0.9, 0.1, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        for task in above:
+            task.hold(robot)
+        hand = hurcules.PositionTask("hand", robot, "l_hand")
+        hand.set_target([2.0, 0.2, 0.8])
+        settle(robot, [*above, hand], 4000)
+        return robot
+
+    def volume(robot: hurcules.Robot) -> float:
+        J = robot.position_jacobian("l_hand")
+        return float(np.sqrt(np.linalg.det(J @ J.T)))
+
+    agile = hurcules.ManipulabilityTask("agile", hurcules.Robot(model), "l_hand")
+    agile.set_interval([0.0], [np.inf])  # of what it has where it is held
+    start = hurcules.Robot(model)
+    start.set_configuration([0.3, 0.4, -0.9, 0.1, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    assert volume(lead()) < 0.2 * volume(start)
+    kept = lead(agile)
+    assert volume(kept) > 0.99 * volume(start)
+    assert agile.value[0] == pytest.approx(volume(kept), rel=1e-3)
+
+
+def test_manipulability_wants_a_frame_that_moves(model: mujoco.MjModel) -> None:
+    with pytest.raises(hurcules.Error, match="no coordinate moves the frame 'world'"):
+        hurcules.ManipulabilityTask("agile", hurcules.Robot(model), "world")
+
+
+@pytest.mark.parametrize("led", ["position", "pose"])
+def test_a_target_at_a_known_rate_is_followed_without_lag(model: mujoco.MjModel, led: str) -> None:
+    def lag(feed_forward: bool) -> float:
+        robot = hurcules.Robot(model)
+        robot.set_configuration([0.3, 0.4, -0.9, 0.1, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        start, rate = robot.position("l_hand"), np.array([0.0, 0.1, 0.05])
+        make = hurcules.PositionTask if led == "position" else hurcules.PoseTask
+        task = make("hand", robot, "l_hand")
+        controller = hurcules.VelocityController(robot)
+        controller.set_stack(hurcules.Stack([task, hurcules.PostureTask("posture", robot)]))
+        velocity = np.concatenate([rate, np.zeros(task.rows - 3)])
+        for tick in range(1200):
+            place = start + rate * tick * 1e-3
+            if led == "position":
+                task.set_target(place, velocity if feed_forward else None)
+            else:
+                task.set_target(place, None, velocity if feed_forward else None)
+            controller.step(robot)
+        return float(np.linalg.norm(robot.position("l_hand") - start - rate * 1.2))
+
+    assert lag(False) > np.hypot(0.1, 0.05) / 5.0  # speed / gain
+    assert lag(True) < 1e-4
+
+
+def test_a_target_set_without_a_rate_is_at_rest_again(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+    turn = hurcules.OrientationTask("turn", robot, "l_hand")
+    turn.set_target(np.eye(3), [0.0, 0.0, 0.1])
+    np.testing.assert_allclose(turn.velocity_des, [0.0, 0.0, 0.1], atol=1e-12)
+    turn.set_target(np.eye(3))
+    assert not turn.velocity_des.any()
+    hand = hurcules.PositionTask("hand", robot, "l_hand")
+    with pytest.raises(hurcules.Error, match="velocity of task 'hand' wants 3 values, 2 came"):
+        hand.set_target([0.0, 0.0, 0.0], [0.0, 0.0])
+
+
 def test_speed_limits_come_as_a_vector(model: mujoco.MjModel) -> None:
     robot = hurcules.Robot(model)
     limits = hurcules.JointLimits("limits", robot)

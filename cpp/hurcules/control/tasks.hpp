@@ -11,6 +11,7 @@
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
+#include "hurcules/tasks/manipulability_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"

@@ -44,7 +44,9 @@ void SimulationBatch::step(int ticks, const Matrix* commands, const std::vector<
               (commands ? ", (" + std::to_string(commands->rows()) + ", " +
                               std::to_string(commands->cols()) + ") came"
                         : ""));
-  require(!mask || mask->size() == size(), "a mask wants one entry a simulation");
+  if (mask && mask->size() != size())
+    throw Error("a mask wants one entry for each of its " + std::to_string(n) + " simulations, " +
+                std::to_string(mask->size()) + " came");
   for (Index i = 0; commands && i < n; ++i) {
     require(commands->row(i).allFinite(),
             "commands of simulation " + std::to_string(i) + " want finite numbers");

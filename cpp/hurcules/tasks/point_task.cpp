@@ -1,5 +1,7 @@
 #include "hurcules/tasks/point_task.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -16,6 +18,16 @@ PointTask::PointTask(std::string name, const Robot& robot, PointTaskOptions opti
   require(axes_.rowwise().squaredNorm().minCoeff() > 0.0,
           "axes of task '" + name_ + "' want a direction in each row, one of length 0 came");
   max_speed_ = 0.5;
+}
+
+Vector3 PointTask::world_position() const {
+  return reference_.point_in_world(point_.position);
+}
+
+Vector3 PointTask::world_target() const {
+  const Matrix AAt = axes_ * axes_.transpose();
+  const Vector3 way = axes_.transpose() * AAt.ldlt().solve(target_ - value_);
+  return reference_.point_in_world(point_.position + way);
 }
 
 void PointTask::measure(const Robot& robot) {

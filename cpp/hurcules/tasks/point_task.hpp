@@ -19,6 +19,9 @@ class PointTask : public ValueTask {
  public:
   // p_RF [m] at the last update, all three components
   [[nodiscard]] const Vector3& position() const { return point_.position; }
+  // [m] in W where the point was at the last update, and the nearest one that meets the target
+  [[nodiscard]] Vector3 world_position() const;
+  [[nodiscard]] Vector3 world_target() const;
 
  protected:
   PointTask(std::string name, const Robot& robot, PointTaskOptions options);

@@ -40,6 +40,14 @@ class PoseTask : public Task {
   // p_RF [m], R_RF at the last update
   [[nodiscard]] const Vector3& position() const { return point_.position; }
   [[nodiscard]] const Matrix3& orientation() const { return rotation_.orientation; }
+  // the frame and its target in W, where R was at the last update: [m], R_W
+  [[nodiscard]] Vector3 world_position() const {
+    return reference_.point_in_world(point_.position);
+  }
+  [[nodiscard]] Vector3 world_target() const { return reference_.point_in_world(p_des_); }
+  [[nodiscard]] Matrix3 world_target_orientation() const {
+    return reference_.rotation_in_world(R_des_);
+  }
 
  private:
   Frame frame_;

@@ -72,6 +72,14 @@ void Reference::measure(const Robot& robot) {
   rotation_.measure(robot, *frame_);
 }
 
+Vector3 Reference::point_in_world(const Vector3& p_R) const {
+  return frame_ ? Vector3(origin_.position + rotation_.orientation * p_R) : p_R;
+}
+
+Matrix3 Reference::rotation_in_world(const Matrix3& R_R) const {
+  return frame_ ? Matrix3(rotation_.orientation * R_R) : R_R;
+}
+
 void Reference::express_state(PointMotion& point) const {
   if (!frame_) return;
   const Matrix3 R = rotation_.orientation.transpose();

@@ -9,6 +9,7 @@
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
 #include "hurcules/tasks/gaze_task.hpp"
+#include "hurcules/tasks/manipulability_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
@@ -50,6 +51,12 @@ inline std::vector<TaskCase> arm_cases() {
       task_case<SwivelTask>("arm_swivel", kArm, swivel),
       task_case<GazeTask>("arm_gaze", kArm, std::string("eye")),
       task_case<CenterOfMassTask>("arm_com", kArm),
+      task_case<ManipulabilityTask>("arm_manipulability", kArm, std::string("tip")),
+      task_case<ManipulabilityTask>("arm_manipulability_of_two_directions", kArm,
+                                    std::string("forearm"),
+                                    ManipulabilityTaskOptions{.axes = two}),
+      task_case<ManipulabilityTask>("arm_manipulability_with_turns", kArm, std::string("tip"),
+                                    ManipulabilityTaskOptions{.turns = true}),
   };
 }
 
@@ -84,6 +91,7 @@ inline std::vector<TaskCase> twin_cases() {
       task_case<GazeTask>("twin_gaze", kTwin, std::string("eye")),
       task_case<GazeTask>("twin_gaze_of_a_site", kTwin, std::string("gaze")),
       task_case<CenterOfMassTask>("twin_com", kTwin),
+      task_case<ManipulabilityTask>("twin_manipulability", kTwin, std::string("hand_l")),
       task_case<CenterOfMassTask>("twin_com_in_base", kTwin,
                                   CenterOfMassTaskOptions{.reference = "base"}),
   };

@@ -1,0 +1,188 @@
+"""What a controller does, drawn for a robot that is written here.
+
+Strategy: the marks against what a hand can reckon, their geoms counted in a scene without
+OpenGL, and a picture where there is OpenGL. Not tested: what a person sees in the viewer.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+import shutil
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import drawing, rendering
+
+ARM = """
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.005"/>
+  <default><joint axis="0 1 0" damping="1"/><geom type="capsule" size="0.03"/></default>
+  <worldbody>
+    <light pos="0 0 3"/>
+    <camera name="side" pos="0.3 -2 0.5" xyaxes="1 0 0 0 0 1"/>
+    <body>{root}
+      <geom fromto="0 0 0 0 0 -0.2"/>
+      <body>
+        <geom fromto="0 0 0 0.4 0 0"/>
+        <joint name="shoulder" range="-1 1"/>
+        <body pos="0.4 0 0">
+          <geom fromto="0 0 0 0.3 0 0"/>
+          <joint name="elbow" range="-1 1"/>
+          <site name="hand" pos="0.3 0 0"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="shoulder"/><motor joint="elbow"/></actuator>
+</mujoco>
+"""
+
+
+def loop(root: str = "", **options: object) -> hurcules.Simulation:
+    """An arm whose hand is wanted where its elbow's limit does not let it come."""
+    model = mujoco.MjModel.from_xml_string(ARM.format(root=root))
+    robot = hurcules.Robot(model)
+    hand = hurcules.PositionTask("hand", robot, "hand")
+    pose = hurcules.PoseTask("pose", robot, "hand")
+    controller = hurcules.WholeBodyController(robot, [hand, pose], {"hand": hurcules.Target(hand)})
+    simulation = hurcules.Simulation(model=model, controller=controller, **options)  # type: ignore[arg-type]
+    simulation.step(600, {"hand": [-0.2, 0.0, 0.3]})
+    return simulation
+
+
+def test_marks_say_where_points_are_and_shall_be() -> None:
+    simulation = loop()
+    hand, pose = drawing.error_marks(simulation)
+    assert (hand.task, pose.task) == ("hand", "pose")
+    np.testing.assert_allclose(hand.target, [-0.2, 0.0, 0.3])
+    np.testing.assert_allclose(hand.position, simulation.controller.plan.position("hand"))
+    np.testing.assert_allclose(pose.target, [0.7, 0.0, 0.0], atol=1e-12)
+    assert hand.orientation is None
+    assert pose.orientation is not None
+    np.testing.assert_allclose(pose.orientation, np.eye(3), atol=1e-12)
+
+
+def test_a_point_of_one_axis_is_led_along_it_alone() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM.format(root=""))
+    robot = hurcules.Robot(model)
+    height = hurcules.PositionTask("height", robot, "hand", axes=[[0.0, 0.0, 2.0]])
+    height.set_target([0.4])
+    np.testing.assert_allclose(height.world_target, [0.7, 0.0, 0.2], atol=1e-12)
+    bend = hurcules.PositionTask("bend", robot, "hand", reference="hand")
+    robot.set_configuration([0.5, 0.5])
+    bend.update(robot)
+    bend.set_target([0.1, 0.0, 0.0])
+    along = robot.position("hand") + 0.1 * robot.orientation("hand")[:, 0]
+    np.testing.assert_allclose(bend.world_target, along, atol=1e-12)
+
+
+def test_a_joint_at_its_limit_is_marked_where_it_is() -> None:
+    simulation = loop()
+    held = {mark.text: mark.position for mark in drawing.limit_marks(simulation)}
+    assert "elbow lower limit" in held
+    np.testing.assert_allclose(held["elbow lower limit"], simulation.data.joint("elbow").xanchor)
+    assert drawing.limit_marks(hurcules.Simulation("stretch", record=False)) == []
+
+
+def test_marks_go_with_a_robot_that_has_moved_from_its_plan() -> None:
+    simulation = loop(root="<freejoint/>", physics=False)
+    there = drawing.error_marks(simulation)[0].target
+    simulation.data.qpos[:3] += [1.0, 2.0, 0.0]
+    simulation.data.qpos[3:7] = [np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)]  # a quarter turn about z
+    moved = drawing.error_marks(simulation)[0].target
+    np.testing.assert_allclose(moved, [1.0 - there[1], 2.0 + there[0], there[2]], atol=1e-9)
+
+
+def test_each_mark_is_a_geom_until_the_scene_is_full() -> None:
+    simulation = loop()
+    scene = mujoco.MjvScene(simulation.model, maxgeom=20)
+    drawing.draw(scene, simulation)
+    errors, limits = drawing.error_marks(simulation), drawing.limit_marks(simulation)
+    # a line and a ball each, three axes of the pose
+    assert scene.ngeom == 2 * len(errors) + 3 + len(limits)
+    labels = [scene.geoms[i].label for i in range(scene.ngeom)]
+    away = 1e3 * np.linalg.norm(errors[0].position - errors[0].target)
+    assert f"hand: {away:.0f} mm" in labels and "elbow lower limit" in labels
+    full = mujoco.MjvScene(simulation.model, maxgeom=3)
+    drawing.draw(full, simulation)
+    assert full.ngeom == 3
+
+
+def has_renderer() -> bool:
+    try:
+        rendering.make_renderer(loop().model, 16, 16).close()
+    except rendering.RendererError:
+        return False
+    return True
+
+
+def test_a_picture_shows_the_target() -> None:
+    if not has_renderer():
+        pytest.skip(f"no OpenGL here; remedy: {rendering.REMEDY}")
+    simulation = loop()
+    shown = simulation.picture(320, 240, "side").astype(int)
+    assert shown.shape == (240, 320, 3)
+    green = (shown[..., 1] > 1.5 * shown[..., 0]) & (shown[..., 1] > 1.5 * shown[..., 2])
+    red = (shown[..., 0] > 2 * shown[..., 1]) & (shown[..., 0] > 2 * shown[..., 2])
+    assert green.sum() > 10 and red.sum() > 10
+    with pytest.raises(hurcules.Error, match="camera 'top' does not exist; there are: side"):
+        simulation.picture(camera="top")
+
+
+def test_a_notebook_shows_levels_limits_and_a_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    simulation = loop()
+    text = simulation._repr_html_()
+    assert "error of hand" in text and "elbow lower limit" in text and "3.000 s" in text
+    if has_renderer():
+        found = re.search("base64,([^']+)'", text)
+        assert found is not None
+        file = base64.b64decode(found[1])
+        assert file.startswith(b"\x89PNG\r\n\x1a\n")
+        data = file[file.index(b"IDAT") + 4 : file.index(b"IEND") - 8]
+        assert len(zlib.decompress(data)) == 480 * (1 + 3 * 640)
+
+    def fail(*_: object) -> None:
+        raise rendering.RendererError("no usable renderer <here>")
+
+    monkeypatch.setattr(drawing, "picture", fail)
+    assert "no usable renderer &lt;here&gt;" in simulation._repr_html_()
+
+
+def test_the_viewer_watches_a_simulation_of_any_robot(tmp_path: Path) -> None:
+    if not shutil.which("xvfb-run"):
+        pytest.skip("no virtual display here; remedy: apt-get install xvfb xauth")
+    program = tmp_path / "watch.py"
+    program.write_text(
+        f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+        "import hurcules, test_drawing\n"
+        "simulation = test_drawing.loop()\n"
+        "begun, asked = simulation.time, []\n"
+        "def command(simulation):\n"
+        "    asked.append(simulation.time)\n"
+        "    return {'hand': [0.6, 0.0, 0.1]}\n"
+        "hurcules.watch(simulation, command, seconds=2.0)\n"
+        "assert simulation.time > begun and asked, (simulation.time, asked)\n"
+    )
+    done = subprocess.run(
+        ["xvfb-run", "-a", sys.executable, str(program)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_without_a_display_watch_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    with pytest.raises(hurcules.Error, match="the viewer needs a display"):
+        hurcules.watch(loop())
