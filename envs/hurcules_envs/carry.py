@@ -277,7 +277,7 @@ class Carry(ContactEnvironment):
             "gap": -0.5 * shaped * gap,
             "way": -shaped * np.linalg.norm(seen["way"], axis=1),
             "turn": -0.1 * shaped * np.linalg.norm(seen["turn"], axis=1),
-            "held": 1.0 * self._at_goal(numbers),
+            "held": self._at_goal(numbers).astype(np.float64),
             "success": 10.0 * numbers["fresh"][:, 0],
         }
 

@@ -268,7 +268,7 @@ class Press(ContactEnvironment):
             "distance": -shaped * np.linalg.norm(self._next(numbers), axis=1),
             "force": -0.1 * shaped * np.minimum(error[:, 0], 1.0),
             "passed": 10.0 * gain / CELLS,
-            "success": 10.0 * (self.succeeded(numbers) & (gain > 0.0)),
+            "success": 10.0 * (self.succeeded(numbers) & (gain > 0.0)).astype(np.float64),
         }
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ import gymnasium
 import numpy as np
 import torch
 from gymnasium.vector import AutoresetMode
+from numpy.typing import NDArray
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
@@ -55,7 +56,7 @@ class Sb3VecEnv(VecEnv):
         self._seeds = [seed + i for i in range(self.num_envs)]
         return list(self._seeds)
 
-    def step_async(self, actions: np.ndarray) -> None:
+    def step_async(self, actions: NDArray[Any]) -> None:
         """Keeps the actions for `step_wait`."""
         self._actions = actions
 

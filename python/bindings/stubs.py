@@ -60,6 +60,7 @@ class _Enum:
 NAMES = {
     "typing.SupportsFloat | typing.SupportsIndex": "float",
     "typing.SupportsInt | typing.SupportsIndex": "int",
+    "numpy.bool]": "np.bool_]",  # numpy 1 has no bool
     "numpy.typing.": "",
     "numpy.": "np.",
     "typing.": "",

@@ -3919,7 +3919,7 @@ class SimulationBatch:
         """(n,) list of Ending"""
 
     @property
-    def finished(self) -> NDArray[np.bool]:
+    def finished(self) -> NDArray[np.bool_]:
         """(n,) bool"""
 
     @property

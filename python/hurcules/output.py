@@ -81,10 +81,11 @@ class Output:
 
     def write_arrays(self, name: str, arrays: dict[str, NDArray[np.float64]]) -> Path:
         """Writes arrays as a compressed .npz; raises as `write`."""
+        channels: dict[str, Any] = dict(arrays)
 
         def save(path: Path) -> None:
             with path.open("wb") as file:
-                np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # names are channels
+                np.savez_compressed(file, **channels)
 
         return self.write(name, save)
 

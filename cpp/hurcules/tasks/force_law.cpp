@@ -20,29 +20,28 @@ std::string number(double value) {
   return text;
 }
 
-// largest eigenvalue of a step of the closed loop; state (s, v, s one step ago, int (f_d - f))
-double spectral_radius(const ForceGains& g, double G) {
+// a step of the closed loop; state (s, s one step ago), or (s, v, s one step ago, int (f_d - f));
+// of dynamic size, since Eigen's eigenvalues of fixed sizes compile for 20 s
+Eigen::MatrixXd closed_loop(const ForceGains& g, double G) {
   const double dt = g.dt;
   if (g.loop == ForceLoop::FirstOrder) {
-    Eigen::Matrix2d step;
-    step << 1.0, -g.compliance * G * dt, 1.0, 0.0;
-    return step.eigenvalues().cwiseAbs().maxCoeff();
+    return Eigen::MatrixXd{{1.0, -g.compliance * G * dt}, {1.0, 0.0}};
   }
   const bool position = g.loop != ForceLoop::Velocity;
   const double N = g.loop == ForceLoop::PositionIntegral ? g.integral : 0.0;
   Eigen::RowVector4d u(position ? -g.stiffness : 0.0, -g.damping,
                        -g.stiffness * (g.compliance * G + N * G * dt), g.stiffness * N);
   u /= g.mass;
-  Eigen::Matrix4d step = Eigen::Matrix4d::Zero();
+  Eigen::MatrixXd step = Eigen::MatrixXd::Zero(4, 4);
   step.row(0) = 0.5 * dt * dt * u + Eigen::RowVector4d(1.0, dt, 0.0, 0.0);
   step.row(1) = dt * u + Eigen::RowVector4d(0.0, 1.0, 0.0, 0.0);
   step(2, 0) = 1.0;
   if (N > 0.0) step.row(3) << 0.0, 0.0, -G * dt, 1.0;
-  return step.eigenvalues().cwiseAbs().maxCoeff();
+  return step;
 }
 
 bool is_stable(const ForceGains& gains, double G) {
-  return spectral_radius(gains, G) <= 1.0 + 1e-12;
+  return closed_loop(gains, G).eigenvalues().cwiseAbs().maxCoeff() <= 1.0 + 1e-12;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hurcules import ForceGains
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
@@ -33,7 +34,7 @@ def entered(blend: float) -> Log:
     return robot.follow(lambda _: 0.0, ramped(-DOWN, BEGIN, 60.0), END)
 
 
-def jumps(log: Log) -> np.ndarray:
+def jumps(log: Log) -> NDArray[np.float64]:
     """Change of each joint's speed within the window around the entry, over its speed before."""
     at = int((log.state[:, 0] == 1).argmax())
     columns = [log.of(name) for name in JOINTS]

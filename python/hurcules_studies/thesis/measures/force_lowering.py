@@ -51,7 +51,7 @@ def by_law(name: str, springs: bool = True) -> Log:
     return lowered(Setting(surface, loops[name], G, force=name != "none", f_max=1e6))
 
 
-def pressed(log: Log) -> np.ndarray:
+def pressed(log: Log) -> NDArray[np.float64]:
     """(ticks,) [N] of the left hand on the ground as the physics has it, mean of 20 ms."""
     return np.convolve(log.contact[:, 0, 2], np.ones(WINDOW) / WINDOW, "same")
 
@@ -128,7 +128,7 @@ def references_change() -> Finding:
 
 
 @cache
-def _alone() -> np.ndarray:
+def _alone() -> NDArray[np.float64]:
     """The commanded joints of the same motion, of arms that pass through the ground."""
     log = lowered(Setting(Surface(untouched=True), second(ForceLoop.Velocity), G, force=False))
     return log.q

@@ -11,6 +11,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hurcules import ForceLoop
 from hurcules_studies.thesis.claim import Finding, Line, Note, Plot, line
@@ -48,13 +49,13 @@ def led_on(rest: float, max_lead: float) -> Log:
     return robot.follow(ramped(REACH, START, BEYOND), ramped(-0.02, 1.5, 60.0), BEYOND + 2.0)
 
 
-def speeds(log: Log, *names: str) -> np.ndarray:
+def speeds(log: Log, *names: str) -> NDArray[np.float64]:
     """Largest of some coordinates, all by default, (ticks,) [rad/s]."""
     columns = [log.of(name) for name in names or log.names]
     return np.asarray(np.abs(log.qd[:, columns]).max(axis=1))
 
 
-def mean(values: np.ndarray, log: Log, start: float, end: float) -> float:
+def mean(values: NDArray[np.float64], log: Log, start: float, end: float) -> float:
     """Between two times."""
     return float(values[log.part(start, end)].mean())
 
@@ -69,7 +70,7 @@ def weakest(log: Log) -> float:
     return float(log.force[log.part(BEYOND - 1.0, BEYOND)].max())
 
 
-def lines_of(log: Log, values: np.ndarray, *names: str, start: float = 4.0) -> list[Line]:
+def lines_of(log: Log, values: NDArray[np.float64], *names: str, start: float = 4.0) -> list[Line]:
     """Of some coordinates."""
     part = log.part(start)
     return [line(name, log.time[part], values[part, log.of(name)]) for name in names]
