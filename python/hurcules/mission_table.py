@@ -54,6 +54,7 @@ from hurcules._core import (
     Reaction,
     Trouble,
 )
+from hurcules.mission_drawing import drawing
 
 __all__ = ["Mission", "condition", "reaction"]
 
@@ -114,6 +115,10 @@ class Mission:
     def table(self) -> str:
         """The phases as text, note, conditions and reactions below each."""
         return self.rows.text()
+
+    def drawing(self) -> str:
+        """The table as SVG: phases, what ends them, what they watch and where that leads."""
+        return drawing(self.rows, self.setup.name)
 
     def save(self, path: str | Path) -> None:
         """Writes the TOML file that `load` reads.
