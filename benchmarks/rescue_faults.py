@@ -3,7 +3,7 @@
     python benchmarks/rescue_faults.py OUT.jsonl [--faults push,moved,...] [--seeds 5] [--show]
 
 The nominal run has a person of 75 kg, everything as expected (`fault_trials.py`). A trial ends 8 s
-after its phase began (`slip`: 18 s), or when the person has been laid down.
+after its phase began (`slip`: 18 s, `home`: 12 s), or when the person has been laid down.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from fault_trials import Bench, Trial, emptied, shove, slip, with_weak
+from fault_trials import Bench, Trial, emptied, overrun, shove, slip, with_weak
 
 import hurcules
 from hurcules import Mission, lift
@@ -103,6 +103,8 @@ FAULTS: dict[str, Callable[[np.random.Generator], Trial]] = {
     "deaf": deaf,
     "slip": lambda random: slip(simulate(), random, ("approach", "under"), 18.0),
     "empty": empty,
+    "overrun": lambda random: overrun(simulate(), random, ("under", "lift", *CARRIED, *SEATED)),
+    "home": lambda random: slip(simulate(), random, ("home",), 12.0),
 }
 
 

@@ -235,7 +235,7 @@ def show_mission(
     out: Annotated[
         Path | None,
         typer.Option(
-            help="File to write: `.svg`, a drawing; `.toml`, to load it from; `.txt`, as it prints.",
+            help="File to write: `.svg`, a drawing; `.toml`, to load from; `.txt`, as printed.",
             show_default="print it",
         ),
     ] = None,

@@ -216,6 +216,8 @@ def _columns(watches: Sequence[Watch]) -> list[int]:
 def _manner(phase: Phase) -> str:
     """The stack, how long it takes, and how far a rate leads."""
     ways = [f"{one.channel} {one.way:g}" for one in phase.leads if math.isfinite(one.way)]
+    if phase.park:
+        ways.append(f"parks by {phase.park.body or 'its start'}")
     time = [f"{phase.seconds:g} s"] if phase.seconds > 0.0 else []
     return ", ".join([phase.stack, *ways, *time])
 
