@@ -116,7 +116,7 @@ class _Sheet:
         for colour, words in KEY:
             yield _line([(x, y - 4), (x + 14, y - 4)], colour, 3)
             yield _text(x + 18, y, words, "soft")
-            x += 30 + LETTER * len(words)
+            x += 30 + round(LETTER * len(words))
 
     def _rows(self) -> tuple[list[int], list[int]]:
         """Upper and lower edge of each box."""
