@@ -118,7 +118,7 @@ def outcome(trial: dict[str, Any]) -> str:
         return "laid down" if trial["on_ground"] > 0.9 else "lowered, still on the arms"
     if "withdraw" in trial["phases"]:
         return "backed off"
-    return "stopped" if trial["finished"] else "went on"
+    return "stopped" if trial["finished"] and trial["reason"] != "completed" else "went on"
 
 
 BENCH = Bench(
@@ -126,7 +126,7 @@ BENCH = Bench(
     faults=FAULTS,
     body="casualty_pelvis",
     largest={"support_N": "casualty/support_n"},
-    last={"on_ground": "casualty/on_ground"},
+    last={"on_ground": "casualty/on_ground", "ahead_m": "base/x"},
     safety=("lower", "set down", "withdraw"),
     safety_seconds=35.0,
     outcome=outcome,
