@@ -14,7 +14,17 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from fault_trials import Bench, Trial, direction, emptied, shove, slip, with_rows, with_weak
+from fault_trials import (
+    Bench,
+    Trial,
+    direction,
+    emptied,
+    overrun,
+    shove,
+    slip,
+    with_rows,
+    with_weak,
+)
 
 import hurcules
 from hurcules import Condition, Lead, Mission, Phase, Trouble, disposal
@@ -108,21 +118,6 @@ def link(random: np.random.Generator) -> Trial:
     return Trial(simulation, "transport", what=f"asks after {after} s", seconds=after + 35.0)
 
 
-def overrun(random: np.random.Generator) -> Trial:
-    """A tick of the control takes 20 to 100 ms: so long the motors get what they had."""
-    simulation, phase = simulate(), str(random.choice((*CARRIED, "put in")))
-    start, late = random.uniform(0.3, 2.5), int(random.integers(20, 101))
-    over = False
-
-    def act(time: float) -> None:
-        nonlocal over
-        if time >= start and not over:
-            over = True
-            simulation.plant.step(late)  # of 1 ms
-
-    return Trial(simulation, phase, act, f"{late} ms at {start:.1f} s")
-
-
 def empty(random: np.random.Generator) -> Trial:
     """The battery counts as empty."""
     phase = str(random.choice(("settle", "approach", "open the arms", "lift", "transport")))
@@ -135,7 +130,7 @@ FAULTS: dict[str, Callable[[np.random.Generator], Trial]] = {
     "weak": weak,
     "deaf": deaf,
     "slip": lambda random: slip(simulate(), random, DRIVEN, 62.0),
-    "overrun": overrun,
+    "overrun": lambda random: overrun(simulate(), random, (*CARRIED, "put in")),
     "empty": empty,
     "link": link,
     "ice": lambda random: slip(simulate(), random, DRIVEN, 62.0, friction=0.001),

@@ -22,7 +22,17 @@ from sweeps import append, held
 import hurcules
 from hurcules import Mission
 
-__all__ = ["Bench", "Trial", "direction", "emptied", "shove", "slip", "with_rows", "with_weak"]
+__all__ = [
+    "Bench",
+    "Trial",
+    "direction",
+    "emptied",
+    "overrun",
+    "shove",
+    "slip",
+    "with_rows",
+    "with_weak",
+]
 
 FULL = hurcules.Condition(quantity="charge", above=False, value=1.0)
 AFTER = 8.0  # [s] that a trial takes
@@ -182,6 +192,21 @@ def shove(
 
     what = f"at {start:.1f} s, {np.degrees(np.arctan2(along[1], along[0])):.0f} degrees"
     return Trial(simulation, phase, act, what)
+
+
+def overrun(simulation: hurcules.Simulation, random: Random, phases: tuple[str, ...]) -> Trial:
+    """A tick of the control takes 20 to 100 ms: so long the motors get what they had."""
+    phase = str(random.choice(phases))
+    start, late = random.uniform(0.3, 2.5), int(random.integers(20, 101))
+    over = False
+
+    def act(time: float) -> None:
+        nonlocal over
+        if time >= start and not over:
+            over = True
+            simulation.plant.step(late)  # of 1 ms
+
+    return Trial(simulation, phase, act, f"{late} ms at {start:.1f} s")
 
 
 def slip(

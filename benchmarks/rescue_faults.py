@@ -3,7 +3,7 @@
     python benchmarks/rescue_faults.py OUT.jsonl [--faults push,moved,...] [--seeds 5] [--show]
 
 The nominal run has a person of 75 kg, everything as expected (`fault_trials.py`). A trial ends 8 s
-after its phase began (`slip`: 18 s), or when the person has been laid down.
+after its phase began (`slip`: 18 s, `home`: 12 s), or when the person has been laid down.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from fault_trials import Bench, Trial, emptied, shove, slip, with_weak
+from fault_trials import Bench, Trial, emptied, overrun, shove, slip, with_weak
 
 import hurcules
 from hurcules import Mission, lift
@@ -103,6 +103,8 @@ FAULTS: dict[str, Callable[[np.random.Generator], Trial]] = {
     "deaf": deaf,
     "slip": lambda random: slip(simulate(), random, ("approach", "under"), 18.0),
     "empty": empty,
+    "overrun": lambda random: overrun(simulate(), random, ("under", "lift", *CARRIED, *SEATED)),
+    "home": lambda random: slip(simulate(), random, ("home",), 12.0),
 }
 
 
@@ -116,7 +118,7 @@ def outcome(trial: dict[str, Any]) -> str:
         return "laid down" if trial["on_ground"] > 0.9 else "lowered, still on the arms"
     if "withdraw" in trial["phases"]:
         return "backed off"
-    return "stopped" if trial["finished"] else "went on"
+    return "stopped" if trial["finished"] and trial["reason"] != "completed" else "went on"
 
 
 BENCH = Bench(
@@ -124,7 +126,7 @@ BENCH = Bench(
     faults=FAULTS,
     body="casualty_pelvis",
     largest={"support_N": "casualty/support_n"},
-    last={"on_ground": "casualty/on_ground"},
+    last={"on_ground": "casualty/on_ground", "ahead_m": "base/x"},
     safety=("lower", "set down", "withdraw"),
     safety_seconds=35.0,
     outcome=outcome,

@@ -64,6 +64,17 @@ Args:
   share: 0 to 1.
   angles: by coordinate [rad], or by joint [rad] or [m]; the others stay as at the beginning.
 )";
+constexpr const char* kPark = R"(Where a phase parks the robot: its centre of mass, on the ground.
+
+Args:
+  body: from which the pose counts, as it is when the phase begins: ahead along its heading, its y
+    axis to its left; "": from where the robot stood as the run began.
+  ahead: [m].
+  left: [m].
+  heading: [rad] to the left.
+  speed: [m/s] at most.
+  yaw_rate: [rad/s] at most, turning in place.
+)";
 constexpr const char* kPhase = R"(One row of a mission's table.
 
 Args:
@@ -75,6 +86,7 @@ Args:
   brakes: joints that rest behind their brakes in this phase, "SP" both; all others are open.
   posture: channel of a PostureTask over all coordinates; of the stack "joints" a JointRates.
   keys: list of PostureKey, where it leads to.
+  park: Park, or None: drives there; where that fails, what is done when it takes too long.
   done: list of Condition, all of them, when all motions have ended.
   within: [s].
   late: list of Reaction, when it takes longer.
@@ -179,6 +191,10 @@ void bind_rows(py::module_& module) {
   bind_options<PostureKey>(
       module, "PostureKey", kKey,
       {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});
+  bind_options<Park>(module, "Park", kPark,
+                     {field("body", &Park::body), field("ahead", &Park::ahead),
+                      field("left", &Park::left), field("heading", &Park::heading),
+                      field("speed", &Park::speed), field("yaw_rate", &Park::yaw_rate)});
   bind_options<Phase>(
       module, "Phase", kPhase,
       {required("name", &Phase::name), required("stack", &Phase::stack),
@@ -186,7 +202,8 @@ void bind_rows(py::module_& module) {
        field("posture", &Phase::posture), field("keys", &Phase::keys), field("done", &Phase::done),
        field("within", &Phase::within), field("late", &Phase::late),
        field("troubles", &Phase::troubles), field("support", &Phase::support),
-       field("brakes", &Phase::brakes), field("note", &Phase::note), field("last", &Phase::last)});
+       field("brakes", &Phase::brakes), field("park", &Phase::park), field("note", &Phase::note),
+       field("last", &Phase::last)});
 }
 
 }  // namespace

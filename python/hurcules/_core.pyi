@@ -3046,6 +3046,56 @@ class PostureKey:
     @share.setter
     def share(self, arg0: float) -> None: ...
 
+class Park:
+    """Where a phase parks the robot: its centre of mass, on the ground.
+
+    Args:
+      body: from which the pose counts, as it is when the phase begins: ahead along its heading, its y
+        axis to its left; "": from where the robot stood as the run began.
+      ahead: [m].
+      left: [m].
+      heading: [rad] to the left.
+      speed: [m/s] at most.
+      yaw_rate: [rad/s] at most, turning in place."""
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    body: str
+
+    def __copy__(self) -> Park: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> Park: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __init__(
+        self,
+        *,
+        body: str = "",
+        ahead: float = 0.0,
+        left: float = 0.0,
+        heading: float = 0.0,
+        speed: float = 0.5,
+        yaw_rate: float = 0.5,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def ahead(self) -> float: ...
+    @ahead.setter
+    def ahead(self, arg0: float) -> None: ...
+    @property
+    def heading(self) -> float: ...
+    @heading.setter
+    def heading(self, arg0: float) -> None: ...
+    @property
+    def left(self) -> float: ...
+    @left.setter
+    def left(self, arg0: float) -> None: ...
+    @property
+    def speed(self) -> float: ...
+    @speed.setter
+    def speed(self, arg0: float) -> None: ...
+    @property
+    def yaw_rate(self) -> float: ...
+    @yaw_rate.setter
+    def yaw_rate(self, arg0: float) -> None: ...
+
 class Phase:
     """One row of a mission's table.
 
@@ -3058,6 +3108,7 @@ class Phase:
       brakes: joints that rest behind their brakes in this phase, "SP" both; all others are open.
       posture: channel of a PostureTask over all coordinates; of the stack "joints" a JointRates.
       keys: list of PostureKey, where it leads to.
+      park: Park, or None: drives there; where that fails, what is done when it takes too long.
       done: list of Condition, all of them, when all motions have ended.
       within: [s].
       late: list of Reaction, when it takes longer.
@@ -3069,6 +3120,7 @@ class Phase:
     last: bool
     name: str
     note: str
+    park: Park | None
     posture: str
     stack: str
     support: str
@@ -3091,6 +3143,7 @@ class Phase:
         troubles: collections.abc.Sequence[Trouble] = [],
         support: str = "",
         brakes: collections.abc.Sequence[str] = [],
+        park: Park | None = None,
         note: str = "",
         last: bool = False,
     ) -> None: ...

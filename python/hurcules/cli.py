@@ -15,6 +15,7 @@ from rich.table import Table
 import hurcules
 from hurcules import plugins
 from hurcules._core import Error
+from hurcules.mission_table import Mission
 from hurcules.output import WriteError
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
@@ -224,6 +225,43 @@ def list_all() -> None:
     for kind, names in rows.items():
         table.add_row(f"[bold]{kind}", "\n".join(names))
     Console().print(table)
+
+
+@app.command("mission")
+def show_mission(
+    name: Annotated[
+        str, typer.Argument(help="A mission of `hurcules list` that is a table, or a TOML file.")
+    ] = "casualty",
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            help="File to write: `.svg`, a drawing; `.toml`, to load from; `.txt`, as printed.",
+            show_default="print it",
+        ),
+    ] = None,
+) -> None:
+    """Print the table of a mission, or write it to a file.
+
+    For example `hurcules mission`, or:
+
+    - `hurcules mission disposal --out disposal.svg`
+
+    - `hurcules mission my_mission.toml`
+    """
+    if name.endswith(".toml"):
+        table = Mission.load(name)
+    else:
+        require_known("table of a mission", name, list(TABLE_MISSIONS))
+        table = TABLE_MISSIONS[name].table()
+    if out is None:
+        print(table.table(), end="")
+        return
+    texts = {".svg": table.drawing, ".toml": table.toml, ".txt": table.table}
+    require_known("kind of file", out.suffix, list(texts))
+    try:
+        out.write_text(texts[out.suffix](), encoding="utf-8")
+    except OSError as error:
+        raise WriteError(f"cannot write {out}: {error.strerror}") from error
 
 
 @app.command("view")

@@ -27,6 +27,9 @@ Rows of another table are taken by `[[phase]]` with `include = "lift.toml"` and 
 A rate may hold a quantity: `{ rate = [0.0005], hold = "load/left_grip_n", at = 230.0, span = 50.0
 }`; a lead of many phases is a `[[lead]]` with `channel` and `phases`.
 
+The tracks go to a place by `park = { body = "ordnance_case", ahead = -2.0 }`: the robot's centre of
+mass 2 m behind that body, with its heading; without a body counted from where the run began.
+
 A posture is `posture = "CHANNEL"` with `keys = [{ share = 1.0, HIP = 0.3, SP = 1.2 }]`. Quantities
 are columns of the log (`simulation.channels`). A `[[figure]]` is a quantity over some phases, with
 the bounds that make a run a success.
@@ -49,11 +52,13 @@ from hurcules._core import (
     Measure,
     MissionSetup,
     MissionTable,
+    Park,
     Phase,
     PostureKey,
     Reaction,
     Trouble,
 )
+from hurcules.mission_drawing import drawing
 
 __all__ = ["Mission", "condition", "reaction"]
 
@@ -115,6 +120,10 @@ class Mission:
         """The phases as text, note, conditions and reactions below each."""
         return self.rows.text()
 
+    def drawing(self) -> str:
+        """The table as SVG: phases, what ends them, what they watch and where that leads."""
+        return drawing(self.rows, self.setup.name)
+
     def save(self, path: str | Path) -> None:
         """Writes the TOML file that `load` reads.
 
@@ -145,6 +154,7 @@ _SETUP = (
     "container", "container_stand",
 )  # fmt: skip
 _MEASURE = ("name", "quantity", "take", "phases", "least", "most")
+_PARK = ("body", "ahead", "left", "heading", "speed", "yaw_rate")
 _PHASE = ("name", "note", "stack", "seconds", "support", "brakes", "posture", "within", "last")
 
 
@@ -246,7 +256,7 @@ def _named(
 
 def _phase(row: Mapping[str, Any]) -> Phase:
     where = f"phase {row.get('name', '?')!r}"
-    _known(row, (*_PHASE, "lead", "keys", "done", "late", "trouble"), where)
+    _known(row, (*_PHASE, "lead", "keys", "park", "done", "late", "trouble"), where)
     leads = [
         _of(Lead, {"channel": name, **lead}, where) for name, lead in row.get("lead", {}).items()
     ]
@@ -266,6 +276,7 @@ def _phase(row: Mapping[str, Any]) -> Phase:
             **values,
             "leads": leads,
             "keys": keys,
+            "park": _of(Park, row["park"], where) if "park" in row else None,
             "done": [condition(text) for text in row.get("done", [])],
             "late": [reaction(text) for text in row.get("late", [])],
             "troubles": troubles,
@@ -304,6 +315,9 @@ def _phase_lines(phase: Phase) -> list[str]:
             angles = ", ".join(f"{name} = {_value(angle)}" for name, angle in key.angles)
             lines.append(f"  {{ share = {_value(key.share)}, {angles} }},")
         lines.append("]")
+    if phase.park is not None:
+        where = {name: getattr(phase.park, name) for name in _PARK}
+        lines.append(f"park = {{ {', '.join(_entries(where, Park()))} }}")
     if phase.done:
         lines.append(f"done = {_value([_condition_text(one) for one in phase.done])}")
     if phase.late:

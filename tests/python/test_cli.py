@@ -22,7 +22,7 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str,
     return code, said.out, said.err
 
 
-@pytest.mark.parametrize("command", ["run", "reproduce", "list", "view", "doctor"])
+@pytest.mark.parametrize("command", ["run", "reproduce", "list", "mission", "view", "doctor"])
 def test_help_of_each_command_shows_an_example(
     capsys: pytest.CaptureFixture[str], command: str
 ) -> None:
@@ -50,6 +50,25 @@ def test_list_names_everything_that_there_is(capsys: pytest.CaptureFixture[str])
     names = [*hurcules.missions(), *hurcules.models.scenes(), *hurcules.models.names()]
     for name in [*names, "hurcules_envs:Hurcules/Stretch-v0"]:
         assert re.search(rf"(^|\s){re.escape(name)}\s", out), name
+
+
+def test_mission_prints_a_table_or_writes_it(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    code, out, _ = call(capsys, "mission", "lift")
+    assert code == 0
+    assert out == hurcules.lift.mission().table()
+    for kind, begin in ((".svg", "<svg"), (".toml", "[mission]"), (".txt", "1  settle")):
+        file = tmp_path / f"lift{kind}"
+        assert call(capsys, "mission", "lift", "--out", str(file)) == (0, "", "")
+        assert file.read_text(encoding="utf-8").startswith(begin)
+    code, again, _ = call(capsys, "mission", str(tmp_path / "lift.toml"))
+    assert (code, again) == (0, out)
+    code, _, err = call(capsys, "mission", "lift", "--out", str(tmp_path / "no" / "lift.svg"))
+    assert code == 1
+    assert (
+        err == f"hurcules: error: cannot write {tmp_path}/no/lift.svg: No such file or directory\n"
+    )
 
 
 def test_doctor_tells_each_finding_and_ends_well_where_nothing_is_broken(
@@ -86,6 +105,9 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "e2803", "--angle", "200"], "degrees, got 200"),
         (["run", "e2803", "--pace", "100"], "5.56 m/s (20 km/h) at most, got 100"),
         (["run", "e2803", "--repetitions", "0"], "repetitions: wanted a whole number from 1 up"),
+        (["mission", "nowhere"], "table of a mission 'nowhere' does not exist; there are: lift"),
+        (["mission", "nowhere.toml"], "mission file nowhere.toml"),
+        (["mission", "lift", "--out", "lift.pdf"], "kind of file '.pdf' does not exist"),
         (["view", "nowhere"], "mission, model, scene or file 'nowhere' does not exist"),
         (["view", "nowhere.xml"], "nowhere.xml: no such file"),
         (["run", "--method", "magic"], "magic"),

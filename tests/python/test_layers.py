@@ -42,6 +42,7 @@ FLOORS: tuple[set[str], ...] = (
         "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
         "opengl", "plugins", "running_gear",
     )},
+    {"hurcules.mission_drawing"},
     {"hurcules." + name for name in (
         "_reprs", "_version", "casualties", "mission_options", "mission_table", "motors",
         "output", "postures", "rendering", "rhqp", "sensors", "validation",

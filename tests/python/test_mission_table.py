@@ -7,7 +7,10 @@ test_lift.py's.
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from pathlib import Path
+from xml.etree import ElementTree
 
 import mujoco
 import pytest
@@ -65,6 +68,9 @@ take = "smallest"
 phases = ["up"]
 most = -0.4
 """
+
+
+SVG = "http://www.w3.org/2000/svg"
 
 
 def loop(text: str = ROWS, arm: str = ARM) -> hurcules.Simulation:
@@ -181,6 +187,76 @@ def test_the_table_is_printed() -> None:
     assert "within 3 s: hold 0.5 s, then back to 'up', 2 times, then abort" in text
     assert "if q/j2 >= 2: ask 5 s, then lower" in text
     assert "lower goes to 'back'" in text
+
+
+def drawn(mission: Mission, element: str) -> list[ElementTree.Element]:
+    """What its drawing has of this element of SVG."""
+    return list(ElementTree.fromstring(mission.drawing()).iter(f"{{{SVG}}}{element}"))
+
+
+def test_the_table_is_drawn() -> None:
+    texts = [text.text or "" for text in drawn(read(ROWS), "text")]
+    for wanted in (
+        "1  up",
+        "waves",
+        "posture, 1 s",
+        "q/j1 ≤ -0.45 for 0.1 s",
+        "longer than 3 s: hold 0.5 s, back to up (2 times), end",
+        "q/j2 ≥ 2: ask 5 s, lower",
+        "posture, posture 0.2",
+        "the end",
+    ):
+        assert wanted in texts
+    # a way back to the first phase and one to the way to safety: as many junctions as troubles
+    junctions = Counter(circle.get("fill") for circle in drawn(read(ROWS), "circle"))
+    assert sorted(junctions.values()) == [1, 1, 1]  # and the end
+
+
+@pytest.mark.parametrize("name", ["lift", "casualty", "disposal"])
+def test_a_drawing_has_every_phase_once_and_nothing_beside_the_page(name: str) -> None:
+    mission = Mission.load(mjcf.folder() / "missions" / f"{name}.toml")
+    page = ElementTree.fromstring(mission.drawing())
+    width, height = float(page.attrib["width"]), float(page.attrib["height"])
+    names = [text.text for text in drawn(mission, "text") if text.get("class") == "name"]
+    wanted = [f"{k}  {row.name}" for k, row in enumerate(mission.rows.phases, 1)]
+    assert names == [name, *wanted]
+    numbers = [
+        tuple(map(float, pair.split(",")))
+        for line in drawn(mission, "polyline")
+        for pair in line.attrib["points"].split()
+    ]
+    assert all(0 < x < width and 0 < y < height for x, y in numbers)
+    # no bar lies on another: those of a column end before the next begins
+    bars: dict[float, list[tuple[float, float]]] = {}
+    for line in drawn(mission, "polyline"):
+        (x, upper), (_, lower) = (map(float, p.split(",")) for p in line.attrib["points"].split())
+        if line.get("stroke-width") == "3" and upper < lower:
+            bars.setdefault(x, []).append((upper, lower))
+    for column in bars.values():
+        ends = [edge for bar in sorted(column) for edge in bar]
+        assert ends == sorted(ends)
+
+
+def test_the_table_of_the_docs_is_the_missions_own(root: Path) -> None:
+    mission = Mission.load(root / "models" / "missions" / "casualty.toml")
+    for kind, text in (("svg", mission.drawing()), ("txt", mission.table())):
+        assert (root / "docs" / f"casualty.{kind}").read_text(encoding="utf-8") == text
+
+
+def test_a_user_adds_a_phase_as_the_docs_say(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(root)
+    page = (root / "docs" / "loop.md").read_text(encoding="utf-8")
+    found = re.search(r"```python\n([^`]*a phase of your own[^`]*)```", page)
+    assert found
+    assert len([line for line in found[1].splitlines() if line.strip()]) <= 10
+    names: dict[str, hurcules.Simulation] = {}
+    exec(found[1], names)
+    simulation = names["simulation"]
+    assert simulation.phases[:2] == ["wait", "settle"]
+    simulation.step(1990)
+    assert simulation.phase == "wait"
+    simulation.step(20)
+    assert simulation.phase == "settle"
 
 
 def test_a_user_adds_a_phase() -> None:

@@ -24,6 +24,7 @@ Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyControll
       variation_(variation),
       limits_(controller.law(0).limits()),
       initial_qpos_(controller.plan().qpos()),
+      root_body_(controller.plan().root_body()),
       dt_(controller.dt()),
       operated_(Vector::Zero(controller.scale().size())) {
   require(variation_ >= 0.0 && std::isfinite(variation_), "variation wants a number >= 0");
@@ -54,6 +55,7 @@ void Mission::attach(const Plant& plant, Recorder& log) {
   log.add("mission/force", force_names_, forces_);
   scene_.attach(setup_, plant, log);
   find_brakes(plant.brakes());
+  for (PhaseRow& row : rows_) row.find_places(plant, root_body_);
   for (PhaseRow& row : rows_) row.find_quantities(log);
   gauges_.attach(table_, log);
   attached_ = true;
@@ -142,7 +144,7 @@ const Vector& Mission::command(double dt) {
 }
 
 void Mission::note_commanded(const WholeBodyController& controller, const TickReport& report) {
-  rows_[phase_].note(controller.command(), controller.dt());
+  rows_[phase_].note(controller);
   Index force = 0;
   for (const Task* task : controller.tasks()) {
     if (const auto* const one = dynamic_cast<const ForceTask*>(task))
@@ -154,6 +156,7 @@ void Mission::note_commanded(const WholeBodyController& controller, const TickRe
 void Mission::note_measured(const TickReport& report) {
   scene_.look();
   gauges_.look(phase_, figures_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].look(i == phase_);
   measured(report);
 }
 
@@ -163,7 +166,8 @@ bool Mission::advance(WholeBodyController& controller, double time) {
   elapsed_ = time - phase_start_;
   progress_ = rows_[phase_].progress(elapsed_);
   const std::optional<std::size_t> trouble = rows_[phase_].trouble(dt_);
-  if (trouble || elapsed_ > table_.phases[phase_].within + extra_) {
+  const bool late = elapsed_ > table_.phases[phase_].within + extra_;
+  if (trouble || late || rows_[phase_].failed()) {
     return react(trouble, controller, time);
   }
   while (over(time)) {

@@ -95,6 +95,7 @@ class Mission : public Supervisor {
   double variation_;
   const JointLimits* limits_;  // of the first stack, null for none
   Vector initial_qpos_;
+  int root_body_;
   std::vector<PhaseRow> rows_;
   std::vector<int> brakes_;  // actuators whose brakes the table names
   Gauges gauges_;

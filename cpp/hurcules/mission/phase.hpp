@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,6 +64,16 @@ struct PostureKey {
   std::vector<std::pair<std::string, double>> angles;
 };
 
+// Where a phase parks the robot: its centre of mass, on the ground, and its heading; counted from a
+// body as it is when the phase begins, ahead along its heading (its y axis is its left).
+struct Park {
+  std::string body = "";           // "": from where the robot stood as the run began
+  double ahead = 0.0, left = 0.0;  // [m]
+  double heading = 0.0;            // [rad] to the left
+  double speed = 0.5;              // [m/s] at most
+  double yaw_rate = 0.5;           // [rad/s] at most, turning in place
+};
+
 struct Phase {
   std::string name;
   std::string stack;     // of the controller, or "joints": none rules, joints are moved one by one
@@ -73,6 +84,7 @@ struct Phase {
   std::vector<std::string> brakes = {};  // joints that rest behind their brakes; "SP": both
   std::string posture = "";           // channel of a PostureTask over all coordinates, or of joints
   std::vector<PostureKey> keys = {};  // where that leads to
+  std::optional<Park> park = {};      // drives there; not reached: as when it takes too long
   std::vector<Condition> done = {};   // all of them, when all motions have ended
   double within = std::numeric_limits<double>::infinity();  // [s]
   std::vector<Reaction> late = {};                          // when it takes longer

@@ -23,6 +23,7 @@ PhaseRow::PhaseRow(const Phase& phase, std::string support, const WholeBodyContr
     posture_.emplace(phase.keys, joints.empty() ? controller.plan().coordinate_names() : joints,
                      phase.seconds, !joints.empty());
   }
+  if (phase.park) park_.emplace(*phase.park, find_tracks(controller, where), controller.dt());
   const auto timed = [](const Condition& condition) {
     TimedCondition made;
     made.condition = condition;
@@ -84,8 +85,12 @@ void PhaseRow::find_brakes(const Brakes& brakes) {
   }
 }
 
+void PhaseRow::find_places(const Plant& plant, int robot) {
+  if (park_) park_->attach(plant, robot, "phase '" + phase_->name + "'");
+}
+
 bool PhaseRow::needs_log() const {
-  return !done_.empty() || !troubles_.empty() ||
+  return park_ || !done_.empty() || !troubles_.empty() ||
          std::any_of(phase_->leads.begin(), phase_->leads.end(),
                      [](const Lead& lead) { return !lead.to.empty() || !lead.hold.empty(); });
 }
@@ -98,6 +103,7 @@ void PhaseRow::reset() {
   }
   forget();
   if (posture_) posture_->start(Vector::Zero(posture_size_));
+  if (park_) park_->reset();
 }
 
 void PhaseRow::forget() {
@@ -115,6 +121,7 @@ void PhaseRow::enter(const WholeBodyController& controller) {
       way.along[k] = way.by[k] + (way.seen[i] ? *way.seen[i] : 0.0);
     }
   }
+  if (park_) park_->enter();
   if (!posture_) return;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     places_[static_cast<Index>(i)] = controller.servo().position()[joints_[i]];
@@ -133,13 +140,17 @@ void PhaseRow::command(double time, double dt, Vector& out) {
       part = way.along * ((smooth_step((time + dt) / seconds) - smooth_step(time / seconds)) / dt);
     }
   }
+  if (park_) park_->command(out);
   if (posture_) posture_->velocity(time, dt, out.segment(posture_row_, posture_size_));
 }
 
-void PhaseRow::note(const Vector& command, double dt) {
+void PhaseRow::note(const WholeBodyController& controller) {
+  const Vector& command = controller.command();
+  const double dt = controller.dt();
   for (Way& way : ways_) {
     if (way.length > 0.0) way.given += way.along.dot(command.segment(way.row, way.size)) * dt;
   }
+  if (park_) park_->note(controller.drive()->controller().braked());
 }
 
 double PhaseRow::given() const {
@@ -154,6 +165,7 @@ double PhaseRow::given() const {
 }
 
 double PhaseRow::progress(double elapsed) const {
+  if (park_ && !park_->done()) return 0.0;
   return std::min(phase_->seconds > 0.0 ? elapsed / phase_->seconds : 1.0, given());
 }
 
@@ -201,6 +213,7 @@ void PhaseRow::save(StateWriter& writer) const {
     if (way.by.size() > 0) writer.put(way.along);
   }
   if (posture_) posture_->save(writer);
+  if (park_) park_->save(writer);
 }
 
 void PhaseRow::restore(StateReader& reader) {
@@ -215,6 +228,7 @@ void PhaseRow::restore(StateReader& reader) {
     if (way.by.size() > 0) reader.get(way.along);
   }
   if (posture_) posture_->restore(reader);
+  if (park_) park_->restore(reader);
 }
 
 }  // namespace hurcules

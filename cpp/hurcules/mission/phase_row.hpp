@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hurcules/mission/park_way.hpp"
 #include "hurcules/mission/posture_way.hpp"
 #include "hurcules/mission/table.hpp"
 #include "hurcules/sim/brakes.hpp"
@@ -21,6 +22,8 @@ class PhaseRow {
   void find_quantities(const Recorder& log);
   // its brakes; throws Error with the joints that have one
   void find_brakes(const Brakes& brakes);
+  // what it parks by; throws Error with the bodies that exist
+  void find_places(const Plant& plant, int robot);
   [[nodiscard]] const std::vector<int>& brakes() const { return brakes_; }  // actuators, shut in it
   [[nodiscard]] const std::string& support() const { return support_; }
   [[nodiscard]] bool needs_log() const;
@@ -29,14 +32,20 @@ class PhaseRow {
   void reset();
   // the phase begins where the references are
   void enter(const WholeBodyController& controller);
+  // once a tick, after the physics; `rules`: it is the present phase
+  void look(bool rules) {
+    if (park_) park_->look(rules);
+  }
   // what it commands over the dt [s] after a time [s] since its beginning; writes its own rows of
   // the command (k)
   void command(double time, double dt, Vector& out);
-  // what was really commanded, (k), for dt [s]
-  void note(const Vector& command, double dt);
+  // what was really commanded
+  void note(const WholeBodyController& controller);
   // mean share of the ways by a rate that has been given, 1 without one
   [[nodiscard]] double given() const;
   [[nodiscard]] double progress(double elapsed) const;
+  // it cannot end as it should: it did not park
+  [[nodiscard]] bool failed() const { return park_ && park_->failed(); }
   // one more tick of dt [s]: all its conditions are true; the first of its troubles that there is
   [[nodiscard]] bool done(double dt);
   [[nodiscard]] std::optional<std::size_t> trouble(double dt);
@@ -74,6 +83,7 @@ class PhaseRow {
   std::string support_;
   std::vector<Way> ways_;
   std::optional<PostureWay> posture_;
+  std::optional<ParkWay> park_;
   Index posture_row_ = 0, posture_size_ = 0;
   std::vector<Index> joints_;  // of the servo, where no stack rules
   Vector places_;              // of these, scratch

@@ -100,6 +100,25 @@ void check_posture(const Phase& phase, const WholeBodyController& controller,
   require(before == 1.0, where + ": the last share of a posture wants to be 1");
 }
 
+void check_park(const Phase& phase, const WholeBodyController& controller,
+                const std::string& where) {
+  if (!phase.park) return;
+  const Park& park = *phase.park;
+  (void)find_tracks(controller, where);
+  for (const Lead& lead : phase.leads) {
+    require(find_channel(controller, lead.channel, where).channel->kind() != ChannelKind::Drive,
+            where + ": it parks, and channel '" + lead.channel + "' drives the tracks elsewhere");
+  }
+  require(std::isfinite(park.ahead) && std::isfinite(park.left) && std::isfinite(park.heading),
+          where + ": a pose to park at wants finite numbers");
+  for (const double most : {park.speed, park.yaw_rate}) {
+    require(most > 0.0 && std::isfinite(most),
+            where + ": parking wants a speed and a yaw rate above 0, " + to_text(most) + " came");
+  }
+  require(std::isfinite(phase.within),
+          where + ": parking may fail: it wants `within`, and what is done when it takes longer");
+}
+
 void check_reactions(const std::vector<Reaction>& row, const MissionTable& table,
                      const std::string& where) {
   require(!row.empty(), where + ": trouble wants at least one reaction");
@@ -150,6 +169,7 @@ void check_phase(const Phase& phase, const MissionTable& table,
   }
   check_leads(phase, controller, where);
   check_posture(phase, controller, where);
+  check_park(phase, controller, where);
   const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
   require(phase.seconds > 0.0 || led || !phase.done.empty() || phase.leads.empty(),
           where + " never ends: it wants seconds, a way, or a condition");
@@ -239,6 +259,15 @@ ChannelPlace find_channel(const WholeBodyController& controller, const std::stri
   throw Error(where + ": " + unknown_name("channel", name, names));
 }
 
+Index find_tracks(const WholeBodyController& controller, const std::string& where) {
+  Index row = 0;
+  for (const Channel& channel : controller.channels()) {
+    if (channel.kind() == ChannelKind::Drive) return row;
+    row += channel.size();
+  }
+  throw Error(where + ": parking wants a channel that drives the tracks; the controller has none");
+}
+
 void check_table(const MissionTable& table, const WholeBodyController& controller) {
   require(!table.phases.empty(), "a mission wants at least one phase");
   for (const NamedStack& stack : controller.stacks()) {
@@ -284,6 +313,11 @@ std::string table_text(const MissionTable& table) {
       if (!lead.hold.empty()) add(text, {" to hold ", lead.hold, " at ", to_text(lead.at)});
       if (std::isfinite(lead.way)) add(text, {" until ", to_text(lead.way)});
       text += "\n";
+    }
+    if (phase.park) {
+      add(text, {"     parks at ", to_text(phase.park->ahead), " ", to_text(phase.park->left),
+                 ", heading ", to_text(phase.park->heading), ", from ",
+                 phase.park->body.empty() ? "its start" : phase.park->body, "\n"});
     }
     for (const PostureKey& key : phase.keys) {
       add(text, {"     at ", to_text(key.share), ":"});

@@ -36,7 +36,7 @@ struct MissionTable {
 
 // Throws Error, naming the row: an unknown phase, stack, channel or coordinate with those that exist;
 // a lead of the wrong size, one of a task where no stack rules, or one that never ends while nothing else ends the phase; a time-out
-// that is not above 0, or without a reaction; reactions that do not end in safety (Lower or Abort);
+// that is not above 0, or without a reaction; parking without tracks, without a time-out, or beside a lead of the tracks; reactions that do not end in safety (Lower or Abort);
 // a jump without a count. Quantities are checked when a simulation brings its log.
 void check_table(const MissionTable& table, const WholeBodyController& controller);
 
@@ -53,5 +53,7 @@ struct ChannelPlace {
 };
 [[nodiscard]] ChannelPlace find_channel(const WholeBodyController& controller,
                                         const std::string& name, const std::string& where);
+// first command of the channel that drives the tracks; throws Error where there is none
+[[nodiscard]] Index find_tracks(const WholeBodyController& controller, const std::string& where);
 
 }  // namespace hurcules

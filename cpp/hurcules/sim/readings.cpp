@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <vector>
 
 #include "hurcules/base/error.hpp"
 
@@ -12,6 +13,24 @@ int require_id(const mjModel* m, int kind, const std::string& name, const std::s
   const int id = mj_name2id(m, kind, name.c_str());
   require(id >= 0, who + " wants a " + mju_type2Str(kind) + " '" + name + "', the model has none");
   return id;
+}
+
+int find_body(const mjModel* m, const std::string& name, const std::string& where) {
+  const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
+  if (id >= 0) return id;
+  std::vector<std::string> names;
+  for (int i = 1; i < m->nbody; ++i) names.emplace_back(mj_id2name(m, mjOBJ_BODY, i));
+  throw Error(where + ": " + unknown_name("body", name, names));
+}
+
+PlanarPose pose_on_ground(const mjData* d, int body) {
+  const Vector3 place = vector_at(d->xpos, body), left = matrix_at(d->xmat, body).col(1);
+  return {place.x(), place.y(), std::atan2(-left.x(), left.y())};
+}
+
+PlanarPose centre_on_ground(const mjData* d, int body) {
+  const Vector3 centre = vector_at(d->subtree_com, body);
+  return {centre.x(), centre.y(), pose_on_ground(d, body).yaw};
 }
 
 Vector3 vector_at(const double* values, int i) {
