@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -54,15 +55,17 @@ RECIPES: Mapping[str, Mapping[str, Any]] = {
     },
     **{f"Hurcules/{name}": CONTACT for name in ("Press", "Valve", "Door", "Carry", "Lift")},
 }
-# after cloning: small steps, actions near the expert's
+# after cloning: small steps, actions drawn near the expert's
 AFTER_CLONING = {
     "n_steps": 128,
     "batch_size": 256,
     "n_epochs": 5,
     "learning_rate": 3e-4,
     "target_kl": 0.02,
-    "log_std_init": -1.6,
+    "log_std_init": -1.6,  # where the expert was pushed by PUSH
 }
+PUSH = 0.3  # of the expert's actions: standard deviation
+PUSHES = {"Hurcules/Press": 0.1}  # where 1 is 60 N, and 10 % of 8 N matter
 # of the observation and the way to the goal, what a network sees; by default both
 SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Reach-": ("way",),  # where the hands are stands in the achieved goal already
@@ -184,8 +187,10 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     shared = {"seed": options.seed, "device": "cpu", "tensorboard_log": _tensorboard(options.out)}
     if options.algorithm == "ppo":
         recipe = next((r for n, r in RECIPES.items() if options.environment.startswith(n)), {})
-        cloned = AFTER_CLONING if options.demonstrations else {}
-        settings = {**PPO_SETTINGS, **recipe, **cloned}
+        settings = {**PPO_SETTINGS, **recipe}
+        if options.demonstrations:
+            settings |= AFTER_CLONING
+            settings["log_std_init"] += math.log(_push(options) / PUSH)
         network["log_std_init"] = settings.pop("log_std_init")
         if not goal:
             network["features_extractor_class"] = Standardised
@@ -204,10 +209,13 @@ def _standardised(model: BaseAlgorithm) -> bool:
     return isinstance(getattr(model.policy, "features_extractor", None), Standardised)
 
 
+def _push(options: TrainOptions) -> float:
+    return next((p for n, p in PUSHES.items() if options.environment.startswith(n)), PUSH)
+
+
 def _imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
-    shown = demonstrate(
-        options.environment, options.demonstrations, options.seed, **options.options
-    )
+    n, push = options.demonstrations, _push(options)
+    shown = demonstrate(options.environment, n, options.seed, push, **options.options)
     clone(model, shown, options.seed)
 
 
