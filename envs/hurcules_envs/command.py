@@ -41,6 +41,9 @@ def train(
     fidelity: Fidelity = None,
     robot: Robot = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
+    demonstrations: Annotated[
+        int, typer.Option(help="Episodes of the scripted expert; PPO starts as its clone.", min=0)
+    ] = 0,
     out: Annotated[Path | None, results_in("out/train/ENVIRONMENT")] = None,
     ray: Annotated[
         str | None,
@@ -53,17 +56,20 @@ def train(
     Goes on where an earlier run in the same folder was stopped. Writes policy.onnx, policy.zip,
     checkpoint.zip, settings.json and evaluation.json.
 
-    For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`
+    For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`, or
+    `hurcules train Door-v0 --demonstrations 50 --steps 20000`
     """
     name = _known(environment)
     options = _given(fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action)
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
+        if demonstrations:
+            raise hurcules.Error("--demonstrations: not with --ray")
         return _on_cluster(ray, name, steps, folder, options, envs, seed)
     training = _training()
     wanted = training.TrainOptions(
         environment=name, algorithm=algo, steps=steps, episodes=envs, seed=seed, options=options,
-        out=folder,
+        out=folder, demonstrations=demonstrations,
     )  # fmt: skip
     console = Console()
     columns = [

@@ -12,11 +12,8 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-import hurcules
-from hurcules_envs.episodes import Episodes
 from hurcules_envs.policy import Policy
-from hurcules_envs.randomisation import split
-from hurcules_envs.registry import make_environment
+from hurcules_envs.registry import make_episodes
 
 __all__ = ["Evaluation", "evaluate", "wilson"]
 
@@ -66,25 +63,16 @@ def evaluate(
         threads: 0 for one a processor.
         options: of the environment, and ranges of what differs between episodes.
     """
-    spec = gymnasium.spec(environment)
-    given = {**spec.kwargs, **options}
-    if "environment" not in given:
-        raise hurcules.Error(f"{environment} cannot be evaluated: it has no native vector")
-    flat = bool(given.pop("flat", False))
-    ranges, given = split(given)
-    made = make_environment(given.pop("environment"), given)
-    batch = Episodes(made, episodes, threads, flat=flat, ranges=ranges)
+    batch = make_episodes(environment, episodes, seed, threads, **options)
     if isinstance(act, Policy):
         act.check(environment, batch.single_observation_space, batch.single_action_space)
-    batch.generators = [np.random.default_rng(seed + i) for i in range(episodes)]
-    batch.reset()
     seen = batch.look(remember=None)
     running = np.ones(episodes, dtype=bool)
     success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess = 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
-    for _ in range(spec.max_episode_steps or sys.maxsize):
+    for _ in range(gymnasium.spec(environment).max_episode_steps or sys.maxsize):
         observation = seen.observation
         parts = observation if len(observation) > 1 else observation["observation"]
         batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still

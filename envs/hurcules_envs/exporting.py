@@ -14,7 +14,7 @@ from torch import nn
 
 import hurcules
 from hurcules_envs.onnx_file import Graph, Node, write
-from hurcules_envs.sb3 import SCALE, GoalFeatures
+from hurcules_envs.sb3 import SCALE, GoalFeatures, Standardised
 
 __all__ = ["export_policy"]
 
@@ -59,6 +59,13 @@ def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any])
         last = "seen"
     else:
         inputs, last = {"observation": space.shape[0]}, "observation"
+    if isinstance(features, Standardised):
+        weights |= {"mean": features.mean.numpy(), "spread": features.scale.numpy()}
+        nodes += [
+            Node("Sub", ("observation", "mean"), ("centred",)),
+            Node("Div", ("centred", "spread"), ("seen",)),
+        ]
+        last = "seen"
     last = _add_layers(layers, last, nodes, weights)
     if squashed:
         nodes.append(Node("Tanh", (last,), ("action",)))

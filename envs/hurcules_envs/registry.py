@@ -8,12 +8,14 @@ from importlib import import_module
 from typing import Any
 
 import gymnasium
+import numpy as np
 
 import hurcules
 from hurcules_envs.environment import Environment
-from hurcules_envs.randomisation import NAMES
+from hurcules_envs.episodes import Episodes
+from hurcules_envs.randomisation import NAMES, split
 
-__all__ = ["fastest_fidelity", "make_environment", "register"]
+__all__ = ["fastest_fidelity", "make_environment", "make_episodes", "register"]
 
 
 class UnknownOption(hurcules.Error, TypeError):
@@ -58,6 +60,31 @@ def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
                 f"there are: {', '.join([*known, *NAMES])}"
             )
     return kind(**options)
+
+
+def make_episodes(name: str, n: int, seed: int, threads: int = 0, **options: Any) -> Episodes:
+    """Begins episodes of an environment side by side, each to be run once.
+
+    Args:
+        name: id of the environment.
+        n: how many.
+        seed: of the first; the others follow.
+        threads: 0 for one a processor.
+        options: of the environment, and ranges of what differs between episodes.
+
+    Raises:
+        hurcules.Error: an environment without native vector, or an unknown option.
+    """
+    given = {**gymnasium.spec(name).kwargs, **options}
+    if "environment" not in given:
+        raise hurcules.Error(f"{name} has no native vector")
+    flat = bool(given.pop("flat", False))
+    ranges, given = split(given)
+    environment = make_environment(given.pop("environment"), given)
+    episodes = Episodes(environment, n, threads, flat=flat, ranges=ranges)
+    episodes.generators = [np.random.default_rng(seed + i) for i in range(n)]
+    episodes.reset()
+    return episodes
 
 
 def fastest_fidelity(name: str) -> str | None:

@@ -15,11 +15,12 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from hurcules_envs.vector import NativeVectorEnv
 
-__all__ = ["GoalFeatures", "Sb3VecEnv", "make_sb3"]
+__all__ = ["GoalFeatures", "Sb3VecEnv", "Standardised", "make_sb3"]
 
 
 SCALE = 3.0  # of the way to a goal, beside velocities and angles
 PARTS = ("observation", "way")
+LEAST = 1e-3  # standard deviation of a number that does not change
 
 
 class Sb3VecEnv(VecEnv):
@@ -132,6 +133,36 @@ class GoalFeatures(BaseFeaturesExtractor):
         way = SCALE * (observations["desired_goal"] - observations["achieved_goal"])
         seen = {"observation": observations["observation"], "way": way}
         return torch.cat([seen[part] for part in self.parts], dim=1)
+
+
+class Standardised(BaseFeaturesExtractor):
+    """An observation less its mean, over its standard deviation; both are part of the network.
+
+    Lengths of millimetres and forces of hundreds of newtons become alike: as they are, a network
+    does not see the former and drowns in the latter.
+    """
+
+    def __init__(self, observation_space: gymnasium.spaces.Box) -> None:
+        size = observation_space.shape[0]
+        super().__init__(observation_space, size)
+        self.register_buffer("count", torch.zeros(()))
+        self.register_buffer("mean", torch.zeros(size))
+        self.register_buffer("scale", torch.ones(size))
+
+    def update(self, observations: np.ndarray) -> None:
+        """Takes observations (m, o) into account, as much as those before."""
+        seen = torch.as_tensor(observations, dtype=torch.float32)
+        share = len(seen) / (self.count + len(seen))
+        mean = (1.0 - share) * self.mean + share * seen.mean(dim=0)
+        squares = (1.0 - share) * ((self.scale - LEAST) ** 2 + (self.mean - mean) ** 2)
+        squares += share * ((seen - mean) ** 2).mean(dim=0)
+        self.scale.copy_(torch.sqrt(squares) + LEAST)
+        self.mean.copy_(mean)
+        self.count += len(seen)
+
+    def forward(self, observations: torch.Tensor) -> torch.Tensor:
+        """(n, o)."""
+        return (observations - self.mean) / self.scale
 
 
 def make_sb3(

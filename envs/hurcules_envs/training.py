@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -17,8 +18,10 @@ from stable_baselines3.common.callbacks import BaseCallback
 import hurcules
 import hurcules_envs
 from hurcules.validation import require_known
+from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
-from hurcules_envs.sb3 import PARTS, GoalFeatures, make_sb3
+from hurcules_envs.imitation import demonstrate
+from hurcules_envs.sb3 import PARTS, GoalFeatures, Standardised, make_sb3
 
 __all__ = ["TrainOptions", "make_model", "train"]
 
@@ -30,6 +33,15 @@ PPO_SETTINGS = {
     "gamma": 0.9,
     "gae_lambda": 0.9,
     "learning_rate": 2e-3,
+    "log_std_init": 0.0,  # of the actions
+}
+# things are touched: an action is rewarded a second later
+CONTACT = {
+    "gamma": 0.98,
+    "gae_lambda": 0.95,
+    "n_steps": 64,
+    "learning_rate": 1e-3,
+    "log_std_init": -0.5,
 }
 # by the beginning of an id: what differs
 RECIPES: Mapping[str, Mapping[str, Any]] = {
@@ -41,7 +53,19 @@ RECIPES: Mapping[str, Mapping[str, Any]] = {
         "batch_size": 512,
         "learning_rate": 1e-3,
     },
+    **{f"Hurcules/{name}": CONTACT for name in ("Press", "Valve", "Door", "Carry", "Lift")},
 }
+# after cloning: small steps, actions drawn near the expert's
+AFTER_CLONING = {
+    "n_steps": 128,
+    "batch_size": 256,
+    "n_epochs": 5,
+    "learning_rate": 3e-4,
+    "target_kl": 0.02,
+    "log_std_init": -1.6,  # where the expert was pushed by PUSH
+}
+PUSH = 0.3  # of the expert's actions: standard deviation
+PUSHES = {"Hurcules/Press": 0.1}  # where 1 is 60 N, and 10 % of 8 N matter
 # of the observation and the way to the goal, what a network sees; by default both
 SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Reach-": ("way",),  # where the hands are stands in the achieved goal already
@@ -62,6 +86,9 @@ class TrainOptions:
         seed: of networks, actions and episodes.
         options: of the environment.
         out: folder of the results.
+        checkpoint_every: so many steps.
+        demonstrations: episodes of the scripted expert that actor and critic learn before PPO goes
+            on; 0: none.
     """
 
     environment: str
@@ -72,6 +99,7 @@ class TrainOptions:
     options: Mapping[str, Any] = field(default_factory=dict)
     out: Path = Path("out/train")
     checkpoint_every: int = 20_000
+    demonstrations: int = 0
 
 
 def train(options: TrainOptions, progress: Callable[[int, float], None] | None = None) -> Path:
@@ -110,10 +138,15 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     model = make_model(options, environment)
     if checkpoint.exists():
         model = type(model).load(checkpoint, environment, device="cpu")
+    elif options.demonstrations:
+        _imitate(model, options)
+        _save(model, checkpoint)
     left = options.steps - model.num_timesteps
     if left > 0:
         watch = _Watch(checkpoint, options.checkpoint_every, progress)
-        model.learn(left, callback=watch, reset_num_timesteps=False)
+        adapts = not options.demonstrations and _standardised(model)
+        callbacks = [watch, _Standardise()] if adapts else [watch]
+        model.learn(left, callback=callbacks, reset_num_timesteps=False)
         watch.save()
     model.save(out / "policy.zip")
     about = {
@@ -122,6 +155,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         "algorithm": options.algorithm,
         "steps": model.num_timesteps,
         "seed": options.seed,
+        "demonstrations": options.demonstrations,
         "action_names": environment.environment.action_names,
     }
     export_policy(model, out / "policy.onnx", about)
@@ -140,6 +174,8 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
         hurcules.Error: "her" for what is no goal environment.
     """
     goal = isinstance(environment.observation_space, gymnasium.spaces.Dict)
+    if options.demonstrations and options.algorithm != "ppo":
+        raise hurcules.Error(f"demonstrations are for ppo, got {options.algorithm}")
     if options.algorithm == "her" and not goal:
         raise hurcules.Error(f"her: {options.environment} is no goal environment")
     kind = "MultiInputPolicy" if goal else "MlpPolicy"
@@ -152,7 +188,12 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     if options.algorithm == "ppo":
         recipe = next((r for n, r in RECIPES.items() if options.environment.startswith(n)), {})
         settings = {**PPO_SETTINGS, **recipe}
-        network["log_std_init"] = 0.0
+        if options.demonstrations:
+            settings |= AFTER_CLONING
+            settings["log_std_init"] += math.log(_push(options) / PUSH)
+        network["log_std_init"] = settings.pop("log_std_init")
+        if not goal:
+            network["features_extractor_class"] = Standardised
         rate = settings["learning_rate"]
         settings["learning_rate"] = lambda left: rate * left
         return PPO(kind, environment, policy_kwargs=network, **settings, **shared)
@@ -164,6 +205,20 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
 
 
+def _standardised(model: BaseAlgorithm) -> bool:
+    return isinstance(getattr(model.policy, "features_extractor", None), Standardised)
+
+
+def _push(options: TrainOptions) -> float:
+    return next((p for n, p in PUSHES.items() if options.environment.startswith(n)), PUSH)
+
+
+def _imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
+    n, push = options.demonstrations, _push(options)
+    shown = demonstrate(options.environment, n, options.seed, push, **options.options)
+    clone(model, shown, options.seed)
+
+
 def _tensorboard(out: Path) -> str | None:
     try:
         import torch.utils.tensorboard  # noqa: F401
@@ -172,8 +227,32 @@ def _tensorboard(out: Path) -> str | None:
     return str(out / "tensorboard")
 
 
+def _save(model: BaseAlgorithm, checkpoint: Path) -> None:
+    """Whole or not at all."""
+    beside = checkpoint.with_suffix(".new.zip")
+    model.save(beside)
+    beside.replace(checkpoint)
+
+
+class _Standardise(BaseCallback):
+    """Tells the network between two batches what observations are like; no batch is torn."""
+
+    _seen: Any = None
+
+    def _on_step(self) -> bool:
+        return True
+
+    def _on_rollout_start(self) -> None:
+        if self._seen is not None:
+            self.model.policy.features_extractor.update(self._seen)
+
+    def _on_rollout_end(self) -> None:
+        observations = self.model.rollout_buffer.observations
+        self._seen = observations.reshape(-1, observations.shape[-1]).copy()
+
+
 class _Watch(BaseCallback):
-    """Saves checkpoints, whole or not at all, and tells how far it is."""
+    """Saves checkpoints, and tells how far it is."""
 
     def __init__(
         self, checkpoint: Path, every: int, progress: Callable[[int, float], None] | None
@@ -185,9 +264,7 @@ class _Watch(BaseCallback):
 
     def save(self) -> None:
         """Writes the checkpoint in place of the last one."""
-        beside = self._checkpoint.with_suffix(".new.zip")
-        self.model.save(beside)
-        beside.replace(self._checkpoint)
+        _save(self.model, self._checkpoint)
         self._saved = self.num_timesteps
 
     def _on_training_start(self) -> None:

@@ -65,12 +65,13 @@ class Valve(ContactEnvironment):
     | term | what |
     |---|---|
     | distance | minus the distance to the ring between hub and rim [m], until success |
+    | fingers | 20 times what each finger closed in this step [m] |
     | turned | 5 times the angle turned in this step [rad] |
     | success | 10 once |
     """
 
     task_description = "Open the valve: turn the wheel by 90 degrees counterclockwise."
-    terms = ("distance", "turned", "success")
+    terms = ("distance", "fingers", "turned", "success")
     observation = (
         Group("hand", 3, "m", 1.0, "from the middle of the wheel to the hand"),
         Group("velocity", 3, "m/s", 2.0, "of the hand"),
@@ -82,7 +83,8 @@ class Valve(ContactEnvironment):
         Group("force", 1, "N", 2000.0, "sum of the normal forces on the hand"),
     )
     memory: Mapping[str, int] = MappingProxyType(
-        {"place": 3, "torque": 1, "friction": 1, "angle": 1, "turned": 1, "gain": 1, "fresh": 1}
+        {"place": 3, "torque": 1, "friction": 1, "angle": 1}
+        | {"turned": 1, "gain": 1, "fresh": 1, "fingers": 1, "closing": 1}
     )
     parameters = ("place", "torque", "friction")
     beside: Mapping[str, float | Array] = MappingProxyType({"grip": 0.05})
@@ -163,11 +165,13 @@ class Valve(ContactEnvironment):
         return Start(qpos, {"place": place, "angle": angle} | drawn, drawn | places)
 
     def remember(self, numbers: Numbers) -> None:
-        """How far the wheel has turned, and how much of it in this step."""
+        """How far the wheel has turned and the fingers are closed; how much of it in this step."""
         memory = numbers.memory
         before = memory["turned"].copy()
         memory["turned"][:] = numbers["joint/valve_wheel"] - numbers["angle"]
         memory["gain"][:] = memory["turned"] - before
+        fingers = numbers["joint/R_grip_1"]
+        memory["closing"][:], memory["fingers"][:] = fingers - memory["fingers"], fingers
         memory["fresh"][:] = (memory["turned"] >= WANTED) & (before < WANTED)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
@@ -193,6 +197,7 @@ class Valve(ContactEnvironment):
         distance = np.hypot(ring, hand[:, 0] - DEPTH)
         return {
             "distance": -shaped * np.where(self.succeeded(numbers), 0.0, distance),
+            "fingers": 20.0 * shaped * numbers["closing"][:, 0],
             "turned": 5.0 * shaped * numbers["gain"][:, 0],
             "success": 10.0 * numbers["fresh"][:, 0],
         }

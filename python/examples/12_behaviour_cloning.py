@@ -11,38 +11,14 @@ Run:  python python/examples/12_behaviour_cloning.py [Door-v0] [--episodes 100] 
 import argparse
 from pathlib import Path
 
-import gymnasium
 import numpy as np
 
-import hurcules_envs  # noqa: F401  registers the environments
 from hurcules_envs.evaluation import evaluate
+from hurcules_envs.imitation import demonstrate
 from hurcules_envs.onnx_file import Graph, Node, write
 from hurcules_envs.policy import Policy
 
 WIDTH, BATCH, RATE = 128, 256, 2e-3  # of the hidden layers, samples a step, learning rate
-KEPT = 0.8  # how much of a push is left a step later
-
-
-def demonstrate(name, episodes, seed, fidelity, noise):
-    """Observations (m, o) and the expert's actions (m, k), side by side from all episodes."""
-    vector = gymnasium.make_vec(name, num_envs=episodes, fidelity=fidelity)
-    generator = np.random.default_rng(seed)
-    seen, _ = vector.reset(seed=1000 + seed)
-    observations, actions = [], []
-    going, push = np.ones(episodes, dtype=bool), np.zeros(vector.action_space.shape)
-    successes = np.zeros(episodes, dtype=bool)
-    while going.any():
-        wanted = vector.environment.expert(vector.numbers)
-        observations.append(seen[going])
-        actions.append(wanted[going])
-        fresh = generator.normal(0.0, noise, push.shape)
-        push = KEPT * push + np.sqrt(1.0 - KEPT**2) * fresh
-        pushed = np.clip(wanted + push * (wanted != 0.0), -1.0, 1.0)
-        seen, _, terminated, truncated, info = vector.step(pushed)
-        successes |= going & info["is_success"]
-        going &= ~(terminated | truncated | info["is_success"])
-    print(f"{episodes} demonstrations, {successes.sum()} succeeded, {sum(map(len, actions))} steps")
-    return np.concatenate(observations), np.concatenate(actions).astype(np.float32)
 
 
 def clone(x, y, epochs, generator):
@@ -87,7 +63,9 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("out/clone"))
     given = parser.parse_args()
     name = f"Hurcules/{given.environment}"
-    seen, wanted = demonstrate(name, given.episodes, given.seed, given.fidelity, given.noise)
+    shown = demonstrate(name, given.episodes, given.seed, given.noise, fidelity=given.fidelity)
+    seen, wanted = shown.observations, shown.actions
+    print(f"{given.episodes} demonstrations, {shown.successes.sum()} succeeded, {len(seen)} steps")
     mean, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-3
     generator = np.random.default_rng(given.seed)
     layers = clone((seen - mean) / scale, wanted, given.epochs, generator)
