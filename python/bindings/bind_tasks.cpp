@@ -148,7 +148,8 @@ Args:
   axes: (m, 3), m = 1 to 3 directions in the world that count.
   turns: rotations [rad] count beside positions [m].
 )";
-constexpr const char* kWorldPosition = "where the point is (3,) [m] in the world, at the last update";
+constexpr const char* kWorldPosition =
+    "where the point is (3,) [m] in the world, at the last update";
 constexpr const char* kWorldTarget = "where it shall be (3,) [m] in the world, for drawing";
 constexpr const char* kPostureTask = R"(Coordinates at chosen positions [rad] or [m] (m,).
 

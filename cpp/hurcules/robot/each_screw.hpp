@@ -15,8 +15,7 @@ void Screws::each_coordinate(const Driven& joint, Act&& act) const {
 template <class Act>
 void Screws::each_screw(Act&& act) const {
   for (const Driven& joint : driven_)
-    each_coordinate(joint,
-                    [&](Index i, double share) { act(i, joint.body, share * joint.screw); });
+    each_coordinate(joint, [&](Index i, double share) { act(i, joint.body, share * joint.screw); });
   if (support_ < 0) return;
   for (const Index j : above(support_))
     each_coordinate(driven(j),

@@ -72,7 +72,7 @@ class GeomDistance {
     int id = 0;
     double radius = 0.0;                  // [m] of a ball about its origin around its geoms
     Skeleton::Pose pose = {}, seen = {};  // now, and when the list was made
-    double moved = 0.0;  // [m] by which no point of it has moved more, since then
+    double moved = 0.0;                   // [m] by which no point of it has moved more, since then
     Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
     bool own = false;  // of set_motion
   };

@@ -12,7 +12,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kTight = 1e-6;    // of a loop that stays closed
+constexpr double kTight = 1e-6;  // of a loop that stays closed
 constexpr const char* kBall = " (ball)";
 constexpr std::size_t kShown = 8;  // names, then how many more
 

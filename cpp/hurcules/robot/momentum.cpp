@@ -71,8 +71,7 @@ void Momentum::place(const Screws& screws) {
     const Vector3 r = pose.p + pose.R * (part.moment / part.mass) - origin;
     placed.mass = part.mass;
     placed.moment = part.mass * r;
-    placed.second =
-        pose.R * part.second * pose.R.transpose() + part.mass * second_moment(r);
+    placed.second = pose.R * part.second * pose.R.transpose() + part.mass * second_moment(r);
   }
   below_ = own_;
   for (int bone = skeleton.bones() - 1; bone >= 0; --bone) {

@@ -36,9 +36,7 @@ class Skeleton {
     return bone < 0 ? Pose{} : poses_[static_cast<std::size_t>(bone)];
   }
   // on which a body hangs, and how: in the bone, or in W
-  [[nodiscard]] int bone_of(int body) const {
-    return bodies_[static_cast<std::size_t>(body)].bone;
-  }
+  [[nodiscard]] int bone_of(int body) const { return bodies_[static_cast<std::size_t>(body)].bone; }
   [[nodiscard]] const Pose& hanging(int body) const {
     return bodies_[static_cast<std::size_t>(body)].pose;
   }

@@ -116,8 +116,7 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
   t.to_upper = t.limit_upper - t.seen_q;
 }
 
-void RunRecord::note_base(const Sensed& sensed, Frame support,
-                          const std::optional<Frame>& target) {
+void RunRecord::note_base(const Sensed& sensed, Frame support, const std::optional<Frame>& target) {
   Telemetry& t = telemetry;
   const Robot &world = sensed.world, &seen = sensed.seen;
   t.base_position = world.position(support);

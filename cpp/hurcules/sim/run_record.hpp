@@ -19,8 +19,8 @@ class RunRecord {
   struct Sensed {
     const Robot& world;
     const Robot& seen;
-    const Vector& qvel;             // (nv) true
-    const Vector& seen_qvel;        // (nv)
+    const Vector& qvel;       // (nv) true
+    const Vector& seen_qvel;  // (nv)
   };
   // of a controller, whose stacks, joints and commands name the channels
   RunRecord(const WholeBodyController& controller, std::vector<std::string> phases, bool timed);

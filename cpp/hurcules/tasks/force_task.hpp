@@ -69,7 +69,7 @@ class ForceTask : public PositionTask {
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] double wish(Mode mode);  // of the row, without the blend
   [[nodiscard]] double blended() const;  // what the blend adds
-  void show();  // the row as the controller sees it
+  void show();                           // the row as the controller sees it
 
   ForceTaskOptions options_;
   ForceLaw law_;
@@ -81,9 +81,9 @@ class ForceTask : public PositionTask {
   double motion_ = 0.0;  // [m/s] of the reference
   double wish_ = 0.0;    // [m/s] or [m/s^2], blend included
   double offset_ = 0.0, age_ = 0.0;
-  double entry_ = 0.0;   // [N] read when the mode changed
-  double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
-  double last_ = 0.0;  // [m] s at the last sense
+  double entry_ = 0.0;  // [N] read when the mode changed
+  double rate_ = 0.0;   // [m/s] of the frame, by the robot's velocity or by differences
+  double last_ = 0.0;   // [m] s at the last sense
   bool sensed_ = false;
 };
 

@@ -49,7 +49,7 @@ class Reference {
   void express(RotationMotion& rotation) const;
   [[nodiscard]] const RotationMotion& rotation() const { return rotation_; }  // in W
   // from R, where it was measured last, to W
-  [[nodiscard]] Vector3 point_in_world(const Vector3& p_R) const;    // [m]
+  [[nodiscard]] Vector3 point_in_world(const Vector3& p_R) const;  // [m]
   [[nodiscard]] Matrix3 rotation_in_world(const Matrix3& R_R) const;
 
  private:

@@ -203,8 +203,9 @@ TEST(ClosedChains, FollowTheJointsThatWereChosen) {
 // where the root moves with the joints, the loop over the ground would have to count it
 TEST(ClosedChains, OverTheGroundRefuseAnotherSupport) {
   std::string text = kTied;
-  text.insert(text.find("<joint name=\"crank\""), "<freejoint name='root'/><geom size='0.1'/>"
-                                                  "<body name='first'>");
+  text.insert(text.find("<joint name=\"crank\""),
+              "<freejoint name='root'/><geom size='0.1'/>"
+              "<body name='first'>");
   text.insert(text.find("</worldbody>"), "</body>");
   Robot robot(load_model_text(text));
   EXPECT_EQ(robot.closures()->size(), 2);

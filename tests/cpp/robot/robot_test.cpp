@@ -311,8 +311,11 @@ TEST(Robot, SeparationIsWhatTheJacobiansOfBothPointsSay) {
   for (const char* support : {"", "leg_l"}) {
     Robot robot(load_model_text(kTwin));
     if (*support) robot.stand_on(support);
-    for (const auto& [first, second] : {std::pair{"hand_l", "hand_r"}, {"fa_l", "chest"},
-                                        {"toe_l", "hand_r"}, {"base", "ball"}, {"ball", "head"}}) {
+    for (const auto& [first, second] : {std::pair{"hand_l", "hand_r"},
+                                        {"fa_l", "chest"},
+                                        {"toe_l", "hand_r"},
+                                        {"base", "ball"},
+                                        {"ball", "head"}}) {
       RandomMotion random(7);
       random.move(robot);
       const Frame a = robot.frame(first), b = robot.frame(second);

@@ -53,8 +53,7 @@ inline std::vector<TaskCase> arm_cases() {
       task_case<CenterOfMassTask>("arm_com", kArm),
       task_case<ManipulabilityTask>("arm_manipulability", kArm, std::string("tip")),
       task_case<ManipulabilityTask>("arm_manipulability_of_two_directions", kArm,
-                                    std::string("forearm"),
-                                    ManipulabilityTaskOptions{.axes = two}),
+                                    std::string("forearm"), ManipulabilityTaskOptions{.axes = two}),
       task_case<ManipulabilityTask>("arm_manipulability_with_turns", kArm, std::string("tip"),
                                     ManipulabilityTaskOptions{.turns = true}),
   };

@@ -86,8 +86,7 @@ void OrthogonalFactor::take_cleaned(Index i, double norm2, double tolerance, dou
   double *v = rest_.row(i), *l = L_.row(i), *part = part_.data() + padded(columns_);
   // a row that depends on the others is known to rounding after one pass
   const double least = tolerance * tolerance * norm2;
-  const double left =
-      remove_parts(Q_, rank_, v, part, kernels::chosen->dot(stride(), v, v), least);
+  const double left = remove_parts(Q_, rank_, v, part, kernels::chosen->dot(stride(), v, v), least);
   for (Index j = 0; j < rank_; ++j) {
     l[j] += part[j];
     if (side) side[i] -= part[j] * side[pivot_[j]];

@@ -37,8 +37,8 @@ void triangularize_entries(At block, Index rows, Index columns) {
 template <class Block>
 void triangularize(Block& block, Index rows, Index columns) {
   using Scalar = typename Block::Scalar;
-  triangularize_entries<Scalar>(
-      [&](Index i, Index j) -> Scalar& { return block(i, j); }, rows, columns);
+  triangularize_entries<Scalar>([&](Index i, Index j) -> Scalar& { return block(i, j); }, rows,
+                                columns);
 }
 
 template void triangularize(Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>&, Index,

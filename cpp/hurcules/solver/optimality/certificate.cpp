@@ -193,8 +193,7 @@ void Certificate::push_in_basis(int row, const Candidates& candidates) {
 
 bool Certificate::find_step(const RowTable& rows, const NullspaceBasis& nullspace,
                             const Candidates& candidates, int k, const double* x_above,
-                            double x_scale, const LevelRecord& record,
-                            std::vector<HeldRow>& held) {
+                            double x_scale, const LevelRecord& record, std::vector<HeldRow>& held) {
   if (Candidates::violated(rows, k, candidates.value, kViolated / tolerance::kBroken * x_scale)) {
     return false;
   }
@@ -215,8 +214,7 @@ bool Certificate::find_step(const RowTable& rows, const NullspaceBasis& nullspac
     const Long weight = balance_.weight(static_cast<Index>(i)) / push.left;
     if (weight == 0.0L) continue;
     const Role role = pushing_[push.row] ? Role::Idle : Role::SmallestStep;
-    held.push_back(
-        {push.row, push.side, static_cast<double>(weight / rows[push.row].norm), role});
+    held.push_back({push.row, push.side, static_cast<double>(weight / rows[push.row].norm), role});
   }
   return true;
 }

@@ -53,8 +53,8 @@ double UnregularizedActiveSet::worst_above(double x_scale) const {
   const int level = level_->level();
   if (!level_->has_slacks()) {
     return kernels::chosen->worst_excess(rows_->candidates(level + 1), candidates_->value.data(),
-                                         candidates_->limits(*rows_),
-                                         tolerance::kBroken * x_scale, 0.0);
+                                         candidates_->limits(*rows_), tolerance::kBroken * x_scale,
+                                         0.0);
   }
   double worst = 0.0;
   for (int i = 0; i < rows_->begin(level); ++i) {
