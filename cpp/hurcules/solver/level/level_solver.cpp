@@ -17,6 +17,7 @@ void LevelSolver::reserve(Index unknowns, Index rows, Index most_own, Index leve
   extended_precision_.reserve(unknowns, rows);
   optimality_.reserve(unknowns, rows);
   certificate_.reserve(unknowns, rows);
+  step_multipliers_.reserve(unknowns, rows);
   // every level may hold every row, once for its violation and once for its smallest step
   held_.reserve(2 * (levels + 1) * rows);  // ... and the last one what was sought anew
   found_.reserve(rows);
@@ -286,10 +287,9 @@ double LevelSolver::prove(Strategy strategy, double rho, bool done) {
 double LevelSolver::prove_step(double residual) {
   nullspace_->complete(*rows_);
   const std::size_t end = held_.size();
-  const bool smallest = static_cast<std::size_t>(begin_norm_) < end &&
-                        record_->rho <= tolerance::kProximal * record_->own_norm;
-  if (!smallest || !certificate_.find_step(*rows_, *nullspace_, candidates_, level_, x_above_,
-                                           x_scale_, *record_, held_)) {
+  if (static_cast<std::size_t>(begin_norm_) == end ||
+      !step_multipliers_.find(
+          {*rows_, *nullspace_, candidates_, level_, x_above_, x_scale_, *record_}, held_)) {
     return residual;
   }
   // in front of those that the strategy found

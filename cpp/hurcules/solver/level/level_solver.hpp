@@ -15,6 +15,7 @@
 #include "hurcules/solver/optimality/optimality.hpp"
 #include "hurcules/solver/problem/candidates.hpp"
 #include "hurcules/solver/problem/tolerances.hpp"
+#include "hurcules/solver/small_rho/step_multipliers.hpp"
 #include "hurcules/solver/small_rho/unregularized_active_set.hpp"
 
 namespace hurcules {
@@ -104,6 +105,7 @@ class LevelSolver {
   ExtendedPrecisionActiveSet extended_precision_;
   Optimality optimality_;
   Certificate certificate_;
+  StepMultipliers step_multipliers_;
   Budget budget_;
   std::vector<HeldRow> held_;
   std::vector<KeptRow> found_;  // by the active set, for the unregularised one

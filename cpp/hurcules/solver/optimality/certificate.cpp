@@ -20,9 +20,6 @@ constexpr double kViolated = tolerance::kProven;
 constexpr Long kLongRounding = 1e-10L;
 // an own violated row depends on those before it
 constexpr Long kOwnRank = 1e-13L;
-// coordinates in the basis are rounded in double: a row of which less is free is not used there,
-// and a pull of less is none, relative to max(1, |x|)
-constexpr double kLeastFree = 1e-6, kNoPull = 1e-13;
 
 }  // namespace
 
@@ -31,7 +28,6 @@ void Certificate::reserve(Index unknowns, Index rows) {
   // both sides of a row may be at their limits
   balance_.reserve(unknowns, 2 * rows);
   for (auto* v : {&violation_, &step_}) v->reserve(2 * rows);
-  for (PaddedVector* v : {&moved_, &coordinates_}) v->reserve(padded(unknowns) + 4);
   pushing_.resize(std::max<std::size_t>(pushing_.size(), rows));
   for (auto* v : {&force_, &unit_, &parts_, &free_}) {
     v->resize(std::max<std::size_t>(v->size(), unknowns));
@@ -154,74 +150,14 @@ double Certificate::balance(const Long* v, Long scale, std::vector<Push>& pushes
                                                 (1.0L + kRounding / weakest)));
 }
 
-void Certificate::start(const RowTable& rows, const NullspaceBasis& nullspace, int k,
-                        const double* x_above, double x_scale, const LevelRecord& record) {
+double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, int k,
+                         const double* x_above, double x_scale, const LevelRecord& record) {
   rows_ = &rows;
   nullspace_ = &nullspace;
   x_above_ = x_above;
   x_ = record.x.data();
   x_scale_ = x_scale;
   level_ = k;
-  violation_.clear();
-  step_.clear();
-}
-
-void Certificate::push_in_basis(int row, const Candidates& candidates) {
-  const Row& r = (*rows_)[row];
-  if (r.equality || r.norm == 0.0) return;
-  const bool above = r.level < level_;
-  const double stands = candidates.value[r.candidate], stood = candidates.above[r.candidate];
-  const double room = kAtLimit * r.norm * x_scale_;
-  const double upper = above ? std::max(r.upper, stood) : r.upper;
-  const double lower = above ? std::min(r.lower, stood) : r.lower;
-  const Index first = nullspace_->rank_before(level_ + 1), columns = rows_->unknowns() - first;
-  const double* e = nullspace_->coordinates(r) + first;
-  double norm2 = 0.0;
-  for (Index j = 0; j < columns; ++j) norm2 += e[j] * e[j];
-  const double left = std::sqrt(norm2) / r.norm;
-  if (left <= kLeastFree) return;
-  for (const Side side : {Side::Upper, Side::Lower}) {
-    const bool up = side == Side::Upper;
-    if (up ? stands < upper - room : stands > lower + room) continue;
-    const double scale = static_cast<double>(side) / (left * r.norm);
-    Long* c = balance_.place();
-    for (Index j = 0; j < columns; ++j) c[j] = scale * e[j];
-    balance_.add();
-    step_.push_back({row, side, left, 0.0L});
-  }
-}
-
-bool Certificate::find_step(const RowTable& rows, const NullspaceBasis& nullspace,
-                            const Candidates& candidates, int k, const double* x_above,
-                            double x_scale, const LevelRecord& record, std::vector<HeldRow>& held) {
-  if (Candidates::violated(rows, k, candidates.value, kViolated / tolerance::kBroken * x_scale)) {
-    return false;
-  }
-  start(rows, nullspace, k, x_above, x_scale, record);
-  const kernels::Table& kernel = *kernels::chosen;
-  const Index first = nullspace.rank_before(k + 1), columns = rows.unknowns() - first;
-  kernel.scaled_difference(rows.stride(), 1.0, x_, x_above, moved_.data());
-  kernel.dots(nullspace.direction(first), columns, rows.stride(), moved_.data(),
-              coordinates_.data());
-  std::copy_n(coordinates_.data(), columns, free_.begin());
-  balance_.start(columns);
-  for (int i = 0; i < rows.begin(k + 1); ++i) push_in_basis(i, candidates);
-  balance_.solve(free_.data(), kNoPull * x_scale);
-  std::fill_n(pushing_.begin(), rows.size(), 0);
-  for (int h = record.first_held; h < record.first_norm; ++h) pushing_[held[h].row] = 1;
-  for (std::size_t i = 0; i < step_.size(); ++i) {
-    const Push& push = step_[i];
-    const Long weight = balance_.weight(static_cast<Index>(i)) / push.left;
-    if (weight == 0.0L) continue;
-    const Role role = pushing_[push.row] ? Role::Idle : Role::SmallestStep;
-    held.push_back({push.row, push.side, static_cast<double>(weight / rows[push.row].norm), role});
-  }
-  return true;
-}
-
-double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, int k,
-                         const double* x_above, double x_scale, const LevelRecord& record) {
-  start(rows, nullspace, k, x_above, x_scale, record);
   const Index n = rows.unknowns();
   basis_.start(n);
   use_equalities(0, nullspace.rank_before(k));
@@ -229,6 +165,8 @@ double Certificate::find(const RowTable& rows, const NullspaceBasis& nullspace, 
   const Long least = tolerance::kLeastForce * (record.own_norm * record.own_norm + rho2) * x_scale;
   const Long scale = std::max(own_forces(record.rho), least);
   balance_.start(n);
+  violation_.clear();
+  step_.clear();
   push_limits(0, rows.begin(k), true, violation_);
   double worst = scale > 0.0L ? balance(force_.data(), scale, violation_) : 0.0;
   if (record.rho > tolerance::kProximal * record.own_norm) return worst;

@@ -27,13 +27,6 @@ class Certificate {
   // whole. Then `keep` lists its rows.
   double find(const RowTable& rows, const NullspaceBasis& nullspace, int k, const double* x_above,
               double x_scale, const LevelRecord& record);
-  // Only the multipliers of the step, in the coordinates of the basis, which is complete: no more
-  // exact than double, so that they are still to be proven, but at next to no cost. `held`, the
-  // rows that push against the violations, gets them behind; false where own inequality rows are
-  // violated.
-  bool find_step(const RowTable& rows, const NullspaceBasis& nullspace,
-                 const Candidates& candidates, int k, const double* x_above, double x_scale,
-                 const LevelRecord& record, std::vector<HeldRow>& held);
   // the rows with their multipliers, those of the smallest step from begin_norm on
   void keep(std::vector<HeldRow>& held, int& begin_norm);
 
@@ -46,16 +39,12 @@ class Certificate {
     Long weight;  // of the row at length one
   };
 
-  void start(const RowTable& rows, const NullspaceBasis& nullspace, int k, const double* x_above,
-             double x_scale, const LevelRecord& record);
   void use_equalities(Index first, Index end);
   // rho^2 t + sum v_i a_i of the own rows -> force_; the size of what is in it
   Long own_forces(double rho);
   void settle_violated();
   void push_limits(int first, int end, bool above, std::vector<Push>& pushes);
   void push(int row, Side side, std::vector<Push>& pushes);
-  // a row that may stand at its limit, in the free directions of the levels below
-  void push_in_basis(int row, const Candidates& candidates);
   // what of v the pushes do not balance, relative to `scale`
   double balance(const Long* v, Long scale, std::vector<Push>& pushes);
   [[nodiscard]] Long dot(int row, const double* x) const;
@@ -74,7 +63,6 @@ class Certificate {
   std::vector<Push> violation_, step_;
   std::vector<char> pushing_;  // (rows) against the violations
   std::vector<Long> force_, unit_, parts_, free_;
-  PaddedVector moved_, coordinates_;  // the step, and in the free directions
 };
 
 }  // namespace hurcules
