@@ -75,8 +75,8 @@ Task* task_of(py::handle item) {
 
 using TaskOrLimits = py::typing::Union<Task, JointLimits>;
 
-HeldLevel make_level(const std::string& name, const py::typing::Iterable<TaskOrLimits>& tasks,
-                     double rho) {
+HeldLevel make_stack_level(const std::string& name, const py::typing::Iterable<TaskOrLimits>& tasks,
+                           double rho) {
   std::vector<py::object> kept;
   for (const py::handle task : tasks) keep(kept, task);
   if (kept.size() == 1 && py::isinstance<JointLimits>(kept.front())) {
@@ -169,7 +169,7 @@ HeldStack hurcules_bindings::stack_of(const py::object& levels) {
 void bind_stack(py::module_& module) {
   bind_limits(module);
   py::class_<HeldLevel>(module, "StackLevel", kStackLevel)
-      .def(py::init(&make_level), "name"_a, "tasks"_a, "rho"_a = StackLevel::kDefaultRho)
+      .def(py::init(&make_stack_level), "name"_a, "tasks"_a, "rho"_a = StackLevel::kDefaultRho)
       .def_property_readonly("name", [](const HeldLevel& self) { return self.level.name; })
       .def_property_readonly("rho", [](const HeldLevel& self) { return self.level.rho; })
       .def_property_readonly("tasks", [](const HeldLevel& self) { return self.kept; })
