@@ -135,3 +135,11 @@ def test_a_margin_of_an_unknown_body_is_refused():
     model = models.load("rescue")
     with pytest.raises(hurcules.Error, match="body 'legs' does not exist; there are: "):
         postures.static_margin(model, mujoco.MjData(model), "legs")
+
+
+def test_bodies_without_a_name_are_not_listed():
+    body = "<body{}><freejoint/><geom size='.1'/></body>"
+    bodies = body.format("") + body.format(" name='box'")
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    with pytest.raises(hurcules.Error, match=r"'legs' does not exist; there are: box$"):
+        postures.static_margin(model, mujoco.MjData(model), "legs")

@@ -19,7 +19,8 @@ int find_body(const mjModel* m, const std::string& name, const std::string& wher
   const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
   if (id >= 0) return id;
   std::vector<std::string> names;
-  for (int i = 1; i < m->nbody; ++i) names.emplace_back(mj_id2name(m, mjOBJ_BODY, i));
+  for (int i = 1; i < m->nbody; ++i)
+    if (const char* const other = mj_id2name(m, mjOBJ_BODY, i)) names.emplace_back(other);
   throw Error(where + ": " + unknown_name("body", name, names));
 }
 

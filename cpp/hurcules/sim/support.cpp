@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "hurcules/base/error.hpp"
+#include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
 
@@ -32,15 +32,6 @@ bool touches_ground(const mjModel* m, const mjData* d, int root) {
       if (m->body_rootid[body[side]] == root && m->body_weldid[body[1 - side]] == 0) return true;
   }
   return false;
-}
-
-int find_body(const mjModel* m, const std::string& name) {
-  const int body = mj_name2id(m, mjOBJ_BODY, name.c_str());
-  if (body >= 0) return body;
-  std::vector<std::string> existing;
-  for (int i = 1; i < m->nbody; ++i)
-    if (const char* const other = mj_id2name(m, mjOBJ_BODY, i)) existing.emplace_back(other);
-  throw Error(unknown_name("body", name, existing));
 }
 
 }  // namespace
@@ -82,10 +73,12 @@ void Support::collect(const mjModel* m, const mjData* d) {
 
 double static_margin(const mjModel* m, const mjData* d, const std::string& root,
                      const std::vector<std::string>& carried) {
+  const auto tree_of = [m](const std::string& body) {
+    return m->body_rootid[find_body(m, body, "static_margin")];
+  };
   std::vector<int> loads;
-  for (const std::string& name : carried) loads.push_back(m->body_rootid[find_body(m, name)]);
-  const std::optional<Stability> stands =
-      Support(m, m->body_rootid[find_body(m, root)]).measure(m, d, loads);
+  for (const std::string& body : carried) loads.push_back(tree_of(body));
+  const std::optional<Stability> stands = Support(m, tree_of(root)).measure(m, d, loads);
   return stands ? stands->margin : -std::numeric_limits<double>::infinity();
 }
 
