@@ -14,6 +14,7 @@
 #include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 #include "support/held_posture.hpp"
+#include "support/models.hpp"
 
 namespace {
 
@@ -24,7 +25,7 @@ using namespace hurcules_test;
 class Arms {
  public:
   explicit Arms(const std::string& keyframe = "ready")
-      : physics(load_model(HURCULES_MODELS "/scenes/stretch.xml")),
+      : physics(load_model(hurcules_test::models("/scenes/stretch.xml"))),
         robot(physics.model_ptr()),
         servo(robot, rescue_servo(), physics.dt()) {
     physics.reset(physics.find_keyframe(keyframe));

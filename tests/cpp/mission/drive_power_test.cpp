@@ -16,6 +16,7 @@
 #include "hurcules/sim/power_meter.hpp"
 #include "support/expect.hpp"
 #include "support/held_posture.hpp"
+#include "support/models.hpp"
 
 namespace {
 
@@ -32,7 +33,7 @@ ModelPtr scene(const std::string& more = "") {
       R"(<mujoco><include file="../robots/rescue.xml"/>
       <include file="flat.xml"/><worldbody>)" +
           more + "</worldbody></mujoco>",
-      HURCULES_MODELS "/scenes");
+      hurcules_test::models("/scenes"));
   for (const char* belt : {"L_lower_belt", "R_lower_belt"}) {
     const int joint = mj_name2id(model.get(), mjOBJ_JOINT, belt);
     model->dof_frictionloss[model->jnt_dofadr[joint]] = kRolling;

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "support/expect.hpp"
+#include "support/models.hpp"
 
 namespace {
 
@@ -54,7 +55,7 @@ struct Recorded {
     time = std::round(1e3 * time + 1.0) * 1e-3;
   }
 
-  Robot plan{load_model(HURCULES_MODELS "/scenes/stretch.xml")};
+  Robot plan{load_model(hurcules_test::models("/scenes/stretch.xml"))};
   std::shared_ptr<WholeBodyController> controller =
       make_mission_controller("stretch", plan.model());
   Stretch stretch{*controller, 0.0};

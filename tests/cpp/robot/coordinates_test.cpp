@@ -4,6 +4,7 @@
 
 #include "hurcules/robot/robot.hpp"
 #include "support/expect.hpp"
+#include "support/models.hpp"
 #include "support/tiny_models.hpp"
 
 namespace {
@@ -124,14 +125,14 @@ TEST(Coordinates, CoupledRangesThatDoNotMeetAreAnError) {
 }
 
 TEST(Coordinates, HurculesForRescueHasThirteen) {
-  const std::string path = HURCULES_MODELS "/robots/rescue.xml";
+  const std::string path = hurcules_test::models("/robots/rescue.xml");
   const Robot robot(load_model(path));
   EXPECT_EQ(robot.size(), 13);
   EXPECT_EQ(robot.coordinates()[robot.coordinate("KN")].joints.size(), 2U);
 }
 
 TEST(Coordinates, HurculesForManipulationHasNineteen) {
-  const std::string path = HURCULES_MODELS "/robots/manipulation.xml";
+  const std::string path = hurcules_test::models("/robots/manipulation.xml");
   EXPECT_EQ(Robot(load_model(path)).size(), 19);
 }
 

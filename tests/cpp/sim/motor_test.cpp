@@ -13,6 +13,7 @@
 #include "hurcules/robot/robot.hpp"
 #include "hurcules/sim/power_meter.hpp"
 #include "support/expect.hpp"
+#include "support/models.hpp"
 
 namespace {
 
@@ -22,7 +23,7 @@ using namespace hurcules_test;
 const MotorLimits kElbow = {600.0, 1.8, 540.0};
 
 ModelPtr robot(const std::string& name) {
-  return load_model(std::string(HURCULES_MODELS "/robots/") + name + ".xml");
+  return load_model(hurcules_test::models("/robots/") + name + ".xml");
 }
 
 TEST(Motor, GivesPeakTorqueThenPeakPowerThenNothing) {

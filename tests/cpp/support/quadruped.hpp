@@ -2,11 +2,12 @@
 #pragma once
 
 #include "hurcules/robot/robot.hpp"
+#include "support/models.hpp"
 
 namespace hurcules_test {
 
 inline hurcules::ModelPtr quadruped() {
-  return hurcules::load_model(HURCULES_MODELS "/examples/quadruped.xml");
+  return hurcules::load_model(models("/examples/quadruped.xml"));
 }
 
 }  // namespace hurcules_test

@@ -12,6 +12,7 @@
 #include "hurcules/robot/robot.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
+#include "support/models.hpp"
 
 namespace hurcules_test {
 
@@ -32,7 +33,7 @@ inline hurcules::ModelPtr rover_scene(const Ground& ground) {
       R"(<mujoco><include file="../robots/rescue.xml"/><include file="flat.xml"/>
          <option gravity=")" +
           gravity + R"("/><worldbody>)" + ground.more + "</worldbody></mujoco>",
-      HURCULES_MODELS "/scenes");
+      models("/scenes"));
   for (int i = 0; i < model->ngeom; ++i) {
     if (model->geom_contype[i] == 2) model->geom_friction[3 * i] = ground.friction;
   }

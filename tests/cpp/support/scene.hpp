@@ -4,12 +4,12 @@
 #include <string>
 
 #include "hurcules/robot/robot.hpp"
+#include "support/models.hpp"
 
 namespace hurcules_test {
 
 inline const hurcules::ModelPtr& stretch_scene() {
-  static const hurcules::ModelPtr model =
-      hurcules::load_model(HURCULES_MODELS "/scenes/stretch.xml");
+  static const hurcules::ModelPtr model = hurcules::load_model(models("/scenes/stretch.xml"));
   return model;
 }
 
