@@ -129,7 +129,14 @@ def _loop(seconds: float, rounds: int) -> Iterator[Figure]:
     ticks, factors = [], []
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "report.json")
-        command = [program(), "stretch", "--seconds", str(2.0 + 4.0 * seconds), "--json", file]
+        command = [
+            str(program()),
+            "stretch",
+            "--seconds",
+            str(2.0 + 4.0 * seconds),
+            "--json",
+            str(file),
+        ]
         for _ in range(rounds):
             subprocess.run(command, check=True, capture_output=True)
             report = json.loads(file.read_text())
@@ -174,10 +181,8 @@ def _rows() -> list[np.ndarray]:
 def _solve() -> Callable[[], object]:
     """Rows that ask for more than the box has, rho = 0.1."""
     wanted = np.random.default_rng(1).uniform(-1.55, 1.55, sum(LEVELS))
-    levels: list[rhqp.Level | rhqp.Bounds] = [
-        rhqp.Bounds(np.full(len(wanted), -1.0), np.ones(len(wanted)))
-    ]
-    levels += [rhqp.Level(A, A @ wanted, A @ wanted, rho=0.1) for A in _rows()]
+    box = rhqp.Bounds(np.full(len(wanted), -1.0), np.ones(len(wanted)))
+    levels = [box, *(rhqp.Level(A, A @ wanted, A @ wanted, rho=0.1) for A in _rows())]
     solver = rhqp.Solver(len(wanted))
     return lambda: solver.solve(levels)
 
