@@ -43,6 +43,7 @@ class Row:
     speed: float = 0.0  # [rad/s] or [m/s] in the last tenth of a second
     excess: float = 0.0  # [rad], [rad/s] or [rad/s^2] dt over any limit
     tick: float = field(default=np.inf)  # [s]
+    exists: bool = True  # a posture for each target, says inverse_kinematics
 
     @property
     def arrives(self) -> bool:
@@ -95,6 +96,9 @@ def reach(row: Row, robot: hurcules.Robot, hand: str, target: np.ndarray, dt: fl
         if tick >= ticks - round(0.1 / dt):
             row.speed = max(row.speed, float(np.abs(now).max()))
         before = now
+    robot.set_configuration(start)
+    row.exists = row.exists and hurcules.inverse_kinematics(robot, [level]).reached
+    robot.set_configuration(q)
     row.millimetres = max(
         row.millimetres, 1e3 * float(np.linalg.norm(robot.position(hand) - place))
     )
@@ -165,7 +169,8 @@ def main() -> None:
     led = [row for row in rows if row.state == "loads"]
     print(
         f"{len(rows)} models, {len(led)} led: {sum(row.arrives for row in led)} arrive, "
-        f"{sum(row.speed < MOVES for row in led)} rest, worst excess "
+        f"{sum(row.speed < MOVES for row in led)} rest, inverse_kinematics finds "
+        f"{sum(row.exists for row in led)}; worst excess "
         f"{max((row.excess for row in led), default=0.0):.1e}"
     )
 

@@ -123,6 +123,7 @@ from hurcules._core import (  # noqa: E402
     sole_points,
     step,
 )
+from hurcules.ik import Posture, inverse_kinematics  # noqa: E402
 from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
@@ -208,6 +209,7 @@ __all__ = [
     "PointTask",
     "PoseTask",
     "PositionTask",
+    "Posture",
     "PostureKey",
     "PostureTask",
     "PowerMeter",
@@ -244,6 +246,7 @@ __all__ = [
     "cameras",
     "casualties",
     "driving",
+    "inverse_kinematics",
     "largest_stiffness",
     "lift",
     "load_urdf",

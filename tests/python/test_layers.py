@@ -39,7 +39,7 @@ PHYSICS = {"robot", "sim"}
 # the parts of the Python packages from the ground up: each may import what stands on lower floors
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
-        "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
+        "_core", "_exec", "_moved", "decimate", "extras", "figures", "ik", "interrupts", "legend",
         "opengl", "plugins", "running_gear",
     )},
     {"hurcules.mission_drawing"},

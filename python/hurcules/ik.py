@@ -1,0 +1,143 @@
+"""A posture that meets all tasks at once, where the way there is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules._core import (
+    Error,
+    JointLimits,
+    Robot,
+    Stack,
+    StackLevel,
+    Task,
+    VelocityController,
+    VelocityControllerOptions,
+)
+
+__all__ = ["Posture", "inverse_kinematics"]
+
+Level = Task | JointLimits | StackLevel | Sequence[Task | JointLimits]
+
+DT, GAIN, SECONDS = 0.02, 20.0, 10.0  # [s], [1/s], [s] of a descent
+REST = 1e-5  # [rad/s] or [m/s]: it goes no farther
+FREE = np.pi  # [rad] or [m] to either side of where a coordinate without range stands
+
+
+@dataclass(frozen=True)
+class Posture:
+    """What was found.
+
+    Attributes:
+        configuration: (n,) of the robot, within its limits.
+        error: [m or rad] the largest that any row of a task lacks.
+        reached: no row lacks more than the tolerance.
+        starts: how many descents began, and how many of them reached.
+    """
+
+    configuration: NDArray[np.float64]
+    error: float
+    reached: bool
+    starts: tuple[int, int]
+
+
+def inverse_kinematics(
+    robot: Robot,
+    tasks: Sequence[Level],
+    *,
+    starts: int = 32,
+    seed: int = 0,
+    tolerance: float = 1e-4,
+) -> Posture:
+    """The posture nearest to the present one, of those found, that meets all tasks.
+
+    A controller descends from where the robot stands; where limits or singularities end the
+    descent, others begin at random postures. What a controller cannot reach from here in one go
+    (the target wants an elbow or a wrist turned the other way) it reaches by this posture: give it
+    to a `PostureTask`. Nothing is said of the way between the two.
+
+    Args:
+        robot: stays as it is.
+        tasks: what shall be met, in decreasing priority, as for a controller; limits such as
+            distances come first and shall hold.
+        starts: descents at most.
+        seed: of the random postures; same arguments, same posture.
+        tolerance: [m or rad] of each row.
+
+    Raises:
+        Error: no task, fewer than one start, or a tolerance that is not positive.
+    """
+    levels = list(tasks)
+    wanted = [task for level in levels for task in _tasks_of(level)]
+    if not wanted:
+        raise Error("inverse_kinematics: wanted at least one task")
+    if starts < 1:
+        raise Error(f"inverse_kinematics: starts wants a number >= 1, got {starts}")
+    if not tolerance > 0.0:
+        raise Error(f"inverse_kinematics: tolerance wants a positive number, got {tolerance}")
+    present = robot.configuration
+    lower, upper = _ranges(robot)
+    generator = np.random.default_rng(seed)
+    found: list[tuple[float, NDArray[np.float64]]] = []
+    try:
+        for _ in range(starts):
+            found.append((_descend(robot, levels, wanted, tolerance), robot.configuration))
+            if found[0][0] <= tolerance:
+                break
+            robot.set_configuration(generator.uniform(lower, upper))
+    finally:
+        robot.set_configuration(present)
+        for task in wanted:
+            task.update(robot)
+    met = [one for one in found if one[0] <= tolerance]
+    if met:
+        error, configuration = min(met, key=lambda one: np.abs(one[1] - present).max())
+    else:
+        error, configuration = min(found, key=lambda one: one[0])
+    return Posture(configuration, error, bool(met), (len(found), len(met)))
+
+
+def _tasks_of(level: Level) -> Sequence[Task]:
+    if isinstance(level, Task | JointLimits):
+        level = [level]
+    tasks = level.tasks if isinstance(level, StackLevel) else level
+    return [task for task in tasks if isinstance(task, Task)]
+
+
+def _ranges(robot: Robot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Of random postures, (n,) each."""
+    lower = np.array([one.lower for one in robot.coordinates])
+    upper = np.array([one.upper for one in robot.coordinates])
+    free = ~np.isfinite(upper - lower)
+    q = robot.configuration
+    return np.where(free, q - FREE, lower), np.where(free, q + FREE, upper)
+
+
+def _descend(
+    robot: Robot,
+    levels: Sequence[Level],
+    wanted: Sequence[Task],
+    tolerance: float,
+) -> float:
+    """Moves the robot as far as it goes; what is lacking there [m or rad]."""
+    options = VelocityControllerOptions(dt=DT, gain=GAIN, max_acceleration=np.inf, transition=0.0)
+    controller = VelocityController(robot, options)
+    controller.set_stack(Stack(list(levels)))
+    for _ in range(round(SECONDS / DT)):
+        controller.step(robot)
+        for task in wanted:
+            task.update(robot)
+        error = max(map(_lacking, wanted))
+        if error <= 0.1 * tolerance or np.abs(controller.velocity).max() < REST:
+            break
+    return error
+
+
+def _lacking(task: Task) -> float:
+    error = task.error
+    short = np.abs(np.clip(error, task.lower, task.upper) - error)
+    return float(short[task.weights > 0.0].max(initial=0.0))

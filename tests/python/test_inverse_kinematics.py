@@ -1,0 +1,104 @@
+"""`hurcules.inverse_kinematics`: postures that a controller does not reach in one go."""
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+
+# two links of 0.5 m in a plane; the first turns by 2.6 rad to either side
+ARM = """<mujoco><compiler angle="radian"/><worldbody>
+<body name="upper"><joint name="shoulder" axis="0 0 1" limited="true" range="-2.6 2.6"/>
+<geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.03"/>
+<body name="lower" pos="0.5 0 0">
+<joint name="elbow" axis="0 0 1" limited="true" range="-2.5 2.5"/>
+<geom type="capsule" fromto="0 0 0 0.45 0 0" size="0.03"/><site name="hand" pos="0.5 0 0"/></body>
+</body>
+<body name="post" pos="-0.1 -0.5 0"><geom type="cylinder" size="0.1 0.3"/></body>
+</worldbody><actuator><motor joint="shoulder"/><motor joint="elbow"/></actuator></mujoco>"""
+START = (2.5, 0.1)
+
+
+@pytest.fixture
+def robot() -> hurcules.Robot:
+    made = hurcules.Robot(mujoco.MjModel.from_xml_string(ARM))
+    made.set_configuration(START)
+    return made
+
+
+def hand_at(robot: hurcules.Robot, posture: tuple[float, float]) -> hurcules.PositionTask:
+    """The hand shall be where it is at this posture, in the plane."""
+    task = hurcules.PositionTask("hand", robot, "hand", axes=[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    robot.set_configuration(posture)
+    target = robot.position("hand")[:2]
+    robot.set_configuration(START)
+    task.set_target(target)
+    return task
+
+
+def test_the_shoulder_goes_the_long_way_round_where_a_controller_meets_its_limit(
+    robot: hurcules.Robot,
+) -> None:
+    hand = hand_at(robot, (-2.4, -0.2))  # beyond the limits, through what the first link cannot pass
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([hand]))
+    for _ in range(5000):
+        controller.step(robot)
+    hand.update(robot)
+    assert np.linalg.norm(hand.error) > 0.05
+
+    robot.set_configuration(START)
+    found = hurcules.inverse_kinematics(robot, [hand])
+    assert found.reached and found.error <= 1e-4
+    assert found.starts[1] >= 1 and found.configuration[0] < 0.0
+    robot.set_configuration(found.configuration)
+    hand.update(robot)
+    assert np.abs(hand.error).max() == pytest.approx(found.error, abs=1e-15)
+
+
+def test_what_the_controller_reaches_is_found_at_the_first_descent_and_nothing_is_moved(
+    robot: hurcules.Robot,
+) -> None:
+    hand = hand_at(robot, (2.0, 0.5))
+    found = hurcules.inverse_kinematics(robot, [hurcules.JointLimits("limits", robot), hand])
+    assert found.reached and found.starts == (1, 1)
+    assert tuple(robot.configuration) == START
+    assert np.linalg.norm(hand.error) > 0.1  # of where the robot stands
+    again = hurcules.inverse_kinematics(robot, [hand])
+    assert again.configuration.tobytes() == found.configuration.tobytes()
+
+
+def test_out_of_reach_it_says_by_how_much(robot: hurcules.Robot) -> None:
+    hand = hurcules.PositionTask("hand", robot, "hand", axes=[[1.0, 0.0, 0.0]])
+    hand.set_target([1.2])  # the stretched arm has 1 m
+    found = hurcules.inverse_kinematics(robot, [hand], starts=4)
+    assert not found.reached
+    assert found.starts == (4, 0)
+    assert found.error == pytest.approx(0.2, abs=1e-3)
+
+
+def test_distances_that_come_first_hold(robot: hurcules.Robot) -> None:
+    apart = hurcules.DistanceTask("post", robot, [("lower", "post"), ("upper", "post")], 0.05)
+    hand = hand_at(robot, (-1.8, 1.5))  # the elbow in the post: the other way round it is free
+    found = hurcules.inverse_kinematics(robot, [apart, hand])
+    assert found.reached
+    robot.set_configuration(found.configuration)
+    apart.update(robot)
+    assert apart.error.min() > 0.05 - 1e-4
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"starts": 0}, "starts wants a number >= 1, got 0"),
+        ({"tolerance": float("nan")}, "tolerance wants a positive number, got nan"),
+    ],
+)
+def test_bad_arguments_are_refused(
+    robot: hurcules.Robot, options: dict[str, float], words: str
+) -> None:
+    hand = hurcules.PositionTask("hand", robot, "hand")
+    with pytest.raises(hurcules.Error, match=words):
+        hurcules.inverse_kinematics(robot, [hand], **options)
+    with pytest.raises(hurcules.Error, match="at least one task"):
+        hurcules.inverse_kinematics(robot, [])
