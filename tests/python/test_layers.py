@@ -39,12 +39,12 @@ PHYSICS = {"robot", "sim"}
 # the parts of the Python packages from the ground up: each may import what stands on lower floors
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
-        "_core", "_exec", "_moved", "decimate", "extras", "figures", "ik", "interrupts", "legend",
+        "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
         "opengl", "plugins", "running_gear",
     )},
     {"hurcules.mission_drawing"},
     {"hurcules." + name for name in (
-        "_reprs", "_version", "casualties", "mission_options", "mission_table", "motors",
+        "_reprs", "_version", "casualties", "ik", "mission_options", "mission_table", "motors",
         "output", "postures", "rendering", "rhqp", "sensors", "validation",
     )},
     {"hurcules." + name for name in (
