@@ -20,6 +20,7 @@ _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
     "Hurcules/Stretch-v1": ("hurcules_envs.stretch_goal:Stretch", 300, {}),
     "Hurcules/Lift-v0": ("hurcules_envs.lift:Lift", 600, {}),
     "Hurcules/Rescue-v0": ("hurcules_envs.rescue:Rescue", 1600, {}),
+    "Hurcules/Casualty-v0": ("hurcules_envs.casualty:Casualty", 5000, {}),
     "Hurcules/Dispose-v0": ("hurcules_envs.dispose:Dispose", 6000, {}),
 }
 

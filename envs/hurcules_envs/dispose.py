@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from types import MappingProxyType
 
 import mujoco
 import numpy as np
 
-import hurcules
 from hurcules import disposal
 from hurcules_envs.contact import contact_tick, view
 from hurcules_envs.environment import Array, Group, Numbers
@@ -152,18 +151,7 @@ class Dispose(MissionEnvironment):
         }  # fmt: skip
         model = self.compiled(tick)
         mission = kept(disposal.mission(), LAST, lambda one: "grip" not in one.name)
-        controller = self.adopt(mission, model, disposal.controller, LAST)
-        joints = [
-            name.removeprefix("joints_")
-            for name in self.simulation.command_names
-            if name.startswith("joints_")
-        ]
-        coordinates = controller.plan.coordinate_names
-        rows = mission.rows.phases
-        self._led = {
-            "joints": (joints, _mask(rows, "joints", joints)),
-            "posture": (coordinates, _mask(rows, "posture", coordinates)),
-        }
+        self.adopt(mission, model, disposal.controller, LAST, LED)
         bars = [f"ordnance_bar_{side}" for side in ("left", "right")]
         qpos = self.simulation.data.qpos
         own = disposal.Job().mass
@@ -194,20 +182,13 @@ class Dispose(MissionEnvironment):
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """What is added to the channels; those of tasks that do not rule are not asked."""
-        phase = numbers["phase"][:, 0].astype(int)
-        turn = np.zeros((len(phase), 3))
+        turn = np.zeros((len(action["turn"]), 3))
         turn[:, 2] = action["turn"][:, 0]
         given: dict[str, Array] = {"drive": action["tracks"]}
         for side in ("left", "right"):
             given[f"{side}_hand"], given[f"{side}_turn"] = action["hands"], turn
             given[f"{side}_grip"] = action["squeeze"]
-        for channel, (names, led) in self._led.items():
-            rates = np.zeros((len(phase), len(names)))
-            for action_name, joints in LED.items():
-                for joint in joints:
-                    rates[:, names.index(joint)] = action[action_name][:, 0]
-            given[channel] = rates * led[phase]
-        return given
+        return given | self.joint_rates(action, numbers)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""
@@ -256,14 +237,3 @@ class Dispose(MissionEnvironment):
     def camera(self) -> mujoco.MjvCamera:
         """From its right, the whole way."""
         return view((3.1, 0.3, 0.7), 6.2, 115.0, -16.0)
-
-
-def _mask(rows: Sequence[hurcules.Phase], stack: str, names: Sequence[str]) -> Array:
-    """(phases, names) 1 in phases of this stack, 0 in the others and behind shut brakes."""
-    return np.array(
-        [
-            [row.stack == stack and not {name, name[1:]} & set(row.brakes) for name in names]
-            for row in rows
-        ],
-        float,
-    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
 import mujoco
@@ -57,11 +57,16 @@ class MissionEnvironment(ContactEnvironment):
         model: mujoco.MjModel,
         controller: Callable[[mujoco.MjModel], hurcules.WholeBodyController],
         last: str,
-    ) -> hurcules.WholeBodyController:
+        led: Mapping[str, Sequence[str]],
+    ) -> None:
         """Builds the simulation, whose mission succeeds after the phase `last`.
 
-        Returns:
-            The controller.
+        Args:
+            mission: which.
+            model: of robot and world.
+            controller: for it, with channels `posture` and `joints`.
+            last: the phase.
+            led: by number of the action the joints that it moves while one of these stacks rules.
         """
         made = controller(model)
         self.simulation = hurcules.Simulation(
@@ -69,7 +74,31 @@ class MissionEnvironment(ContactEnvironment):
         )
         self._phases = self.simulation.phases
         self._last, self._lifts = self._phases.index(last), self._phases.index(LIFTS) - 1
-        return made
+        names = {
+            "posture": list(made.plan.coordinate_names),
+            "joints": [
+                name.removeprefix("joints_")
+                for name in self.simulation.command_names
+                if name.startswith("joints_")
+            ],
+        }
+        self._led = led
+        self._joints = {
+            channel: (joints, _mask(mission.rows.phases, channel, joints))
+            for channel, joints in names.items()
+        }
+
+    def joint_rates(self, action: Mapping[str, Array], numbers: Numbers) -> dict[str, Array]:
+        """What is added to the channels `posture` and `joints`, but behind shut brakes."""
+        phase = numbers["phase"][:, 0].astype(int)
+        given = {}
+        for channel, (names, moves) in self._joints.items():
+            rates = np.zeros((len(phase), len(names)))
+            for number, joints in self._led.items():
+                for joint in joints:
+                    rates[:, names.index(joint)] = action[number][:, 0]
+            given[channel] = rates * moves[phase]
+        return given
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """Mass and friction of what is fetched."""
@@ -180,4 +209,15 @@ def kept(
     return Mission(
         mission.setup,
         hurcules.MissionTable(phases=phases, safety=mission.rows.safety, measures=measures),
+    )
+
+
+def _mask(phases: Sequence[hurcules.Phase], stack: str, names: Sequence[str]) -> Array:
+    """(phases, names) 1 in phases of this stack, 0 in the others and behind shut brakes."""
+    return np.array(
+        [
+            [one.stack == stack and not {name, name[1:]} & set(one.brakes) for name in names]
+            for one in phases
+        ],
+        float,
     )

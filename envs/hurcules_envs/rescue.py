@@ -16,10 +16,9 @@ from hurcules_envs.mission import MissionEnvironment, kept
 
 __all__ = ["Rescue"]
 
-LAST = "hold"  # phase of the mission `lift` in which he is held
 TRACKS = (0.1, 0.1)  # [m/s], [rad/s] full scale of what is added
 HANDS, PITCH, PRESS, JOINTS = 0.05, 0.1, 0.0125, 0.1  # [m/s], [rad/s], [m/s], [rad/s]
-LEGS = {"lean": ("HIP",), "shoulders": ("LSP", "RSP"), "elbows": ("LEB", "REB")}
+LED = {"lean": ("HIP",), "shoulders": ("LSP", "RSP"), "elbows": ("LEB", "REB")}
 HEAD = 98.1  # [m/s^2] 10 g
 
 
@@ -89,6 +88,7 @@ class Rescue(MissionEnvironment):
     """
 
     task_description = "Lift the person and hold him before the chest."
+    mission, last = "lift", "hold"  # the mission, and its phase in which he is held
     moved = "casualty/moved_m"
     mass, friction = (60.0, 90.0), (0.4, 0.6)
     components: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -132,8 +132,8 @@ class Rescue(MissionEnvironment):
             "lean": JOINTS, "shoulders": JOINTS, "elbows": JOINTS, "phase": 1.0,
         }  # fmt: skip
         model = self.compiled(tick)
-        controller = self.adopt(kept(lift.mission("lift"), LAST), model, lift.controller, LAST)
-        self._coordinates = controller.plan.coordinate_names
+        phases = kept(lift.mission(self.mission), self.last)
+        self.adopt(phases, model, lift.controller, self.last, LED)
         self.fetched = limp_person(model, self.simulation.data.qpos)
         self.observation = (
             Group("phase", len(self._phases), "", 1.0, "1 for the present one"),
@@ -157,17 +157,13 @@ class Rescue(MissionEnvironment):
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """What is added to the channels; those of tasks that do not rule are not asked."""
-        posture = np.zeros((len(action["lean"]), len(self._coordinates)))
-        for name, joints in LEGS.items():
-            for joint in joints:
-                posture[:, self._coordinates.index(joint)] = action[name][:, 0]
-        given: dict[str, Array] = {"drive": action["tracks"], "posture": posture}
+        given: dict[str, Array] = {"drive": action["tracks"]}
         for side in "LR":
             given[f"{side}_hand"] = action["hands"]
             given[f"{side}_across"] = action["hands"][:, :2]
             given[f"{side}_press"] = -action["press"]
             given[f"{side}_pitch"] = action["pitch"]
-        return given
+        return given | self.joint_rates(action, numbers)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""

@@ -1,6 +1,7 @@
 // control: the acceleration controller.
 #include "bind_controller.hpp"
 #include "hurcules/control/acceleration_controller.hpp"
+#include "in_use.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -82,7 +83,8 @@ void bind_acceleration(py::module_& module) {
   bind_acceleration_options(module);
   const auto step = [](AccelerationController& self, Robot& robot) {
     require_stack(self);
-    py::gil_scoped_release release;
+    const InUse in_use("controller or Robot", &self, &robot);
+    const py::gil_scoped_release release;
     self.compute(robot);
     Vector q = robot.configuration(), velocity = robot.velocity();
     self.integrate(q, velocity);
@@ -106,6 +108,9 @@ void bind_acceleration(py::module_& module) {
            "F (3,) [N] in W on the robot at a ContactTask of the stack, of the last solution.")
       .def_property_readonly("acceleration", &AccelerationController::acceleration,
                              py::return_value_policy::copy,
-                             "(n,) [rad/s^2] or [m/s^2], the last qddot*");
+                             "(n,) [rad/s^2] or [m/s^2], the last qddot*")
+      .def_property_readonly(
+          "velocity", &AccelerationController::velocity,
+          "(n,) [rad/s] or [m/s], qdot that the last qddot* leads to in a period");
   bind_common(controller, "qddot* (n,) [rad/s^2] or [m/s^2]");
 }

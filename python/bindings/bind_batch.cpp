@@ -12,6 +12,7 @@
 #include "annotated.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/simulation_batch.hpp"
+#include "in_use.hpp"
 #include "mujoco_pointer.hpp"
 
 namespace py = pybind11;
@@ -71,7 +72,8 @@ std::unique_ptr<SimulationBatch> make_batch(const Simulation& original, std::siz
 
 void step_batch(SimulationBatch& self, int ticks, const std::optional<Matrix>& commands,
                 const std::optional<std::vector<bool>>& mask) {
-  py::gil_scoped_release release;
+  const InUse in_use("SimulationBatch", &self);
+  const py::gil_scoped_release release;
   self.step(ticks, commands ? &*commands : nullptr, mask ? &*mask : nullptr);
 }
 
@@ -105,7 +107,8 @@ void reset_batch(SimulationBatch& self, const std::vector<std::uint64_t>& seeds,
           "reset wants " + std::to_string(self.size()) + " seeds, and as many entries of a mask");
   require(!starts || starts->rows() == static_cast<Index>(self.size()),
           "reset wants one start for each of its " + std::to_string(self.size()) + " simulations");
-  py::gil_scoped_release release;
+  const InUse in_use("SimulationBatch", &self);
+  const py::gil_scoped_release release;
   self.for_each([&](std::size_t i) {
     if (mask && !(*mask)[i]) return;
     if (!starts) return self[i].reset(seeds[i]);
@@ -120,7 +123,8 @@ void restore_batch(SimulationBatch& self, const Matrix& states,
       states.rows() == static_cast<Index>(self.size()) && (!mask || mask->size() == self.size()),
       "restore wants " + std::to_string(self.size()) + " states, " + std::to_string(states.rows()) +
           " came");
-  py::gil_scoped_release release;
+  const InUse in_use("SimulationBatch", &self);
+  const py::gil_scoped_release release;
   self.for_each([&](std::size_t i) {
     if (mask && !(*mask)[i]) return;
     const auto row = states.row(static_cast<Index>(i));
@@ -149,7 +153,8 @@ void bind_batch(py::module_& module) {
           [](Batch& self, const Quantities& quantities) {
             Matrix values(static_cast<Index>(self.size()), quantities.size());
             {
-              py::gil_scoped_release release;
+              const InUse in_use("SimulationBatch", &self);
+              const py::gil_scoped_release release;
               self.read(quantities, values);
             }
             return values;

@@ -6,6 +6,7 @@
 #include "bind_controller.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/velocity_controller.hpp"
+#include "in_use.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -91,7 +92,8 @@ void bind_controller(py::module_& module) {
   };
   const auto step = [](VelocityController& self, Robot& robot) {
     require_stack(self);
-    py::gil_scoped_release release;
+    const InUse in_use("controller or Robot", &self, &robot);
+    const py::gil_scoped_release release;
     return Vector(self.step(robot));
   };
   py::class_<VelocityController> controller(module, "VelocityController", kController);

@@ -10,6 +10,7 @@
 #include "bind_stack.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/robot.hpp"
+#include "in_use.hpp"
 #include "renamed.hpp"
 #include "solver_levels.hpp"
 #include "state.hpp"
@@ -45,7 +46,8 @@ void bind_common(pybind11::class_<Controller>& controller, const std::string& re
   };
   const auto compute = [](Controller& self, const hurcules::Robot& robot) {
     require_stack(self);
-    py::gil_scoped_release release;
+    const InUse in_use("controller or Robot", &self, &robot);
+    const py::gil_scoped_release release;
     return hurcules::Vector(self.compute(robot));
   };
   const std::string compute_doc =

@@ -10,6 +10,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/support.hpp"
+#include "in_use.hpp"
 #include "mujoco_pointer.hpp"
 #include "state.hpp"
 
@@ -115,6 +116,7 @@ std::pair<double, double> effort_range(const Plant& self, const std::string& joi
 int step_physics(Plant& self, int n) {
   require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
   constexpr int kPiece = 500;
+  const InUse in_use("Plant", &self);
   int done = 0;
   while (done < n && self.is_sound()) {
     {

@@ -145,13 +145,27 @@ void warn(const std::string& text) {
 
 using Names = std::vector<std::string>;
 
-std::unique_ptr<Robot> checked(ModelPtr model, const std::optional<Names>& joints, bool floating) {
-  auto robot = std::make_unique<Robot>(std::move(model), joints.value_or(Names{}), floating);
+using OptionalNames = hurcules_bindings::As<"collections.abc.Sequence[str] | None">;
+
+Names names_of(const OptionalNames& joints) {
+  if (joints.is_none()) return {};
+  Names names;
+  try {
+    if (!py::isinstance<py::str>(joints)) names = joints.cast<Names>();
+  } catch (const py::cast_error&) {  // said below
+  }
+  require(!names.empty(), "joints wants a list of names, at least one, or None; got " +
+                              std::string(py::repr(joints)));
+  return names;
+}
+
+std::unique_ptr<Robot> checked(ModelPtr model, const OptionalNames& joints, bool floating) {
+  auto robot = std::make_unique<Robot>(std::move(model), names_of(joints), floating);
   warn(implausible_ranges(*robot));
   return robot;
 }
 
-std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const std::optional<Names>& joints,
+std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const OptionalNames& joints,
                                        bool floating) {
   if (!py::hasattr(model, "_address"))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
@@ -160,7 +174,7 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const std::opti
 }
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
-                                     const std::optional<Names>& joints, bool floating) {
+                                     const OptionalNames& joints, bool floating) {
   return checked(load_model(model.string()), joints, floating);
 }
 

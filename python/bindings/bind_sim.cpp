@@ -17,6 +17,7 @@
 #include "hurcules/mission/mission_simulation.hpp"
 #include "hurcules/sim/quantities.hpp"
 #include "hurcules/sim/simulation.hpp"
+#include "in_use.hpp"
 #include "mujoco_pointer.hpp"
 
 namespace py = pybind11;
@@ -36,7 +37,8 @@ double now() {
 void step_physics(const ModelObject& model, const DataObject& data, int n) {
   const Scene scene = scene_of(model, data);
   require(n >= 0, "step wants a number of steps >= 0, got " + std::to_string(n));
-  py::gil_scoped_release release;
+  const InUse in_use("MjData", scene.data);
+  const py::gil_scoped_release release;
   const Tracks tracks(scene.model);
   for (int i = 1; i < n; ++i) step_unseen(scene.model, scene.data, tracks);
   if (n > 0) step(scene.model, scene.data, tracks);
@@ -70,6 +72,7 @@ std::unique_ptr<Simulation> make_own(const ModelObject& model, const DataObject&
 int step_simulation(Simulation& self, int n, const std::optional<Vector>& command) {
   constexpr int kPiece = 1000;
   require(n >= 0, "step wants a number of ticks >= 0, got " + std::to_string(n));
+  const InUse in_use("Simulation", &self, &self.controller());
   int done = 0;
   do {
     const int piece = std::min(n - done, kPiece);
@@ -172,6 +175,7 @@ int follow(Simulation& self, const std::vector<std::string>& joints, const Matri
               ") each and finite numbers; (" + std::to_string(position.rows()) + ", " +
               std::to_string(position.cols()) + ") and (" + std::to_string(velocity.rows()) + ", " +
               std::to_string(velocity.cols()) + ") came");
+  const InUse in_use("Simulation", &self, &self.controller());
   int done = 0;
   for (Index i = 0; i < position.rows() && !self.finished(); ++i) {
     {
@@ -192,6 +196,7 @@ Vector state(const Simulation& self) {
 }
 
 void restore(Simulation& self, const Vector& state) {
+  const InUse in_use("Simulation", &self);
   self.restore(std::vector<double>(state.begin(), state.end()));
 }
 
@@ -284,6 +289,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def(
           "reset",
           [](Simulation& self, std::uint64_t seed, const std::optional<Vector>& start) {
+            const InUse in_use("Simulation", &self);
             self.reset(seed, start ? &*start : nullptr);
           },
           "seed"_a, "start"_a = py::none(), kReset)

@@ -57,7 +57,7 @@ constexpr const char* kSetGain =
     R"(Rate at which errors of this task vanish, instead of the controller's.
 
 Args:
-  gain: [1/s], positive; one number, or one a row (m,).
+  gain: [1/s], positive; one number, or one a row (m,). More than one by the control period counts as that.
 )";
 constexpr const char* kSetWeights =
     R"(What each row counts beside the others of its level where they cannot all be met.

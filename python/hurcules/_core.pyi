@@ -654,14 +654,14 @@ class Task:
         """Rate at which errors of this task vanish, instead of the controller's.
 
         Args:
-          gain: [1/s], positive; one number, or one a row (m,)."""
+          gain: [1/s], positive; one number, or one a row (m,). More than one by the control period counts as that."""
 
     @overload
     def set_gain(self, gain: ArrayLike) -> None:
         """Rate at which errors of this task vanish, instead of the controller's.
 
         Args:
-          gain: [1/s], positive; one number, or one a row (m,)."""
+          gain: [1/s], positive; one number, or one a row (m,). More than one by the control period counts as that."""
 
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
         """The interval that the error shall be in: (m,) each, -inf or inf for no side."""
@@ -1987,6 +1987,10 @@ class AccelerationController:
     @property
     def stack(self) -> str:
         """'joint < hpos < ...'"""
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """(n,) [rad/s] or [m/s], qdot that the last qddot* leads to in a period"""
 
 class JointPidOptions:
     """Gains of the joint servo, (m,) each.

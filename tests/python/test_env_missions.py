@@ -1,4 +1,4 @@
-"""Rescue-v0 and Dispose-v0, missions that are corrected: what they have in common.
+"""Rescue-v0, Casualty-v0 and Dispose-v0, missions that are corrected: what they have in common.
 
 Strategy: bits of a zero action against the mission alone, and of episodes against each other alone,
 side by side and after a state; phases that are asked for; one whole episode of the expert, in
@@ -21,7 +21,7 @@ import hurcules_envs  # noqa: F401  registers
 from environments import action_of, assert_tables_are_true, single
 from hurcules import disposal, lift
 
-NAMES = ["Hurcules/Rescue-v0", "Hurcules/Dispose-v0"]
+NAMES = ["Hurcules/Rescue-v0", "Hurcules/Dispose-v0", "Hurcules/Casualty-v0"]
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,7 @@ class Acts:
 ACTS = {
     NAMES[0]: Acts(lambda: lift.mission("lift"), lift.controller),
     NAMES[1]: Acts(disposal.mission, disposal.controller),
+    NAMES[2]: Acts(lambda: lift.mission("casualty"), lift.controller),
 }
 
 
@@ -131,7 +132,7 @@ def test_alone_side_by_side_and_after_a_state_the_bits_are_the_same(name: str) -
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name, steps", [(NAMES[0], 1600), (NAMES[1], 6000)])
+@pytest.mark.parametrize("name, steps", [(NAMES[0], 1600), (NAMES[1], 6000), (NAMES[2], 5000)])
 def test_the_mission_as_it_stands_succeeds_and_the_terms_sum_to_the_reward(
     name: str, steps: int
 ) -> None:

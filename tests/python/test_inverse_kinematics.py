@@ -39,7 +39,7 @@ def hand_at(robot: hurcules.Robot, posture: tuple[float, float]) -> hurcules.Pos
 def test_the_shoulder_goes_the_long_way_round_where_a_controller_meets_its_limit(
     robot: hurcules.Robot,
 ) -> None:
-    hand = hand_at(robot, (-2.4, -0.2))  # beyond the limits, through what the first link cannot pass
+    hand = hand_at(robot, (-2.4, -0.2))  # through what the first link cannot pass
     controller = hurcules.VelocityController(robot)
     controller.set_stack(hurcules.Stack([hand]))
     for _ in range(5000):

@@ -236,7 +236,7 @@ void AccelerationController::fill_rates(std::size_t k) {
   for (const Task* task : source.tasks) {
     own = own || task->commands_acceleration();
     if (!task->commands_acceleration() && !task->is_limit())
-      most = std::max(most, haste(*task, gain));
+      most = std::max(most, haste(*task, gain, options_.dt));
   }
   if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
@@ -249,7 +249,7 @@ void AccelerationController::fill_rates(std::size_t k) {
       level.lower.segment(row, rows).setZero();
       level.upper.segment(row, rows).setZero();
     } else {
-      wanted_rates(*task, gain, most, level.lower.segment(row, rows),
+      wanted_rates(*task, gain, options_.dt, most, level.lower.segment(row, rows),
                    level.upper.segment(row, rows));
     }
     for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);

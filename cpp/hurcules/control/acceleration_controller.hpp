@@ -80,6 +80,8 @@ class AccelerationController {
   [[nodiscard]] const Hierarchy& hierarchy() const { return problem_.hierarchy(); }
   [[nodiscard]] const Solution& solution() const { return solver_.solution(); }
   [[nodiscard]] const Vector& acceleration() const { return acceleration_; }  // the last qddot*
+  // qdot, a period after the last solve (n) [rad/s]
+  [[nodiscard]] Vector velocity() const { return speed_ + options_.dt * acceleration_; }
   [[nodiscard]] const AccelerationControllerOptions& options() const { return options_; }
   // -1, 0, 1 a coordinate: held back by its lower position limit, by none, by its upper one; (n)
   [[nodiscard]] const Eigen::VectorXi& active_limits() const { return active_limits_; }

@@ -18,6 +18,10 @@ double way(const Task& task, Index row) {
   return std::clamp(e, task.lower()[row], task.upper()[row]) - e;
 }
 
+double gain_of(const Task& task, Index row, double usual, double dt) {
+  return std::min(task.gain(row, usual), 1.0 / dt);
+}
+
 }  // namespace
 
 std::string to_string(Law law) {
@@ -30,22 +34,24 @@ Law law_named(const std::string& name) {
   throw Error("law wants 'arrive' or 'thesis', got '" + name + "'");
 }
 
-double haste(const Task& task, double gain) {
+double haste(const Task& task, double gain, double dt) {
   double together = 0.0, largest = 0.0;
   for (Index row = 0; row < task.rows(); ++row) {
     if (task.weights()[row] == 0.0) continue;
-    const double f = task.gain(row, gain) * std::abs(way(task, row)) / task.speed_share(row);
+    const double f =
+        gain_of(task, row, gain, dt) * std::abs(way(task, row)) / task.speed_share(row);
     together += f * f;
     largest = std::max(largest, f);
   }
   return (task.rows_apart() ? largest : std::sqrt(together)) / task.max_speed();
 }
 
-void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper) {
+void wanted_rates(const Task& task, double gain, double dt, double most, VectorRef lower,
+                  VectorRef upper) {
   for (Index row = 0; row < task.rows(); ++row) {
     const double g = way(task, row);
     const bool own = most > 1.0 && task.rows_apart();
-    const double K = task.gain(row, gain);
+    const double K = gain_of(task, row, gain, dt);
     const double f = own ? K * std::abs(g) / task.max_speed() : most;
     const double share = f > 1.0 ? 1.0 / f : 1.0;
     // the side that pushes is bounded, the other one holds back as it is

@@ -1,7 +1,9 @@
 // What the tasks of a level ask for, none faster than its max_speed.
 //
 //   g = side - e where that side pushes, 0 inside the interval       (m), unit
-//   f = K |g| / max_speed of a task, K its own or the controller's;   F = the largest f of the level's tasks
+//   f = K |g| / max_speed of a task, K its own or the controller's, but 1 / dt at most: an error that
+//       is corrected by more than itself in a period grows
+//   F = the largest f of the level's tasks
 //   y = ds_des/dt + K g / max(1, F)                                  [T 4.3.2], bounded
 //   w = min(1, F)                                                    0 at the target, 1 far from it
 // One F for a level: y is the gradient of its squared error, only slower, so that a level that
@@ -27,12 +29,13 @@ enum class Law {
 // "arrive" or "thesis"; throws Error on another name
 [[nodiscard]] Law law_named(const std::string& name);
 
-// f of a task, the largest of its rows where they stand apart
-[[nodiscard]] double haste(const Task& task, double gain);
+// f of a task, the largest of its rows where they stand apart; gain [1/s] of the controller, dt [s]
+[[nodiscard]] double haste(const Task& task, double gain, double dt);
 
 // fills y of both sides, (m) [unit/s]; a side that is absent stays so. `most` is F, or anything up
 // to 1 for no bound; rows that stand apart have their own.
-void wanted_rates(const Task& task, double gain, double most, VectorRef lower, VectorRef upper);
+void wanted_rates(const Task& task, double gain, double dt, double most, VectorRef lower,
+                  VectorRef upper);
 
 // the row of a level as its weight in the task wants it
 void weigh_row(const Task& task, Index row, Level& level, Index level_row);

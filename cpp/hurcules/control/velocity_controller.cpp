@@ -292,7 +292,7 @@ void VelocityController::fill_rows(std::size_t k) {
   Level& level = problem_.hierarchy()[k];
   double most = 0.0;
   for (const Task* task : source.tasks) {
-    if (!task->is_limit()) most = std::max(most, haste(*task, options_.gain));
+    if (!task->is_limit()) most = std::max(most, haste(*task, options_.gain, options_.dt));
   }
   if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
@@ -307,7 +307,7 @@ void VelocityController::fill_rows(std::size_t k) {
     } else if (task->is_limit()) {
       limit_rates(*task, rates_, lower, upper);
     } else {
-      wanted_rates(*task, options_.gain, most, lower, upper);
+      wanted_rates(*task, options_.gain, options_.dt, most, lower, upper);
     }
     for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);
     row += rows;

@@ -204,29 +204,39 @@ TEST_F(TaskSpeed, IsTheGainTimesTheErrorUpToTheMost) {
   Vector lower(2), upper(2);
   tip_.set_target(tip_.value() + Vector2(0.03, -0.04));  // 5 cm at 5 1/s: half of 0.5 m/s
   tip_.update(robot_);
-  EXPECT_NEAR(haste(tip_, 5.0), 0.5, 1e-12);
-  wanted_rates(tip_, 5.0, 0.5, lower, upper);
+  EXPECT_NEAR(haste(tip_, 5.0, 1e-3), 0.5, 1e-12);
+  wanted_rates(tip_, 5.0, 1e-3, 0.5, lower, upper);
   EXPECT_TRUE(near(lower, Vector2(0.15, -0.2), 1e-12));
   EXPECT_EQ(lower, upper);
   tip_.set_target(tip_.value() + Vector2(0.6, -0.8));
   tip_.update(robot_);
-  EXPECT_NEAR(haste(tip_, 5.0), 10.0, 1e-12);
-  wanted_rates(tip_, 5.0, 10.0, lower, upper);
+  EXPECT_NEAR(haste(tip_, 5.0, 1e-3), 10.0, 1e-12);
+  wanted_rates(tip_, 5.0, 1e-3, 10.0, lower, upper);
   EXPECT_TRUE(near(lower, Vector2(0.3, -0.4), 1e-12));
+}
+
+TEST_F(TaskSpeed, CorrectsAnErrorInNoLessThanAPeriod) {
+  Vector lower(2), upper(2);
+  tip_.set_gain(1e5);
+  tip_.set_target(tip_.value() + Vector2(3e-4, -4e-4));
+  tip_.update(robot_);
+  EXPECT_NEAR(haste(tip_, 5.0, 1e-3), 1.0, 1e-9);  // 0.5 mm at 1000 1/s: 0.5 m/s
+  wanted_rates(tip_, 5.0, 1e-3, 0.5, lower, upper);
+  EXPECT_TRUE(near(lower, Vector2(0.3, -0.4), 1e-9));
 }
 
 TEST_F(TaskSpeed, OfAPostureIsBoundedJointByJoint) {
   Vector lower(3), upper(3);
   posture_.set_target(Vector3(2.0, -0.1, 0.0));
   posture_.update(robot_);
-  wanted_rates(posture_, 5.0, haste(posture_, 5.0), lower, upper);
+  wanted_rates(posture_, 5.0, 1e-3, haste(posture_, 5.0, 1e-3), lower, upper);
   EXPECT_TRUE(near(lower, Vector3(1.0, -0.5, 0.0), 1e-12));
 }
 
 TEST_F(TaskSpeed, LeavesAnAbsentSideAndASideThatHoldsBackAsTheyAre) {
   Vector lower(2), upper(2);
   tip_.set_interval(Vector2(1.0, -INFINITY), Vector2(2.0, 0.1));
-  wanted_rates(tip_, 5.0, haste(tip_, 5.0), lower, upper);
+  wanted_rates(tip_, 5.0, 1e-3, haste(tip_, 5.0, 1e-3), lower, upper);
   EXPECT_NEAR(lower[0], 0.5, 1e-12);   // pushes: bounded
   EXPECT_NEAR(upper[0], 10.0, 1e-12);  // 2 m away
   EXPECT_EQ(lower[1], -INFINITY);
