@@ -14,7 +14,7 @@ from hurcules import _core
 
 __all__ = ["install"]
 
-# beside everything that is called ...Options
+# as tables in a notebook, beside everything that is called ...Options
 SHOWN = (
     "ActiveRow",
     "ControlSolution",
@@ -24,22 +24,29 @@ SHOWN = (
     "Solution",
 )
 MOST = 8  # values of an array that are shown
+# of those that have too many properties, what tells one from another
+BRIEF = {"Simulation": ("time", "phase", "reason")}
 
 
 def install() -> None:
     """Gives the classes their `__repr__` and `_repr_html_`, where they have none of their own."""
     for name, kind in vars(_core).items():
-        if not isinstance(kind, type) or not (name in SHOWN or name.endswith("Options")):
+        if not isinstance(kind, type):
             continue
-        if "__repr__" not in vars(kind):
+        if kind.__repr__ is object.__repr__:
             kind.__repr__ = _text  # type: ignore[assignment]
+        if not (name in SHOWN or name.endswith("Options")):
+            continue
         kind._repr_html_ = _html  # type: ignore[attr-defined]
 
 
 def _values(shown: Any) -> dict[str, str]:
     """The properties that can be said in a line, by name."""
     found = {}
+    brief = BRIEF.get(type(shown).__name__)
     for name, member in vars(type(shown)).items():
+        if brief is not None and name not in brief:
+            continue
         old = (member.__doc__ or "").startswith("Deprecated")
         if not name.startswith("_") and isinstance(member, property) and not old:
             text = _line(getattr(shown, name))
@@ -54,6 +61,8 @@ def _line(value: Any) -> str:
         return repr(value)
     if isinstance(value, float):
         return f"{value:.6g}"
+    if isinstance(value, _core.Task):
+        return value.name
     if isinstance(value, np.ndarray):
         if value.ndim == 1 and value.size <= MOST:
             return np.array2string(value, precision=4, separator=", ", max_line_width=200)

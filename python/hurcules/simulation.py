@@ -243,6 +243,10 @@ class SimulationBatch(_core.SimulationBatch):
         super().__init__(simulation, n, threads, list(models))
         self._controller = simulation.controller
 
+    def __repr__(self) -> str:
+        """How many, of what."""
+        return f"SimulationBatch({len(self)} of {self._controller!r})"
+
     def step(
         self, ticks: int, commands: Command | None = None, mask: ArrayLike | None = None
     ) -> None:

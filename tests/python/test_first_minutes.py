@@ -191,3 +191,16 @@ def test_the_viewer_shows_a_mission_a_robot_a_scene_and_a_file(tmp_path: Path, n
         timeout=300,
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_no_object_shows_an_address() -> None:
+    simulation = hurcules.Simulation("stretch", record=False)
+    robot = hurcules.Robot(simulation.model)
+    hand = hurcules.PositionTask("hand", robot, "L_wrist")
+    assert repr(hurcules.Twist(hand, 0.3)) == "Channel(scale=[0.3], task=hand)"
+    assert repr(hurcules.rhqp.Solver(3)) == "Solver(n=3)"
+    batch = hurcules.SimulationBatch(simulation, n=2)
+    assert repr(batch).startswith("SimulationBatch(2 of WholeBodyController(")
+    assert repr(batch[0]).startswith("Simulation(time=0")
+    for kind in vars(hurcules._core).values():
+        assert not isinstance(kind, type) or kind.__repr__ is not object.__repr__, kind
