@@ -33,7 +33,7 @@ def install() -> None:
     for name, kind in vars(_core).items():
         if not isinstance(kind, type):
             continue
-        if kind.__repr__ is object.__repr__:
+        if kind.__repr__ is object.__repr__:  # type: ignore[comparison-overlap]
             kind.__repr__ = _text  # type: ignore[assignment]
         if not (name in SHOWN or name.endswith("Options")):
             continue
