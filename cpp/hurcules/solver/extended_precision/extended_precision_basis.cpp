@@ -21,6 +21,25 @@ Long norm(Index size, const Long* v) {
   return std::sqrt(sum);
 }
 
+// takes the parts along four directions, b and the three after it, out of v: sums that do not wait
+// for each other, and one store for four
+void take_out(Index size, const Long* b, Long* v, Long* parts) {
+  const Long *b1 = b + size, *b2 = b1 + size, *b3 = b2 + size;
+  Long p0 = 0.0L, p1 = 0.0L, p2 = 0.0L, p3 = 0.0L;
+  for (Index c = 0; c < size; ++c) {
+    const Long x = v[c];
+    p0 += b[c] * x;
+    p1 += b1[c] * x;
+    p2 += b2[c] * x;
+    p3 += b3[c] * x;
+  }
+  for (Index c = 0; c < size; ++c) v[c] -= (p0 * b[c] + p1 * b1[c]) + (p2 * b2[c] + p3 * b3[c]);
+  parts[0] += p0;
+  parts[1] += p1;
+  parts[2] += p2;
+  parts[3] += p3;
+}
+
 }  // namespace
 
 void ExtendedPrecisionBasis::reserve(Index columns, Index rows) {
@@ -50,7 +69,9 @@ Long ExtendedPrecisionBasis::remove(const Long* row, Long* rest, Long* parts) co
   std::fill_n(parts, size_, 0.0L);
   Long left = norm(columns_, row);
   for (int pass = 0; pass < kCleanings && size_ > 0; ++pass) {
-    for (Index j = 0; j < size_; ++j) {
+    Index j = 0;
+    for (; j + 4 <= size_; j += 4) take_out(columns_, direction(j), rest, parts + j);
+    for (; j < size_; ++j) {
       const Long part = dot(j, rest);
       const Long* b = direction(j);
       for (Index c = 0; c < columns_; ++c) rest[c] -= part * b[c];
