@@ -132,7 +132,9 @@ def record(
     ] = "expert",
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     seed: Annotated[int, typer.Option(help="Of the first one.", min=0)] = 0,
-    fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
+    fidelity: Annotated[
+        str | None, typer.Option(help="exact, fast or kinematic.", show_default="exact")
+    ] = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
@@ -156,7 +158,7 @@ def record(
         folder = out or Path("out", "data")
         identifier = recording.record(
             name, act, episodes, folder, seed=seed, author=author, source=source,
-            form=form, fidelity=fidelity,
+            form=form, **_given(fidelity=fidelity or ("exact" if fastest_fidelity(name) else None)),
             progress=lambda done: bar.update(task, completed=done),
         )  # fmt: skip
     Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)

@@ -72,6 +72,7 @@ SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Drive-": ("observation",),  # in which the goal is, seen from the robot
 }
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
+UPDATES = 0.25  # of SAC, a step of an episode
 
 
 @dataclass(frozen=True)
@@ -127,15 +128,15 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     settings = json.loads(json.dumps(asdict(options) | {"out": str(out)}))
     out.mkdir(parents=True, exist_ok=True)
     written = out / "settings.json"
-    if written.exists():
+    if written.exists() and checkpoint.exists():  # else nothing is lost
         earlier = json.loads(written.read_text())
         differing = [n for n in settings if n != "steps" and earlier.get(n) != settings[n]]
         if differing:
             raise hurcules.Error(
                 f"{out} holds a run with another {', '.join(differing)}: give another folder"
             )
-    written.write_text(json.dumps(settings, indent=2) + "\n")
     model = make_model(options, environment)
+    written.write_text(json.dumps(settings, indent=2) + "\n")
     if checkpoint.exists():
         model = type(model).load(checkpoint, environment, device="cpu")
     elif options.demonstrations:
@@ -195,13 +196,14 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
         if not goal:
             network["features_extractor_class"] = Standardised
         rate = settings["learning_rate"]
-        settings["learning_rate"] = lambda left: rate * left
+        settings["learning_rate"] = lambda left: rate * max(left, 0.0)  # a batch may pass the end
         return PPO(kind, environment, policy_kwargs=network, **settings, **shared)
     settings = dict(OFF_POLICY)
     if options.algorithm == "her":
         settings["replay_buffer_class"] = HerReplayBuffer
         settings["replay_buffer_kwargs"] = {"n_sampled_goal": 4}
     network["net_arch"] = [256, 256]
+    settings["gradient_steps"] = math.ceil(UPDATES * options.episodes)
     return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
 
 
