@@ -84,7 +84,12 @@ def train(
     ]  # fmt: skip
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(f"{algo} on {name}", total=steps, success=0.0)
-        training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
+        try:
+            training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
+        except KeyboardInterrupt:
+            if (folder / "checkpoint.zip").exists():
+                console.print(f"{folder}: the same command goes on from here")
+            raise
     _judge(str(folder), None, judge, "exact", None, None, console)
 
 

@@ -17,6 +17,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 
 import hurcules
 import hurcules_envs
+from hurcules.interrupts import Interrupts
 from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
@@ -119,6 +120,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
 
     Raises:
         hurcules.Error: an unknown environment, algorithm or option, or a folder with another run.
+        KeyboardInterrupt: after Ctrl-C; checkpoint.zip is written, and the next call goes on.
     """
     require_known("environment", options.environment, hurcules_envs.ENVIRONMENTS)
     require_known("algorithm", options.algorithm, ALGORITHMS)
@@ -142,13 +144,8 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     elif options.demonstrations:
         _imitate(model, options)
         _save(model, checkpoint)
-    left = options.steps - model.num_timesteps
-    if left > 0:
-        watch = _Watch(checkpoint, options.checkpoint_every, progress)
-        adapts = not options.demonstrations and _standardised(model)
-        callbacks = [watch, _Standardise()] if adapts else [watch]
-        model.learn(left, callback=callbacks, reset_num_timesteps=False)
-        watch.save()
+    if options.steps > model.num_timesteps:
+        _learn(model, options, checkpoint, progress)
     model.save(out / "policy.zip")
     about = {
         "environment": options.environment,
@@ -221,6 +218,24 @@ def _imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
     clone(model, shown, options.seed)
 
 
+def _learn(
+    model: BaseAlgorithm,
+    options: TrainOptions,
+    checkpoint: Path,
+    progress: Callable[[int, float], None] | None,
+) -> None:
+    """Up to the wanted number of steps, or to Ctrl-C."""
+    with Interrupts() as interrupts:
+        watch = _Watch(checkpoint, options.checkpoint_every, progress, interrupts)
+        adapts = not options.demonstrations and _standardised(model)
+        callbacks = [watch, _Standardise()] if adapts else [watch]
+        left = options.steps - model.num_timesteps
+        model.learn(left, callback=callbacks, reset_num_timesteps=False)
+        watch.save()
+    if interrupts.noted:
+        raise KeyboardInterrupt
+
+
 def _tensorboard(out: Path) -> str | None:
     try:
         import torch.utils.tensorboard  # noqa: F401
@@ -254,12 +269,17 @@ class _Standardise(BaseCallback):
 
 
 class _Watch(BaseCallback):
-    """Saves checkpoints, and tells how far it is."""
+    """Saves checkpoints, tells how far it is, and stops after Ctrl-C."""
 
     def __init__(
-        self, checkpoint: Path, every: int, progress: Callable[[int, float], None] | None
+        self,
+        checkpoint: Path,
+        every: int,
+        progress: Callable[[int, float], None] | None,
+        interrupts: Interrupts,
     ) -> None:
         super().__init__()
+        self._interrupts = interrupts
         self._checkpoint, self._every, self._progress = checkpoint, every, progress
         self._saved = 0
         self._ends: list[bool] = []
@@ -281,4 +301,4 @@ class _Watch(BaseCallback):
         if self._progress is not None:
             share = sum(self._ends) / len(self._ends) if self._ends else 0.0
             self._progress(self.num_timesteps, share)
-        return True
+        return not self._interrupts.noted

@@ -5,6 +5,7 @@ What Gymnasium's checker wants, sameness of bits alone and side by side, resets,
 
 import json
 import pickle
+import signal
 import warnings
 
 import gymnasium as gym
@@ -340,6 +341,26 @@ def test_a_training_that_was_stopped_goes_on(tmp_path):
     observation, _ = vector.reset(seed=0)
     wanted, _ = model.predict(observation, deterministic=True)
     assert np.allclose(policy(observation), wanted, atol=1e-5)
+
+
+def test_an_interrupted_training_goes_on_where_it_was(tmp_path):
+    training = pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
+    options = training.TrainOptions(
+        "Hurcules/Reach-v0", steps=2048, episodes=8, options=FAST, out=tmp_path
+    )
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            training.train(
+                options, lambda done, _: signal.raise_signal(signal.SIGINT) if done == 512 else None
+            )
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert not (tmp_path / "policy.onnx").exists()
+    seen = []
+    training.train(options, lambda done, _: seen.append(done))
+    assert seen[0] == 512 + 8
+    assert (tmp_path / "policy.onnx").exists()
 
 
 def test_full_swings_of_both_hands_touch_nothing_and_pass_no_limit():
