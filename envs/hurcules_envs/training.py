@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import gymnasium
+import numpy as np
 import torch
 from stable_baselines3 import PPO, SAC, HerReplayBuffer
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback
+from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
 import hurcules
 import hurcules_envs
@@ -73,6 +75,7 @@ SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Drive-": ("observation",),  # in which the goal is, seen from the robot
 }
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
+WANDERS, DRAWN = 1.0, 0.7  # [s], standard deviation of what is added with hindsight
 UPDATES = 0.25  # of SAC, a step of an episode
 
 
@@ -199,9 +202,19 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     if options.algorithm == "her":
         settings["replay_buffer_class"] = HerReplayBuffer
         settings["replay_buffer_kwargs"] = {"n_sampled_goal": 4}
+        settings["action_noise"] = _wandering(options, environment)
     network["net_arch"] = [256, 256]
     settings["gradient_steps"] = math.ceil(UPDATES * options.episodes)
     return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
+
+
+def _wandering(options: TrainOptions, environment: Any) -> VectorizedActionNoise:
+    """Noise that lasts for WANDERS [s]: hands come far, and what is far is replayed as a goal."""
+    size = environment.action_space.shape
+    theta, dt = 1.0 / WANDERS, 0.05
+    sigma = DRAWN * math.sqrt(2.0 * theta) * np.ones(size)
+    noise = OrnsteinUhlenbeckActionNoise(np.zeros(size), sigma, theta, dt)
+    return VectorizedActionNoise(noise, options.episodes)
 
 
 def _standardised(model: BaseAlgorithm) -> bool:
