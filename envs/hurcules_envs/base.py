@@ -5,7 +5,6 @@ An environment adds what its mission is about: the reward, and the text with its
 
 from __future__ import annotations
 
-import reprlib
 from abc import abstractmethod
 from typing import Any, ClassVar
 
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.rendering import make_renderer, overview_camera, pose
 from hurcules.validation import require_known
+from hurcules_envs.episodes import numbers_of
 from hurcules_envs.observations import observation_space
 
 __all__ = ["HurculesEnv"]
@@ -134,7 +134,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         Raises:
             hurcules.Error: it is no state, or belongs to another environment.
         """
-        values = _numbers("state", state)
+        values = numbers_of("state", state)
         memory = self._memory()
         if values.ndim != 1 or len(values) <= len(memory):
             wanted = len(memory) + len(self.simulation.state())
@@ -184,7 +184,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         return self._copy
 
     def _checked(self, action: Action) -> Array:
-        values = _numbers("action", action)
+        values = numbers_of("action", action)
         if values.shape != self.action_space.shape:
             raise hurcules.Error(
                 f"action: wanted shape {self.action_space.shape}, got {values.shape}"
@@ -214,15 +214,3 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
             "limit_excess_torque": float(worst["torque"]),
             "time": float(simulation.time),
         }
-
-
-def _numbers(what: str, values: object) -> Array:
-    """Any array of numbers as float64."""
-    try:
-        array = np.asarray(values)
-        if array.dtype.kind in "fiub":
-            return array.astype(np.float64)
-    except (TypeError, ValueError):  # ragged lists and the like
-        pass
-    came = " ".join(reprlib.repr(values).split())
-    raise hurcules.Error(f"{what}: wanted an array of numbers, got {came}")

@@ -17,7 +17,6 @@ from hurcules_envs.contact import (
     ContactEnvironment,
     add_force_sensor,
     box_mark,
-    contact_tick,
     view,
 )
 from hurcules_envs.environment import Array, Group, Numbers, Start
@@ -113,28 +112,8 @@ class Carry(ContactEnvironment):
         "sensor/R_feel",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-    ) -> None:
-        """Builds robot, table, box, controller and loop.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward for the goal alone.
-            rate: steps a second [Hz].
-            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate, self.action = sparse, rate, action
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {"box": np.array([0.15] * 3 + [0.3] * 3), "squeeze": MOST}
-        model = self.compiled(tick)
         places = {
             side: np.array([TABLE[0] + PALM, y, HEIGHT])
             for side, y in (("L", APART), ("R", -APART))

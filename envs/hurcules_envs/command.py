@@ -17,6 +17,7 @@ from hurcules.cli import results_in
 from hurcules.output import Output
 from hurcules.validation import require_known
 from hurcules_envs import evaluation
+from hurcules_envs.imitation import ask_expert
 from hurcules_envs.policy import Policy, full_id
 from hurcules_envs.registry import fastest_fidelity
 from hurcules_envs.running import environment_of
@@ -35,12 +36,13 @@ Robot = Annotated[str | None, typer.Option(help="rescue, manipulation or a path.
 def train(
     environment: Annotated[str, typer.Argument(help="Reach-v0, Drive-v0, ...")],
     algo: Annotated[str, typer.Option(help="ppo, sac or her.")] = "ppo",
-    steps: Annotated[int, typer.Option(help="Of all episodes together.", min=1)] = 100_000,
+    steps: Annotated[int, typer.Option(help="Of all episodes together.", min=0)] = 100_000,
     envs: Annotated[int, typer.Option(help="Episodes side by side.", min=1)] = 16,
     seed: Annotated[int, typer.Option(help="Of networks and episodes.", min=0)] = 0,
     fidelity: Fidelity = None,
     robot: Robot = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
+    sparse: Annotated[bool, typer.Option("--sparse", help="No shaped reward.")] = False,
     demonstrations: Annotated[
         int, typer.Option(help="Episodes of the scripted expert; PPO starts as its clone.", min=0)
     ] = 0,
@@ -60,7 +62,10 @@ def train(
     `hurcules train Door-v0 --demonstrations 50 --steps 20000`
     """
     name = _known(environment)
-    options = _given(fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action)
+    options = _given(
+        fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action,
+        sparse=sparse or None,
+    )  # fmt: skip
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
         if demonstrations:
@@ -79,12 +84,17 @@ def train(
     ]  # fmt: skip
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(f"{algo} on {name}", total=steps, success=0.0)
-        training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
+        try:
+            training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
+        except KeyboardInterrupt:
+            if (folder / "checkpoint.zip").exists():
+                console.print(f"{folder}: the same command goes on from here")
+            raise
     _judge(str(folder), None, judge, "exact", None, None, console)
 
 
 def _on_cluster(
-    address: str, name: str, steps: int, folder: Path, options: dict[str, str], envs: int, seed: int
+    address: str, name: str, steps: int, folder: Path, options: dict[str, Any], envs: int, seed: int
 ) -> None:
     try:
         from hurcules_envs import rllib
@@ -127,7 +137,9 @@ def record(
     ] = "expert",
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     seed: Annotated[int, typer.Option(help="Of the first one.", min=0)] = 0,
-    fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
+    fidelity: Annotated[
+        str | None, typer.Option(help="exact, fast or kinematic.", show_default="exact")
+    ] = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
@@ -151,19 +163,19 @@ def record(
         folder = out or Path("out", "data")
         identifier = recording.record(
             name, act, episodes, folder, seed=seed, author=author, source=source,
-            form=form, fidelity=fidelity,
+            form=form, **_given(fidelity=fidelity or ("exact" if fastest_fidelity(name) else None)),
             progress=lambda done: bar.update(task, completed=done),
         )  # fmt: skip
     Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)
 
 
 def _expert(env: Any, seen: Any) -> Any:
-    if not hasattr(env.environment, "expert"):
-        raise hurcules.Error(f"{env.spec.id} has no expert: give --policy FOLDER")
-    action = env.environment.expert(env.numbers)[0]
-    if action.shape != env.action_space.shape:  # it commands hands
-        raise hurcules.Error(f"{env.spec.id} has no expert for its action: give --policy FOLDER")
-    return action
+    if hasattr(env, "operator_action"):  # of a mission
+        return env.operator_action()
+    try:
+        return ask_expert(env.spec.id, env, (1, *env.action_space.shape))[0]
+    except hurcules.Error as error:
+        raise hurcules.Error(f"{error}: give --policy FOLDER") from None
 
 
 def _acting(policy: Policy) -> Any:
@@ -217,5 +229,5 @@ def _training() -> Any:
     return training
 
 
-def _given(**options: str | None) -> dict[str, str]:
+def _given(**options: Any) -> dict[str, Any]:
     return {name: value for name, value in options.items() if value is not None}

@@ -63,6 +63,33 @@ class ContactEnvironment(Environment):
     action: str = "twist"
     beside: Mapping[str, float | Array] = MappingProxyType({})
 
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
+        """Builds scene, controller and loop.
+
+        Args:
+            fidelity: "exact" or "fast".
+            sparse: no shaped reward: success alone, in Carry with the time at the goal, in Press
+                the path.
+            rate: steps a second [Hz].
+            action: "twist" (what the class says), or "joint" for comparison.
+
+        Raises:
+            hurcules.Error: a value that does not exist or is out of range.
+        """
+        tick = contact_tick(fidelity, rate)
+        self.sparse, self.rate, self.action = sparse, rate, action
+        self._build(self.compiled(tick), tick)
+
+    @abstractmethod
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        """Sets `actions`, then `simulation` at its start."""
+
     def controller(
         self,
         plan: hurcules.Robot,

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from hurcules import disposal
-from hurcules_envs.contact import contact_tick, view
+from hurcules_envs.contact import view
 from hurcules_envs.environment import Array, Group, Numbers
 from hurcules_envs.loose import Loose
 from hurcules_envs.mission import MissionEnvironment, kept
@@ -132,24 +132,11 @@ class Dispose(MissionEnvironment):
         "monitor/pressure_margin_m",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
-        """Builds robot, case, container, controller and mission.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward of success and failure alone.
-            rate: steps a second [Hz].
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {
             "tracks": np.array(TRACKS), "hands": HANDS, "turn": TURN, "squeeze": SQUEEZE,
             **dict.fromkeys(LED, JOINTS), "phase": 1.0,
         }  # fmt: skip
-        model = self.compiled(tick)
         mission = kept(disposal.mission(), LAST, lambda one: "grip" not in one.name)
         self.adopt(mission, model, disposal.controller, LAST, LED)
         bars = [f"ordnance_bar_{side}" for side in ("left", "right")]

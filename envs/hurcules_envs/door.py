@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
-from hurcules_envs.contact import ContactEnvironment, add_force_sensor, contact_tick, view
+from hurcules_envs.contact import ContactEnvironment, add_force_sensor, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
 from hurcules_envs.standing import SUPPORT, place_hands, settle
 
@@ -94,28 +94,8 @@ class Door(ContactEnvironment):
         "joint_velocity/door_hinge", "force/down", "contact_force/R_hand",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-    ) -> None:
-        """Builds robot, door, controller and loop.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward for success alone.
-            rate: steps a second [Hz].
-            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate, self.action = sparse, rate, action
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {"across": 0.2, "down": 0.2, "force": MOST}
-        model = self.compiled(tick)
         plan = place_hands(model, {"R": np.array(HAND)}, {"R_grip_1": CLOSED, "R_grip_2": CLOSED})
         self.simulation = self._loop(model, settle(self._loop(model, plan, tick)), tick)
 

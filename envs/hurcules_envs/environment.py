@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -256,6 +257,6 @@ def tick_of(fidelity: str, rate: float, known: tuple[str, ...] = tuple(FIDELITIE
         hurcules.Error: an unknown fidelity, or a rate out of range.
     """
     require_known("fidelity", fidelity, list(known))
-    if not 10.0 <= rate <= 100.0:
+    if not (isinstance(rate, Real) and 10.0 <= rate <= 100.0):
         raise hurcules.Error(f"rate: wanted 10 to 100 Hz, got {rate!r}")
     return 1.0 / rate / np.ceil(1.0 / rate / FIDELITIES[fidelity] - 1e-9)

@@ -17,7 +17,7 @@ import hurcules
 from hurcules_envs.environment import Array, Environment, Numbers, Start
 from hurcules_envs.randomisation import Randomisation
 
-__all__ = ["Episodes", "Step", "numbers_of"]
+__all__ = ["Episodes", "Step", "numbers_of", "seeds_of", "state_of"]
 
 # read after each step beside what the environment wants, and what it is called in info
 _WATCHED = {
@@ -194,16 +194,11 @@ class Episodes:
         Raises:
             hurcules.Error: it is no state, or belongs to another environment or version.
         """
-        values = numbers_of("state", state)
         drawn = self.randomisation.state(self._action.shape[1]).shape[1]
         rest = self._action.shape[1] + 1 + drawn + len(self._info)
         rest += sum(entry.shape[1] for entry in self.memory.values())
         own = self.batch.state().shape[1]
-        if values.shape != (self.n, own + rest):
-            raise hurcules.Error(
-                f"state: wanted shape {(self.n, own + rest)}, got {values.shape}: it belongs to "
-                "another environment, or to other options of this one"
-            )
+        values = state_of(state, (self.n, own + rest))
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
         self.batch.restore(values[:, :own], chosen.tolist())
         place = own
@@ -408,16 +403,34 @@ def numbers_of(what: str, values: object) -> Array:
     raise hurcules.Error(f"{what}: wanted an array of numbers, got {came}")
 
 
+def state_of(state: object, shape: tuple[int, ...]) -> Array:
+    """A state as float64.
+
+    Raises:
+        hurcules.Error: no array of numbers, or one of another shape.
+    """
+    values = numbers_of("state", state)
+    if values.shape != shape:
+        raise hurcules.Error(
+            f"state: wanted shape {shape}, got {values.shape}: it belongs to another environment, "
+            "or to other options of this one"
+        )
+    return values
+
+
 def seeds_of(seed: int | Sequence[int | None] | None, n: int) -> list[int | None]:
     """One seed an episode: seed + i, a list as it is, or None each.
 
     Raises:
-        hurcules.Error: a list of another length.
+        hurcules.Error: a list of another length, or no whole numbers >= 0.
     """
     if seed is None:
         return [None] * n
     if isinstance(seed, int | np.integer):
-        return [int(seed) + i for i in range(n)]
-    if len(seed) != n:
-        raise hurcules.Error(f"seed: wanted {n} numbers, got {len(seed)}")
+        seed = [int(seed) + i for i in range(n)]
+    if isinstance(seed, str) or not hasattr(seed, "__len__") or len(seed) != n:
+        raise hurcules.Error(f"seed: wanted a whole number, or {n} of them, got {seed!r}")
+    for one in seed:
+        if one is not None and not (isinstance(one, int | np.integer) and one >= 0):
+            raise hurcules.Error(f"seed: wanted whole numbers >= 0, got {one!r}")
     return list(seed)

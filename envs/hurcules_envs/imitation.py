@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.registry import make_episodes
 
-__all__ = ["Demonstrations", "demonstrate"]
+__all__ = ["Demonstrations", "ask_expert", "demonstrate"]
 
 KEPT = 0.8  # how much of a push is left a step later
 
@@ -45,6 +45,25 @@ class Demonstrations:
         return found[self.going].astype(np.float32)
 
 
+def ask_expert(name: str, episodes: Any, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """What the scripted expert wants to do now.
+
+    Args:
+        name: id of the environment.
+        episodes: what has its `environment` and `numbers`.
+        shape: of actions, (n, k).
+
+    Raises:
+        hurcules.Error: the environment has no expert, or one for another action: velocities of
+            joints, say.
+    """
+    expert = getattr(getattr(episodes, "environment", None), "expert", None)
+    wanted = None if expert is None else expert(episodes.numbers)
+    if wanted is None or wanted.shape != shape:
+        raise hurcules.Error(f"{name} has no expert for its action")
+    return wanted
+
+
 def demonstrate(
     name: str, episodes: int, seed: int = 0, noise: float = 0.3, **options: Any
 ) -> Demonstrations:
@@ -63,16 +82,13 @@ def demonstrate(
         hurcules.Error: the environment has no expert for its action.
     """
     batch = make_episodes(name, episodes, 1000 + seed, **options)
-    expert = getattr(batch.environment, "expert", None)
     shape = (episodes, len(batch.action_scale))
     seen = batch.look(remember=None)
-    if expert is None or expert(batch.numbers).shape != shape:
-        raise hurcules.Error(f"{name} has no expert for its action")
     generator, push = np.random.default_rng(seed), np.zeros(shape)
     going, successes = np.ones(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
     kept: list[tuple[Any, ...]] = []
     for _ in range(gymnasium.spec(name).max_episode_steps or sys.maxsize):
-        before, wanted = _chosen(seen.observation, going), expert(batch.numbers)
+        before, wanted = _chosen(seen.observation, going), ask_expert(name, batch, shape)
         fresh = generator.normal(0.0, noise, shape)
         push = KEPT * push + np.sqrt(1.0 - KEPT**2) * fresh
         batch.step(np.clip(wanted + push * (wanted != 0.0), -1.0, 1.0), going)

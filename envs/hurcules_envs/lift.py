@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import lift
-from hurcules_envs.contact import ContactEnvironment, add_force_sensor, contact_tick, view
+from hurcules_envs.contact import ContactEnvironment, add_force_sensor, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
 from hurcules_envs.loose import limp_person
 
@@ -106,31 +106,11 @@ class Lift(ContactEnvironment):
         "sensor/casualty_lies", "sensor/L_feel", "sensor/R_feel",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-    ) -> None:
-        """Builds robot, person, controller and loop.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward for success alone.
-            rate: steps a second [Hz].
-            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate, self.action = sparse, rate, action
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {
             "hands": SPEED, "pitch": PITCH_RATE, "press": MOST,
             "tracks": np.array([SPEED, YAW_RATE]),
         }  # fmt: skip
-        model = self.compiled(tick)
         robot = hurcules.Robot(model)
         robot.set_keyframe("stretch")
         robot.stand_on(lift.SUPPORT)

@@ -48,8 +48,20 @@ class MissionEnvironment(ContactEnvironment):
     mass: tuple[float, float]
     friction: tuple[float, float]
     moved: str
-    sparse: bool
     toll = 0.01
+
+    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+        """Builds scene, controller and mission.
+
+        Args:
+            fidelity: "exact" or "fast".
+            sparse: reward of success and failure alone.
+            rate: steps a second [Hz].
+
+        Raises:
+            hurcules.Error: a value that does not exist or is out of range.
+        """
+        super().__init__(fidelity, sparse, rate)
 
     def adopt(
         self,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
-from hurcules_envs.contact import ContactEnvironment, box_mark, contact_tick, euler_quat, view
+from hurcules_envs.contact import ContactEnvironment, box_mark, euler_quat, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
 
 __all__ = ["Press"]
@@ -106,28 +106,8 @@ class Press(ContactEnvironment):
         "value/slide", "force/down", "joint/surface",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-    ) -> None:
-        """Builds robot, plate, controller and loop.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward for the path alone, without distance and force.
-            rate: steps a second [Hz].
-            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate, self.action = sparse, rate, action
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {"slide": 0.1, "down": 0.1, "force": MOST}
-        model = self.compiled(tick)
         robot = hurcules.Robot(model)
         robot.set_keyframe("stretch")
         q = robot.configuration

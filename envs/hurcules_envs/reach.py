@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 import mujoco
@@ -93,7 +94,7 @@ class Reach(Environment):
             hurcules.Error: a value that does not exist or is out of range.
         """
         for name, value in (("tolerance", tolerance), ("angle", 1.0 if angle is None else angle)):
-            if not 0.0 < value < np.inf:
+            if not (isinstance(value, Real) and 0.0 < value < np.inf):
                 raise hurcules.Error(f"{name}: wanted a number > 0, got {value!r}")
         self.setup = load_robot(robot, frames, joints)
         self.postures = sample_postures(robot, frames, joints)

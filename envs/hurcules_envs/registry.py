@@ -15,7 +15,13 @@ from hurcules_envs.environment import Environment
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.randomisation import NAMES, split
 
-__all__ = ["fastest_fidelity", "make_environment", "make_episodes", "register"]
+__all__ = [
+    "fastest_fidelity",
+    "make_environment",
+    "make_episodes",
+    "native_options",
+    "register",
+]
 
 
 class UnknownOption(hurcules.Error, TypeError):
@@ -75,9 +81,7 @@ def make_episodes(name: str, n: int, seed: int, threads: int = 0, **options: Any
     Raises:
         hurcules.Error: an environment without native vector, or an unknown option.
     """
-    given = {**gymnasium.spec(name).kwargs, **options}
-    if "environment" not in given:
-        raise hurcules.Error(f"{name} has no native vector")
+    given = native_options(name, options)
     flat = bool(given.pop("flat", False))
     ranges, given = split(given)
     environment = make_environment(given.pop("environment"), given)
@@ -85,6 +89,22 @@ def make_episodes(name: str, n: int, seed: int, threads: int = 0, **options: Any
     episodes.generators = [np.random.default_rng(seed + i) for i in range(n)]
     episodes.reset()
     return episodes
+
+
+def native_options(name: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """What a native vector of an environment is built from: "environment", and all options.
+
+    Args:
+        name: its id.
+        options: in place of those of its registration.
+
+    Raises:
+        hurcules.Error: it has no native vector.
+    """
+    given = {**gymnasium.spec(name).kwargs, **options}
+    if "environment" not in given:
+        raise hurcules.Error(f"{name} has no native vector")
+    return given
 
 
 def fastest_fidelity(name: str) -> str | None:

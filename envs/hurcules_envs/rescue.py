@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from hurcules import lift
-from hurcules_envs.contact import contact_tick, view
+from hurcules_envs.contact import view
 from hurcules_envs.environment import Array, Group, Numbers
 from hurcules_envs.loose import limp_person
 from hurcules_envs.mission import MissionEnvironment, kept
@@ -114,24 +114,11 @@ class Rescue(MissionEnvironment):
         "monitor/static_margin_m",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
-        """Builds robot, person, controller and mission.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward of success and failure alone.
-            rate: steps a second [Hz].
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {
             "tracks": np.array(TRACKS), "hands": HANDS, "pitch": PITCH, "press": PRESS,
             "lean": JOINTS, "shoulders": JOINTS, "elbows": JOINTS, "phase": 1.0,
         }  # fmt: skip
-        model = self.compiled(tick)
         phases = kept(lift.mission(self.mission), self.last)
         self.adopt(phases, model, lift.controller, self.last, LED)
         self.fetched = limp_person(model, self.simulation.data.qpos)

@@ -33,7 +33,10 @@ TIPS = 0.08  # [m] of the zero moment point within them
 # [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
 # that give by 0.08 rad, which no encoder of a motor sees
 APART = {"rescue": 0.12, "manipulation": 0.03}
-LOOK = 0.10  # [m] beyond that, pairs do not count
+LOOK = 0.20  # [m] beyond that, pairs do not count: hands come at 1.6 m/s
+# pairs of parts that count at a time: where a dozen are always near, with 16 a hand was seen when
+# it could stop no more
+ROWS = 24
 # [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
 MAX_ACCELERATION = 5.0
 
@@ -98,7 +101,9 @@ class RobotSetup:
     def apart(self, robot: hurcules.Robot) -> hurcules.DistanceTask:
         """Parts of the robot keep away from each other; `robot` stands at the keyframe."""
         margin = self.apart_by
-        return hurcules.self_collision(robot, margin=margin, most=margin + LOOK, postures=2000)
+        return hurcules.self_collision(
+            robot, margin=margin, most=margin + LOOK, rows=ROWS, postures=2000
+        )
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""

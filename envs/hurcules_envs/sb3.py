@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
+from hurcules_envs.registry import native_options
 from hurcules_envs.vector import NativeVectorEnv
 
 __all__ = ["GoalFeatures", "Sb3VecEnv", "Standardised", "make_sb3"]
@@ -176,14 +177,18 @@ def make_sb3(
         threads: 0 for one a processor.
         max_episode_steps: None: that of the environment.
         options: of the environment, by keyword.
+
+    Raises:
+        hurcules.Error: an environment without native vector, or an unknown option.
     """
-    spec = gymnasium.spec(name)
+    given = native_options(name, options)
+    limit = max_episode_steps or gymnasium.spec(name).max_episode_steps
     return Sb3VecEnv(
         NativeVectorEnv(
             num_envs=num_envs,
-            max_episode_steps=max_episode_steps or spec.max_episode_steps,
+            max_episode_steps=limit,
             threads=threads,
             autoreset_mode=AutoresetMode.SAME_STEP,
-            **{**spec.kwargs, **options},
+            **given,
         )
     )

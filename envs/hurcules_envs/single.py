@@ -14,7 +14,7 @@ import hurcules
 from hurcules import _core
 from hurcules.rendering import make_renderer, pose
 from hurcules_envs.environment import Numbers
-from hurcules_envs.episodes import Episodes, Step
+from hurcules_envs.episodes import Episodes, Step, state_of
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment
 
@@ -145,7 +145,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         Raises:
             hurcules.Error: it is no state, or belongs to another environment or version.
         """
-        self._episodes.restore(np.asarray(state)[None])
+        self._episodes.restore(state_of(state, self.get_state().shape)[None])
 
     def observe(self) -> Observation:
         """The observation now, after `set_state` say."""

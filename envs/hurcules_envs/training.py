@@ -10,13 +10,16 @@ from pathlib import Path
 from typing import Any
 
 import gymnasium
+import numpy as np
 import torch
 from stable_baselines3 import PPO, SAC, HerReplayBuffer
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback
+from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
 import hurcules
 import hurcules_envs
+from hurcules.interrupts import Interrupts
 from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
@@ -72,6 +75,8 @@ SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Drive-": ("observation",),  # in which the goal is, seen from the robot
 }
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
+WANDERS, DRAWN = 1.0, 0.7  # [s], standard deviation of what is added with hindsight
+UPDATES = 0.25  # of SAC, a step of an episode
 
 
 @dataclass(frozen=True)
@@ -118,6 +123,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
 
     Raises:
         hurcules.Error: an unknown environment, algorithm or option, or a folder with another run.
+        KeyboardInterrupt: after Ctrl-C; checkpoint.zip is written, and the next call goes on.
     """
     require_known("environment", options.environment, hurcules_envs.ENVIRONMENTS)
     require_known("algorithm", options.algorithm, ALGORITHMS)
@@ -127,27 +133,22 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     settings = json.loads(json.dumps(asdict(options) | {"out": str(out)}))
     out.mkdir(parents=True, exist_ok=True)
     written = out / "settings.json"
-    if written.exists():
+    if written.exists() and checkpoint.exists():  # else nothing is lost
         earlier = json.loads(written.read_text())
         differing = [n for n in settings if n != "steps" and earlier.get(n) != settings[n]]
         if differing:
             raise hurcules.Error(
                 f"{out} holds a run with another {', '.join(differing)}: give another folder"
             )
-    written.write_text(json.dumps(settings, indent=2) + "\n")
     model = make_model(options, environment)
+    written.write_text(json.dumps(settings, indent=2) + "\n")
     if checkpoint.exists():
         model = type(model).load(checkpoint, environment, device="cpu")
     elif options.demonstrations:
         _imitate(model, options)
         _save(model, checkpoint)
-    left = options.steps - model.num_timesteps
-    if left > 0:
-        watch = _Watch(checkpoint, options.checkpoint_every, progress)
-        adapts = not options.demonstrations and _standardised(model)
-        callbacks = [watch, _Standardise()] if adapts else [watch]
-        model.learn(left, callback=callbacks, reset_num_timesteps=False)
-        watch.save()
+    if options.steps > model.num_timesteps:
+        _learn(model, options, checkpoint, progress)
     model.save(out / "policy.zip")
     about = {
         "environment": options.environment,
@@ -195,14 +196,25 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
         if not goal:
             network["features_extractor_class"] = Standardised
         rate = settings["learning_rate"]
-        settings["learning_rate"] = lambda left: rate * left
+        settings["learning_rate"] = lambda left: rate * max(left, 0.0)  # a batch may pass the end
         return PPO(kind, environment, policy_kwargs=network, **settings, **shared)
     settings = dict(OFF_POLICY)
     if options.algorithm == "her":
         settings["replay_buffer_class"] = HerReplayBuffer
         settings["replay_buffer_kwargs"] = {"n_sampled_goal": 4}
+        settings["action_noise"] = _wandering(options, environment)
     network["net_arch"] = [256, 256]
+    settings["gradient_steps"] = math.ceil(UPDATES * options.episodes)
     return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
+
+
+def _wandering(options: TrainOptions, environment: Any) -> VectorizedActionNoise:
+    """Noise that lasts for WANDERS [s]: hands come far, and what is far is replayed as a goal."""
+    size = environment.action_space.shape
+    theta, dt = 1.0 / WANDERS, 0.05
+    sigma = DRAWN * math.sqrt(2.0 * theta) * np.ones(size)
+    noise = OrnsteinUhlenbeckActionNoise(np.zeros(size), sigma, theta, dt)
+    return VectorizedActionNoise(noise, options.episodes)
 
 
 def _standardised(model: BaseAlgorithm) -> bool:
@@ -217,6 +229,24 @@ def _imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
     n, push = options.demonstrations, _push(options)
     shown = demonstrate(options.environment, n, options.seed, push, **options.options)
     clone(model, shown, options.seed)
+
+
+def _learn(
+    model: BaseAlgorithm,
+    options: TrainOptions,
+    checkpoint: Path,
+    progress: Callable[[int, float], None] | None,
+) -> None:
+    """Up to the wanted number of steps, or to Ctrl-C."""
+    with Interrupts() as interrupts:
+        watch = _Watch(checkpoint, options.checkpoint_every, progress, interrupts)
+        adapts = not options.demonstrations and _standardised(model)
+        callbacks = [watch, _Standardise()] if adapts else [watch]
+        left = options.steps - model.num_timesteps
+        model.learn(left, callback=callbacks, reset_num_timesteps=False)
+        watch.save()
+    if interrupts.noted:
+        raise KeyboardInterrupt
 
 
 def _tensorboard(out: Path) -> str | None:
@@ -252,12 +282,17 @@ class _Standardise(BaseCallback):
 
 
 class _Watch(BaseCallback):
-    """Saves checkpoints, and tells how far it is."""
+    """Saves checkpoints, tells how far it is, and stops after Ctrl-C."""
 
     def __init__(
-        self, checkpoint: Path, every: int, progress: Callable[[int, float], None] | None
+        self,
+        checkpoint: Path,
+        every: int,
+        progress: Callable[[int, float], None] | None,
+        interrupts: Interrupts,
     ) -> None:
         super().__init__()
+        self._interrupts = interrupts
         self._checkpoint, self._every, self._progress = checkpoint, every, progress
         self._saved = 0
         self._ends: list[bool] = []
@@ -279,4 +314,4 @@ class _Watch(BaseCallback):
         if self._progress is not None:
             share = sum(self._ends) / len(self._ends) if self._ends else 0.0
             self._progress(self.num_timesteps, share)
-        return True
+        return not self._interrupts.noted

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
-from hurcules_envs.contact import ContactEnvironment, contact_tick, view
+from hurcules_envs.contact import ContactEnvironment, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
 from hurcules_envs.standing import SUPPORT, place_hands, settle
 
@@ -93,28 +93,8 @@ class Valve(ContactEnvironment):
         "joint/valve_wheel", "joint_velocity/valve_wheel", "contact_force/R_hand",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-    ) -> None:
-        """Builds robot, valve, controller and loop.
-
-        Args:
-            fidelity: "exact" or "fast".
-            sparse: reward for success alone.
-            rate: steps a second [Hz].
-            action: "twist", or "joint" for comparison, see `ContactEnvironment`.
-
-        Raises:
-            hurcules.Error: a value that does not exist or is out of range.
-        """
-        tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate, self.action = sparse, rate, action
+    def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.actions = {"hand": 0.2, "grip": 0.05}
-        model = self.compiled(tick)
         self._geoms = [
             i for i in range(model.ngeom) if model.geom_bodyid[i] == model.body("valve_wheel").id
         ]

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 from gymnasium import spaces
+from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs.environment import Numbers
-from hurcules_envs.episodes import Episodes, Step, seeds_of
+from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment
 
@@ -54,8 +56,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         Raises:
             hurcules.Error: an unknown option, or a bad value.
         """
-        if not isinstance(num_envs, int) or num_envs < 1:
-            raise hurcules.Error(f"num_envs: wanted a whole number >= 1, got {num_envs!r}")
+        _require_whole("num_envs", num_envs, 1)
+        _require_whole("threads", threads, 0)
+        if max_episode_steps is not None:
+            _require_whole("max_episode_steps", max_episode_steps, 1)
         if render_mode is not None:
             raise hurcules.Error("render_mode: a vector of environments draws no pictures")
         self.num_envs = num_envs
@@ -81,8 +85,9 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.task_description = self.environment.task_description
         self._limit = np.inf if max_episode_steps is None else max_episode_steps
-        self._steps = np.zeros(num_envs, dtype=np.int64)
+        self._steps = np.full(num_envs, -1, dtype=np.int64)  # -1: not begun
         self._over = np.zeros(num_envs, dtype=bool)
+        self._begun = False  # all of them
 
     @property
     def batch(self) -> hurcules.SimulationBatch:
@@ -123,6 +128,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             if one is not None and chosen[i]:
                 self._episodes.generators[i] = np.random.default_rng(one)
         self._begin(chosen)
+        self._begun = bool((self._steps >= 0).all())
         step = self._episodes.look(remember=None)
         return _observation(step), _info(step)
 
@@ -133,8 +139,12 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             actions: (num_envs, k) in [-1, 1], see `action_names`; zero holds.
 
         Raises:
+            gymnasium.error.ResetNeeded: some episode has not begun.
             hurcules.Error: no array of numbers, another shape, NaN or infinity.
         """
+        if not self._begun:
+            waiting = np.flatnonzero(self._steps < 0).tolist()
+            raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before step()")
         episodes = self._episodes
         values = episodes.checked(actions, self.action_space.shape or ())
         over = self._over
@@ -171,9 +181,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         Raises:
             hurcules.Error: they are no states, or belong to another environment or version.
         """
-        values = np.asarray(state, dtype=np.float64)
+        values = state_of(state, self.get_state().shape)
         self._episodes.restore(values[:, :-2])
         self._steps = values[:, -2].astype(np.int64)
+        self._begun = bool((self._steps >= 0).all())
         self._over = values[:, -1] > 0.0
 
     def observe(self) -> Any:
@@ -209,6 +220,11 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         if isinstance(self.single_observation_space, spaces.Dict):
             return {n: _chosen(ended, fresh[n], observation[n]) for n in observation}, merged
         return _chosen(ended, fresh, observation), merged
+
+
+def _require_whole(name: str, value: object, least: int) -> None:
+    if not isinstance(value, Integral) or int(value) < least:
+        raise hurcules.Error(f"{name}: wanted a whole number >= {least}, got {value!r}")
 
 
 def _chosen(mask: NDArray[np.bool_], one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:

@@ -5,11 +5,13 @@ What Gymnasium's checker wants, sameness of bits alone and side by side, resets,
 
 import json
 import pickle
+import signal
 import warnings
 
 import gymnasium as gym
 import numpy as np
 import pytest
+from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
@@ -156,6 +158,53 @@ def test_without_autoreset_who_is_over_is_reset_by_a_mask():
         vector.reset(options={"reset_mask": np.array([False, False])})
 
 
+def test_a_vector_wants_a_reset_of_all_episodes_before_a_step():
+    vector = limited(AutoresetMode.DISABLED)
+    actions = np.zeros((2, 6), np.float32)
+    with pytest.raises(ResetNeeded, match=r"episodes \[0, 1\] have not begun: call reset\(\)"):
+        vector.step(actions)
+    vector.reset(options={"reset_mask": np.array([True, False])})
+    with pytest.raises(ResetNeeded, match=r"episodes \[1\] have not begun"):
+        vector.step(actions)
+    vector.reset(options={"reset_mask": np.array([False, True])})
+    state = vector.get_state()
+    one, *_ = vector.step(actions)
+    restored = limited(AutoresetMode.DISABLED)
+    restored.set_state(state)  # begins them too
+    assert same(restored.step(actions)[0], one)
+
+
+def test_a_vector_says_what_was_wanted():
+    vector = limited(AutoresetMode.NEXT_STEP)
+    vector.reset(seed=0)
+    state = vector.get_state()
+    n = state.shape[1]
+    for bad, text in (
+        (state[0], rf"state: wanted shape \(2, {n}\), got \({n},\): it belongs to another"),
+        (state[:, :-1], rf"state: wanted shape \(2, {n}\), got \(2, {n - 1}\)"),
+        ("left", "state: wanted an array of numbers, got 'left'"),
+    ):
+        with pytest.raises(hurcules.Error, match=text):
+            vector.set_state(bad)
+    for seed, text in (
+        ([1, 2, 3], r"a whole number, or 2 of them, got \[1, 2, 3\]"),
+        ("x", "a whole number, or 2 of them, got 'x'"),
+        (1.5, "a whole number, or 2 of them, got 1.5"),
+        (-1, "whole numbers >= 0, got -1"),
+        ([0, 0.5], "whole numbers >= 0, got 0.5"),
+    ):
+        with pytest.raises(hurcules.Error, match="seed: wanted " + text):
+            vector.reset(seed=seed)
+    for options, text in (
+        ({"num_envs": 2.0}, "num_envs: wanted a whole number >= 1, got 2.0"),
+        ({"num_envs": 2, "threads": "all"}, "threads: wanted a whole number >= 0, got 'all'"),
+        ({"num_envs": 2, "max_episode_steps": 0}, "max_episode_steps: wanted a whole number >= 1"),
+    ):
+        with pytest.raises(hurcules.Error, match=text):
+            gym.make_vec("Hurcules/Reach-v0", **options, **FAST)
+    assert gym.make_vec("Hurcules/Reach-v0", num_envs=np.int64(3), **FAST).num_envs == 3
+
+
 @pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[5]])
 def test_a_goal_environment_passes_stable_baselines3s_checker_too(name, options):
     checker = pytest.importorskip(
@@ -225,7 +274,9 @@ BAD = [
     ({"robot": __file__}, "wants frames"),
     ({"robot": 3}, "robot: wanted manipulation, rescue or the path of an MJCF file, got 3"),
     ({"tolerance": -1.0}, "tolerance: wanted"),
+    ({"tolerance": "3 cm"}, "tolerance: wanted a number > 0, got '3 cm'"),
     ({"rate": 1000.0}, "rate: wanted"),
+    ({"rate": "20"}, "rate: wanted 10 to 100 Hz, got '20'"),
     ({"colour": "red"}, "option 'colour' does not exist"),
 ]
 
@@ -290,6 +341,26 @@ def test_a_training_that_was_stopped_goes_on(tmp_path):
     observation, _ = vector.reset(seed=0)
     wanted, _ = model.predict(observation, deterministic=True)
     assert np.allclose(policy(observation), wanted, atol=1e-5)
+
+
+def test_an_interrupted_training_goes_on_where_it_was(tmp_path):
+    training = pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
+    options = training.TrainOptions(
+        "Hurcules/Reach-v0", steps=2048, episodes=8, options=FAST, out=tmp_path
+    )
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            training.train(
+                options, lambda done, _: signal.raise_signal(signal.SIGINT) if done == 512 else None
+            )
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert not (tmp_path / "policy.onnx").exists()
+    seen = []
+    training.train(options, lambda done, _: seen.append(done))
+    assert seen[0] == 512 + 8
+    assert (tmp_path / "policy.onnx").exists()
 
 
 def test_full_swings_of_both_hands_touch_nothing_and_pass_no_limit():

@@ -98,6 +98,12 @@ def test_a_policy_begins_as_a_clone_and_goes_on(tmp_path: Path, monkeypatch) -> 
     change = Policy(tmp_path)(shown.observations) - shown.actions
     assert np.sqrt(np.mean(change**2)) < 0.3  # nor is it unlearnt
 
+    training.train(training.TrainOptions(**{**vars(options), "steps": 257}))
+    last = PPO.load(tmp_path / "policy.zip", device="cpu")
+    assert last.num_timesteps == 512  # the batch passes the end: no step backwards
+    pairs = zip(after.policy.parameters(), last.policy.parameters(), strict=True)
+    assert all(bool((one == other).all()) for one, other in pairs)
+
 
 def test_demonstrations_go_with_ppo_alone(tmp_path: Path, capsys) -> None:
     pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
@@ -106,3 +112,21 @@ def test_demonstrations_go_with_ppo_alone(tmp_path: Path, capsys) -> None:
     assert "demonstrations are for ppo" in capsys.readouterr().err
     assert main([*words, "--ray", "local"]) == 2
     assert "--demonstrations: not with --ray" in capsys.readouterr().err
+
+
+def test_a_training_that_was_refused_leaves_its_folder_to_the_next(tmp_path: Path, capsys) -> None:
+    pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
+    words = ["train", "Valve-v0", "--steps", "0", "--envs", "2", "--judge", "1"]
+    words += ["--out", str(tmp_path)]
+    assert main([*words, "--algo", "her"]) == 2
+    assert "her: Hurcules/Valve-v0 is no goal environment" in capsys.readouterr().err
+    assert main(words) == 0
+    assert main(["train", "Stretch-v0", "--steps", "0"]) == 2
+    assert "Hurcules/Stretch-v0 has no native vector" in capsys.readouterr().err
+
+
+def test_without_a_shaped_reward_only_success_counts(tmp_path: Path) -> None:
+    pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
+    words = ["train", "Reach-v0", "--sparse", "--steps", "0", "--envs", "1", "--judge", "1"]
+    assert main([*words, "--algo", "her", "--out", str(tmp_path)]) == 0
+    assert Policy(tmp_path).options == {"fidelity": "kinematic", "sparse": True}

@@ -6,6 +6,7 @@ Not tested: that training leads anywhere (docs/environments.md has the figures).
 """
 
 import json
+import sys
 from pathlib import Path
 
 import gymnasium
@@ -111,7 +112,8 @@ def test_the_command_line_films_an_episode_and_says_that_it_failed(tmp_path: Pat
     assert (tmp_path / "video.mp4").stat().st_size > 5_000
 
 
-def test_bad_files_get_one_clear_error(tmp_path: Path) -> None:
+def test_bad_files_get_one_clear_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "onnxruntime", None)  # as if it were not installed
     whole = linear(tmp_path / "a.onnx").read_bytes()
     cases = {
         "text.onnx": (b"no network at all", "wanted an ONNX file"),

@@ -32,6 +32,22 @@ def words(form: str, out: Path, *more: str) -> list[str]:
     return [*given, "--policy", "Drive-v0", "--fidelity", "kinematic", "--out", str(out), *more]
 
 
+def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
+    taken = []
+
+    def kept(name, act, *_, progress, form, seed, author, source, **options):
+        taken.append(options)
+        env = gym.make(name, **options).unwrapped
+        env.reset(seed=0)
+        assert act(env, None).shape == env.action_space.shape
+        return name
+
+    monkeypatch.setattr(recording, "record", kept)
+    for name in ("Stretch-v0", "Reach-v0"):  # the former has no fidelity to choose
+        assert main(["record", name, "--out", str(tmp_path)]) == 0
+    assert taken == [{}, {"fidelity": "exact"}]
+
+
 def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
     pytest.importorskip("minari", reason="pip install 'hurcules[data]'")
     import minari
