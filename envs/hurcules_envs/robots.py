@@ -166,7 +166,7 @@ def _load(robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | 
         model = load(robot)
     except ValueError as error:
         raise hurcules.Error(f"{robot}: {error}") from error
-    own = hurcules.Robot(model, list(joints or []))
+    own = hurcules.Robot(model, None if joints is None else list(joints))
     for frame in frames:
         own.position(frame)
     return RobotSetup(robot, model, frames, tuple(own.coordinate_names), "")
