@@ -1597,7 +1597,7 @@ class Shortfall:
     def task(self) -> str: ...
     @property
     def unit(self) -> str:
-        """'m' or 'rad'"""
+        """'m' or 'rad', '' where none is known"""
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 

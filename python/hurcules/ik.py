@@ -56,9 +56,10 @@ def inverse_kinematics(
     """The posture nearest to the present one, of those found, that meets all tasks.
 
     A controller descends from where the robot stands; where limits or singularities end the
-    descent, others begin at random postures. What a controller cannot reach from here in one go
-    (the target wants an elbow or a wrist turned the other way) it reaches by this posture: give it
-    to a `PostureTask`. Nothing is said of the way between the two.
+    descent, others begin at random postures, each farther from the present one than the last.
+    What a controller cannot reach from here in one go (the target wants an elbow or a wrist turned
+    the other way) it reaches by this posture: give it to a `PostureTask` that no task of the hand
+    comes before, then add the hand. Nothing is said of the way between the two.
 
     Args:
         robot: stays as it is.
@@ -81,14 +82,16 @@ def inverse_kinematics(
         raise Error(f"inverse_kinematics: tolerance wants a positive number, got {tolerance}")
     present = robot.configuration
     lower, upper = _ranges(robot)
+    inside = np.clip(present, lower, upper)
     generator = np.random.default_rng(seed)
     found: list[tuple[float, NDArray[np.float64]]] = []
     try:
-        for _ in range(starts):
+        for start in range(starts):
             found.append((_descend(robot, levels, wanted, tolerance), robot.configuration))
             if found[0][0] <= tolerance:
                 break
-            robot.set_configuration(generator.uniform(lower, upper))
+            drawn = generator.uniform(lower, upper)
+            robot.set_configuration(inside + (start + 1) / starts * (drawn - inside))
     finally:
         robot.set_configuration(present)
         for task in wanted:

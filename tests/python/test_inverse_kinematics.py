@@ -56,6 +56,42 @@ def test_the_shoulder_goes_the_long_way_round_where_a_controller_meets_its_limit
     assert np.abs(hand.error).max() == pytest.approx(found.error, abs=1e-15)
 
 
+def settle(robot: hurcules.Robot, *stack: hurcules.Task) -> None:
+    """Ten seconds."""
+    controller = hurcules.VelocityController(robot, hurcules.VelocityControllerOptions(dt=0.005))
+    controller.set_stack(hurcules.Stack(list(stack)))
+    for _ in range(2000):
+        controller.step(robot)
+
+
+def test_the_posture_comes_before_the_hand_and_then_the_hand_stays(robot: hurcules.Robot) -> None:
+    hand = hand_at(robot, (-2.4, -0.2))
+    posture = hurcules.PostureTask("posture", robot)
+    posture.set_target(hurcules.inverse_kinematics(robot, [hand]).configuration)
+    settle(robot, hand, posture)  # below the hand it has nothing left to move
+    hand.update(robot)
+    assert np.linalg.norm(hand.error) > 0.05
+    settle(robot, posture)
+    settle(robot, hand, posture)
+    hand.update(robot)
+    assert np.linalg.norm(hand.error) < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_postures_near_the_present_one_are_tried_first(seed: int) -> None:
+    text = ARM.replace("-2.6 2.6", "-12 12").replace("-2.5 2.5", "-12 12")
+    robot = hurcules.Robot(mujoco.MjModel.from_xml_string(text))
+    start = np.array([11.9, 11.6])  # near the ends of both ranges, four turns wide
+    robot.set_configuration([12.4 - 2 * np.pi, 11.4])  # half a radian on is past the limit
+    target = robot.position("hand")[:2]
+    robot.set_configuration(start)
+    hand = hurcules.PositionTask("hand", robot, "hand", axes=[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    hand.set_target(target)
+    found = hurcules.inverse_kinematics(robot, [hand], starts=8, seed=seed)
+    assert found.reached and found.starts[0] == 8
+    assert np.abs(found.configuration - start).max() < 2 * np.pi
+
+
 def test_what_the_controller_reaches_is_found_at_the_first_descent_and_nothing_is_moved(
     robot: hurcules.Robot,
 ) -> None:

@@ -7,7 +7,9 @@
 
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
+#include "hurcules/tasks/custom_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"
+#include "hurcules/tasks/manipulability_task.hpp"
 #include "hurcules/tasks/point_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
@@ -26,6 +28,8 @@ const char* unit_of(const Task& task) {
   if (dynamic_cast<const ZeroMomentTask*>(&task)) return "m^2/s^2";
   if (dynamic_cast<const TorqueLimits*>(&task)) return "N m";
   if (dynamic_cast<const ContactTask*>(&task)) return "m/s^2";
+  if (dynamic_cast<const ManipulabilityTask*>(&task) || dynamic_cast<const CustomTask*>(&task))
+    return "";
   const bool length = dynamic_cast<const PointTask*>(&task) ||
                       dynamic_cast<const DistanceTask*>(&task) ||
                       dynamic_cast<const BalanceTask*>(&task);
@@ -180,7 +184,7 @@ std::string Shortfall::text() const {
   if (invalid) return task + ": its numbers are not finite, the controller brakes";
   char number[32];
   std::snprintf(number, sizeof number, "%.3g", short_by);
-  std::string line = task + ": " + number + " " + unit + " short";
+  std::string line = task + ": " + number + (unit.empty() ? "" : " " + unit) + " short";
   for (std::size_t i = 0; i < held_by.size(); ++i) {
     line += i == 0 ? ", held by " : i + 1 < held_by.size() ? ", " : " and ";
     line += held_by[i];

@@ -18,7 +18,7 @@ namespace hurcules {
 struct Shortfall {
   std::string task;
   double short_by = 0.0;             // [unit] length of the error outside its interval
-  std::string unit;                  // "m", "rad", "N m" of torque limits, "m/s^2" of contacts
+  std::string unit;                  // "m", "rad", "N m" of torque limits, "m/s^2" of contacts; ""
   std::vector<std::string> held_by;  // limits, other tasks, or a direction that is missing
   bool invalid = false;              // its numbers are not finite: nothing was solved
   [[nodiscard]] std::string text() const;

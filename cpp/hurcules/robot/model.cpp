@@ -72,11 +72,13 @@ ModelPtr load_model(const std::string& path) {
   check_mujoco_version();
   if (!std::filesystem::exists(path)) throw Error("model '" + path + "' does not exist");
   const WarningListener listener;
-  if (std::filesystem::path(path).extension() == ".mjb")
+  const std::filesystem::path suffix = std::filesystem::path(path).extension();
+  if (suffix == ".mjb")
     return owned(mj_loadModel(path.c_str(), nullptr), "model '" + path + "'", listener.text());
   ErrorText error{};
   mjModel* model = mj_loadXML(path.c_str(), nullptr, error.data(), error.size());
-  return owned(model, "model '" + path + "'", error.data());
+  const std::string remedy = suffix == ".urdf" ? "; hurcules.load_urdf knows packages" : "";
+  return owned(model, "model '" + path + "'", error.data() + remedy);
 }
 
 ModelPtr load_model_text(const std::string& mjcf, const std::string& folder) {

@@ -92,6 +92,16 @@ TEST_F(Notes, NameTheTaskAboveThatTakesTheDirections) {
       contains(diagnostics[2].shortfalls[0].text(), " rad short, held by tasks above (left hand)"));
 }
 
+TEST_F(Notes, GiveNoUnitToWhatHasNoneOfItsOwn) {
+  ManipulabilityTask wide("wide", robot_, "tip", {.axes = plane().axes});
+  wide.set_target(Vector{{1.0}});  // 0.25 m^2 at most
+  const LevelDiagnostics note = settle(limits_ < wide)[1];
+  ASSERT_EQ(note.shortfalls.size(), 1U);
+  EXPECT_EQ(note.shortfalls[0].unit, "");
+  EXPECT_TRUE(contains(note.shortfalls[0].text(), "wide: 0.75")) << note.shortfalls[0].text();
+  EXPECT_FALSE(contains(note.shortfalls[0].text(), "  ")) << note.shortfalls[0].text();
+}
+
 TEST_F(Notes, TellHowNearTheStretchedArmIsToSingularity) {
   const double before = settle(Stack({hand_}), 1)[0].smallest_singular_value;
   hand_.set_target(Vector{{1.2, 0.0}});  // beyond its 1 m

@@ -61,6 +61,15 @@ TEST_F(Model, BrokenFileKeepsMujocosWords) {
   EXPECT_TRUE(contains(text, "bodi")) << text;
 }
 
+TEST_F(Model, UrdfWithMeshesInPackagesSaysWhatLoadsIt) {
+  write("arm.urdf",
+        "<robot name='arm'><link name='base'><visual><geometry>"
+        "<mesh filename='package://arm/no.stl'/></geometry></visual><collision><geometry>"
+        "<mesh filename='package://arm/no.stl'/></geometry></collision></link></robot>");
+  const std::string text = error_text([] { (void)load_model("arm.urdf"); });
+  EXPECT_TRUE(contains(text, "hurcules.load_urdf")) << text;
+}
+
 TEST_F(Model, BrokenTextKeepsMujocosWords) {
   const std::string no_mass = "<mujoco><worldbody><body><freejoint/></body></worldbody></mujoco>";
   const std::string text = error_text([&] { (void)load_model_text(no_mass); });
