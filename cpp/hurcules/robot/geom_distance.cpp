@@ -178,9 +178,9 @@ bool GeomDistance::refers_to_first(const Pair& pair) const {
 }
 
 Skeleton::Pose GeomDistance::mover(const Pair& pair) const {
-  const Skeleton::Pose &first = body_of(pair.first).pose, &second = body_of(pair.second).pose;
-  const Skeleton::Pose &from = refers_to_first(pair) ? first : second,
-                       &to = refers_to_first(pair) ? second : first;
+  const bool first = refers_to_first(pair);
+  const Skeleton::Pose &from = body_of(first ? pair.first : pair.second).pose,
+                       &to = body_of(first ? pair.second : pair.first).pose;
   return {from.R.transpose() * (to.p - from.p), from.R.transpose() * to.R};
 }
 
