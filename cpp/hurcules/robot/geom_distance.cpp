@@ -14,7 +14,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kSkin = 0.1;      // [m] of the list
+constexpr double kSkin = 0.2;      // [m] of the list
 constexpr double kTouches = 1e-9;  // [m] nearer, there is no direction
 constexpr double kStale = 0.05;    // of its distance: a pair that moved so much is measured anew
 constexpr double kNearer = 5e-3;   // [m] by which a pair must be nearer to take another's place
