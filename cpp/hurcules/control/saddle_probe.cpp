@@ -4,10 +4,10 @@ namespace hurcules {
 
 namespace {
 
-using Copies = std::vector<std::vector<std::unique_ptr<Task>>>;
+using TasksOfLevels = std::vector<std::vector<std::unique_ptr<Task>>>;
 
 // of all tasks that are no limits: those have much to copy, and are hardly ever asked for
-void copy_targets(const Stack& stack, const Copies& copies, std::vector<double>& scratch) {
+void copy_targets(const Stack& stack, const TasksOfLevels& copies, std::vector<double>& scratch) {
   for (std::size_t k = 0; k < copies.size(); ++k) {
     for (std::size_t i = 0; i < copies[k].size(); ++i) {
       const Task& source = *stack.levels()[k].tasks[i];
