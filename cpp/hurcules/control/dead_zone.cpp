@@ -196,10 +196,8 @@ void DeadZone::add_direction() {
 }
 
 void DeadZone::remove_known(VectorRef direction) {
-  const auto known = known_.topRows(rank_);
-  auto parts = parts_.head(rank_);
-  parts.noalias() = known * direction;
-  direction.noalias() -= known.transpose() * parts;
+  for (Index j = 0; j < rank_; ++j) parts_[j] = known_.row(j).dot(direction);
+  for (Index j = 0; j < rank_; ++j) direction -= parts_[j] * known_.row(j).transpose();
 }
 
 }  // namespace hurcules

@@ -13,7 +13,8 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kBraking = 0.5;  // share of the acceleration along a row that f counts on
 constexpr int kSweeps = 20;
-constexpr double kHeld = 1e-12;  // [unit/s]
+constexpr double kHeld = 1e-12;    // [unit/s]
+constexpr double kOutside = 1e-6;  // [rad/s] x may be outside of its bounds by less: rounding
 
 // of one row; max_velocity: none
 RateLimits along_row(const Task& task, Index row, const RateLimits& limits) {
@@ -55,8 +56,11 @@ void limit_rates(const Task& task, const RateLimits& limits, VectorRef lower, Ve
     if (!asks(task, row)) continue;
     const RateLimits along = along_row(task, row, limits);
     const RateState state = state_of(task, row, 0.0);
-    upper[row] = task.velocity_des()[row] + approach_speed(state.to_upper, along);
-    lower[row] = task.velocity_des()[row] - approach_speed(-state.to_lower, along);
+    const auto speed = [&](double distance) {
+      return distance < kNone ? approach_speed(distance, along) : distance;
+    };
+    upper[row] = task.velocity_des()[row] + speed(state.to_upper);
+    lower[row] = task.velocity_des()[row] - speed(-state.to_lower);
     lower[row] = std::min(lower[row], upper[row]);
   }
 }
@@ -79,11 +83,29 @@ void limit_accelerations(const Task& task, const RateLimits& limits, const Const
   }
 }
 
+void Reachable::set(const Level& bounds) {
+  middle_ = 0.5 * (bounds.lower + bounds.upper);
+  half_ = (0.5 * (bounds.upper - bounds.lower)).array() + kOutside;
+}
+
+void Reachable::drop_others(Level& level) const {
+  for (Index row = 0; row < level.rows(); ++row) {
+    double &lower = level.lower[row], &upper = level.upper[row];
+    if (lower == upper || (lower == -kNone && upper == kNone)) continue;
+    const double middle = level.A.row(row).dot(middle_);
+    const double half = level.A.row(row).cwiseAbs().dot(half_);
+    if (!(middle - half > lower && middle + half < upper)) continue;  // also where it is no number
+    lower = -kNone;
+    upper = kNone;
+  }
+}
+
 void hold_rows(const Matrix& A, const ConstVectorRef& lower, const ConstVectorRef& upper,
                std::span<const RateInterval> intervals, VectorRef velocity) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double worst = 0.0;
     for (Index row = 0; row < A.rows(); ++row) {
+      if (lower[row] == -kNone && upper[row] == kNone) continue;
       const double change = missing(A, row, lower[row], upper[row], velocity);
       if (std::abs(change) <= kHeld) continue;
       worst = std::max(worst, std::abs(change));

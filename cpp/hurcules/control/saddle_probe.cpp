@@ -2,6 +2,22 @@
 
 namespace hurcules {
 
+namespace {
+
+using TasksOfLevels = std::vector<std::vector<std::unique_ptr<Task>>>;
+
+// of all tasks that are no limits: those have much to copy, and are hardly ever asked for
+void copy_targets(const Stack& stack, const TasksOfLevels& copies, std::vector<double>& scratch) {
+  for (std::size_t k = 0; k < copies.size(); ++k) {
+    for (std::size_t i = 0; i < copies[k].size(); ++i) {
+      const Task& source = *stack.levels()[k].tasks[i];
+      if (!source.is_limit()) copy_memory(source, *copies[k][i], scratch);
+    }
+  }
+}
+
+}  // namespace
+
 SaddleProbe::SaddleProbe(const Robot& robot) : robot_(robot.model(), robot.coordinate_names()) {}
 
 void SaddleProbe::set_stack(const Stack& stack) {
@@ -26,6 +42,7 @@ double SaddleProbe::growth(std::size_t k, const Level& level, const Vector& u, d
   if (!stands_there_) {
     robot_.set_qpos(looked_at_->qpos());
     if (robot_.support() != looked_at_->support()) robot_.stand_on(looked_at_->support());
+    copy_targets(*stack_, tasks_, scratch_);
     stands_there_ = true;
   }
   robot_.set_velocity(u);
@@ -34,7 +51,7 @@ double SaddleProbe::growth(std::size_t k, const Level& level, const Vector& u, d
   for (std::size_t i = 0; i < tasks_[k].size(); ++i) {
     const Task& source = *stack_->levels()[k].tasks[i];
     Task& task = *tasks_[k][i];
-    copy_memory(source, task, scratch_);
+    if (source.is_limit()) copy_memory(source, task, scratch_);
     task.update(robot_);
     for (Index j = 0; j < task.rows(); ++j, ++row) {
       if (level.lower[row] != level.upper[row]) continue;

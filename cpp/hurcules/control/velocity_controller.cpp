@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/control/limit_rows.hpp"
 
 namespace hurcules {
 
@@ -50,6 +49,15 @@ void limit_change(const Vector& before, double allowed, const std::vector<RateIn
   hold_within(intervals, velocity);
 }
 
+// how many levels from the first on are nothing else
+std::size_t leading_limits(const StackProblem& problem) {
+  const std::vector<StackLevel>& levels = problem.stack().levels();
+  std::size_t count = 0;
+  while (count < levels.size() && (problem.hierarchy()[count].bounds || are_limits(levels[count])))
+    ++count;
+  return count;
+}
+
 }  // namespace
 
 VelocityController::VelocityController(const Robot& robot, VelocityControllerOptions options)
@@ -59,6 +67,7 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
       own_limits_("limits", robot),
       loop_limits_("limits of loops", robot),
       problem_(robot.size()),
+      reachable_(robot.size()),
       solver_(robot.size(), options_.solver) {
   check(options_);
   require(!robot.floating(),
@@ -83,6 +92,7 @@ void VelocityController::set_stack(const Stack& stack) {
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
   if (probe_) probe_->set_stack(problem_.stack());
+  leading_limits_ = leading_limits(problem_);
   dead_zone_.set_stack(problem_.stack(), velocity_.size());
   active_limits_.setZero();
   Index rows = 0;
@@ -108,6 +118,10 @@ void VelocityController::measure(const Robot& robot) {
     } else {
       fill_rows(k);
     }
+  }
+  if (limits()) {
+    reachable_.set(problem_.bounds());
+    for (std::size_t k = 1; k < leading_limits_; ++k) reachable_.drop_others(hierarchy[k]);
   }
   if (options_.law == Law::Arrive) {
     probe_->look_at(robot, stack());
@@ -264,10 +278,7 @@ void VelocityController::brake() {
 // last of them first, so that those above have the last word.
 void VelocityController::hold_limits() {
   const std::vector<StackLevel>& levels = stack().levels();
-  std::size_t count = 0;
-  while (count < levels.size() && (problem_.hierarchy()[count].bounds || are_limits(levels[count])))
-    ++count;
-  for (std::size_t k = count; k-- > 0;) {
+  for (std::size_t k = leading_limits_; k-- > 0;) {
     const Level& level = problem_.hierarchy()[k];
     if (level.bounds) continue;
     auto lower = lower_.head(level.rows()), upper = upper_.head(level.rows());

@@ -17,6 +17,7 @@
 
 #include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/level_diagnostics.hpp"
+#include "hurcules/control/limit_rows.hpp"
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
@@ -97,9 +98,11 @@ class VelocityController {
   JointLimits own_limits_;  // those of the robot
   LoopLimits loop_limits_;  // the same
   StackProblem problem_;
+  Reachable reachable_;  // by the limits of the coordinates
   Solver solver_;
-  std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
-  std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
+  std::size_t leading_limits_ = 0;  // levels from the first on that are limits
+  std::vector<double> weights_;     // w of each level, of the last measure (task_speed.hpp)
+  std::vector<double> gains_;       // K / max(1, F) [1/s] of each level, the same
   DeadZone dead_zone_;
   std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector velocity_;

@@ -14,7 +14,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kSkin = 0.1;      // [m] of the list
+constexpr double kSkin = 0.2;      // [m] of the list
 constexpr double kTouches = 1e-9;  // [m] nearer, there is no direction
 constexpr double kStale = 0.05;    // of its distance: a pair that moved so much is measured anew
 constexpr double kNearer = 5e-3;   // [m] by which a pair must be nearer to take another's place
@@ -178,9 +178,9 @@ bool GeomDistance::refers_to_first(const Pair& pair) const {
 }
 
 Skeleton::Pose GeomDistance::mover(const Pair& pair) const {
-  const Skeleton::Pose &first = body_of(pair.first).pose, &second = body_of(pair.second).pose;
-  const Skeleton::Pose &from = refers_to_first(pair) ? first : second,
-                       &to = refers_to_first(pair) ? second : first;
+  const bool first = refers_to_first(pair);
+  const Skeleton::Pose &from = body_of(first ? pair.first : pair.second).pose,
+                       &to = body_of(first ? pair.second : pair.first).pose;
   return {from.R.transpose() * (to.p - from.p), from.R.transpose() * to.R};
 }
 

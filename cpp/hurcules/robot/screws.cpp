@@ -85,7 +85,7 @@ void Screws::find_above() {
 }
 
 Vector3 Screws::origin(int body) const {
-  return pose(model_->body_rootid[body]).p;
+  return skeleton_.position(model_->body_rootid[body]);
 }
 
 bool Screws::stands(int body) const {

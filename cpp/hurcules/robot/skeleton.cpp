@@ -76,7 +76,7 @@ void Skeleton::find_bones(const mjModel& m, const std::vector<int>& driven, int 
     const int parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].bone;
     bodies_[b].bone = parent;
     if (!is_bone[b]) continue;
-    bodies_[b].bone = static_cast<int>(bones_.size());
+    bodies_[b] = {static_cast<int>(bones_.size()), true, {}};
     bones_.push_back({body, parent, body == root, {}});
   }
 }
@@ -85,9 +85,8 @@ void Skeleton::note(const mjModel& m, const double* qpos) {
   for (int body = 1; body < m.nbody; ++body) {
     Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
     const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;
-    Bone* const bone = hanging.bone < 0 ? nullptr : &bones_[static_cast<std::size_t>(hanging.bone)];
-    if (bone && bone->body == body) {
-      bone->mounted = parent * mounted(m, body);
+    if (hanging.is_bone) {
+      bones_[static_cast<std::size_t>(hanging.bone)].mounted = parent * mounted(m, body);
     } else {
       hanging.pose = parent * moved(m, body, mounted(m, body), qpos, kUnseen);
     }
@@ -114,7 +113,16 @@ void Skeleton::place(const mjModel& m, const double* qpos) {
 
 Pose Skeleton::pose(int body) const {
   const Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
-  return hanging.bone < 0 ? hanging.pose : of_bone(hanging.bone) * hanging.pose;
+  if (hanging.bone < 0) return hanging.pose;
+  const Pose& bone = poses_[static_cast<std::size_t>(hanging.bone)];
+  return hanging.is_bone ? bone : bone * hanging.pose;
+}
+
+Vector3 Skeleton::position(int body) const {
+  const Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
+  if (hanging.bone < 0) return hanging.pose.p;
+  const Pose& bone = poses_[static_cast<std::size_t>(hanging.bone)];
+  return hanging.is_bone ? bone.p : Vector3(bone.p + bone.R * hanging.pose.p);
 }
 
 Pose Skeleton::between(const mjModel& m, int ancestor, int body, const double* qpos) {

@@ -28,6 +28,7 @@ class Skeleton {
   void place(const mjModel_& model, const double* qpos);
 
   [[nodiscard]] Pose pose(int body) const;
+  [[nodiscard]] Vector3 position(int body) const;  // [m] of its origin in W
   // the bones, parents first; -1 stands for the world
   [[nodiscard]] int bones() const { return static_cast<int>(bones_.size()); }
   [[nodiscard]] int body_of(int bone) const { return at(bone).body; }
@@ -61,6 +62,7 @@ class Skeleton {
   };
   struct Hanging {
     int bone = -1;
+    bool is_bone = false;
     Pose pose;  // in the bone, or in W
   };
   void find_bones(const mjModel_& model, const std::vector<int>& driven, int root);

@@ -35,9 +35,11 @@ void BalanceTask::update(const Robot& robot) {
   com_.measure_com(robot);
   reference_.express(com_);
   const Matrix& n = polygon_.normals();
-  for (Index i = 0; i < rows(); ++i)
+  const Matrix& J = com_.jacobian;
+  for (Index i = 0; i < rows(); ++i) {
     error_[i] = n.row(i).dot(com_.position.head<2>().transpose() - polygon_.corners().row(i));
-  jacobian_.noalias() = n.lazyProduct(com_.jacobian.topRows(2));
+    jacobian_.row(i) = n(i, 0) * J.row(0) + n(i, 1) * J.row(1);
+  }
   drift_.noalias() = n * com_.drift.head<2>();
 }
 

@@ -35,7 +35,10 @@ void PointTask::measure(const Robot& robot) {
   measure_point(robot, point_);
   reference_.express(point_);
   value_.noalias() = axes_ * point_.position;
-  jacobian_.noalias() = axes_.lazyProduct(point_.jacobian);
+  const Matrix& J = point_.jacobian;
+  for (Index row = 0; row < rows(); ++row)
+    jacobian_.row(row) =
+        axes_(row, 0) * J.row(0) + axes_(row, 1) * J.row(1) + axes_(row, 2) * J.row(2);
   drift_.noalias() = axes_ * point_.drift;
 }
 

@@ -42,8 +42,9 @@ void ZeroMomentTask::update(const Robot& robot) {
     const Vector3 t = up * (pose.R * Vector3(-n.y(), n.x(), 0.0));  // up x n
     const Vector3 u = t.cross(c - p);
     error_[i] = u.dot(pull) - t.dot(spin);
-    jacobian_.row(i) = -u.transpose().lazyProduct(com_);
-    jacobian_.row(i) -= (t.transpose() / m).lazyProduct(spin_);
+    const Vector3 turn = t / m;
+    jacobian_.row(i) = -u[0] * com_.row(0) - u[1] * com_.row(1) - u[2] * com_.row(2) -
+                       (turn[0] * spin_.row(0) + turn[1] * spin_.row(1) + turn[2] * spin_.row(2));
   }
   drift_ = error_;
 }

@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "support/random_hierarchy.hpp"
 
@@ -228,6 +231,95 @@ TEST(Solver, AllocatesNothingOnceSized) {
       (void)solver.solve(levels);
       Eigen::internal::set_is_malloc_allowed(true);
     }
+  }
+}
+
+// a hierarchy in which some rows have lost their limits, and the same without these rows
+struct Unlimited {
+  explicit Unlimited(unsigned seed) : without(RandomHierarchy(seed).conflicting(12, 0.1)) {
+    with = without;
+    for (std::size_t k = 2; k < with.size(); k += 2) {
+      const Index gone = (seed + k / 2) % 3;  // none, where there are two rows
+      if (gone > 1) continue;
+      with[k].lower[gone] = -kInfinity;
+      with[k].upper[gone] = kInfinity;
+      const Index stays = 1 - gone;
+      without[k] = rows(without[k].A.row(stays), without[k].lower.segment(stays, 1),
+                        without[k].upper.segment(stays, 1), 0.1);
+      places.emplace_back(k, gone);
+    }
+  }
+  Hierarchy without, with;
+  std::vector<std::pair<std::size_t, Index>> places;
+};
+
+TEST(Solver, ARowWithoutLimitsIsNotThere) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Unlimited problem(seed);
+    Solver solver(12), other(12);
+    const Solution& solution = solver.solve(problem.with);
+    EXPECT_EQ(solution.status, SolverStatus::Solved) << "seed " << seed;
+    EXPECT_EQ(solution.x, other.solve(problem.without).x) << "seed " << seed;
+    const std::vector<std::vector<Vector>> multipliers = solver.multipliers();
+    for (const auto& [k, row] : problem.places) {
+      EXPECT_EQ(solution.violations[k][row], 0.0);
+      for (const ActiveRow& active : solution.working_set)
+        EXPECT_FALSE(active.level == static_cast<int>(k) && active.row == row) << "seed " << seed;
+      for (std::size_t by = k; by < multipliers.size(); ++by) {
+        ASSERT_EQ(multipliers[by][k].size(), 2);
+        EXPECT_EQ(multipliers[by][k][row], 0.0);
+      }
+    }
+  }
+}
+
+TEST(Solver, LimitsThatComeAndGoLeaveTheStartWarm) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    Hierarchy levels = RandomHierarchy(seed).conflicting(12, 0.1);
+    Solver solver(12);
+    (void)solver.solve(levels);
+    const Vector x = solver.solve(levels).x;
+    ASSERT_EQ(solver.solution().status, SolverStatus::Solved) << "seed " << seed;
+    const std::vector<ActiveRow> held = solver.solution().working_set;
+    const Hierarchy limited = levels;
+    Index dropped = 0;
+    for (std::size_t k = 2; k < levels.size(); k += 2) {
+      for (Index row = 0; row < 2; ++row) {
+        const bool stays = std::any_of(held.begin(), held.end(), [&](const ActiveRow& active) {
+          return active.level == static_cast<int>(k) && active.row == row;
+        });
+        if (stays || std::abs(solver.solution().violations[k][row]) > 0.0) continue;
+        levels[k].lower[row] = -kInfinity;
+        levels[k].upper[row] = kInfinity;
+        ++dropped;
+      }
+    }
+    EXPECT_LE((solver.solve(levels).x - x).lpNorm<Eigen::Infinity>(), 1e-12) << "seed " << seed;
+    EXPECT_EQ(solver.solution().changes, 0) << "seed " << seed << ", dropped " << dropped;
+    EXPECT_LE((solver.solve(limited).x - x).lpNorm<Eigen::Infinity>(), 1e-12) << "seed " << seed;
+    EXPECT_EQ(solver.solution().changes, 0) << "seed " << seed << ", dropped " << dropped;
+  }
+}
+
+TEST(Solver, LimitsThatComeAndGoAllocateNothing) {
+  const Unlimited problem(1);
+  const Hierarchy limited = RandomHierarchy(1).conflicting(12, 0.1);
+  Solver solver(12);
+  solver.reserve(limited);
+  for (int tick = 0; tick < 10; ++tick) {
+    Eigen::internal::set_is_malloc_allowed(false);
+    (void)solver.solve(tick % 2 ? limited : problem.with);
+    Eigen::internal::set_is_malloc_allowed(true);
+  }
+}
+
+TEST(Solver, BadNumbersInARowWithoutLimitsAreRefused) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e101}) {
+    Unlimited problem(1);
+    const auto [k, row] = problem.places.front();
+    problem.with[k].A(row, 3) = bad;
+    Solver solver(12);
+    EXPECT_EQ(solver.solve(problem.with).status, SolverStatus::InvalidInput) << bad;
   }
 }
 

@@ -55,7 +55,8 @@ void LevelProblem::start(const RowTable& rows, const NullspaceBasis& nullspace, 
   equalities_ = rows.equalities(level + 1) - rows.equalities(level);
   const Index count = rows.begin(level + 1) - rows.begin(level);
   // a row of a Bounds level has the slack of its place there
-  slacks_ = count == equalities_ ? 0 : rows[rows.begin(level)].bound ? count : count - equalities_;
+  const bool bounds = count > equalities_ && rows[rows.begin(level)].bound;
+  slacks_ = bounds ? count : rows.inequalities(level + 1) - rows.inequalities(level);
   lead_ = first_ % 4;
   body_ = nullspace.stride() - (first_ - lead_);
   const double* norms = rows.dense_norms() + rows.equalities(level);

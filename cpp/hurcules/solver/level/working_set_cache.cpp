@@ -28,14 +28,15 @@ void WorkingSetCache::check(const RowTable& rows) {
   const bool unread = static_cast<int>(begin_.size()) != levels + 1;
   if (rows.same_pattern() && !restored_ && !unread) return;
   const auto fits = [&](const KeptRow& kept) {
-    return kept.held_by < levels && kept.row < rows.size() && rows[kept.row].candidate >= 0;
+    return kept.held_by < levels && kept.row < rows.size() && !rows[kept.row].equality;
   };
   const auto above = [](const KeptRow& a, const KeptRow& b) { return a.held_by < b.held_by; };
   // a snapshot may hold anything
-  if (!rows.same_pattern() || !std::all_of(kept_.begin(), kept_.end(), fits) ||
+  if (!rows.alike() || !std::all_of(kept_.begin(), kept_.end(), fits) ||
       !std::is_sorted(kept_.begin(), kept_.end(), above)) {
     kept_.clear();
   }
+  std::erase_if(kept_, [&](const KeptRow& kept) { return rows[kept.row].unlimited; });
   restored_ = false;
   begin_.assign(levels + 1, 0);
   for (const KeptRow& kept : kept_) ++begin_[kept.held_by + 1];

@@ -19,7 +19,7 @@ void Candidates::reserve(Index most) {
 }
 
 void Candidates::start(const RowTable& rows) {
-  const Index count = rows.candidates(rows.levels());
+  const Index count = rows.candidates(rows.levels()) + 1;  // and that of rows without limits
   widened_ = false;
   std::fill_n(lower_.data(), count, -kAbsent);
   std::fill_n(upper_.data(), count, kAbsent);

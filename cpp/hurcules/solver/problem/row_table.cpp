@@ -1,6 +1,7 @@
 #include "hurcules/solver/problem/row_table.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace hurcules {
@@ -10,11 +11,24 @@ namespace {
 constexpr Index kMostRows = 1'000'000;  // in a snapshot
 constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
-enum Pattern : char { kEquality, kInequality, kBoundEquality, kBoundInequality, kEndOfLevel };
+enum Pattern : char {
+  kEquality,
+  kInequality,
+  kBoundEquality,
+  kBoundInequality,
+  kEndOfLevel,
+  kUnlimited
+};
 
 char kind_of(const LevelView& level, Index i) {
   if (level.lower[i] == level.upper[i]) return level.bounds ? kBoundEquality : kEquality;
-  return level.bounds ? kBoundInequality : kInequality;
+  if (level.bounds) return kBoundInequality;
+  return level.lower[i] <= -kInfinity && level.upper[i] >= kInfinity ? kUnlimited : kInequality;
+}
+
+bool alike_kinds(char a, char b) {
+  const auto is_dense = [](char kind) { return kind == kInequality || kind == kUnlimited; };
+  return a == b || (is_dense(a) && is_dense(b));
 }
 
 }  // namespace
@@ -49,14 +63,15 @@ bool RowTable::shapes_fit(HierarchyView hierarchy) const {
   return true;
 }
 
-bool RowTable::pattern_stands(HierarchyView hierarchy) const {
+template <class Same>
+bool RowTable::pattern_stands(HierarchyView hierarchy, Same&& same_kind) const {
   const char* kind = pattern_.data();
   const char* const end = kind + pattern_.size();
   for (const LevelView& level : hierarchy) {
     const Index count = level.rows();
     if (end - kind <= count) return false;
     bool same = kind[count] == kEndOfLevel;
-    for (Index i = 0; i < count; ++i) same &= kind[i] == kind_of(level, i);
+    for (Index i = 0; i < count; ++i) same &= same_kind(kind[i], kind_of(level, i));
     if (!same) return false;
     kind += count + 1;
   }
@@ -64,7 +79,8 @@ bool RowTable::pattern_stands(HierarchyView hierarchy) const {
 }
 
 void RowTable::read_pattern(HierarchyView hierarchy) {
-  same_pattern_ = pattern_stands(hierarchy);
+  same_pattern_ = pattern_stands(hierarchy, std::equal_to<char>());
+  alike_ = same_pattern_ || pattern_stands(hierarchy, alike_kinds);
   if (same_pattern_) return;
   pattern_.clear();
   for (const LevelView& level : hierarchy) {
@@ -80,6 +96,7 @@ void RowTable::arrange(HierarchyView hierarchy) {
   level_block_.assign(hierarchy.size(), -1);
   row_of_dense_.clear();
   row_of_candidate_.clear();
+  any_unlimited_ = false;
   const char* kind = pattern_.data();
   for (int k = 0; k < static_cast<int>(hierarchy.size()); ++k, ++kind) {
     const LevelView& level = hierarchy[k];
@@ -93,9 +110,10 @@ void RowTable::arrange(HierarchyView hierarchy) {
     for (int i = 0; i < level.rows(); ++i, ++kind) {
       Row row{.level = k, .row = i, .bound = level.bounds, .norm = 1.0};
       row.equality = *kind == kEquality || *kind == kBoundEquality;
+      row.unlimited = *kind == kUnlimited;
       if (row.equality) row.dense = equal++;
-      if (!row.equality && !level.bounds) row.dense = unequal++;
-      if (!row.equality && level.bounds) row.candidate = block + i;
+      if (*kind == kInequality) row.dense = unequal++;
+      if (*kind == kBoundInequality) row.candidate = block + i;
       if (row.candidate >= 0) row_of_candidate_[row.candidate] = size();
       rows_.push_back(row);
     }
@@ -107,7 +125,8 @@ void RowTable::arrange(HierarchyView hierarchy) {
   row_of_candidate_.resize(candidates(levels()), -1);
   for (int i = 0; i < size(); ++i) {
     Row& row = rows_[i];
-    if (row.dense < 0) continue;
+    if (row.unlimited) place_unlimited(row);
+    if (row.dense < 0 || row.unlimited) continue;
     if (!row.equality) {
       row.candidate = first_dense_candidate() + row.dense;
       row_of_candidate_[row.candidate] = i;
@@ -115,16 +134,24 @@ void RowTable::arrange(HierarchyView hierarchy) {
     }
     row_of_dense_[row.dense] = i;
   }
-  const Index count = candidates(levels());
+  const Index count = candidates(levels()) + 1;
   std::fill_n(asked_lower_.data(), count, -kAbsent);
   std::fill_n(asked_upper_.data(), count, kAbsent);
   std::fill_n(norm_.data(), count, 1.0);
-  dense_.set_zero(dense());
+  dense_.set_zero(dense_rows());
   // simple bounds that are equalities are rows of the identity
   for (const Row& row : rows_) {
     if (row.bound && row.equality) dense_.row(row.dense)[row.row] = 1.0;
   }
   arranged_ = true;
+}
+
+// behind all others: a row of zeros, and a candidate without limits
+void RowTable::place_unlimited(Row& row) {
+  row.dense = dense();
+  row.candidate = static_cast<int>(candidates(levels()));
+  row.norm = 0.0;
+  any_unlimited_ = true;
 }
 
 bool RowTable::read_limits(HierarchyView hierarchy) {
@@ -155,19 +182,30 @@ void RowTable::read_rows(HierarchyView hierarchy) {
     if (level.bounds || count == 0) continue;
     const int equal = equalities(k + 1) - equalities(k);
     // rows of one kind stand one behind the other
-    if (equal == 0 || equal == count) {
+    if (equal == count || inequalities(k + 1) - inequalities(k) == count) {
       kernel.copy_rows(level.A.data(), count, unknowns_, dense_.row(rows_[first].dense), stride());
       continue;
     }
     for (int r = 0; r < count; ++r) {
+      if (rows_[first + r].unlimited) continue;
       kernel.copy_rows(level.A.data() + r * unknowns_, 1, unknowns_,
                        dense_.row(rows_[first + r].dense), stride());
     }
   }
 }
 
+// of those that are not stored
+bool RowTable::unlimited_are_finite(HierarchyView hierarchy) const {
+  bool good = true;
+  for (const Row& row : rows_) {
+    if (!row.unlimited) continue;
+    good &= hierarchy[row.level].A.row(row.row).squaredNorm() <= kLongestRow * kLongestRow;
+  }
+  return good;
+}
+
 bool RowTable::read_numbers(HierarchyView hierarchy) {
-  bool good = read_limits(hierarchy);
+  bool good = read_limits(hierarchy) && (!any_unlimited_ || unlimited_are_finite(hierarchy));
   read_rows(hierarchy);
   kernels::chosen->norms2(dense_row(0), dense(), stride(), dense_norm2_.data());
   for (int d = 0; d < dense(); ++d) {
@@ -183,7 +221,7 @@ bool RowTable::read_numbers(HierarchyView hierarchy) {
 bool RowTable::read(HierarchyView hierarchy) {
   if (!shapes_fit(hierarchy)) {
     // the table no longer holds what was read before
-    arranged_ = same_pattern_ = false;
+    arranged_ = same_pattern_ = alike_ = false;
     pattern_.clear();
     return false;
   }
@@ -251,7 +289,7 @@ void RowTable::save_pattern(StateWriter& writer) const {
 
 void RowTable::restore_pattern(StateReader& reader) {
   pattern_.resize(static_cast<std::size_t>(reader.get_count(kMostRows)));
-  for (char& kind : pattern_) kind = static_cast<char>(reader.get_count(kEndOfLevel));
+  for (char& kind : pattern_) kind = static_cast<char>(reader.get_count(kUnlimited));
   arranged_ = false;
 }
 

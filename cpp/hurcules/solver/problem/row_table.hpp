@@ -5,6 +5,9 @@
 // An inequality row is also a candidate: a place in the arrays of limits and values. Blocks of
 // simple bounds come first, then the dense inequality rows, so that the candidates of levels 0..k
 // are the first `candidates(k + 1)` (bounds of lower levels count as absent until their turn).
+//
+// A row without limits asks for nothing: it keeps its number only. All such share a row of zeros and a
+// candidate behind the others.
 #pragma once
 
 #include <vector>
@@ -18,14 +21,15 @@ namespace hurcules {
 
 struct Row {
   int level = 0;
-  int row = 0;            // its place in the level
-  bool equality = false;  // lower == upper
-  bool bound = false;     // a simple bound: a is the unit vector of `row`
-  int dense = -1;         // place among the dense rows; -1 for a bound that is no equality
-  int candidate = -1;     // place among the candidates; -1 for an equality
-  double lower = 0.0;     // -inf when absent
-  double upper = 0.0;     // +inf when absent
-  double norm = 0.0;      // |a|
+  int row = 0;             // its place in the level
+  bool equality = false;   // lower == upper
+  bool unlimited = false;  // no bound, both sides absent
+  bool bound = false;      // a simple bound: a is the unit vector of `row`
+  int dense = -1;          // place among the dense rows; -1 for a bound that is no equality
+  int candidate = -1;      // place among the candidates; -1 for an equality
+  double lower = 0.0;      // -inf when absent
+  double upper = 0.0;      // +inf when absent
+  double norm = 0.0;       // |a|
 };
 
 class RowTable {
@@ -43,6 +47,8 @@ class RowTable {
   [[nodiscard]] int levels() const { return static_cast<int>(begin_.size()) - 1; }
   // true when levels, row kinds and bounds stand as in the table read before
   [[nodiscard]] bool same_pattern() const { return same_pattern_; }
+  // the same but for rows that have limits now, or have lost them
+  [[nodiscard]] bool alike() const { return alike_; }
 
   // dense storage: equality rows of level k are equalities(k) .. equalities(k + 1) - 1
   [[nodiscard]] int equalities(int level) const { return equalities_[level]; }
@@ -51,6 +57,8 @@ class RowTable {
   [[nodiscard]] int inequalities(int level) const { return inequalities_[level]; }
   [[nodiscard]] int inequalities() const { return inequalities_.back(); }
   [[nodiscard]] int dense() const { return equalities() + inequalities(); }
+  // these and the row of zeros, where there is one
+  [[nodiscard]] int dense_rows() const { return dense() + (any_unlimited_ ? 1 : 0); }
   [[nodiscard]] const double* dense_row(int d) const { return dense_.row(d); }
   // by dense row: the target of an equality, |a| and |a|^2
   [[nodiscard]] const double* targets() const { return target_.data(); }
@@ -104,11 +112,14 @@ class RowTable {
  private:
   [[nodiscard]] bool shapes_fit(HierarchyView hierarchy) const;
   void read_pattern(HierarchyView hierarchy);
-  [[nodiscard]] bool pattern_stands(HierarchyView hierarchy) const;
+  template <class Same>
+  [[nodiscard]] bool pattern_stands(HierarchyView hierarchy, Same&& same_kind) const;
   // places of all rows in storage and among the candidates, from the pattern
   void arrange(HierarchyView hierarchy);
+  void place_unlimited(Row& row);
   [[nodiscard]] bool read_numbers(HierarchyView hierarchy);
   [[nodiscard]] bool read_limits(HierarchyView hierarchy);
+  [[nodiscard]] bool unlimited_are_finite(HierarchyView hierarchy) const;
   void read_rows(HierarchyView hierarchy);
 
   Index unknowns_ = 0;
@@ -119,7 +130,7 @@ class RowTable {
   PaddedVector asked_lower_, asked_upper_, norm_;
   PaddedVector target_, dense_norm_, dense_norm2_;
   std::vector<char> pattern_;
-  bool same_pattern_ = false, arranged_ = false;
+  bool same_pattern_ = false, alike_ = false, arranged_ = false, any_unlimited_ = false;
 };
 
 }  // namespace hurcules

@@ -15,7 +15,7 @@ SolvedHierarchy::SolvedHierarchy(const RowTable& rows, std::span<const LevelReco
       final_levels_(solution.final_levels),
       rules_(rules) {
   if (status_ == SolverStatus::InvalidInput) return;
-  numbers_.reserve((final_levels_ + rows.dense()) * unknowns_);
+  numbers_.reserve((final_levels_ + rows.dense_rows()) * unknowns_);
   held_.reserve(held.size());
   levels_.resize(rows.levels());
   for (int k = 0; k < levels(); ++k) {
@@ -35,7 +35,7 @@ SolvedHierarchy::SolvedHierarchy(const RowTable& rows, std::span<const LevelReco
   }
   rows_.reserve(rows.size());
   for (int i = 0; i < rows.size(); ++i) rows_.push_back(rows[i]);
-  for (int d = 0; d < rows.dense(); ++d) {
+  for (int d = 0; d < rows.dense_rows(); ++d) {
     numbers_.insert(numbers_.end(), rows.dense_row(d), rows.dense_row(d) + unknowns_);
   }
 }
