@@ -134,7 +134,7 @@ void RowTable::arrange(HierarchyView hierarchy) {
     }
     row_of_dense_[row.dense] = i;
   }
-  const Index count = candidates(levels()) + 1;
+  const Index count = candidates(levels()) + (any_unlimited_ ? 1 : 0);
   std::fill_n(asked_lower_.data(), count, -kAbsent);
   std::fill_n(asked_upper_.data(), count, kAbsent);
   std::fill_n(norm_.data(), count, 1.0);
