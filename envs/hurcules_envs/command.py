@@ -62,6 +62,8 @@ def train(
     `hurcules train Door-v0 --demonstrations 50 --steps 20000`
     """
     name = _known(environment)
+    if steps == 0 and not demonstrations:
+        raise hurcules.Error("--steps: wanted 1 or more, or --demonstrations to clone; got 0")
     options = _given(
         fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action,
         sparse=sparse or None,

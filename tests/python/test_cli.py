@@ -129,7 +129,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
             ["train", "Fly-v0"],
             "environment 'Hurcules/Fly-v0' does not exist; there are: Hurcules/S",
         ),
-        (["train", "Reach-v0", "--steps", "0"], "'--steps'"),
+        (["train", "Reach-v0", "--steps", "0"], "--steps: wanted 1 or more, or"),
         (["record", "Fly-v0"], "environment 'Hurcules/Fly-v0' does not exist"),
         (["record", "Reach-v0", "--episodes", "0"], "greater than or equal to 1, got '0'"),
         (["run", "--out", __file__], "test_cli.py: it is a file"),

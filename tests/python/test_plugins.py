@@ -11,7 +11,7 @@ from hurcules import cli, plugins
 
 
 def test_the_studies_and_environments_are_found() -> None:
-    assert list(plugins.commands()) == ["evaluate", "record", "reproduce", "train"]
+    assert list(plugins.commands()) == ["bench", "evaluate", "record", "reproduce", "train"]
     assert [methods.kind for methods in plugins.method_groups()] == ["test methods"]
     assert "e2803" in plugins.method_groups()[0].titles()
     assert "hurcules_envs:Hurcules/Stretch-v0" in plugins.environments()
