@@ -77,7 +77,8 @@ Arguments parse(int count, const char* const* words) {
     for (const std::string& name : hurcules::mission_names()) {
       names += (names.empty() ? "" : ", ") + name;
     }
-    throw Error("a mission is wanted: " + names + " (hurcules-sim --help says more)");
+    throw Error("a mission is wanted: " + names +
+                ", or the FILE.table of another (hurcules-sim --help says more)");
   }
   return arguments;
 }

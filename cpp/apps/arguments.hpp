@@ -9,10 +9,13 @@ namespace hurcules_sim {
 
 inline constexpr const char* kHelp =
     "usage: hurcules-sim MISSION [--seconds S] [--seed N] [--json FILE] [--csv FILE]"
-    " [--model FILE]\n";
+    " [--model FILE]\n"
+    "       hurcules-sim FILE.table [--seconds S] [--seed N] [--json FILE] [--csv FILE]\n\n"
+    "The missions lift, casualty and disposal are tables: hurcules mission NAME --out FILE.table\n";
+inline constexpr const char* kTableEnding = ".table";
 
 struct Arguments {
-  std::string mission;
+  std::string mission;            // by name, or the file of a table
   std::optional<double> seconds;  // [s] stop after this time
   std::uint64_t seed = 0;
   std::string json, csv;  // files to write, "" for none

@@ -10,10 +10,14 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 #include "arguments.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/mission/mission_simulation.hpp"
+#include "hurcules/mission/table_controllers.hpp"
+#include "hurcules/mission/table_file.hpp"
 #include "report.hpp"
 
 namespace {
@@ -38,13 +42,25 @@ std::ofstream open(const std::string& file) {
   return out;
 }
 
+hurcules::MissionSimulation from_table(const Arguments& arguments,
+                                       const hurcules::MissionOptions& options) {
+  hurcules::require(arguments.model.empty(), "--model: a table names its own model");
+  const hurcules::TableFile file = hurcules::read_table(arguments.mission);
+  const hurcules::ModelPtr model = hurcules::load_model_of(file, arguments.mission);
+  const auto controller = hurcules::table_controller(file.controller, model);
+  auto mission =
+      std::make_unique<hurcules::Mission>(file.setup, file.table, *controller, options.variation);
+  return {model, controller, std::move(mission), options};
+}
+
 hurcules::MissionSimulation make_simulation(const Arguments& arguments) {
-  const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
-  const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
   hurcules::MissionOptions options;
   options.seed = arguments.seed;
   options.record = !arguments.csv.empty();
   options.clock = now;
+  if (arguments.mission.ends_with(kTableEnding)) return from_table(arguments, options);
+  const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
+  const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
   return {hurcules::load_model(scene), arguments.mission, options};
 }
 

@@ -89,8 +89,8 @@ void print_figures(const Simulation& simulation, std::ostream& out) {
 
 void print(const Run& run, std::ostream& out) {
   const Simulation& simulation = run.simulation;
-  out << run.arguments.mission << ", seed " << run.arguments.seed << ": " << run.reason << " ("
-      << text("%.3f", simulation.time()) << " s, "
+  out << run.simulation.mission().setup().name << ", seed " << run.arguments.seed << ": "
+      << run.reason << " (" << text("%.3f", simulation.time()) << " s, "
       << text("%.1f", simulation.time() / run.wall_seconds) << " x real time)\n\n";
   print_figures(simulation, out);
   out << '\n';
@@ -102,7 +102,7 @@ void print(const Run& run, std::ostream& out) {
 void write_json(const Run& run, std::ostream& out) {
   const Simulation& simulation = run.simulation;
   const std::vector<TimingRow> timings = timing_rows(simulation.timings());
-  out << "{\n  \"mission\": " << json(run.arguments.mission)
+  out << "{\n  \"mission\": " << json(run.simulation.mission().setup().name)
       << ",\n  \"seed\": " << run.arguments.seed << ",\n  \"version\": " << json(HURCULES_VERSION)
       << ",\n  \"success\": " << (simulation.success() ? "true" : "false")
       << ",\n  \"reason\": " << json(run.reason)

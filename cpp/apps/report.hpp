@@ -5,13 +5,13 @@
 #include <string>
 
 #include "arguments.hpp"
-#include "hurcules/sim/simulation.hpp"
+#include "hurcules/mission/mission_simulation.hpp"
 
 namespace hurcules_sim {
 
 struct Run {
   const Arguments& arguments;
-  const hurcules::Simulation& simulation;
+  const hurcules::MissionSimulation& simulation;
   double wall_seconds = 0.0;
   std::string reason;  // why it ended, also where the mission itself did not end it
 };

@@ -9,8 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "annotated.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/mission/mission_simulation.hpp"
+#include "hurcules/mission/table_controllers.hpp"
+#include "hurcules/mission/table_file.hpp"
+#include "hurcules/mission/table_words.hpp"
+#include "mujoco_pointer.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -129,20 +134,63 @@ Args:
   container_stand: [m] of the robot's centre of mass from its centre where it stands square to it.
 )";
 
+constexpr const char* kReadCondition = R"(Reads "QUANTITY >= 0.3 for 2 s".
+
+Raises:
+  Error: it is none.
+)";
+constexpr const char* kReadReaction =
+    R"(Reads "back to PHASE", "hold 2 s", "ask 30 s", "lower" or "abort", maybe with ", 3 times".
+
+Raises:
+  Error: it is none.
+)";
+constexpr const char* kWords = "As text, which reads back as the same, all bits of its numbers.";
+constexpr const char* kTableController =
+    R"(The controller that the table of a mission commands; its robot stands at the start.
+
+"lift" (of lift and casualty) has the stacks `arms`, `press` (force control downwards) and `posture`;
+"disposal" has `hands` (place and direction of both, then pelvis, then posture) and `posture`, and the
+channels `left_grip` and `right_grip` of the fingers. Both have a channel a task, `drive` for the
+tracks, and `joints` for all joints but belts and fingers, one by one.
+
+Args:
+  name: "lift" or "disposal".
+  model: mujoco.MjModel of its scene.
+
+Raises:
+  Error: another name, or a scene without the robot.
+)";
+constexpr const char* kLiftStart =
+    R"(Where a lift starts, beside the keyframe `stretch`: angles [rad] by coordinate.
+
+"KN" means the coordinate of this name, or both sides'.
+)";
+constexpr const char* kTableLines = R"(The text of a table file, which `hurcules-sim` runs.
+
+Args:
+  setup: MissionSetup.
+  table: MissionTable.
+  controller: name of a `table_controller`.
+  model: name of the model's file, which lies beside it.
+  model_bytes: of that file, as mj_saveModel writes it.
+
+Raises:
+  Error: a name or a note of more than one line.
+)";
+constexpr const char* kReadTable = R"(What stands in a table file: MissionSetup and MissionTable.
+
+Args:
+  path: of the file.
+
+Raises:
+  Error: it cannot be read, with its line, what was wanted and what exists.
+)";
+
 const std::vector<std::pair<std::string, ReactionKind>>& kinds() {
   static const std::vector<std::pair<std::string, ReactionKind>> all = {
       {"back", ReactionKind::Back},   {"hold", ReactionKind::Hold},   {"ask", ReactionKind::Ask},
       {"lower", ReactionKind::Lower}, {"abort", ReactionKind::Abort},
-  };
-  return all;
-}
-
-const std::vector<std::pair<std::string, Measure::Take>>& takes() {
-  static const std::vector<std::pair<std::string, Measure::Take>> all = {
-      {"largest", Measure::Take::Largest},
-      {"smallest", Measure::Take::Smallest},
-      {"span", Measure::Take::Span},
-      {"last", Measure::Take::Last},
   };
   return all;
 }
@@ -166,11 +214,46 @@ std::string name_of(const std::vector<std::pair<std::string, Value>>& all, Value
   return "";
 }
 
+void bind_files(py::module_& module) {
+  module.def("condition", &read_condition, "text"_a, kReadCondition)
+      .def("reaction", &read_reaction, "text"_a, kReadReaction);
+  module.def(
+      "table_controller",
+      [](const std::string& name, const ModelObject& model) {
+        return table_controller(name, held_model(model));
+      },
+      "name"_a, "model"_a, kTableController);
+  module.def(
+      "lift_start",
+      [] {
+        const auto& start = lift_start();
+        return std::map<std::string, double>(start.begin(), start.end());
+      },
+      kLiftStart);
+  module.def(
+      "table_lines",
+      [](const MissionSetup& setup, const MissionTable& table, const std::string& controller,
+         const std::string& model, const py::bytes& model_bytes) {
+        return table_lines(
+            {.setup = setup, .controller = controller, .model = model, .table = table},
+            std::string_view(model_bytes));
+      },
+      "setup"_a, "table"_a, "controller"_a, "model"_a, "model_bytes"_a, kTableLines);
+  module.def(
+      "read_table",
+      [](const std::string& path) {
+        TableFile file = read_table(path);
+        return std::pair(std::move(file.setup), std::move(file.table));
+      },
+      "path"_a, kReadTable);
+}
+
 void bind_rows(py::module_& module) {
   bind_options<Condition>(
       module, "Condition", kCondition,
       {required("quantity", &Condition::quantity), field("above", &Condition::above),
-       field("value", &Condition::value), field("seconds", &Condition::seconds)});
+       field("value", &Condition::value), field("seconds", &Condition::seconds)})
+      .def("words", [](const Condition& self) { return exact_text(self); }, kWords);
   bind_options<Reaction>(
       module, "Reaction", kReaction,
       {text_field<Reaction>(
@@ -179,7 +262,8 @@ void bind_rows(py::module_& module) {
              self.kind = named(kinds(), "reaction", text);
            }),
        field("phase", &Reaction::phase), field("seconds", &Reaction::seconds),
-       field("times", &Reaction::times)});
+       field("times", &Reaction::times)})
+      .def("words", [](const Reaction& self) { return exact_text(self); }, kWords);
   bind_options<Trouble>(
       module, "Trouble", kTrouble,
       {required("when", &Trouble::when), required("reactions", &Trouble::reactions)});
@@ -214,9 +298,9 @@ void bind_mission(py::module_& module) {
       module, "Measure", kMeasure,
       {required("name", &Measure::name), required("quantity", &Measure::quantity),
        text_field<Measure>(
-           "take", [](const Measure& self) { return name_of(takes(), self.take); },
+           "take", [](const Measure& self) { return name_of(take_words(), self.take); },
            [](Measure& self, const std::string& text) {
-             self.take = named(takes(), "take", text);
+             self.take = named(take_words(), "take", text);
            }),
        field("phases", &Measure::phases), field("least", &Measure::least),
        field("most", &Measure::most)});
@@ -233,4 +317,5 @@ void bind_mission(py::module_& module) {
        field("casualty", &MissionSetup::casualty), field("stand_off", &MissionSetup::stand_off),
        field("load", &MissionSetup::load), field("container", &MissionSetup::container),
        field("container_stand", &MissionSetup::container_stand)});
+  bind_files(module);
 }

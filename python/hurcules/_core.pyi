@@ -2905,6 +2905,9 @@ class Condition:
         self, *, quantity: str, above: bool = True, value: float = 0.0, seconds: float = 0.0
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def words(self) -> str:
+        """As text, which reads back as the same, all bits of its numbers."""
+
     @property
     def seconds(self) -> float: ...
     @seconds.setter
@@ -2934,6 +2937,9 @@ class Reaction:
         self, *, kind: str = "abort", phase: str = "", seconds: float = 0.0, times: int = 1
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def words(self) -> str:
+        """As text, which reads back as the same, all bits of its numbers."""
+
     @property
     def seconds(self) -> float: ...
     @seconds.setter
@@ -4120,6 +4126,12 @@ def Twist(task: Task, scale: float | ArrayLike) -> Channel:
       task: Task with a target.
       scale: full scale, one number or one a row [m/s] or [rad/s]; a command is held to it."""
 
+def condition(text: str) -> Condition:
+    """Reads "QUANTITY >= 0.3 for 2 s".
+
+    Raises:
+      Error: it is none."""
+
 def largest_stiffness(gains: ForceGains) -> float:
     """Largest stiffness G [N/m] of an environment that the gains keep stable in steps of dt.
 
@@ -4131,6 +4143,11 @@ def largest_stiffness(gains: ForceGains) -> float:
 
     Raises:
       Error: gains that cannot be."""
+
+def lift_start() -> dict[str, float]:
+    """Where a lift starts, beside the keyframe `stretch`: angles [rad] by coordinate.
+
+    "KN" means the coordinate of this name, or both sides'."""
 
 def method_names() -> list[str]:
     """The names that SolverOptions(method=...) takes.
@@ -4183,6 +4200,21 @@ def obstacles(
 
     Raises:
       Error: a name that is no body or a body of the robot, or see self_collision."""
+
+def reaction(text: str) -> Reaction:
+    """Reads "back to PHASE", "hold 2 s", "ask 30 s", "lower" or "abort", maybe with ", 3 times".
+
+    Raises:
+      Error: it is none."""
+
+def read_table(path: str) -> tuple[MissionSetup, MissionTable]:
+    """What stands in a table file: MissionSetup and MissionTable.
+
+    Args:
+      path: of the file.
+
+    Raises:
+      Error: it cannot be read, with its line, what was wanted and what exists."""
 
 def self_collision(
     robot: Robot,
@@ -4292,3 +4324,33 @@ def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None:
 
     Raises:
       Error: tracks without the elliptic cones that they want."""
+
+def table_controller(name: str, model: mujoco.MjModel) -> WholeBodyController:
+    """The controller that the table of a mission commands; its robot stands at the start.
+
+    "lift" (of lift and casualty) has the stacks `arms`, `press` (force control downwards) and `posture`;
+    "disposal" has `hands` (place and direction of both, then pelvis, then posture) and `posture`, and the
+    channels `left_grip` and `right_grip` of the fingers. Both have a channel a task, `drive` for the
+    tracks, and `joints` for all joints but belts and fingers, one by one.
+
+    Args:
+      name: "lift" or "disposal".
+      model: mujoco.MjModel of its scene.
+
+    Raises:
+      Error: another name, or a scene without the robot."""
+
+def table_lines(
+    setup: MissionSetup, table: MissionTable, controller: str, model: str, model_bytes: bytes
+) -> str:
+    """The text of a table file, which `hurcules-sim` runs.
+
+    Args:
+      setup: MissionSetup.
+      table: MissionTable.
+      controller: name of a `table_controller`.
+      model: name of the model's file, which lies beside it.
+      model_bytes: of that file, as mj_saveModel writes it.
+
+    Raises:
+      Error: a name or a note of more than one line."""

@@ -20,7 +20,7 @@ from hurcules.output import WriteError
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
-from hurcules.table_missions import TABLE_MISSIONS
+from hurcules.table_missions import TABLE_MISSIONS, write_table
 from hurcules.validation import require_known
 
 __all__ = ["main", "results_in"]
@@ -68,7 +68,10 @@ _MISSION_OPTIONS = ("seconds", "method", "sensors")
 _METHOD_OPTIONS = ("robot", "repetitions", "pace", "workers")
 
 
-@app.command("run", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
+_WITH_PARAMETERS = {"allow_extra_args": True, "ignore_unknown_options": True}
+
+
+@app.command("run", context_settings=_WITH_PARAMETERS)
 def run_mission(
     context: typer.Context,
     mission: Annotated[
@@ -138,10 +141,7 @@ def run_mission(
 
     - `hurcules run --policy Drive-v0 --seed 3`
     """
-    if mission.startswith("-"):  # the first unknown option took the mission's place
-        raise Error(
-            f"no such option: {mission.partition('=')[0]} (a test method's come after its name)"
-        )
+    _require_no_option(mission)
     if policy is not None:
         _refuse(context, (*_MISSION_OPTIONS, *_METHOD_OPTIONS[1:]), "not with --policy")
         if context.args:
@@ -172,6 +172,11 @@ def run_mission(
         raise Error(f"{kind}: {context.args[0]}")
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
     raise typer.Exit(run(options, Console()))
+
+
+def _require_no_option(name: str) -> None:
+    if name.startswith("-"):  # the first unknown option took the name's place
+        raise Error(f"no such option: {name.partition('=')[0]} (those of a mission or method come after its name)")
 
 
 def _policy_runner() -> Callable[[PolicyOptions, Console], int]:
@@ -227,37 +232,51 @@ def list_all() -> None:
     Console().print(table)
 
 
-@app.command("mission")
+@app.command("mission", context_settings=_WITH_PARAMETERS)
 def show_mission(
+    context: typer.Context,
     name: Annotated[
         str, typer.Argument(help="A mission of `hurcules list` that is a table, or a TOML file.")
     ] = "casualty",
     out: Annotated[
         Path | None,
         typer.Option(
-            help="File to write: `.svg`, a drawing; `.toml`, to load from; `.txt`, as printed.",
+            help="File to write: `.svg`, a drawing; `.toml`, to load from; `.txt`, as printed; "
+            "`.table`, what `hurcules-sim` runs, and its model beside it.",
             show_default="print it",
         ),
     ] = None,
 ) -> None:
     """Print the table of a mission, or write it to a file.
 
+    With `.table` the options of the mission may follow, as in `hurcules run`.
+
     For example `hurcules mission`, or:
 
     - `hurcules mission disposal --out disposal.svg`
 
     - `hurcules mission my_mission.toml`
+
+    - `hurcules mission lift --mass 90 --out lift.table`, then `hurcules-sim lift.table --seed 3`
     """
+    _require_no_option(name)
     if name.endswith(".toml"):
         table = Mission.load(name)
     else:
         require_known("table of a mission", name, list(TABLE_MISSIONS))
         table = TABLE_MISSIONS[name].table()
+    texts = {".svg": table.drawing, ".toml": table.toml, ".txt": table.table}
+    if out is not None:
+        require_known("kind of file", out.suffix, [*texts, ".table"])
+        if out.suffix == ".table":
+            require_known("mission to write as .table", name, list(TABLE_MISSIONS))
+            write_table(name, TABLE_MISSIONS[name].parameters_of(context.args), out)
+            return
+    if context.args:
+        raise Error(f"{context.args[0]}: for a file .table; other files hold the phases alone")
     if out is None:
         print(table.table(), end="")
         return
-    texts = {".svg": table.drawing, ".toml": table.toml, ".txt": table.table}
-    require_known("kind of file", out.suffix, list(texts))
     try:
         out.write_text(texts[out.suffix](), encoding="utf-8")
     except OSError as error:

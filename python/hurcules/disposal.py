@@ -1,12 +1,11 @@
 """The mission `disposal`: the manipulation robot takes a case with both hands and puts it away.
 
-The phases stand in models/missions/disposal.toml; here are the case, the container, the start and
-the controller that they command: channels and stacks by their names.
+The phases stand in models/missions/disposal.toml, the controller that they command in
+cpp/hurcules/mission/table_controllers.cpp; here are the case and the container.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,20 +13,7 @@ from typing import Any
 import mujoco
 
 from hurcules import _core, mjcf, scenes
-from hurcules._core import (
-    Drive,
-    DriveOptions,
-    JointLimits,
-    JointRate,
-    JointRates,
-    OrientationTask,
-    PositionTask,
-    PostureTask,
-    Robot,
-    Stack,
-    Twist,
-    WholeBodyController,
-)
+from hurcules._core import WholeBodyController
 from hurcules.mission_options import in_words_of, pair, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
@@ -119,31 +105,4 @@ def controller(model: mujoco.MjModel) -> WholeBodyController:
 
     Its robot stands in the keyframe `drive`.
     """
-    robot = Robot(model)
-    robot.set_keyframe("drive")
-    limits = JointLimits("joint", robot)
-    sides = {"left": "L_tcp", "right": "R_tcp"}
-    hands = [PositionTask(f"{side}_hand", robot, tcp) for side, tcp in sides.items()]
-    turns = [OrientationTask(f"{side}_turn", robot, tcp) for side, tcp in sides.items()]
-    pelvis = PositionTask("pelvis", robot, "pelvis", axes=[[1.0, 0.0, 0.0]])
-    posture = PostureTask("posture", robot)
-    servo = _core.servo_table("manipulation")
-    joints = [name for name in servo if not name.endswith(("_belt", "_grip_1"))]
-    tasks = [*hands, *turns, pelvis, posture]
-    return WholeBodyController(
-        robot,
-        None,
-        {task.name: Twist(task, math.inf) for task in tasks}
-        | {
-            "drive": Drive(speed=1.0, yaw_rate=0.5),
-            "joints": JointRates(joints),
-            "left_grip": JointRate("L_grip_1", 0.05),
-            "right_grip": JointRate("R_grip_1", 0.05),
-        },
-        stacks={
-            "hands": Stack([limits, hands, turns, pelvis, posture]),
-            "posture": Stack([limits, posture]),
-        },
-        servo=servo,
-        drive=DriveOptions(),
-    )
+    return _core.table_controller(NAME, model)

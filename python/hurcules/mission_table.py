@@ -38,7 +38,6 @@ the bounds that make a run a success.
 from __future__ import annotations
 
 import math
-import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -46,7 +45,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from hurcules._core import (
-    Condition,
     Error,
     Lead,
     Measure,
@@ -55,20 +53,15 @@ from hurcules._core import (
     Park,
     Phase,
     PostureKey,
-    Reaction,
     Trouble,
+    condition,
+    reaction,
 )
 from hurcules.mission_drawing import drawing
 
-__all__ = ["Mission", "condition", "reaction"]
+__all__ = ["Mission"]
 
 Row = TypeVar("Row")
-
-_CONDITION = re.compile(r"(\S+)\s*(>=|<=)\s*(\S+?)(?:\s+for\s+(\S+)\s*s)?")
-_REACTION = re.compile(
-    r"(?:back to (?P<phase>[^,]+)|(?P<wait>hold|ask) (?P<seconds>[\d.e+-]+) s|(?P<end>lower|abort))"
-    r"(?:, (?P<times>\d+) times?)?"
-)
 
 
 @dataclass(frozen=True)
@@ -156,43 +149,6 @@ _SETUP = (
 _MEASURE = ("name", "quantity", "take", "phases", "least", "most")
 _PARK = ("body", "ahead", "left", "heading", "speed", "yaw_rate")
 _PHASE = ("name", "note", "stack", "seconds", "support", "brakes", "posture", "within", "last")
-
-
-def condition(text: str) -> Condition:
-    """Reads "QUANTITY >= 0.3 for 2 s".
-
-    Raises:
-        Error: it is none.
-    """
-    found = _CONDITION.fullmatch(text.strip())
-    try:
-        if found:
-            name, sign, value, seconds = found.groups()
-            return Condition(
-                quantity=name, above=sign == ">=", value=float(value), seconds=float(seconds or 0)
-            )
-    except ValueError:
-        pass
-    raise Error(f"condition {text!r}: wanted 'QUANTITY >= NUMBER' or <=, maybe 'for NUMBER s'")
-
-
-def reaction(text: str) -> Reaction:
-    """Reads "back to PHASE", "hold 2 s", "ask 30 s", "lower" or "abort", maybe with ", 3 times".
-
-    Raises:
-        Error: it is none.
-    """
-    found = _REACTION.fullmatch(text.strip())
-    if not found:
-        wanted = "'back to PHASE', 'hold 2 s', 'ask 30 s', 'lower' or 'abort', maybe ', 3 times'"
-        raise Error(f"reaction {text!r}: wanted {wanted}")
-    kind = "back" if found["phase"] else found["wait"] or found["end"]
-    return Reaction(
-        kind=kind,
-        phase=found["phase"] or "",
-        seconds=float(found["seconds"] or 0),
-        times=int(found["times"] or 1),
-    )
 
 
 def _toml(path: str | Path) -> dict[str, Any]:
@@ -319,31 +275,17 @@ def _phase_lines(phase: Phase) -> list[str]:
         where = {name: getattr(phase.park, name) for name in _PARK}
         lines.append(f"park = {{ {', '.join(_entries(where, Park()))} }}")
     if phase.done:
-        lines.append(f"done = {_value([_condition_text(one) for one in phase.done])}")
+        lines.append(f"done = {_value([one.words() for one in phase.done])}")
     if phase.late:
-        lines.append(f"late = {_value([_reaction_text(one) for one in phase.late])}")
+        lines.append(f"late = {_value([one.words() for one in phase.late])}")
     if phase.troubles:
         lines.append("trouble = [")
         for trouble in phase.troubles:
-            when = _value(_condition_text(trouble.when))
-            do = _value([_reaction_text(one) for one in trouble.reactions])
+            when = _value(trouble.when.words())
+            do = _value([one.words() for one in trouble.reactions])
             lines.append(f"  {{ when = {when}, do = {do} }},")
         lines.append("]")
     return lines
-
-
-def _condition_text(one: Condition) -> str:
-    text = f"{one.quantity} {'>=' if one.above else '<='} {one.value!r}"
-    return text + (f" for {one.seconds!r} s" if one.seconds else "")
-
-
-def _reaction_text(one: Reaction) -> str:
-    text = {"back": f"back to {one.phase}", "hold": f"hold {one.seconds!r} s"}.get(
-        one.kind, one.kind
-    )
-    if one.kind == "ask":
-        text = f"ask {one.seconds!r} s"
-    return text + (f", {one.times} times" if one.times > 1 else "")
 
 
 def _entries(values: Mapping[str, Any], defaults: object) -> list[str]:

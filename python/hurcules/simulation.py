@@ -126,7 +126,7 @@ class Simulation(_core.Simulation):
             raise Error("a table of phases wants a model and a controller")
         if rows is not None:
             table, model = rows.table(), rows.spec(parameters or {}).compile()
-            controller = rows.controller(model)
+            controller = _core.table_controller(rows.controller, model)
         self.mission: str | None
         if controller is not None:
             if not isinstance(controller, WholeBodyController):

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import mujoco
+import numpy as np
 
-from hurcules import disposal, lift
-from hurcules._core import WholeBodyController
+from hurcules import _core, disposal, lift
 from hurcules.mission_table import Mission
+from hurcules.output import WriteError
 
-__all__ = ["TABLE_MISSIONS", "TableMission"]
+__all__ = ["TABLE_MISSIONS", "TableMission", "write_table"]
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class TableMission:
     Attributes:
         table: its phases.
         spec: its scene, from parameters by name.
-        controller: for the compiled scene.
+        controller: name of that in C++, `_core.table_controller`.
         parameters_of: what the words of a command line say of it.
         followed: the body that a film goes with, and from how far [m].
         carried: the body that its second picture goes with, and what that shows.
@@ -31,7 +33,7 @@ class TableMission:
 
     table: Callable[[], Mission]
     spec: Callable[[Mapping[str, Any]], mujoco.MjSpec]
-    controller: Callable[[mujoco.MjModel], WholeBodyController]
+    controller: str
     parameters_of: Callable[[Sequence[str]], dict[str, Any]]
     followed: tuple[str, float]
     carried: tuple[str, str]
@@ -41,7 +43,7 @@ def _lifted(name: str) -> TableMission:
     return TableMission(
         partial(lift.mission, name),
         lambda parameters: lift.spec(lift.person(parameters)),
-        lift.controller,
+        lift.CONTROLLER,
         lift.parameters_of,
         ("casualty_pelvis", 3.8),
         ("casualty_pelvis", "from his head's side"),
@@ -53,9 +55,36 @@ TABLE_MISSIONS: Mapping[str, TableMission] = {
     disposal.NAME: TableMission(
         disposal.mission,
         lambda parameters: disposal.spec(disposal.job(parameters)),
-        disposal.controller,
+        disposal.NAME,
         disposal.parameters_of,
         ("pelvis", 5.2),
         ("ordnance_case", "the case"),
     ),
 }
+
+
+def write_table(name: str, parameters: Mapping[str, Any], path: Path) -> None:
+    """Writes what `hurcules-sim` runs a mission from: the table, and beside it the compiled model.
+
+    Args:
+        name: of the mission.
+        parameters: of its scene, by name.
+        path: of the table; the model has its name with the ending `.mjb`.
+
+    Raises:
+        Error: a scene that there is not.
+        WriteError: a file cannot be written.
+    """
+    mission = TABLE_MISSIONS[name]
+    table, model = mission.table(), mission.spec(parameters).compile()
+    compiled = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, compiled)
+    beside = path.with_suffix(".mjb")
+    text = _core.table_lines(
+        table.setup, table.rows, mission.controller, beside.name, compiled.tobytes()
+    )
+    for file, contents in ((beside, compiled.tobytes()), (path, text.encode())):
+        try:
+            file.write_bytes(contents)
+        except OSError as error:
+            raise WriteError(f"cannot write {file}: {error.strerror}") from error

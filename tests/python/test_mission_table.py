@@ -17,7 +17,7 @@ import pytest
 
 import hurcules
 from hurcules import Error, Mission, mjcf
-from hurcules.mission_table import condition, reaction
+from hurcules._core import condition, reaction
 
 ARM = """
 <mujoco>

@@ -1,0 +1,134 @@
+"""Missions in files: hurcules-sim runs them, without Python, to the bits of `hurcules run`.
+
+Strategy: the same options for both, every column of the log; files with one thing wrong. The words
+of such files are tests/cpp/mission/table_file_test.cpp's matter.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from hurcules import _core, _exec, cli
+from hurcules.run import RunOptions, run
+from hurcules.table_missions import TABLE_MISSIONS
+
+SEED, SECONDS = 11, 5.0
+ASKED = {
+    "lift": ["--mass", "90", "--offset", "0.05,-0.1", "--yaw", "0.2"],
+    "casualty": ["--mass", "120", "--friction=0.6", "--pose", "back"],
+    "disposal": ["--mass", "20.5", "--yaw", "-0.1"],
+}
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A lift as a file."""
+    path = tmp_path_factory.mktemp("file") / "lift.table"
+    assert cli.main(["mission", "lift", "--out", str(path)]) == 0
+    return path
+
+
+def program(*words: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([_exec.program(), *words], capture_output=True, text=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ASKED)
+def test_the_program_gives_the_bits_of_the_command(name: str, tmp_path: Path) -> None:
+    table, csv = tmp_path / "mission.table", tmp_path / "log.csv"
+    assert cli.main(["mission", name, *ASKED[name], "--out", str(table)]) == 0
+    words = ["--seed", str(SEED), "--seconds", str(SECONDS)]
+    summary = tmp_path / "program.json"
+    done = program(str(table), *words, "--csv", str(csv), "--json", str(summary))
+    assert done.returncode == 0, done.stderr
+    parameters = TABLE_MISSIONS[name].parameters_of(ASKED[name])
+    options = RunOptions(name, SEED, tmp_path / "run", SECONDS, video=False, parameters=parameters)
+    run(options, Console(file=io.StringIO()))
+    rows = np.loadtxt(csv, delimiter=",", skiprows=1)
+    names = csv.read_text().partition("\n")[0].split(",")
+    columns = {one: rows[:, i] for i, one in enumerate(names) if one != "tick_us"}
+    with np.load(tmp_path / "run" / "log.npz") as log:
+        assert set(columns) == set(log.files)
+        assert len(rows) == round(SECONDS / 1e-3)
+        different = [
+            one for one in log.files if not np.array_equal(log[one], columns[one], equal_nan=True)
+        ]
+    assert different == []
+    told, ran = (json.loads(one.read_text()) for one in (summary, tmp_path / "run/summary.json"))
+    assert told["mission"] == name
+    for same in ("seed", "events", "success"):
+        assert told[same] == ran[same]
+    assert told["figures"].items() <= ran["figures"].items()  # the command adds the battery's
+
+
+@pytest.mark.parametrize("name", TABLE_MISSIONS)
+def test_a_file_holds_what_the_table_says(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "mission.table"
+    assert cli.main(["mission", name, "--out", str(path)]) == 0
+    setup, rows = _core.read_table(str(path))
+    table = TABLE_MISSIONS[name].table()
+    assert setup == table.setup
+    assert rows == table.rows
+
+
+def test_a_file_that_was_broken_is_told(file: Path, tmp_path: Path) -> None:
+    own, model = tmp_path / "lift.table", tmp_path / "lift.mjb"
+
+    def told(text: str, contents: bytes | None) -> str:
+        own.write_text(text)
+        model.unlink(missing_ok=True)
+        if contents is not None:
+            model.write_bytes(contents)
+        done = program(str(own), "--seconds", "0.01")
+        assert done.returncode == 2
+        assert done.stderr.count("\n") == 1
+        return done.stderr
+
+    text, compiled = file.read_text(), file.with_suffix(".mjb").read_bytes()
+    assert "cannot be read" in told(text, None)
+    assert "or it is cut off: write both anew (hurcules mission lift" in told(text, compiled[:-9])
+    other = text.replace("mujoco 3", "mujoco 2")
+    assert "was written by MuJoCo 2" in told(other, compiled)
+    assert f"{own} is cut off" in told(text[:-4], compiled)
+    assert "line 14: word 'phsae' does not exist; there are: mission, support, " in told(
+        text.replace("phase settle", "phsae settle"), compiled
+    )
+    assert "no table of a mission" in told("[mission]\n", compiled)
+    # names that the reader does not know are looked for in controller and log
+    assert "controller of a table 'lft' does not exist; there are: disposal, lift" in told(
+        text.replace("controller lift", "controller lft"), compiled
+    )
+    assert "phase 'settle': stack 'legs' does not exist; there are: " in told(
+        text.replace("stack arms", "stack legs", 1), compiled
+    )
+    assert "casualty/height" in told(
+        text.replace("casualty/heading_rad", "casualty/height"), compiled
+    )
+
+
+def test_what_is_no_file_of_a_mission_is_told(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    done = program(str(file), "--model", "other.xml")
+    assert (done.returncode, "a table names its own model" in done.stderr) == (2, True)
+    assert "cannot be read" in program(str(tmp_path / "none.table")).stderr
+    assert "FILE.table" in program("--help").stdout
+    for words, wanted in (
+        (["my.toml", "--out", "my.table"], "'my.toml'"),
+        (["lift", "--weight", "75", "--out", "my.table"], "no such option: --weight"),
+        (["lift", "--mass", "60", "--out", "my.table"], "mass"),
+        (["lift", "--mass", "75", "--out", "my.svg"], "--mass: for a file .table"),
+        (["--mass", "75", "lift"], "no such option: --mass"),
+    ):
+        assert cli.main(["mission", *words]) == 2
+        assert wanted in capsys.readouterr().err
+    nowhere = tmp_path / "none" / "lift.table"
+    assert cli.main(["mission", "lift", "--out", str(nowhere)]) == 1
+    assert "cannot write" in capsys.readouterr().err
