@@ -34,11 +34,20 @@ double seconds(const std::string& word) {
   throw Error(std::string("--seconds: wanted ") + wanted + ", got '" + word + "'");
 }
 
+double variation(const std::string& word) {
+  const char* const wanted = "a finite number of 0 or more";
+  const auto value = number<double>("--variation", word, wanted);
+  if (std::isfinite(value) && value >= 0.0) return value;
+  throw Error(std::string("--variation: wanted ") + wanted + ", got '" + word + "'");
+}
+
 void set(Arguments& arguments, const std::string& option, const std::string& word) {
   if (option == "--seconds") {
     arguments.seconds = seconds(word);
   } else if (option == "--seed") {
     arguments.seed = number<std::uint64_t>(option, word, "a whole number of 0 or more");
+  } else if (option == "--variation") {
+    arguments.variation = variation(word);
   } else if (option == "--json") {
     arguments.json = word;
   } else if (option == "--csv") {
@@ -46,8 +55,9 @@ void set(Arguments& arguments, const std::string& option, const std::string& wor
   } else if (option == "--model") {
     arguments.model = word;
   } else {
-    throw Error(hurcules::unknown_name("option", option,
-                                       {"--seconds", "--seed", "--json", "--csv", "--model"}));
+    throw Error(hurcules::unknown_name(
+        "option", option,
+        {"--seconds", "--seed", "--variation", "--sensors", "--json", "--csv", "--model"}));
   }
 }
 
@@ -61,6 +71,8 @@ Arguments parse(int count, const char* const* words) {
       arguments.help = true;
     } else if (word == "--version") {
       arguments.version = true;
+    } else if (word == "--sensors") {
+      arguments.sensors = true;
     } else if (word.starts_with("-")) {
       if (i + 1 == count) set(arguments, word, "");  // an unknown option is told first
       hurcules::require(i + 1 < count, word + ": wanted a value after it");

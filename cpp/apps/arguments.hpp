@@ -8,9 +8,10 @@
 namespace hurcules_sim {
 
 inline constexpr const char* kHelp =
-    "usage: hurcules-sim MISSION [--seconds S] [--seed N] [--json FILE] [--csv FILE]"
-    " [--model FILE]\n"
-    "       hurcules-sim FILE.table [--seconds S] [--seed N] [--json FILE] [--csv FILE]\n\n"
+    "usage: hurcules-sim MISSION|FILE.table [--seconds S] [--seed N] [--variation X] [--sensors]"
+    " [--json FILE] [--csv FILE] [--model FILE]\n\n"
+    "--variation: scale of what differs between seeds, 1 unless given. --sensors: with noise, bias,"
+    " delay and resolution. --model: another scene for a MISSION.\n"
     "The missions lift, casualty and disposal are tables: hurcules mission NAME --out FILE.table\n";
 inline constexpr const char* kTableEnding = ".table";
 
@@ -18,8 +19,10 @@ struct Arguments {
   std::string mission;            // by name, or the file of a table
   std::optional<double> seconds;  // [s] stop after this time
   std::uint64_t seed = 0;
-  std::string json, csv;  // files to write, "" for none
-  std::string model;      // scene, "" for the mission's own
+  double variation = 1.0;  // scale of what differs between seeds
+  bool sensors = false;    // with the noise of hurcules::realistic_sensors
+  std::string json, csv;   // files to write, "" for none
+  std::string model;       // scene, "" for the mission's own
   bool help = false, version = false;
 };
 

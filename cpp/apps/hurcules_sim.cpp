@@ -18,6 +18,7 @@
 #include "hurcules/mission/mission_simulation.hpp"
 #include "hurcules/mission/table_controllers.hpp"
 #include "hurcules/mission/table_file.hpp"
+#include "hurcules/sim/realistic_sensors.hpp"
 #include "report.hpp"
 
 namespace {
@@ -56,6 +57,8 @@ hurcules::MissionSimulation from_table(const Arguments& arguments,
 hurcules::MissionSimulation make_simulation(const Arguments& arguments) {
   hurcules::MissionOptions options;
   options.seed = arguments.seed;
+  options.variation = arguments.variation;
+  if (arguments.sensors) options.sensors = hurcules::realistic_sensors();
   options.record = !arguments.csv.empty();
   options.clock = now;
   if (arguments.mission.ends_with(kTableEnding)) return from_table(arguments, options);

@@ -103,7 +103,10 @@ void write_json(const Run& run, std::ostream& out) {
   const Simulation& simulation = run.simulation;
   const std::vector<TimingRow> timings = timing_rows(simulation.timings());
   out << "{\n  \"mission\": " << json(run.simulation.mission().setup().name)
-      << ",\n  \"seed\": " << run.arguments.seed << ",\n  \"version\": " << json(HURCULES_VERSION)
+      << ",\n  \"seed\": " << run.arguments.seed
+      << ",\n  \"variation\": " << json(run.arguments.variation)
+      << ",\n  \"sensors\": " << json(run.arguments.sensors ? "realistic" : "exact")
+      << ",\n  \"version\": " << json(HURCULES_VERSION)
       << ",\n  \"success\": " << (simulation.success() ? "true" : "false")
       << ",\n  \"reason\": " << json(run.reason)
       << ",\n  \"simulated_seconds\": " << json(simulation.time())

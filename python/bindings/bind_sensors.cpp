@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bind_sensors_docs.hpp"
+#include "hurcules/sim/realistic_sensors.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -57,6 +58,7 @@ void bind_sensor_options(py::module_& module) {
       module, "SensorOptions", kSensorOptions,
       {field("models", &Options::models), field("range", &Options::range),
        field("faults", &Options::faults), field("hold_seconds", &Options::hold_seconds)});
+  module.def("realistic_sensors", &realistic_sensors, kRealisticSensors);
 }
 
 void bind_monitor_options(py::module_& module) {

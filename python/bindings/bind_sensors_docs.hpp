@@ -25,6 +25,8 @@ Args:
   model: SensorModel [m]; its delay in whole scans.
   site: of the model; its own body is not seen.
 )";
+inline constexpr const char* kRealisticSensors =
+    "SensorOptions of typical sensors, with noise, bias, delay and resolution.";
 inline constexpr const char* kFaultKind = "What is wrong with an entry of a sensor.";
 inline constexpr const char* kSensorFault =
     R"(A fault of one entry of a sensor.

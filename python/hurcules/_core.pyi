@@ -4216,6 +4216,9 @@ def read_table(path: str) -> tuple[MissionSetup, MissionTable]:
     Raises:
       Error: it cannot be read, with its line, what was wanted and what exists."""
 
+def realistic_sensors() -> SensorOptions:
+    """SensorOptions of typical sensors, with noise, bias, delay and resolution."""
+
 def self_collision(
     robot: Robot,
     margin: float = 0.02,

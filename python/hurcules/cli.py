@@ -176,7 +176,9 @@ def run_mission(
 
 def _require_no_option(name: str) -> None:
     if name.startswith("-"):  # the first unknown option took the name's place
-        raise Error(f"no such option: {name.partition('=')[0]} (those of a mission or method come after its name)")
+        raise Error(
+            f"no such option: {name.partition('=')[0]} (a mission's or method's follow its name)"
+        )
 
 
 def _policy_runner() -> Callable[[PolicyOptions, Console], int]:

@@ -9,14 +9,16 @@ from __future__ import annotations
 import io
 import json
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 import pytest
 from rich.console import Console
 
-from hurcules import _core, _exec, cli
+from hurcules import Simulation, _core, _exec, cli
 from hurcules.run import RunOptions, run
+from hurcules.sensors import realistic
 from hurcules.table_missions import TABLE_MISSIONS
 
 SEED, SECONDS = 11, 5.0
@@ -39,6 +41,19 @@ def program(*words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([_exec.program(), *words], capture_output=True, text=True)
 
 
+def different(log: Mapping[str, np.ndarray], csv: Path) -> list[str]:
+    """The columns of a log that differ from those of a file in any bit."""
+    rows = np.loadtxt(csv, delimiter=",", skiprows=1)
+    names = csv.read_text().partition("\n")[0].split(",")
+    columns = {name: rows[:, i] for i, name in enumerate(names) if name != "tick_us"}
+    assert set(columns) == set(log) - {"tick_us"}
+    return [
+        name
+        for name, column in columns.items()
+        if not np.array_equal(log[name], column, equal_nan=True)
+    ]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ASKED)
 def test_the_program_gives_the_bits_of_the_command(name: str, tmp_path: Path) -> None:
@@ -51,21 +66,33 @@ def test_the_program_gives_the_bits_of_the_command(name: str, tmp_path: Path) ->
     parameters = TABLE_MISSIONS[name].parameters_of(ASKED[name])
     options = RunOptions(name, SEED, tmp_path / "run", SECONDS, video=False, parameters=parameters)
     run(options, Console(file=io.StringIO()))
-    rows = np.loadtxt(csv, delimiter=",", skiprows=1)
-    names = csv.read_text().partition("\n")[0].split(",")
-    columns = {one: rows[:, i] for i, one in enumerate(names) if one != "tick_us"}
     with np.load(tmp_path / "run" / "log.npz") as log:
-        assert set(columns) == set(log.files)
-        assert len(rows) == round(SECONDS / 1e-3)
-        different = [
-            one for one in log.files if not np.array_equal(log[one], columns[one], equal_nan=True)
-        ]
-    assert different == []
+        assert len(log["time"]) == round(SECONDS / 1e-3)
+        assert different(log, csv) == []
     told, ran = (json.loads(one.read_text()) for one in (summary, tmp_path / "run/summary.json"))
     assert told["mission"] == name
     for same in ("seed", "events", "success"):
         assert told[same] == ran[same]
     assert told["figures"].items() <= ran["figures"].items()  # the command adds the battery's
+
+
+def test_sensors_and_variation_are_those_of_a_simulation(file: Path, tmp_path: Path) -> None:
+    csv = tmp_path / "log.csv"
+    asked = ["--seed", "3", "--variation", "0.5", "--sensors", "--seconds", "0.5"]
+    assert program(str(file), *asked, "--csv", str(csv)).returncode == 0
+    simulation = Simulation("lift", 3, variation=0.5, sensors=realistic())
+    simulation.step(500)
+    assert different(simulation.log(), csv) == []
+    assert "sensor/encoder_position/LSP" in simulation.log()
+    other = Simulation("lift", 3, sensors=realistic())
+    other.step(500)
+    assert "q/LSP" in different(other.log(), csv)
+    for words, wanted in (
+        (["--variation", "-1"], "0 or more, got '-1'"),
+        (["--noise"], "--sensors"),
+    ):
+        done = program(str(file), *words)
+        assert (done.returncode, wanted in done.stderr) == (2, True)
 
 
 @pytest.mark.parametrize("name", TABLE_MISSIONS)

@@ -1,7 +1,5 @@
 #include "hurcules/mission/table_file.hpp"
 
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include <functional>
 #include <iomanip>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -180,6 +179,7 @@ struct Word {
   std::string word;
   std::function<void(const Row&, std::size_t depth, Writer&)> write;
   std::function<void(Row&, const Line&, Reader&)> read;
+  bool several = false;  // lines of it below one row
 };
 template <class Row>
 using Words = std::vector<Word<Row>>;
@@ -191,6 +191,7 @@ void write_row(const Row& row, const Words<Row>& words, std::size_t depth, Write
 
 template <class Row>
 void read_row(Row& row, const Words<Row>& words, std::size_t depth, Reader& reader) {
+  std::set<std::string> seen;
   while (const Line* const line = reader.next(depth)) {
     const auto found = std::find_if(words.begin(), words.end(),
                                     [&](const Word<Row>& one) { return one.word == line->word; });
@@ -198,6 +199,9 @@ void read_row(Row& row, const Words<Row>& words, std::size_t depth, Reader& read
       std::vector<std::string> known;
       for (const Word<Row>& one : words) known.push_back(one.word);
       reader.fail(*line, unknown_name("word", line->word, known));
+    }
+    if (!seen.insert(line->word).second && !found->several) {
+      reader.fail(*line, "'" + line->word + "' stands twice below one row");
     }
     found->read(row, *line, reader);
   }
@@ -231,7 +235,8 @@ Word<Row> each(const std::string& word, std::vector<Value> Row::* member) {
           },
           [=](Row& row, const Line& line, Reader& reader) {
             read(line, reader, (row.*member).emplace_back());
-          }};
+          },
+          true};
 }
 
 // rows, each below a line that tells its head
@@ -249,7 +254,8 @@ Word<Row> rows(const std::string& word, std::vector<Child> Row::* member, Head C
             Child& child = (row.*member).emplace_back();
             read(line, reader, child.*head);
             read_row(child, words, line.depth + kIndent, reader);
-          }};
+          },
+          true};
 }
 
 // a row that there may be, below its word alone
@@ -278,7 +284,8 @@ void add_part(Words<Row>& all, Part Row::* part, const Words<Part>& words) {
          [=](const Row& row, std::size_t depth, Writer& writer) {
            one.write(row.*part, depth, writer);
          },
-         [=](Row& row, const Line& line, Reader& reader) { one.read(row.*part, line, reader); }});
+         [=](Row& row, const Line& line, Reader& reader) { one.read(row.*part, line, reader); },
+         one.several});
   }
 }
 
@@ -363,7 +370,7 @@ std::string contents(const std::string& path) {
 
 std::string table_lines(TableFile file, std::string_view model_bytes) {
   file.checksum = checksum_of(model_bytes);
-  file.mujoco = mj_versionString();
+  file.mujoco = mujoco_version();
   Writer writer;
   writer.add(0, kFirstLine);
   write_row(file, file_words(), 0, writer);
@@ -393,9 +400,9 @@ TableFile read_table(const std::string& path) {
 ModelPtr load_model_of(const TableFile& file, const std::string& path) {
   const std::string model = (std::filesystem::path(path).parent_path() / file.model).string();
   const std::string remedy = ": write both anew (hurcules mission " + file.setup.name + " --out)";
-  require(file.mujoco == mj_versionString(), "model '" + model + "' was written by MuJoCo " +
-                                                 file.mujoco + ", this is " + mj_versionString() +
-                                                 remedy);
+  require(file.mujoco == mujoco_version(), "model '" + model + "' was written by MuJoCo " +
+                                               file.mujoco + ", this is " + mujoco_version() +
+                                               remedy);
   require(checksum_of(contents(model)) == file.checksum,
           "model '" + model + "' is not the one that was written with '" + path +
               "', or it is cut off" + remedy);

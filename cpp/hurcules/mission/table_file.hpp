@@ -29,12 +29,11 @@
 namespace hurcules {
 
 struct TableFile {
-  MissionSetup
-      setup;  // without scene, keyframe and servo, which are the model's and the controller's
-  std::string controller;  // by name
-  std::string model;       // file name, MJB
-  std::string checksum;    // of that file's bytes
-  std::string mujoco;      // version that wrote it
+  MissionSetup setup;  // without scene, keyframe and servo: the model's and the controller's
+  std::string controller = "";  // by name
+  std::string model = "";       // file name, MJB
+  std::string checksum = "";    // of that file's bytes
+  std::string mujoco = "";      // version that wrote it
   MissionTable table;
 };
 

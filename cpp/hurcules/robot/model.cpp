@@ -107,4 +107,8 @@ void check_mujoco_version() {
               std::to_string(mj_version()) + " is loaded");
 }
 
+std::string mujoco_version() {
+  return mj_versionString();
+}
+
 }  // namespace hurcules

@@ -143,6 +143,7 @@ TEST(TableFile, ABrokenLineIsToldWithItsNumberAndWhatExists) {
   told(with("  last\n", "  last true\n"), "last: wanted nothing after it, 'true' came");
   told(with("    body case", "      body case"),
        "'body' wants 4 spaces before it, or fewer, 6 came");
+  told(with("  within 3\n", "  within 3\n  within 4\n"), "'within' stands twice below one row");
   told(with("controller lift\n", ""), "wave.table wants a line 'controller'");
 }
 
