@@ -12,6 +12,7 @@
 #include <iostream>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "arguments.hpp"
 #include "hurcules/base/error.hpp"
@@ -62,6 +63,10 @@ hurcules::MissionSimulation make_simulation(const Arguments& arguments) {
   options.record = !arguments.csv.empty();
   options.clock = now;
   if (arguments.mission.ends_with(kTableEnding)) return from_table(arguments, options);
+  const std::vector<std::string> names = hurcules::mission_names();
+  hurcules::require(std::find(names.begin(), names.end(), arguments.mission) != names.end(),
+                    hurcules::unknown_name("mission", arguments.mission, names) +
+                        ", and what hurcules mission NAME --out FILE.table writes");
   const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
   const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
   return {hurcules::load_model(scene), arguments.mission, options};

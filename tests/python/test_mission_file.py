@@ -71,8 +71,12 @@ def test_the_program_gives_the_bits_of_the_command(name: str, tmp_path: Path) ->
         assert different(log, csv) == []
     told, ran = (json.loads(one.read_text()) for one in (summary, tmp_path / "run/summary.json"))
     assert told["mission"] == name
-    for same in ("seed", "events", "success"):
+    for same in ("seed", "sensors", "success"):
         assert told[same] == ran[same]
+    assert [round(event["time_s"], 6) for event in told["events"]] == [
+        event["time_s"] for event in ran["events"]
+    ]
+    assert [event["text"] for event in told["events"]] == [event["text"] for event in ran["events"]]
     assert told["figures"].items() <= ran["figures"].items()  # the command adds the battery's
 
 
@@ -147,6 +151,7 @@ def test_what_is_no_file_of_a_mission_is_told(
     assert (done.returncode, "a table names its own model" in done.stderr) == (2, True)
     assert "cannot be read" in program(str(tmp_path / "none.table")).stderr
     assert "FILE.table" in program("--help").stdout
+    assert "there are: stretch, and what hurcules mission NAME" in program("lift").stderr
     for words, wanted in (
         (["my.toml", "--out", "my.table"], "'my.toml'"),
         (["lift", "--weight", "75", "--out", "my.table"], "no such option: --weight"),
