@@ -28,6 +28,11 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
+}
+
 // the number [s] of "2 s" or "2s"
 std::optional<double> seconds_of(std::string text) {
   if (!text.ends_with('s')) return std::nullopt;
@@ -125,7 +130,7 @@ Condition read_condition(const std::string& text) {
 
 Reaction read_reaction(const std::string& text) {
   Reaction reaction;
-  std::string rest = text;
+  std::string rest = trimmed(text);
   if (take_times(rest, reaction.times) && read_kind(rest, reaction)) return reaction;
   throw Error("reaction '" + text +
               "': wanted 'back to PHASE', 'hold 2 s', 'ask 30 s', 'lower' or 'abort', maybe ', 3 "

@@ -186,7 +186,8 @@ TEST(TableWords, AreReadAsTheyAreWritten) {
   for (const char* text : {"q/j1 >= 0.3", "q/j1 <= -1e-05 for 2.5 s"}) {
     EXPECT_EQ(exact_text(read_condition(text)), text);
   }
-  EXPECT_EQ(exact_text(read_condition("q/j1>=3 for 2s")), "q/j1 >= 3 for 2 s");
+  EXPECT_EQ(exact_text(read_condition(" q/j1>=3 for 2s ")), "q/j1 >= 3 for 2 s");
+  EXPECT_EQ(exact_text(read_reaction(" back to set down ")), "back to set down");
   for (const char* text :
        {"back to set down, 3 times", "hold 0.5 s", "ask 30 s, 2 times", "lower", "abort"}) {
     EXPECT_EQ(exact_text(read_reaction(text)), text);
