@@ -34,7 +34,8 @@ std::string trimmed(const std::string& text) {
 }
 
 // the number [s] of "2 s" or "2s"
-std::optional<double> seconds_of(std::string text) {
+std::optional<double> seconds_of(const std::string& given) {
+  std::string text = trimmed(given);
   if (!text.ends_with('s')) return std::nullopt;
   text.pop_back();
   const std::vector<std::string> words = words_of(text);
