@@ -56,6 +56,7 @@ FIGURES = {
     "on_bed_share": Figure("share of the weight on the bed in the end"),
     "left_arm_share": Figure("share of the weight on the left arm in the end"),
     "right_arm_share": Figure("share of the weight on the right arm in the end"),
+    "way_home_m": Figure("came back by, seen along the way it came"),
     "slid_ahead_m": Figure("slid along the robot on the way home by"),
     "slid_aside_m": Figure("slid across the robot on the way home by"),
     "carried_on_ground_share": Figure("share of the weight on the ground once carried, largest"),

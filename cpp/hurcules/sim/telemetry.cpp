@@ -88,6 +88,7 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
   recorder.add("command", names.commands, command);
   recorder.add("base", axes(), base_position);
   recorder.add("base_rotation", axes(), base_rotation);
+  recorder.add("base_velocity", axes(), base_velocity);
   recorder.add("power", &power);
   recorder.add("charge", &charge);
   recorder.add("factorizations", &factorizations);
