@@ -157,6 +157,7 @@ tracks, and `joints` for all joints but belts and fingers, one by one.
 Args:
   name: "lift" or "disposal".
   model: mujoco.MjModel of its scene.
+  method: how the hierarchy is solved, one of `rhqp.method_names()`.
 
 Raises:
   Error: another name, or a scene without the robot.
@@ -219,10 +220,10 @@ void bind_files(py::module_& module) {
       .def("reaction", &read_reaction, "text"_a, kReadReaction);
   module.def(
       "table_controller",
-      [](const std::string& name, const ModelObject& model) {
-        return table_controller(name, held_model(model));
+      [](const std::string& name, const ModelObject& model, const std::string& method) {
+        return table_controller(name, held_model(model), method);
       },
-      "name"_a, "model"_a, kTableController);
+      "name"_a, "model"_a, "method"_a = "lexicographic", kTableController);
   module.def(
       "lift_start",
       [] {

@@ -4328,7 +4328,9 @@ def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None:
     Raises:
       Error: tracks without the elliptic cones that they want."""
 
-def table_controller(name: str, model: mujoco.MjModel) -> WholeBodyController:
+def table_controller(
+    name: str, model: mujoco.MjModel, method: str = "lexicographic"
+) -> WholeBodyController:
     """The controller that the table of a mission commands; its robot stands at the start.
 
     "lift" (of lift and casualty) has the stacks `arms`, `press` (force control downwards) and `posture`;
@@ -4339,6 +4341,7 @@ def table_controller(name: str, model: mujoco.MjModel) -> WholeBodyController:
     Args:
       name: "lift" or "disposal".
       model: mujoco.MjModel of its scene.
+      method: how the hierarchy is solved, one of `rhqp.method_names()`.
 
     Raises:
       Error: another name, or a scene without the robot."""

@@ -82,7 +82,7 @@ class Simulation(_core.Simulation):
                 controller's robot stands.
             controller: of a simulation without a mission, for this model.
             variation: of a mission, how much differs between seeds: 1 as it says, 0 nothing.
-            method: of a mission, how the hierarchy is solved, see `rhqp.SolverOptions`.
+            method: of a mission by its name, how the hierarchy is solved, see `rhqp.SolverOptions`.
             record: keeps every signal of every tick for `log`.
             timed: keeps the time of each stage of each tick for `timings`.
             sensors: what the control loop sees of the physics; None: all of it, exactly. See
@@ -118,6 +118,8 @@ class Simulation(_core.Simulation):
             raise Error("a simulation without a mission wants both a model and a controller")
         if model is not None and isinstance(mission, str):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
+        if controller is not None and method != "lexicographic":
+            raise Error(f"method: your controller has its own, got {method!r}")
         rows = TABLE_MISSIONS.get(mission) if isinstance(mission, str) else None
         if parameters and rows is None:
             raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
@@ -126,7 +128,7 @@ class Simulation(_core.Simulation):
             raise Error("a table of phases wants a model and a controller")
         if rows is not None:
             table, model = rows.table(), rows.spec(parameters or {}).compile()
-            controller = _core.table_controller(rows.controller, model)
+            controller = _core.table_controller(rows.controller, model, method)
         self.mission: str | None
         if controller is not None:
             if not isinstance(controller, WholeBodyController):

@@ -55,6 +55,14 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "method of the solver": (lambda: controller("magic"), "magic"),
     "mission": (lambda: hurcules.Simulation("nowhere"), "'nowhere' does not exist; .* stretch"),
+    "method of a mission": (
+        lambda: hurcules.Simulation("lift", method="magic"),
+        "method 'magic' does not exist; .* lexicographic",
+    ),
+    "method beside a controller": (
+        lambda: hurcules.Simulation(model=arm_model(), controller=whole_body(), method="hqp"),
+        "method: your controller has its own, got 'hqp'",
+    ),
     "seed": (lambda: hurcules.Simulation(seed=-1), "got -1"),
     "seed that is no number": (lambda: hurcules.Simulation(seed="x"), "got 'x'"),  # type: ignore[arg-type]
     "seed with a fraction": (lambda: simulation().reset(1.5), "whole number .* got 1.5"),  # type: ignore[arg-type]

@@ -195,6 +195,22 @@ def test_a_force_sensor_that_reads_nothing_touches_nobody(
     assert after in until_it_reacts(simulation, 5.0)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("began, friction, success", [(1.0, 0.02, True), (0.0, 0.001, False)])
+def test_on_ice_it_waits_until_it_stands_and_says_whether_it_came_home(
+    run, faults, began: float, friction: float, success: bool
+) -> None:
+    # from full speed it slides on beyond its 3 m; with hardly any friction the tracks spin
+    simulation = going_on(faults.simulate(), "home")
+    simulation.step(round(1000 * began))
+    trial = faults.slip(simulation, np.random.default_rng(0), ("home",), 12.0, friction)
+    while not simulation.finished:
+        trial.act(10.0)
+        simulation.step(20)
+    assert np.linalg.norm(simulation.data.body("pelvis").cvel[3:5]) < 0.1
+    assert simulation.success == success, (simulation.reason, simulation.figures())
+
+
 def test_an_empty_battery_lifts_nobody(faults) -> None:
     mission = faults.no_battery()
     assert "charge <= 1" in until_it_reacts(faults.simulate(mission=mission), 1.0)

@@ -72,8 +72,10 @@ Channel tracks() {
   return Channel::drive("drive", 1.0, 0.5);
 }
 
-WholeBodyControllerOptions options_of(const Robot& robot, const std::vector<ServoGains>& servo) {
+WholeBodyControllerOptions options_of(const Robot& robot, const std::vector<ServoGains>& servo,
+                                      const std::string& method) {
   WholeBodyControllerOptions options;
+  options.velocity.solver.method = method;
   options.dt = robot.timestep();
   options.servo = servo;
   options.drive = TrackDriveOptions{};
@@ -83,15 +85,17 @@ WholeBodyControllerOptions options_of(const Robot& robot, const std::vector<Serv
 std::shared_ptr<WholeBodyController> make(const Robot& robot, const std::vector<ServoGains>& servo,
                                           std::vector<NamedStack> stacks,
                                           std::vector<Channel> channels,
-                                          std::unique_ptr<JointLimits> limits, Tasks& tasks) {
+                                          std::unique_ptr<JointLimits> limits, Tasks& tasks,
+                                          const std::string& method) {
   auto controller = std::make_shared<WholeBodyController>(
-      robot, std::move(stacks), std::move(channels), options_of(robot, servo));
+      robot, std::move(stacks), std::move(channels), options_of(robot, servo, method));
   controller->keep(std::move(limits));
   tasks.give_to(*controller);
   return controller;
 }
 
-std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model) {
+std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model,
+                                                     const std::string& method) {
   Robot robot(model);
   robot.set_keyframe("stretch");
   robot.stand_on(kSupport);
@@ -126,14 +130,15 @@ std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model) {
   std::vector<Channel> channels = tasks.channels();
   channels.push_back(tracks());
   channels.push_back(joints_but(rescue_servo(), {"_belt"}));
-  auto controller =
-      make(robot, rescue_servo(), std::move(stacks), std::move(channels), std::move(limits), tasks);
+  auto controller = make(robot, rescue_servo(), std::move(stacks), std::move(channels),
+                         std::move(limits), tasks, method);
   controller->sense(left_press, std::make_unique<SpringForce>(model, "LEBS", "L_tcp"));
   controller->sense(right_press, std::make_unique<SpringForce>(model, "REBS", "R_tcp"));
   return controller;
 }
 
-std::shared_ptr<WholeBodyController> disposal_controller(const ModelPtr& model) {
+std::shared_ptr<WholeBodyController> disposal_controller(const ModelPtr& model,
+                                                         const std::string& method) {
   Robot robot(model);
   robot.set_keyframe("drive");
   auto limits = std::make_unique<JointLimits>("joint", robot);
@@ -156,7 +161,7 @@ std::shared_ptr<WholeBodyController> disposal_controller(const ModelPtr& model) 
   channels.push_back(Channel::joint("left_grip", "L_grip_1", 0.05));
   channels.push_back(Channel::joint("right_grip", "R_grip_1", 0.05));
   return make(robot, manipulation_servo(), std::move(stacks), std::move(channels),
-              std::move(limits), tasks);
+              std::move(limits), tasks, method);
 }
 
 }  // namespace
@@ -170,9 +175,10 @@ const std::vector<std::pair<std::string, double>>& lift_start() {
 }
 
 std::shared_ptr<WholeBodyController> table_controller(const std::string& name,
-                                                      const ModelPtr& model) {
-  if (name == "lift") return lift_controller(model);
-  if (name == "disposal") return disposal_controller(model);
+                                                      const ModelPtr& model,
+                                                      const std::string& method) {
+  if (name == "lift") return lift_controller(model, method);
+  if (name == "disposal") return disposal_controller(model, method);
   throw Error(unknown_name("controller of a table", name, {"disposal", "lift"}));
 }
 
