@@ -29,6 +29,7 @@ CHANNELS = (
     ("active_rows/L", "rows that hold level L back"),
     ("command/K", "[m/s] or [rad/s] task-space command K"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
+    ("base_velocity/x", "[m/s] of the support as the sensors say, along the world's axes"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
     ("yielding", "1 while the reference yields to more than the motors can hold, else 0"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),

@@ -39,7 +39,7 @@ using ModelPtr = std::shared_ptr<const mjModel_>;
 [[nodiscard]] ModelPtr borrow_model(const mjModel_* model);
 // throws Error unless the MuJoCo in this process is the one that we were built with
 void check_mujoco_version();
-[[nodiscard]] std::string mujoco_version();  // "3.17.0", of that one
+[[nodiscard]] std::string mujoco_version();  // "MAJOR.MINOR.PATCH", of that one
 
 // One joint of a coordinate: joint position = factor * coordinate + offset.
 struct DrivenJoint {
