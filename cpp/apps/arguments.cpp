@@ -1,12 +1,14 @@
 #include "arguments.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <system_error>
 #include <vector>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/mission/mission_simulation.hpp"
 
 namespace hurcules_sim {
@@ -15,39 +17,33 @@ namespace {
 
 using hurcules::Error;
 
-template <typename Number>
-Number number(const std::string& option, const std::string& word, const std::string& wanted) {
-  Number value{};
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || rest != end) {
-    throw Error(option + ": wanted " + wanted + ", got '" + word + "'");
-  }
-  return value;
+Error not_wanted(const std::string& option, const std::string& word, const std::string& wanted) {
+  return Error(option + ": wanted " + wanted + ", got '" + word + "'");
 }
 
-double seconds(const std::string& word) {
-  const char* const wanted = "a time of 0.001 s or more";
-  const auto value = number<double>("--seconds", word, wanted);
-  // the comparison is false for nan
-  if (std::isfinite(value) && value >= 1e-3 && value <= 1e6) return value;
-  throw Error(std::string("--seconds: wanted ") + wanted + ", got '" + word + "'");
+// a finite number from least to most
+double number_in(const std::string& option, const std::string& word, const std::string& wanted,
+                 double least, double most) {
+  const std::optional<double> value = hurcules::number_of<double>(word);
+  // the comparisons are false for nan
+  if (value && std::isfinite(*value) && *value >= least && *value <= most) return *value;
+  throw not_wanted(option, word, wanted);
 }
 
-double variation(const std::string& word) {
-  const char* const wanted = "a finite number of 0 or more";
-  const auto value = number<double>("--variation", word, wanted);
-  if (std::isfinite(value) && value >= 0.0) return value;
-  throw Error(std::string("--variation: wanted ") + wanted + ", got '" + word + "'");
+std::uint64_t whole_number(const std::string& option, const std::string& word) {
+  const std::optional<std::uint64_t> value = hurcules::number_of<std::uint64_t>(word);
+  if (value) return *value;
+  throw not_wanted(option, word, "a whole number of 0 or more");
 }
 
 void set(Arguments& arguments, const std::string& option, const std::string& word) {
   if (option == "--seconds") {
-    arguments.seconds = seconds(word);
+    arguments.seconds = number_in(option, word, "a time of 0.001 s or more", 1e-3, 1e6);
   } else if (option == "--seed") {
-    arguments.seed = number<std::uint64_t>(option, word, "a whole number of 0 or more");
+    arguments.seed = whole_number(option, word);
   } else if (option == "--variation") {
-    arguments.variation = variation(word);
+    arguments.variation = number_in(option, word, "a finite number of 0 or more", 0.0,
+                                    std::numeric_limits<double>::infinity());
   } else if (option == "--json") {
     arguments.json = word;
   } else if (option == "--csv") {

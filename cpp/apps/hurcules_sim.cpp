@@ -49,7 +49,7 @@ hurcules::MissionSimulation from_table(const Arguments& arguments,
   hurcules::require(arguments.model.empty(), "--model: a table names its own model");
   const hurcules::TableFile file = hurcules::read_table(arguments.mission);
   const hurcules::ModelPtr model = hurcules::load_model_of(file, arguments.mission);
-  const auto controller = hurcules::table_controller(file.controller, model);
+  const auto controller = hurcules::table_controller(file.controller, model, options.method);
   auto mission =
       std::make_unique<hurcules::Mission>(file.setup, file.table, *controller, options.variation);
   return {model, controller, std::move(mission), options};

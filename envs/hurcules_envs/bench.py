@@ -23,7 +23,7 @@ from rich.table import Table
 import hurcules
 from hurcules import rhqp
 from hurcules._exec import program
-from hurcules.output import WriteError
+from hurcules.output import writing
 
 __all__ = ["Figure", "bench", "figures"]
 
@@ -118,10 +118,8 @@ def figures(seconds: float, rounds: int) -> Iterator[Figure]:
 
 
 def _opened(path: Path) -> TextIO:
-    try:
+    with writing(path):
         return path.open("w", encoding="utf-8")
-    except OSError as error:
-        raise WriteError(f"cannot write {path}: {error.strerror}") from error
 
 
 def _loop(seconds: float, rounds: int) -> Iterator[Figure]:

@@ -16,7 +16,7 @@ import hurcules
 from hurcules import plugins
 from hurcules._core import Error
 from hurcules.mission_table import Mission
-from hurcules.output import WriteError
+from hurcules.output import WriteError, writing
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
@@ -279,10 +279,8 @@ def show_mission(
     if out is None:
         print(table.table(), end="")
         return
-    try:
+    with writing(out):
         out.write_text(texts[out.suffix](), encoding="utf-8")
-    except OSError as error:
-        raise WriteError(f"cannot write {out}: {error.strerror}") from error
 
 
 @app.command("view")

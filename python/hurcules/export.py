@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from hurcules import _core, mjcf, models
-from hurcules.output import WriteError
+from hurcules.output import writing
 from hurcules.validation import require_known
 
 __all__ = ["ACTUATORS", "export"]
@@ -57,11 +57,9 @@ def export(
     if actuators == "position":
         _add_servos(spec, robot or _robot_of(spec))
     mjcf.compile(spec)
-    try:
+    with writing(path):
         _copy_meshes(spec, path.parent / "assets")
         path.write_text(spec.to_xml(), encoding="utf-8")
-    except OSError as error:
-        raise WriteError(f"cannot write {path}: {error.strerror}") from error
     return path
 
 

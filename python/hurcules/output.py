@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,24 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 
-__all__ = ["Output", "WriteError"]
+__all__ = ["Output", "WriteError", "writing"]
 
 
 class WriteError(Error):
     """A file could not be written; the text says why, and which files were."""
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """What is done inside writes this file.
+
+    Raises:
+        WriteError: the file could not be written.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise WriteError(f"cannot write {path}: {error.strerror}") from error
 
 
 class Output:

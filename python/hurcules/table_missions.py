@@ -13,7 +13,7 @@ import numpy as np
 
 from hurcules import _core, disposal, lift
 from hurcules.mission_table import Mission
-from hurcules.output import WriteError
+from hurcules.output import writing
 
 __all__ = ["TABLE_MISSIONS", "TableMission", "write_table"]
 
@@ -84,7 +84,5 @@ def write_table(name: str, parameters: Mapping[str, Any], path: Path) -> None:
         table.setup, table.rows, mission.controller, beside.name, compiled.tobytes()
     )
     for file, contents in ((beside, compiled.tobytes()), (path, text.encode())):
-        try:
+        with writing(file):
             file.write_bytes(contents)
-        except OSError as error:
-            raise WriteError(f"cannot write {file}: {error.strerror}") from error

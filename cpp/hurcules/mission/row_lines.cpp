@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/mission/table_words.hpp"
 
 namespace hurcules::row_lines {
@@ -9,7 +10,7 @@ namespace hurcules::row_lines {
 namespace {
 
 double number_in(const std::string& text) {
-  const std::optional<double> number = number_of(text);
+  const std::optional<double> number = number_of<double>(text);
   if (!number) throw Error("wanted a number, '" + text + "' came");
   return *number;
 }

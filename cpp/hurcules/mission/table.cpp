@@ -231,10 +231,10 @@ std::string to_string(ReactionKind kind) {
   return "";
 }
 
-std::string to_string(const Condition& condition) {
+std::string to_string(const Condition& condition, std::string (*number)(double)) {
   std::string text = condition.quantity;
-  add(text, {condition.above ? " >= " : " <= ", to_text(condition.value)});
-  if (condition.seconds > 0.0) add(text, {" for ", to_text(condition.seconds), " s"});
+  add(text, {condition.above ? " >= " : " <= ", number(condition.value)});
+  if (condition.seconds > 0.0) add(text, {" for ", number(condition.seconds), " s"});
   return text;
 }
 

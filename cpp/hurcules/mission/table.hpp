@@ -31,8 +31,9 @@ struct MissionTable {
 };
 
 [[nodiscard]] std::string to_string(ReactionKind kind);
-[[nodiscard]] std::string to_string(const Condition& condition);
 [[nodiscard]] std::string to_text(double number);  // "0.3"
+[[nodiscard]] std::string to_string(const Condition& condition,
+                                    std::string (*number)(double) = to_text);
 
 // Throws Error, naming the row: an unknown phase, stack, channel or coordinate with those that exist;
 // a lead of the wrong size, one of a task where no stack rules, or one that never ends while nothing else ends the phase; a time-out

@@ -19,8 +19,9 @@ namespace hurcules {
 // Both: a channel a task, `drive` for the tracks, `joints` for all joints but belts and fingers, one
 // by one. `method`: how the hierarchy is solved, one of method_names(). Throws Error for another name
 // or method, or a scene without the robot.
-[[nodiscard]] std::shared_ptr<WholeBodyController> table_controller(
-    const std::string& name, const ModelPtr& model, const std::string& method = "lexicographic");
+[[nodiscard]] std::shared_ptr<WholeBodyController> table_controller(const std::string& name,
+                                                                    const ModelPtr& model,
+                                                                    const std::string& method);
 // what else differs from the keyframe "stretch" where a lift starts: angles [rad] by coordinate,
 // "KN" the one of this name or both sides
 [[nodiscard]] const std::vector<std::pair<std::string, double>>& lift_start();

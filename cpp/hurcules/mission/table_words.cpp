@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 #include <sstream>
-#include <system_error>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
 namespace {
-
-template <class Number>
-std::optional<Number> read_number(const std::string& text) {
-  Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return value;
-}
 
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
@@ -39,14 +31,15 @@ std::optional<double> seconds_of(const std::string& given) {
   if (!text.ends_with('s')) return std::nullopt;
   text.pop_back();
   const std::vector<std::string> words = words_of(text);
-  return words.size() == 1 ? number_of(words[0]) : std::nullopt;
+  return words.size() == 1 ? number_of<double>(words[0]) : std::nullopt;
 }
 
 // "VALUE" or "VALUE for 2 s"
 bool read_value(const std::string& text, Condition& condition) {
   const std::string value = text.substr(0, text.find(" for "));
   const std::vector<std::string> words = words_of(value);
-  const std::optional<double> number = words.size() == 1 ? number_of(words[0]) : std::nullopt;
+  const std::optional<double> number =
+      words.size() == 1 ? number_of<double>(words[0]) : std::nullopt;
   if (number) condition.value = *number;
   if (value.size() == text.size()) return number.has_value();
   const std::optional<double> seconds = seconds_of(text.substr(value.size() + 5));
@@ -61,7 +54,7 @@ bool take_times(std::string& text, int& times) {
   const std::vector<std::string> words = words_of(text.substr(comma + 2));
   text.erase(comma);
   if (words.size() != 2 || (words[1] != "times" && words[1] != "time")) return false;
-  const std::optional<int> count = read_number<int>(words[0]);
+  const std::optional<int> count = number_of<int>(words[0]);
   if (count) times = *count;
   return count.has_value();
 }
@@ -93,16 +86,8 @@ std::string exact_text(double number) {
   return {digits.data(), end};
 }
 
-std::optional<double> number_of(const std::string& text) {
-  return read_number<double>(text);
-}
-
 std::string exact_text(const Condition& condition) {
-  std::string text = condition.quantity;
-  text += condition.above ? " >= " : " <= ";
-  text += exact_text(condition.value);
-  if (condition.seconds > 0.0) text.append(" for ").append(exact_text(condition.seconds) + " s");
-  return text;
+  return to_string(condition, exact_text);
 }
 
 std::string exact_text(const Reaction& reaction) {

@@ -2,7 +2,6 @@
 // all their bits.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +12,6 @@ namespace hurcules {
 
 // the shortest text that reads back as the same number: "0.3", "1e-05", "inf"
 [[nodiscard]] std::string exact_text(double number);
-// a number and nothing else; none: it is no number
-[[nodiscard]] std::optional<double> number_of(const std::string& text);
 
 // "QUANTITY >= 0.3 for 2 s"
 [[nodiscard]] std::string exact_text(const Condition& condition);

@@ -1,6 +1,7 @@
 #include "hurcules/sim/realistic_sensors.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "hurcules/sim/sensor_setups.hpp"
 
@@ -8,9 +9,8 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180.0;   // [rad]
-constexpr double kTurn = 2.0 * kPi;       // [rad]
+constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
+constexpr double kTurn = 2.0 * std::numbers::pi;      // [rad]
 constexpr double kEncoderSteps = 524288;  // a turn of an absolute encoder at the joint: 19 bits
 constexpr double kStep = kTurn / kEncoderSteps;  // [rad]
 constexpr double kGravity = 9.81;                // [m/s^2]

@@ -204,10 +204,10 @@ TEST(TableWords, AreReadAsTheyAreWritten) {
 
 TEST(TableController, AnUnknownNameAndAnotherRobotAreTold) {
   const ModelPtr arm = load_model_text(kArm);
-  expect_error([&] { (void)table_controller("lft", arm); },
+  expect_error([&] { (void)table_controller("lft", arm, "lexicographic"); },
                "controller of a table 'lft' does not exist; there are: disposal, lift");
-  EXPECT_THROW((void)table_controller("lift", arm), Error);
-  EXPECT_THROW((void)table_controller("disposal", arm), Error);
+  EXPECT_THROW((void)table_controller("lift", arm, "lexicographic"), Error);
+  EXPECT_THROW((void)table_controller("disposal", arm, "lexicographic"), Error);
 }
 
 }  // namespace
