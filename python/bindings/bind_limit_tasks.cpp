@@ -117,7 +117,8 @@ Args:
   rows: so many pairs of geoms count at a time, the nearest.
 
 Raises:
-  Error: a name that does not exist, no pair, or most <= margin.
+  Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
+    most <= margin.
 )";
 constexpr const char* kSelfCollision =
     R"(The robot keeps away from itself: a DistanceTask for a level above the hands.

@@ -165,6 +165,9 @@ Args:
   frame: name of a site, body, camera or geom.
   reference: frame in whose axes the position is measured, '' for the world.
   axes: (m, 3), m = 1 to 3 directions in the axes of the reference.
+
+Raises:
+  Error: a frame that does not exist, or that no coordinate moves against the reference.
 )";
 constexpr const char* kCenterOfMassTask =
     R"(The centre of mass of the whole tree at a target [m] (m,).

@@ -849,7 +849,10 @@ class PositionTask(PointTask):
       robot: Robot whose present value it starts to hold.
       frame: name of a site, body, camera or geom.
       reference: frame in whose axes the position is measured, '' for the world.
-      axes: (m, 3), m = 1 to 3 directions in the axes of the reference."""
+      axes: (m, 3), m = 1 to 3 directions in the axes of the reference.
+
+    Raises:
+      Error: a frame that does not exist, or that no coordinate moves against the reference."""
 
     def __init__(
         self, name: str, robot: Robot, frame: str, reference: str = "", axes: ArrayLike = ...
@@ -1130,7 +1133,8 @@ class DistanceTask(Task):
       rows: so many pairs of geoms count at a time, the nearest.
 
     Raises:
-      Error: a name that does not exist, no pair, or most <= margin."""
+      Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
+        most <= margin."""
 
     def __init__(
         self,

@@ -213,6 +213,16 @@ def test_manipulability_is_kept_above_a_bound(model: mujoco.MjModel) -> None:
     assert agile.value[0] == pytest.approx(volume(kept), rel=1e-3)
 
 
+@pytest.mark.parametrize("task", [hurcules.PositionTask, hurcules.PoseTask, hurcules.AngleTask])
+def test_a_task_wants_a_frame_that_moves(model: mujoco.MjModel, task: type) -> None:
+    left = hurcules.Robot(model, joints=[f"l{i}" for i in range(1, 7)])
+    with pytest.raises(hurcules.Error, match="'hand'.* none moves 'r_hand'"):
+        task("hand", left, "r_hand")
+    with pytest.raises(hurcules.Error, match="none moves 'l_hand' against its reference"):
+        task("hand", left, "l_hand", reference="l_hand")
+    task("hand", left, "r_hand", reference="l_hand")  # the left hand leads it
+
+
 def test_manipulability_wants_a_frame_that_moves(model: mujoco.MjModel) -> None:
     with pytest.raises(hurcules.Error, match="no coordinate moves the frame 'world'"):
         hurcules.ManipulabilityTask("agile", hurcules.Robot(model), "world")

@@ -212,6 +212,10 @@ WRONG: list[tuple[Callable[[hurcules.Robot], object], str]] = [
     (lambda r: hurcules.BalanceTask("b", r, [[0, 0], [1, 0]]), "wants 3 or more finite corners"),
     (lambda r: hurcules.DistanceTask("d", r, []), "wants at least one pair"),
     (lambda r: hurcules.DistanceTask("d", r, [("forearm", "past")]), "'past' does not exist"),
+    (
+        lambda r: hurcules.DistanceTask("d", r, [("forearm", "forearm")]),
+        "no coordinate moves 'forearm' against 'forearm'",
+    ),
     (lambda r: hurcules.DistanceTask("d", r, [("forearm", "post")], 0.3, 0.2), "margin of task"),
     (
         lambda r: hurcules.ForceTask(

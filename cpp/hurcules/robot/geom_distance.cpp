@@ -60,9 +60,12 @@ std::vector<GeomPair> named_geom_pairs(
     const Robot& robot, const std::vector<std::pair<std::string, std::string>>& names) {
   std::vector<GeomPair> pairs;
   for (const auto& [first, second] : names) {
-    for (const int a : geoms_of(robot, first)) {
-      for (const int b : geoms_of(robot, second)) pairs.push_back({a, b});
-    }
+    const std::vector<int> ours = geoms_of(robot, first), theirs = geoms_of(robot, second);
+    require(robot.moves(Frame{mjOBJ_GEOM, ours.front()}, Frame{mjOBJ_GEOM, theirs.front()}),
+            "a distance wants bodies that come nearer, no coordinate moves '" + first +
+                "' against '" + second + "'");
+    for (const int a : ours)
+      for (const int b : theirs) pairs.push_back({a, b});
   }
   return pairs;
 }

@@ -23,7 +23,8 @@ struct GeomPair {
 };
 
 // The geoms of pairs of names of bodies or geoms; a body stands for all of its geoms that can touch
-// something. Throws Error for a name that does not exist and for a body without such geoms.
+// something. Throws Error for a name that does not exist, for a body without such geoms, and for two
+// that no coordinate moves against each other.
 [[nodiscard]] std::vector<GeomPair> named_geom_pairs(
     const Robot& robot, const std::vector<std::pair<std::string, std::string>>& names);
 // "geom 7" for one without a name

@@ -135,6 +135,10 @@ bool Robot::moves(Frame frame) const {
   return screws().moves(body_of(*model_, frame));
 }
 
+bool Robot::moves(Frame first, Frame second) const {
+  return screws().moves(body_of(*model_, first), body_of(*model_, second));
+}
+
 Vector3 Robot::position_drift(Frame frame) const {
   return screws().point_drift(position(frame), body_of(*model_, frame));
 }

@@ -111,6 +111,8 @@ class Robot {
   [[nodiscard]] bool is_body(Frame frame) const;
   // whether some coordinate moves the frame in W
   [[nodiscard]] bool moves(Frame frame) const;
+  // whether some coordinate moves the one against the other
+  [[nodiscard]] bool moves(Frame first, Frame second) const;
   // what a task remembers to notice that it is asked about another robot
   [[nodiscard]] ModelIdentity identity() const;
 

@@ -50,6 +50,9 @@ class Screws {
 
   [[nodiscard]] Skeleton::Pose pose(int body) const { return skeleton_.pose(body); }
   [[nodiscard]] bool moves(int body) const { return stands(body) || !above(body).empty(); }
+  [[nodiscard]] bool moves(int first, int second) const {  // against each other
+    return above(first) != above(second) || stands(first) != stands(second);
+  }
   // velocity of a point of a body, and angular velocity of the body, by coordinate: (3, n) in W
   void point_jacobian(const Vector3& point, int body, MatrixRef J) const;
   void rotation_jacobian(int body, MatrixRef J) const;

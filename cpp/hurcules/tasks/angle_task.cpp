@@ -16,6 +16,7 @@ AngleTask::AngleTask(std::string name, const Robot& robot, const std::string& fr
       direction_(robot) {
   require(axis_.allFinite() && axis_.norm() > 0.5,
           "axis of task '" + name_ + "' wants to be finite and not zero");
+  reference_.require_moved(robot, frame, name_);
   AngleTask::hold(robot);
 }
 

@@ -24,6 +24,7 @@ struct AngleTaskOptions {
 
 class AngleTask : public ValueTask {
  public:
+  // throws Error for a frame that does not exist, or that no coordinate moves against its reference
   AngleTask(std::string name, const Robot& robot, const std::string& frame,
             const AngleTaskOptions& options = {});
   [[nodiscard]] std::unique_ptr<Task> clone() const override {

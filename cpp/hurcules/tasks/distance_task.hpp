@@ -35,7 +35,8 @@ struct CollisionOptions {
 
 class DistanceTask : public Task {
  public:
-  // throws Error without a pair, for a name that is no body or geom, and unless margin < most
+  // throws Error without a pair, for a name that is no body or geom, for two that no coordinate
+  // moves against each other, and unless margin < most
   DistanceTask(std::string name, const Robot& robot, const DistanceTaskOptions& options);
   // pairs that were found; none is no error: the task then asks for nothing
   DistanceTask(std::string name, const Robot& robot, const std::vector<CollisionPair>& pairs,

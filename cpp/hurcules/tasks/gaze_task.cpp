@@ -22,6 +22,9 @@ GazeTask::GazeTask(std::string name, const Robot& robot, const std::string& fram
       frame_(robot.frame(frame)),
       camera_(robot, frame_),
       seen_(robot) {
+  require(
+      robot.moves(frame_),
+      "task '" + name_ + "' wants a frame that the coordinates move, none moves '" + frame + "'");
   GazeTask::reset(robot);
 }
 

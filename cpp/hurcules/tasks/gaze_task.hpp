@@ -16,7 +16,8 @@ namespace hurcules {
 
 class GazeTask : public Task {
  public:
-  // the target starts 1 m ahead
+  // the target starts 1 m ahead; throws Error for a frame that does not exist, or that no coordinate
+  // moves
   GazeTask(std::string name, const Robot& robot, const std::string& frame);
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<GazeTask>(*this);

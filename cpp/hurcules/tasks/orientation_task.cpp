@@ -13,6 +13,7 @@ OrientationTask::OrientationTask(std::string name, const Robot& robot, const std
       frame_(robot.frame(frame)),
       reference_(robot, options.reference),
       rotation_(robot) {
+  reference_.require_moved(robot, frame, name_);
   OrientationTask::hold(robot);
 }
 

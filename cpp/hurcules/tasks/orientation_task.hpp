@@ -18,6 +18,7 @@ struct OrientationTaskOptions {
 
 class OrientationTask : public Task {
  public:
+  // throws Error for a frame that does not exist, or that no coordinate moves against its reference
   OrientationTask(std::string name, const Robot& robot, const std::string& frame,
                   const OrientationTaskOptions& options = {});
   [[nodiscard]] std::unique_ptr<Task> clone() const override {

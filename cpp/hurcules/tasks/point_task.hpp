@@ -28,6 +28,8 @@ class PointTask : public ValueTask {
   // the point in W
   virtual void measure_point(const Robot& robot, PointMotion& point) = 0;
 
+  [[nodiscard]] const Reference& reference() const { return reference_; }
+
  private:
   void measure(const Robot& robot) final;
 

@@ -20,6 +20,7 @@ PoseTask::PoseTask(std::string name, const Robot& robot, const std::string& fram
       reference_(robot, options.reference),
       point_(robot),
       rotation_(robot) {
+  reference_.require_moved(robot, frame, name_);
   max_speed_ = 0.5;
   speed_shares_.tail<3>().setConstant(kTurnShare);
   PoseTask::hold(robot);

@@ -18,6 +18,7 @@ struct PoseTaskOptions {
 
 class PoseTask : public Task {
  public:
+  // throws Error for a frame that does not exist, or that no coordinate moves against its reference
   PoseTask(std::string name, const Robot& robot, const std::string& frame,
            const PoseTaskOptions& options = {});
   [[nodiscard]] std::unique_ptr<Task> clone() const override {

@@ -5,6 +5,7 @@ namespace hurcules {
 PositionTask::PositionTask(std::string name, const Robot& robot, const std::string& frame,
                            PositionTaskOptions options)
     : PointTask(std::move(name), robot, std::move(options)), frame_(robot.frame(frame)) {
+  reference().require_moved(robot, frame, name_);
   PositionTask::hold(robot);
 }
 

@@ -12,6 +12,7 @@ using PositionTaskOptions = PointTaskOptions;
 
 class PositionTask : public PointTask {
  public:
+  // throws Error for a frame that does not exist, or that no coordinate moves against its reference
   PositionTask(std::string name, const Robot& robot, const std::string& frame,
                PositionTaskOptions options = {});
   [[nodiscard]] std::unique_ptr<Task> clone() const override {

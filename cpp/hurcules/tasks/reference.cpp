@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "hurcules/base/error.hpp"
+
 namespace hurcules {
 
 namespace {
@@ -57,6 +59,14 @@ Reference::Reference(const Robot& robot, const std::string& name)
 
 Reference::Reference(const Robot& robot, Frame frame)
     : frame_(frame), origin_(robot), rotation_(robot) {}
+
+void Reference::require_moved(const Robot& robot, const std::string& frame,
+                              const std::string& task) const {
+  const Frame moved = robot.frame(frame);
+  require(frame_ ? robot.moves(moved, *frame_) : robot.moves(moved),
+          "task '" + task + "' wants a frame that the coordinates move, none moves '" + frame +
+              (frame_ ? "' against its reference" : "'"));
+}
 
 void Reference::measure(const Robot& robot) {
   if (!frame_) return;

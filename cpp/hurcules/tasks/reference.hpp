@@ -42,6 +42,9 @@ class Reference {
   Reference(const Robot& robot, const std::string& name);
   Reference(const Robot& robot, Frame frame);
 
+  // throws Error where no coordinate moves the frame against this one
+  void require_moved(const Robot& robot, const std::string& frame, const std::string& task) const;
+
   void measure(const Robot& robot);
   void express(PointMotion& point) const;
   // position, velocity and drift alone: the Jacobian stays in W
