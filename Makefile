@@ -27,7 +27,7 @@ $(shell mkdir -p build && find cpp python envs tests/cpp tests/fuzz benchmarks -
 # a virtual environment whose Python is gone is made anew
 $(shell test ! -d $(VENV) || $(BIN)/python -c '' 2>/dev/null || rm -rf $(VENV))
 
-.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture product setup wheel machine machine-test clean
+.PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture product setup wheel machine clean
 
 # where the tests are built already, the demo uses that build
 demo: $(if $(wildcard $(BUILD)/installed-*),setup,product)
@@ -84,14 +84,13 @@ architecture: setup
 	$(BIN)/python benchmarks/figures/architecture.py
 product: $(PRODUCT)/installed-$(WERROR)-$(ASSERTS)
 
+# what its prerequisites look for, too: one look, one question
+setup: PURPOSE := test
 setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
 
 # looked at in every call, since machines change between two
 machine:
-	@.ci/machine check $(PYTHON)
-
-machine-test:
-	@.ci/machine check $(PYTHON) test
+	@.ci/machine check $(PYTHON) $(PURPOSE)
 
 # the virtual environment, with what builds and runs the product
 $(VENV)/ready: pyproject.toml .ci/requirements | machine
@@ -115,7 +114,7 @@ $(PRODUCT)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready build/names $(SOURCES) 
 	@touch $@
 
 # one build serves the module, the tests and the benchmarks
-$(BUILD)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready-test build/names $(SOURCES) $(TEST_SOURCES) | machine-test
+$(BUILD)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready-test build/names $(SOURCES) $(TEST_SOURCES) | machine
 	@$(STEP)/tests.log "compiling Hurcules, its tests and benchmarks" \
 	  $(PIP) install --verbose --no-build-isolation --editable '.[report]' \
 	  --config-settings build-dir=$(BUILD) \
