@@ -20,7 +20,7 @@ from hurcules.output import WriteError, writing
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
-from hurcules.table_missions import TABLE_MISSIONS, write_table
+from hurcules.table_missions import TABLE_MISSIONS, table_mission, write_table
 from hurcules.validation import require_known
 
 __all__ = ["main", "results_in"]
@@ -76,7 +76,9 @@ def run_mission(
     context: typer.Context,
     mission: Annotated[
         str,
-        typer.Argument(help="A mission, test method or environment of `hurcules list`."),
+        typer.Argument(
+            help="A mission, test method or environment of `hurcules list`, or a TOML file."
+        ),
     ] = "stretch",
     policy: Annotated[
         str | None,
@@ -137,6 +139,8 @@ def run_mission(
 
     - `hurcules run disposal --mass 20 --offset 0.05,-0.1 --yaw 0.2 --friction 0.8`
 
+    - `hurcules mission lift --out my.toml`, then, changed, `hurcules run my.toml --mass 90`
+
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
 
     - `hurcules run --policy Drive-v0 --seed 3`
@@ -154,7 +158,7 @@ def run_mission(
             )
         )
     _refuse(context, ("fidelity",), "for policies")
-    folder = out or Path("out", mission)
+    folder = out or Path("out", Path(mission).stem)
     if methods := _methods(mission):
         _refuse(context, _MISSION_OPTIONS, f"for missions; '{mission}' is a test method")
         words = tuple(context.args)
@@ -163,9 +167,10 @@ def run_mission(
         )
         raise typer.Exit(methods.run(asked, Console()))
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
-    require_known("mission or test method", mission, [*hurcules.missions(), *titles])
+    rows = table_mission(mission)
+    if rows is None:
+        require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
-    rows = TABLE_MISSIONS.get(mission)
     parameters = rows.parameters_of(context.args) if rows else {}
     if context.args and not parameters:
         kind = "no such option" if context.args[0].startswith("-") else "unexpected argument"
@@ -257,7 +262,7 @@ def show_mission(
 
     - `hurcules mission disposal --out disposal.svg`
 
-    - `hurcules mission my_mission.toml`
+    - `hurcules mission my_mission.toml`, for `hurcules run my_mission.toml`
 
     - `hurcules mission lift --mass 90 --out lift.table`, then `hurcules-sim lift.table --seed 3`
     """
@@ -270,9 +275,8 @@ def show_mission(
     texts = {".svg": table.drawing, ".toml": table.toml, ".txt": table.table}
     if out is not None:
         require_known("kind of file", out.suffix, [*texts, ".table"])
-        if out.suffix == ".table":
-            require_known("mission to write as .table", name, list(TABLE_MISSIONS))
-            write_table(name, TABLE_MISSIONS[name].parameters_of(context.args), out)
+        if out.suffix == ".table" and (mission := table_mission(name)):
+            write_table(mission, mission.parameters_of(context.args), out)
             return
     if context.args:
         raise Error(f"{context.args[0]}: for a file .table; other files hold the phases alone")

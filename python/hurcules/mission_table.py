@@ -2,6 +2,7 @@
 
     [mission]
     name = "wave"
+    scene = "lift"              # of which mission model and controller are; by default of this name
     safety = "lower"            # the phase that the reaction "lower" goes to
 
     [[phase]]
@@ -71,10 +72,13 @@ class Mission:
     Attributes:
         setup: hurcules.MissionSetup.
         rows: hurcules.MissionTable.
+        scene: of which mission the model and the controller are, for a run by the path of its file;
+            "": of the one that has its name.
     """
 
     setup: MissionSetup
     rows: MissionTable
+    scene: str = ""
 
     @classmethod
     def load(cls, path: str | Path) -> Mission:
@@ -100,14 +104,16 @@ class Mission:
         """
         _known(data, ("mission", "phase", "monitor", "lead", "figure"), "mission")
         head = dict(data.get("mission", {}))
-        safety = head.pop("safety", "")
+        safety, scene = head.pop("safety", ""), head.pop("scene", "")
+        if not isinstance(scene, str):
+            raise Error(f"scene of [mission]: wanted the name of a mission, got {scene!r}")
         rows = _included(data.get("phase", []), Path(folder))
         _watch(rows, data.get("monitor", []))
         _lead(rows, data.get("lead", []))
         phases = [_phase(row) for row in rows]
         measures = [_of(Measure, row, "figure") for row in data.get("figure", [])]
         table = MissionTable(phases=phases, safety=safety, measures=measures)
-        return cls(_of(MissionSetup, head, "[mission]"), table)
+        return cls(_of(MissionSetup, head, "[mission]"), table, scene)
 
     def table(self) -> str:
         """The phases as text, note, conditions and reactions below each."""
@@ -132,6 +138,8 @@ class Mission:
         """The text of that file."""
         setup = {name: getattr(self.setup, name) for name in _SETUP}
         lines = ["[mission]", *_entries(setup, MissionSetup(name=""))]
+        if self.scene:
+            lines.append(f"scene = {_value(self.scene)}")
         if self.rows.safety:
             lines.append(f"safety = {_value(self.rows.safety)}")
         for phase in self.rows.phases:

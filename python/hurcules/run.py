@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import mujoco
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
@@ -24,7 +25,7 @@ from hurcules.rendering import RendererError, following_camera
 from hurcules.sensors import realistic
 from hurcules.simulation import Simulation
 from hurcules.summary import summarize
-from hurcules.table_missions import TABLE_MISSIONS
+from hurcules.table_missions import TableMission, table_mission
 from hurcules.video import Inset, Painter, film
 
 __all__ = [
@@ -84,6 +85,7 @@ def run(options: RunOptions, console: Console) -> int:
         Error: wrong usage (unknown mission or method, bad number, a folder that cannot be written).
         WriteError: a file could not be written; those before it were.
     """
+    mission = table_mission(options.mission)
     simulation = Simulation(
         options.mission,
         options.seed,
@@ -99,12 +101,12 @@ def run(options: RunOptions, console: Console) -> int:
             console.print(
                 f"no film and no report: {lost}", style="yellow", highlight=False, markup=False
             )
-        recording = _simulate(simulation, ticks, console, interrupts)
+        recording = _simulate(simulation, ticks, _pace(mission), console, interrupts)
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
         summary = summarize(simulation, recording, options.seed, options.method, options.sensors)
-        _save(options, simulation, recording, summary, output, console, interrupts)
+        _save(options, simulation, mission, recording, summary, output, console, interrupts)
         if interrupts.noted:
             when = "at" if recording.interrupted else "after the simulation had ended at"
             said = f"interrupted {when} {simulation.time:.3f} s; {output.told()}"
@@ -123,7 +125,11 @@ def _ticks(seconds: float | None, dt: float) -> int | None:
 
 
 def _simulate(
-    simulation: Simulation, ticks: int | None, console: Console, interrupts: Interrupts
+    simulation: Simulation,
+    ticks: int | None,
+    pace: Pace,
+    console: Console,
+    interrupts: Interrupts,
 ) -> Recording:
     with progress_bar(console) as bar:
         total = ticks * simulation.dt if ticks else None
@@ -136,7 +142,7 @@ def _simulate(
         recording = record(
             simulation,
             ticks,
-            round(_pace(simulation).seconds / simulation.dt),
+            round(pace.seconds / simulation.dt),
             show,
             stopped=lambda: interrupts.noted,
         )
@@ -147,6 +153,7 @@ def _simulate(
 def _save(
     options: RunOptions,
     simulation: Simulation,
+    mission: TableMission | None,
     recording: Recording,
     summary: dict[str, Any],
     output: Output,
@@ -168,8 +175,8 @@ def _save(
         video = "the run was interrupted"
     elif options.video:
         try:
-            with _open_painter(simulation) as drawing:
-                video = _film(drawing, _pace(simulation), recording, output, console, interrupts)
+            with _open_painter(simulation.model, mission) as drawing:
+                video = _film(drawing, _pace(mission), recording, output, console, interrupts)
                 snapshots = _snapshots(drawing, recording, summary)
         except RendererError as missing:
             video = str(missing)
@@ -181,15 +188,13 @@ def _save(
     )
 
 
-def _pace(simulation: Simulation) -> Pace:
+def _pace(mission: TableMission | None) -> Pace:
     """Minutes of driving and turning are shown faster, with fewer pictures."""
-    return Pace(fps=12, speed=6) if simulation.mission in TABLE_MISSIONS else Pace()
+    return Pace(fps=12, speed=6) if mission else Pace()
 
 
-def _open_painter(simulation: Simulation) -> Painter:
+def _open_painter(model: mujoco.MjModel, mission: TableMission | None) -> Painter:
     """Two cameras that go with what is carried, else those of the painter."""
-    model = simulation.model
-    mission = TABLE_MISSIONS.get(simulation.mission or "")
     if mission is None:
         return Painter(model)
     body, distance = mission.followed

@@ -25,7 +25,7 @@ from hurcules._core import (
     WholeBodyController,
 )
 from hurcules.mission_table import Mission
-from hurcules.table_missions import TABLE_MISSIONS
+from hurcules.table_missions import TABLE_MISSIONS, table_mission
 from hurcules.validation import require_known
 
 __all__ = ["Simulation", "SimulationBatch", "missions"]
@@ -75,8 +75,9 @@ class Simulation(_core.Simulation):
         """A mission in its scene, or a controller of your own in any model.
 
         Args:
-            mission: one of `hurcules.missions()`; with neither a mission nor a model: "stretch". A
-                `hurcules.Mission`, a table of phases, runs in your model with your controller.
+            mission: one of `hurcules.missions()`, or the path of a TOML file whose table of phases
+                runs in the scene of one; with neither a mission nor a model: "stretch". A
+                `hurcules.Mission`, a table too, runs in your model with your controller.
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
             model: of a simulation without a mission, or the path of one. It starts where the
                 controller's robot stands.
@@ -120,7 +121,7 @@ class Simulation(_core.Simulation):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
         if controller is not None and method != "lexicographic":
             raise Error(f"method: your controller has its own, got {method!r}")
-        rows = TABLE_MISSIONS.get(mission) if isinstance(mission, str) else None
+        rows = table_mission(mission) if isinstance(mission, str) else None
         if parameters and rows is None:
             raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
         table = mission if isinstance(mission, Mission) else None

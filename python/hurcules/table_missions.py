@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,9 @@ import numpy as np
 from hurcules import _core, disposal, lift
 from hurcules.mission_table import Mission
 from hurcules.output import writing
+from hurcules.validation import require_known
 
-__all__ = ["TABLE_MISSIONS", "TableMission", "write_table"]
+__all__ = ["TABLE_MISSIONS", "TableMission", "table_mission", "write_table"]
 
 
 @dataclass(frozen=True)
@@ -63,11 +64,32 @@ TABLE_MISSIONS: Mapping[str, TableMission] = {
 }
 
 
-def write_table(name: str, parameters: Mapping[str, Any], path: Path) -> None:
+def table_mission(name: str) -> TableMission | None:
+    """A mission by its name, or by the path of a table of your own.
+
+    Args:
+        name: one of `TABLE_MISSIONS`, or a TOML file. What the file does not say, scene, controller
+            and options, is that of the mission that it names as `scene`.
+
+    Returns:
+        None for any other name.
+
+    Raises:
+        Error: a file that cannot be read, see `Mission.load`, or a scene that does not exist.
+    """
+    if not name.endswith(".toml"):
+        return TABLE_MISSIONS.get(name)
+    table = Mission.load(name)
+    scene = table.scene or table.setup.name
+    require_known(f"{name}: scene", scene, TABLE_MISSIONS)
+    return replace(TABLE_MISSIONS[scene], table=lambda: table)
+
+
+def write_table(mission: TableMission, parameters: Mapping[str, Any], path: Path) -> None:
     """Writes what `hurcules-sim` runs a mission from: the table, and beside it the compiled model.
 
     Args:
-        name: of the mission.
+        mission: what is run.
         parameters: of its scene, by name.
         path: of the table; the model has its name with the ending `.mjb`.
 
@@ -75,7 +97,6 @@ def write_table(name: str, parameters: Mapping[str, Any], path: Path) -> None:
         Error: a scene that there is not.
         WriteError: a file cannot be written.
     """
-    mission = TABLE_MISSIONS[name]
     table, model = mission.table(), mission.spec(parameters).compile()
     compiled = np.empty(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, compiled)

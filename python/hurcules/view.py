@@ -28,15 +28,16 @@ def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
     """Opens the viewer and simulates until its window is closed.
 
     Args:
-        name: one of `hurcules.missions()`, `models.names()` or `models.scenes()`, or a file of
-            MJCF, MJB or URDF. A robot of ours has its brakes on; a file moves as MuJoCo has it.
+        name: one of `hurcules.missions()`, `models.names()` or `models.scenes()`, the TOML file of
+            a mission, or a file of MJCF, MJB or URDF. A robot of ours has its brakes on; a model
+            of a file moves as MuJoCo has it.
         seed: of the mission.
         seconds: close the window after this time [s].
 
     Raises:
         Error: nothing has this name, a file is no model, or there is no display.
     """
-    if name in missions():
+    if name in missions() or name.endswith(".toml"):
         watch(Simulation(name, seed, record=False), seconds=seconds)
     else:
         _show(*_subject(name), lambda scene: None, seconds)

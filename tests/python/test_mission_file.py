@@ -109,6 +109,34 @@ def test_a_file_holds_what_the_table_says(name: str, tmp_path: Path) -> None:
     assert rows == table.rows
 
 
+def test_a_table_of_ones_own_runs_in_the_scene_that_it_names(file: Path, tmp_path: Path) -> None:
+    own, written = tmp_path / "own.toml", tmp_path / "lift.table"
+    assert cli.main(["mission", "lift", "--out", str(own)]) == 0
+    assert cli.main(["mission", str(own), "--out", str(written)]) == 0
+    assert written.read_bytes() == file.read_bytes()
+    rows = own.read_text().replace('name = "lift"', 'name = "own"\nscene = "lift"', 1)
+    own.write_text(rows.replace("seconds = 1.5", "seconds = 0.2", 1))
+    asked = ["--seconds", "0.4", "--no-video", "--mass", "90", "--out", str(tmp_path / "run")]
+    assert cli.main(["run", str(own), *asked]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["mission"] == "own"
+    assert Simulation(str(own), parameters={"mass": 90}).mission == "own"
+    assert summary["events"][1]["time_s"] == 0.2
+
+
+def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    own = tmp_path / "own.toml"
+    for scene in ("", 'scene = "lit"', "scene = 3"):
+        own.write_text(f'[mission]\nname = "own"\n{scene}\n[[phase]]\nname = "a"\nstack = "arms"\n')
+        assert cli.main(["run", str(own)]) == 2
+    told = capsys.readouterr().err
+    assert "scene 'own' does not exist; there are: lift" in told
+    assert "scene 'lit' does not exist" in told
+    assert "wanted the name of a mission, got 3" in told
+    assert cli.main(["run", str(tmp_path / "none.toml")]) == 2
+    assert "none.toml" in capsys.readouterr().err
+
+
 def test_a_file_that_was_broken_is_told(file: Path, tmp_path: Path) -> None:
     own, model = tmp_path / "lift.table", tmp_path / "lift.mjb"
 
