@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "hurcules/robot/coordinates.hpp"
+
 namespace hurcules {
 namespace {
 
@@ -22,7 +24,9 @@ std::string number(double value) {
 }
 
 bool turns(const Robot& robot, const Coordinate& coordinate) {
-  return robot.model()->jnt_type[coordinate.joints.front().joint] == mjJNT_HINGE;
+  const DrivenJoint& joint = coordinate.joints.front();
+  const int type = robot.model()->jnt_type[joint.joint];
+  return type == mjJNT_HINGE || (type == mjJNT_BALL && joint.part == kTurns);  // of three the first
 }
 
 std::string named(const Coordinate& coordinate, const std::string& text) {
@@ -61,9 +65,16 @@ std::string outside_limits(const Robot& robot) {
   std::string found;
   for (Index i = 0; i < robot.size(); ++i) {
     const Coordinate& coordinate = robot.coordinates()[i];
+    if (coordinate.joints.front().part >= 0) continue;
     const double q = robot.configuration()[i];
     if (q >= coordinate.lower - kTolerance && q <= coordinate.upper + kTolerance) continue;
     append(found, named(coordinate, "at " + number(q) + ", limits " + interval(coordinate, 1.0)));
+  }
+  for (const RotationVector& rotation : robot.rotations()) {
+    const double angle = robot.configuration().segment<3>(rotation.first).norm();
+    if (angle <= rotation.range + kTolerance) continue;
+    append(found, "'" + joint_name(*robot.model(), rotation.joint) + "' turned by " +
+                      number(angle) + ", limit " + number(rotation.range));
   }
   if (found.empty()) return found;
   return "the configuration lies outside the joint limits [rad or m]: " + found;
