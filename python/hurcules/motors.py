@@ -19,7 +19,8 @@ def with_motors(
 ) -> mujoco.MjModel:
     """A model with a motor, named after its joint, at each hinge and slide that has no actuator.
 
-    A ball joint gets three, NAME_rx, NAME_ry and NAME_rz, about the axes of its body. A motor gives as much as the joint allows: `actuatorfrcrange` in MJCF, `effort` in a URDF.
+    A ball joint gets three, NAME_rx, NAME_ry and NAME_rz, about the axes of its body.
+    A motor gives as much as the joint allows: `actuatorfrcrange` in MJCF, `effort` in a URDF.
 
     Args:
         model: file (MJCF or URDF), or a specification, which keeps the motors.

@@ -196,6 +196,7 @@ void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
     velocity[i] = next;
   }
   add_step(rotations_, step_, q);
+  if (limits()) hold_ranges(rotations_, limits()->configuration(), q);
 }
 
 void AccelerationController::reset() {

@@ -88,6 +88,16 @@ void add_step(const std::vector<RotationVector>& rotations, const ConstVectorRef
   }
 }
 
+void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVectorRef& before,
+                 VectorRef q) {
+  for (const RotationVector& rotation : rotations) {
+    auto r = q.segment<3>(rotation.first);
+    const double most = std::max(rotation.range, before.segment<3>(rotation.first).norm());
+    const double angle = r.norm();
+    if (angle > most) r *= most / angle;
+  }
+}
+
 Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floating)
     : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;

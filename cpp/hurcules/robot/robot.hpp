@@ -77,6 +77,9 @@ struct RotationVector {
 // q (n) a step (n) further: of rotation vectors a turn about the axes of their bodies, q + step elsewhere
 void add_step(const std::vector<RotationVector>& rotations, const ConstVectorRef& step,
               VectorRef q);
+// q (n) where it turned no ball joint beyond its range, or further out than it was `before` (n)
+void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVectorRef& before,
+                 VectorRef q);
 
 // A site, body, camera or geom of the model, by number (mjtObj type and id).
 struct Frame {

@@ -142,8 +142,8 @@ inline constexpr const char* kBallArm = R"(
   <default><geom contype="0" conaffinity="0"/><motor forcerange="-60 60"/></default>
   <worldbody>
     <body name="shoulder" pos="0 0 1" euler="0.3 0.2 -0.4">
-      <joint name="lift" axis="0 1 0" pos="0.1 0 0" range="-1 1"/>
-      <joint name="shoulder" type="ball" pos="0.05 0 0.02" range="0 1.2" damping="0.5" armature="0.01"/>
+      <joint name="lift" axis="0 1 0" pos="0.1 0 0" range="-1 1" armature="0.1"/>
+      <joint name="shoulder" type="ball" pos="0.05 0 0.02" range="0 1.2" damping="0.5" armature="0.05"/>
       <geom name="upper" type="capsule" fromto="0 0 0 0 0 -0.35" size="0.04" mass="2"/>
       <body name="elbow" pos="0 0 -0.35">
         <joint name="elbow" axis="0 1 0" range="-2.4 0"/>
