@@ -21,6 +21,7 @@ namespace hurcules {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-9;  // [rad] a ball joint that is so far beyond its range is at it
 
 int count(const mjModel& m, int type) {
   switch (type) {
@@ -92,8 +93,8 @@ void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVector
                  VectorRef q) {
   for (const RotationVector& rotation : rotations) {
     auto r = q.segment<3>(rotation.first);
-    const double most = std::max(rotation.range, before.segment<3>(rotation.first).norm());
-    const double angle = r.norm();
+    const double was = before.segment<3>(rotation.first).norm(), angle = r.norm();
+    const double most = was > rotation.range + kRounding ? was : rotation.range;
     if (angle > most) r *= most / angle;
   }
 }

@@ -91,6 +91,7 @@ TEST_P(BallJointInTheLoop, KeepsItsRange) {
   const bool torque = GetParam().order == ControlOrder::Torque;
   for (int i = 0; i < 3000; ++i) {
     simulation.step(1, &command);
+    // but for the rounding of a quaternion that is read back
     EXPECT_LT(angle(simulation, 0), 1.2 + (torque ? 2e-3 : 1e-14)) << i;
     EXPECT_LT(angle(simulation, 1), 1.6 + (torque ? 2e-3 : 1e-14)) << i;
   }
