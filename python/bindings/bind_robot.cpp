@@ -25,10 +25,13 @@ constexpr const char* kRobot =
     R"(Any MJCF robot as the controller sees it: coordinates, frames, Jacobians.
 
 The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
-names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
-joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
+names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge, slide or ball
+joint that has an actuator is a coordinate, and without actuators every one; joints
 that an equality constraint of the model couples linearly (mimic joints) are one, and joints that close
 loops follow (`followers`). All others are held.
+A ball joint is three coordinates, NAME_rx, NAME_ry and NAME_rz: its rotation vector [rad], at most pi
+long. Their velocities [rad/s] and efforts [N m] are MuJoCo's, about the axes of its body, and not the
+derivative of the rotation vector: `add_step` goes from one to the other.
 It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
 Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
 which joints are held and which constraints are not kept.
@@ -50,7 +53,8 @@ constexpr const char* kCoordinate = "What the controller moves: one joint, or se
 constexpr const char* kDrivenJoint =
     "One joint of a coordinate: its position = factor * coordinate + offset.";
 constexpr const char* kCoordinates = "list of Coordinate, n of them";
-constexpr const char* kLower = "[rad] or [m], -inf when unlimited";
+constexpr const char* kLower =
+    "[rad] or [m], -inf when unlimited; of a ball joint the range of all of it";
 constexpr const char* kUpper = "[rad] or [m], inf when unlimited";
 constexpr const char* kMaxVelocity =
     "[rad/s] or [m/s], from the numeric velocity_limit_JOINT, else inf";
@@ -70,6 +74,12 @@ constexpr const char* kSetConfiguration =
 constexpr const char* kSetVelocity = "Sets the velocity (n,) [rad/s] or [m/s]; only drifts use it.";
 constexpr const char* kSetKeyframe =
     "Takes the posture of a keyframe, or the model's initial one for ''. Warns outside the limits.";
+constexpr const char* kAddStep =
+    R"(q (n,) a step (n,) further [rad] or [m], a velocity times a time: q + step, but ball joints and a free root turn.
+
+Raises:
+  Error: q or step of another length.
+)";
 constexpr const char* kCoordinatesOf = "Coordinates (n,) out of a whole qpos (nq,).";
 constexpr const char* kPosition = "p_WF (3,) [m]: origin of the frame in W.";
 constexpr const char* kOrientation =
@@ -189,11 +199,13 @@ std::vector<std::string> followers(const Robot& robot) {
 void bind_coordinate(py::module_& module) {
   py::class_<DrivenJoint>(module, "DrivenJoint", kDrivenJoint)
       .def_readonly("joint", &DrivenJoint::joint, "joint id of the model")
-      .def_readonly("qpos", &DrivenJoint::qpos, "address in qpos")
+      .def_readonly("qpos", &DrivenJoint::qpos, "address in qpos, of a ball joint its quaternion's")
       .def_readonly("dof", &DrivenJoint::dof, "address in qvel")
       .def_readonly("actuator", &DrivenJoint::actuator, "actuator id, -1 for none")
       .def_readonly("factor", &DrivenJoint::factor)
-      .def_readonly("offset", &DrivenJoint::offset, "[rad] or [m]");
+      .def_readonly("offset", &DrivenJoint::offset, "[rad] or [m]")
+      .def_readonly("part", &DrivenJoint::part,
+                    "0 to 5 of a free joint, 3 to 5 of a ball joint, else -1");
   py::class_<Coordinate>(module, "Coordinate", kCoordinate)
       .def_readonly("name", &Coordinate::name)
       .def_readonly("joints", &Coordinate::joints, "list of DrivenJoint; the first one is read")
@@ -235,6 +247,17 @@ void bind_state(py::class_<Robot>& robot) {
       .def_property_readonly("configuration", &Robot::configuration, copy, "q (n,) [rad] or [m]")
       .def_property_readonly("velocity", &Robot::velocity, copy, "(n,) [rad/s] or [m/s]")
       .def_property_readonly("qpos", &Robot::qpos, copy, "(nq,)")
+      .def(
+          "add_step",
+          [](const Robot& self, const ConstVectorRef& q, const ConstVectorRef& step) {
+            require(q.size() == self.size() && step.size() == self.size(),
+                    "add_step wants q and step of " + std::to_string(self.size()) + " values, " +
+                        std::to_string(q.size()) + " and " + std::to_string(step.size()) + " came");
+            Vector next = q;
+            add_step(self.rotations(), step, next);
+            return next;
+          },
+          py::arg("q"), py::arg("step"), kAddStep)
       .def(
           "coordinates_of",
           [](const Robot& self, const ConstVectorRef& qpos) {

@@ -385,8 +385,12 @@ class DrivenJoint:
         """[rad] or [m]"""
 
     @property
+    def part(self) -> int:
+        """0 to 5 of a free joint, 3 to 5 of a ball joint, else -1"""
+
+    @property
     def qpos(self) -> int:
-        """address in qpos"""
+        """address in qpos, of a ball joint its quaternion's"""
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 
@@ -400,7 +404,7 @@ class Coordinate:
 
     @property
     def lower(self) -> float:
-        """[rad] or [m], -inf when unlimited"""
+        """[rad] or [m], -inf when unlimited; of a ball joint the range of all of it"""
 
     @property
     def max_effort(self) -> float:
@@ -422,10 +426,13 @@ class Robot:
     """Any MJCF robot as the controller sees it: coordinates, frames, Jacobians.
 
     The controller moves n coordinates. A coordinate drives one joint or several together; the MJCF
-    names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge or slide
-    joint that has an actuator is a coordinate, and without actuators every hinge or slide joint; joints
+    names them by tuples `coordinate_NAME` of (joint, factor). Without such tuples every hinge, slide or ball
+    joint that has an actuator is a coordinate, and without actuators every one; joints
     that an equality constraint of the model couples linearly (mimic joints) are one, and joints that close
     loops follow (`followers`). All others are held.
+    A ball joint is three coordinates, NAME_rx, NAME_ry and NAME_rz: its rotation vector [rad], at most pi
+    long. Their velocities [rad/s] and efforts [N m] are MuJoCo's, about the axes of its body, and not the
+    derivative of the rotation vector: `add_step` goes from one to the other.
     It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
     Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
     which joints are held and which constraints are not kept.
@@ -458,6 +465,12 @@ class Robot:
         floating: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def add_step(self, q: ArrayLike, step: ArrayLike) -> NDArray[np.float64]:
+        """q (n,) a step (n,) further [rad] or [m], a velocity times a time: q + step, but ball joints and a free root turn.
+
+        Raises:
+          Error: q or step of another length."""
+
     def angular_momentum_drift(self) -> NDArray[np.float64]:
         """(3,) [N m] dA/dt v: how it changes when the coordinates do not accelerate."""
 

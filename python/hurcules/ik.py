@@ -90,7 +90,7 @@ def inverse_kinematics(
             found.append((_descend(robot, levels, wanted, tolerance), robot.configuration))
             if found[0][0] <= tolerance:
                 break
-            drawn = generator.uniform(lower, upper)
+            drawn = _within_balls(robot, generator.uniform(lower, upper))
             robot.set_configuration(inside + (start + 1) / starts * (drawn - inside))
     finally:
         robot.set_configuration(present)
@@ -118,6 +118,16 @@ def _ranges(robot: Robot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     free = ~np.isfinite(upper - lower)
     q = robot.configuration
     return np.where(free, q - FREE, lower), np.where(free, q + FREE, upper)
+
+
+def _within_balls(robot: Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same with ball joints turned no further than their ranges, (n,)."""
+    for i, coordinate in enumerate(robot.coordinates):
+        joint = coordinate.joints[0]
+        if joint.part == 3:
+            angle = float(np.linalg.norm(q[i : i + 3]))
+            q[i : i + 3] *= min(1.0, coordinate.upper / angle) if angle > 0.0 else 1.0
+    return q
 
 
 def _descend(

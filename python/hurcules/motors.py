@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import mujoco
+import numpy as np
 
 from hurcules._core import Error
 
 __all__ = ["with_motors"]
 
-_MOVING = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
+_MOVING = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_BALL)
 
 
 def with_motors(
@@ -18,6 +19,7 @@ def with_motors(
 ) -> mujoco.MjModel:
     """A model with a motor, named after its joint, at each hinge and slide that has no actuator.
 
+    A ball joint gets three, NAME_rx, NAME_ry and NAME_rz, about the axes of its body.
     A motor gives as much as the joint allows: `actuatorfrcrange` in MJCF, `effort` in a URDF.
 
     Args:
@@ -37,7 +39,12 @@ def with_motors(
         for joint in spec.joints:
             if joint.type not in _MOVING or joint.name in driven:
                 continue
-            _add_motor(spec, joint, peak)
+            if joint.type == mujoco.mjtJoint.mjJNT_BALL:
+                for axis, part in enumerate(("_rx", "_ry", "_rz")):
+                    motor = _add_motor(spec, joint, peak, part)
+                    motor.gear = np.eye(6)[axis]
+            else:
+                _add_motor(spec, joint, peak)
             if armature is not None and joint.armature == 0.0:
                 joint.armature = armature
         return spec.compile()
@@ -52,8 +59,10 @@ def _is_at_joint(actuator: mujoco.MjsActuator) -> bool:
     )
 
 
-def _add_motor(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, peak: float | None) -> None:
-    motor = spec.add_actuator(name=joint.name, target=joint.name)
+def _add_motor(
+    spec: mujoco.MjSpec, joint: mujoco.MjsJoint, peak: float | None, part: str = ""
+) -> mujoco.MjsActuator:
+    motor = spec.add_actuator(name=joint.name + part, target=joint.name)
     motor.trntype = mujoco.mjtTrn.mjTRN_JOINT
     motor.set_to_motor()
     lower, upper = joint.actfrcrange
@@ -63,3 +72,4 @@ def _add_motor(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, peak: float | None) 
     elif peak is not None:
         motor.forcerange = [-peak, peak]
         motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+    return motor

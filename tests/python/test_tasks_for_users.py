@@ -353,25 +353,16 @@ def test_what_is_held_is_named() -> None:
     assert hurcules.Robot(model, joints=[f"l{i}" for i in range(1, 7)]).left_out == ""
 
 
-BALL = """<mujoco><worldbody><body><joint name="lift" axis="0 1 0"/><geom size=".1"/>
-  <body pos="0 0 .3"><joint name="wrist" type="ball"/><geom size=".1"/></body></body></worldbody>
-  <actuator><motor joint="lift"/><motor joint="wrist" gear="1 0 0"/></actuator></mujoco>"""
+FREE = """<mujoco><worldbody><body><freejoint name="root"/><geom size=".1"/>
+  <body pos="0 0 .3"><joint name="lift" axis="0 1 0"/><geom size=".1"/></body></body></worldbody>
+  </mujoco>"""
 MUSCLE = """<mujoco><worldbody><body><joint name="elbow" axis="0 1 0" range="-90 90"/>
   <geom size=".1"/></body></worldbody><actuator><muscle joint="elbow"/></actuator></mujoco>"""
 
 
-def test_a_ball_joint_is_named_with_what_to_do() -> None:
-    model = mujoco.MjModel.from_xml_string(BALL)
-    robot = hurcules.Robot(model)
-    assert robot.coordinate_names == ["lift"]
-    assert "wrist (ball)" in robot.left_out
-    assert "three hinges may stand for a ball" in robot.left_out
-    with pytest.raises(hurcules.Error, match=r"'wrist' is a ball joint.*three hinges"):
-        hurcules.Robot(model, joints=["lift", "wrist"])
-    floating = BALL.replace('<joint name="lift" axis="0 1 0"/>', '<freejoint name="root"/>')
-    floating = floating.replace('<motor joint="lift"/>', "")
+def test_a_free_joint_is_refused_with_what_to_do() -> None:
     with pytest.raises(hurcules.Error, match=r"'root' is free.*floating=True"):
-        hurcules.Robot(mujoco.MjModel.from_xml_string(floating), joints=["root"])
+        hurcules.Robot(mujoco.MjModel.from_xml_string(FREE), joints=["root"])
 
 
 def test_a_muscle_moves_in_the_plan_and_is_refused_in_the_physics() -> None:

@@ -58,15 +58,16 @@ AccelerationController::AccelerationController(const Robot& robot,
     : options_(std::move(options)),
       rates_{options_.dt, options_.horizon, kInfinity, options_.max_acceleration,
              options_.return_speed},
+      rotations_(robot.rotations()),
       floating_(robot.floating()),
       own_limits_("limits", robot),
-      loop_limits_("limits of loops", robot),
+      joint_ranges_("limits of loops and balls", robot),
       problem_(robot.size()),
       contacts_(robot),
       solver_(robot.size(), options_.solver) {
   check(options_);
   if (options_.law == Law::Arrive && !robot.floating()) probe_.emplace(robot);
-  acceleration_ = braked_ = speed_ = next_ = Vector::Zero(robot.size());
+  acceleration_ = braked_ = speed_ = next_ = step_ = Vector::Zero(robot.size());
   inertia_ = Matrix::Zero(robot.size(), robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(static_cast<std::size_t>(robot.size()));
@@ -74,7 +75,7 @@ AccelerationController::AccelerationController(const Robot& robot,
 
 void AccelerationController::set_stack(const Stack& stack) {
   const Stack completed = contacts_.completed(stack);
-  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, &loop_limits_,
+  problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, &joint_ranges_,
                      contacts_.size());
   contacts_.place(problem_);
   has_zone_ = options_.law == Law::Arrive && contacts_.size() == 0;
@@ -191,9 +192,11 @@ void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
   for (Index i = 0; i < q.size(); ++i) {
     const double next = velocity[i] + acceleration_[i] * dt;
     const double step = 0.5 * (velocity[i] + next) * dt;  // [T 5.6.50]
-    q[i] += limits() ? limits()->held_step(i, step) : step;
+    step_[i] = limits() ? limits()->held_step(i, step) : step;
     velocity[i] = next;
   }
+  add_step(rotations_, step_, q);
+  if (limits()) hold_ranges(rotations_, limits()->configuration(), q);
 }
 
 void AccelerationController::reset() {

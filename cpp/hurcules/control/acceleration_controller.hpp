@@ -25,7 +25,7 @@
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
-#include "hurcules/tasks/loop_limits.hpp"
+#include "hurcules/tasks/joint_ranges.hpp"
 
 namespace hurcules {
 
@@ -63,7 +63,7 @@ class AccelerationController {
   // (torque_scaling.hpp), sooner than accelerations but no sooner than velocity limits; true when it
   // changed qddot*
   bool scale_velocity(const VelocityBounds& bounds, const Vector& velocity);
-  // one dt further, (n) [rad], (n) [rad/s]; rounding never carries a coordinate over its limit;
+  // one dt further, (n) [rad], (n) [rad/s], ball joints turn; rounding never carries a coordinate over its limit;
   // throws Error for a robot that floats
   void integrate(VectorRef q, VectorRef velocity) const;
   // inverse dynamics: what the drives must give for qddot* and, in contact, against the forces that
@@ -104,10 +104,11 @@ class AccelerationController {
   void add_friction(const Robot& robot, VectorRef torque) const;
 
   AccelerationControllerOptions options_;
-  RateLimits rates_;        // of a row, which has no speed limit
-  bool floating_;           // its root is a coordinate
-  JointLimits own_limits_;  // those of the robot
-  LoopLimits loop_limits_;  // the same
+  RateLimits rates_;  // of a row, which has no speed limit
+  std::vector<RotationVector> rotations_;
+  bool floating_;             // its root is a coordinate
+  JointLimits own_limits_;    // those of the robot
+  JointRanges joint_ranges_;  // the same
   StackProblem problem_;
   ContactForces contacts_;
   Solver solver_;
@@ -118,6 +119,7 @@ class AccelerationController {
   std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector acceleration_;
   Vector next_;                                  // [rad/s] scratch, one dt further
+  mutable Vector step_;                          // [rad] scratch
   Vector braked_, speed_;                        // D qdot and qdot, of the last measure
   Vector rate_;                                  // scratch, de/dt of a level
   std::vector<AccelerationInterval> intervals_;  // (n), of the last measure

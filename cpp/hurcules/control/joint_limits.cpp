@@ -10,6 +10,7 @@ namespace hurcules {
 
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kNoNumber = 1e20;  // from here on a side is infinite
 
 }  // namespace
@@ -24,9 +25,10 @@ JointLimits::JointLimits(std::string name, const Robot& robot)
       configuration_(robot.configuration()) {
   for (Index i = 0; i < robot.size(); ++i) {
     const Coordinate& coordinate = robot.coordinates()[static_cast<std::size_t>(i)];
-    of_root_.push_back(coordinate.joints.front().part >= 0);
-    robot_lower_[i] = coordinate.lower;
-    robot_upper_[i] = coordinate.upper;
+    of_root_.push_back(i < robot.root_size());
+    of_ball_.push_back(i >= robot.root_size() && coordinate.joints.front().part >= 0);
+    robot_lower_[i] = of_ball_.back() ? -kNone : coordinate.lower;
+    robot_upper_[i] = of_ball_.back() ? kNone : coordinate.upper;
     max_velocity_[i] = coordinate.max_velocity;
   }
   reset_ranges();
@@ -89,8 +91,7 @@ RateState JointLimits::state(Index i, double velocity) const {
 RateLimits JointLimits::rates(Index i, const RateLimits& controller) const {
   RateLimits rates = controller;
   rates.max_velocity = max_velocity_[i];
-  if (of_root_[static_cast<std::size_t>(i)])
-    rates.max_acceleration = std::numeric_limits<double>::infinity();
+  if (of_root_[static_cast<std::size_t>(i)]) rates.max_acceleration = kNone;
   return rates;
 }
 
@@ -113,6 +114,9 @@ void JointLimits::require_size(Index size, const char* what) const {
 }
 
 void JointLimits::require_range(Index i, double lower, double upper) const {
+  require(!of_ball_[static_cast<std::size_t>(i)] || (lower == -kNone && upper == kNone),
+          "'" + coordinates_[static_cast<std::size_t>(i)] +
+              "' is one of three coordinates of a ball joint and has no range of its own");
   const bool holds_numbers = lower < kNoNumber && upper > -kNoNumber;
   if (robot_lower_[i] <= lower && lower <= upper && upper <= robot_upper_[i] && holds_numbers)
     return;

@@ -2,6 +2,7 @@
 // before all levels, and adds the accelerations of its options; a stack may name another one.
 //
 //   lower <= q <= upper, |qdot| <= max_velocity      (n) [rad] or [m]      [T 4.3.8]: g_joint
+// The three coordinates of a ball joint have no ranges here: its angle is a row of JointRanges.
 #pragma once
 
 #include <string>
@@ -60,6 +61,7 @@ class JointLimits {
   ModelIdentity identity_;
   std::vector<std::string> coordinates_;
   std::vector<bool> of_root_;         // (n) a part of a free root
+  std::vector<bool> of_ball_;         // (n) a part of a ball joint
   Vector robot_lower_, robot_upper_;  // [rad] or [m], (n)
   Vector lower_, upper_, max_velocity_, configuration_;
 };

@@ -1,12 +1,15 @@
 #include "hurcules/control/joint_servo.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
 #include "hurcules/robot/closures.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -76,7 +79,7 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
     double low = 1.0, high = 1.0;  // of a joint without a coordinate nothing is known
     for (Index k = 0; k < n; ++k) {
       for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints) {
-        if (joint.joint != actuator.joint_id) continue;
+        if (joint.dof != actuator.dof) continue;
         const double share =
             joint.factor * joint.factor *
             static_cast<double>(robot.coordinates()[static_cast<std::size_t>(k)].joints.size());
@@ -127,7 +130,15 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
     motors_.back().idle = follows(robot, actuators[i]);
   }
   pid_ = JointPid(triple_pole(drives, dt));
+  for (Motor& motor : motors_) {
+    for (std::size_t i = 0; i < motors_.size(); ++i) {
+      const JointActuator& other = motors_[i].actuator;
+      if (other.joint_id == motor.actuator.joint_id && other.part >= 0)
+        motor.ball[static_cast<std::size_t>(other.part - kTurns)] = static_cast<Index>(i);
+    }
+  }
   error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
+  reference_ = position_;
   feed_forward_ = Vector::Zero(size());
   rests_.resize(motors_.size());
   left_.resize(motors_.size(), false);
@@ -138,6 +149,35 @@ Index JointServo::find(const std::string& joint) const {
   const auto found = std::find(names_.begin(), names_.end(), joint);
   if (found == names_.end()) throw Error(unknown_name("joint with an actuator", joint, names_));
   return found - names_.begin();
+}
+
+Matrix3 JointServo::rotation(Index joint, const Vector& reference) const {
+  const std::array<Index, 3>& ball = motors_[static_cast<std::size_t>(joint)].ball;
+  return rotation_exp({reference[ball[0]], reference[ball[1]], reference[ball[2]]});
+}
+
+void JointServo::place(Index joint, VectorRef qpos) const {
+  const JointActuator& own = actuator(joint);
+  if (own.part < 0) {
+    qpos[own.qpos] = position_[joint];
+    return;
+  }
+  const Eigen::Quaterniond turn(rotation(joint, position_));
+  qpos.segment<4>(own.qpos) << turn.w(), turn.vec();
+}
+
+void JointServo::find_position_error(const Vector& reference, const Vector& qpos) {
+  for (Index i = 0; i < size(); ++i) {
+    const JointActuator& own = actuator(i);
+    if (own.part < 0) {
+      error_.position[i] = reference[i] - qpos[own.qpos];
+    } else {  // about the axes of the body as it is
+      const Eigen::Quaterniond turn(qpos[own.qpos], qpos[own.qpos + 1], qpos[own.qpos + 2],
+                                    qpos[own.qpos + 3]);
+      const Matrix3 R = turn.normalized().toRotationMatrix();
+      error_.position[i] = rotation_log(R.transpose() * rotation(i, reference))[own.part - kTurns];
+    }
+  }
 }
 
 void JointServo::follow(const Vector& q, const Vector& velocity) {
@@ -182,12 +222,12 @@ void JointServo::add(const Vector& efforts) {
 void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration) {
   efforts.setZero();
   acceleration.setZero();  // for now the rated inertia
+  find_position_error(position_, state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     const ActuatorStatus& status =
         state.actuators[static_cast<std::size_t>(motor.actuator.actuator)];
     if (status.braked || left_[static_cast<std::size_t>(i)]) continue;
-    error_.position[i] = position_[i] - state.qpos[motor.actuator.qpos];
     error_.velocity[i] = velocity_[i] - state.qvel[motor.actuator.dof];
     efforts[motor.coordinate] += motor.factor * pid_.feedback(i, error_);
     acceleration[motor.coordinate] += motor.factor * motor.factor * motor.inertia;
@@ -202,10 +242,13 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
   bounds_.lower.setConstant(-kNone);
   bounds_.upper.setConstant(kNone);
   for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    reference_[i] = motor.factor * q[motor.coordinate] + offset_[i];
+  }
+  find_position_error(reference_, state.qpos);
+  for (Index i = 0; i < coordinate_joints_; ++i) {
     if (rests_[static_cast<std::size_t>(i)].on) continue;
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
-    error_.position[i] =
-        motor.factor * q[motor.coordinate] + offset_[i] - state.qpos[motor.actuator.qpos];
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kShare * pid_.options().max_torque[i];
     const double beside = feed_forward_[i];
@@ -228,7 +271,7 @@ void JointServo::read_brakes(const RobotState& state) {
     Rest& rest = rests_[static_cast<std::size_t>(i)];
     rest = {shut, rest.on && !shut};
     if (motor.coordinate < 0 && (rest.on || rest.over || left_[static_cast<std::size_t>(i)])) {
-      position_[i] = state.qpos[motor.actuator.qpos];
+      position_[i] = motor.actuator.position(state.qpos);
       velocity_[i] = 0.0;
     }
   }
@@ -236,11 +279,11 @@ void JointServo::read_brakes(const RobotState& state) {
 
 void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   read_brakes(state);
+  find_position_error(position_, state.qpos);
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     const ActuatorStatus& status = state.actuators[static_cast<std::size_t>(motor.actuator)];
     const Rest& rest = rests_[static_cast<std::size_t>(i)];
-    error_.position[i] = position_[i] - state.qpos[motor.qpos];
     error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
     const bool idle = motors_[static_cast<std::size_t>(i)].idle;
     pid_.limit(i, rest.on || idle ? EffortRange{} : status.range);
@@ -250,7 +293,8 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     if (left_[static_cast<std::size_t>(i)]) continue;
-    ctrl[motor.actuator] = motor.control(torque[i], state.qpos[motor.qpos], state.qvel[motor.dof]);
+    ctrl[motor.actuator] =
+        motor.control(torque[i], motor.position(state.qpos), state.qvel[motor.dof]);
   }
 }
 
@@ -266,7 +310,7 @@ void JointServo::reset(const Vector& qpos) {
   }
   for (Rest& rest : rests_) rest = {};
   for (Index i = 0; i < size(); ++i) {
-    position_[i] = qpos[motors_[static_cast<std::size_t>(i)].actuator.qpos];
+    position_[i] = actuator(i).position(qpos);
   }
 }
 

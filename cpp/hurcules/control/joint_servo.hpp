@@ -1,10 +1,12 @@
 // The joint servos: one robust PID (joint_pid.hpp) at every joint that has an actuator.
 //
 // The joints of a coordinate follow it, each on its own:  reference = factor q* + offset. A joint of
-// no coordinate (a gripper, a bed, a belt) holds its place until it is moved. A torque goes no
+// no coordinate (a gripper, a bed, a belt) holds its place until it is moved. A ball joint has three,
+// which turn it straight from where it is to where it shall be. A torque goes no
 // further than the motor at its present speed, and none is given behind a brake that is shut.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -89,7 +91,9 @@ class JointServo {
   [[nodiscard]] Index coordinate_of(Index joint) const {  // -1 for none
     return motors_[static_cast<std::size_t>(joint)].coordinate;
   }
-  [[nodiscard]] const Vector& position() const { return position_; }    // [rad] (m) reference
+  [[nodiscard]] const Vector& position() const { return position_; }  // [rad] (m) reference
+  // writes a joint's reference where it belongs in qpos (nq)
+  void place(Index joint, VectorRef qpos) const;
   [[nodiscard]] const Vector& velocity() const { return velocity_; }    // [rad/s] (m) reference
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
   // [N m], (m), before saturation
@@ -107,12 +111,17 @@ class JointServo {
     double share = 1.0;     // of the coordinate's effort
     double inertia = 0.0;   // rated
     bool idle = false;      // its joint follows coordinates (closures.hpp), which bear all of it
+    std::array<Index, 3> ball = {};  // the motors of its ball joint, where it has one
   };
   struct Rest {
     bool on = false;    // the brake holds, the motor is without power
     bool over = false;  // this tick the motor takes over what the brake bore
   };
   void read_brakes(const RobotState& state);
+  // from where the joints are to these references (m)
+  void find_position_error(const Vector& reference, const Vector& qpos);
+  // of a ball joint with this motor: the rotation of references (m)
+  [[nodiscard]] Matrix3 rotation(Index joint, const Vector& reference) const;
 
   std::vector<Motor> motors_;
   std::vector<std::string> names_;
@@ -122,6 +131,7 @@ class JointServo {
   VelocityBounds bounds_;       // (n)
   Vector position_, velocity_;  // (m) reference
   Vector feed_forward_;         // [N m] (m)
+  Vector reference_;            // [rad] (m) scratch
   Vector offset_;               // [rad] (m) of a joint against its coordinate
   std::vector<Rest> rests_;     // (m)
   std::vector<bool> left_;      // (m) to somebody else

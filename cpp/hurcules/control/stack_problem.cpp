@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/tasks/loop_limits.hpp"
+#include "hurcules/tasks/joint_ranges.hpp"
 
 namespace hurcules {
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-Stack with_limits(const Stack& stack, JointLimits& limits, LoopLimits* loops) {
+Stack with_limits(const Stack& stack, JointLimits& limits, JointRanges* loops) {
   std::vector<StackLevel> levels = stack.levels();
   if (levels.empty() || !levels.front().limits) levels.insert(levels.begin(), StackLevel(limits));
   if (loops && loops->rows() > 0) levels.insert(levels.begin() + 1, StackLevel(*loops));
@@ -39,7 +39,7 @@ void require_coordinates(const std::string& name, Index came, Index wanted) {
 
 }  // namespace
 
-void StackProblem::set_stack(const Stack& asked, JointLimits* own, LoopLimits* loops,
+void StackProblem::set_stack(const Stack& asked, JointLimits* own, JointRanges* loops,
                              Index others) {
   const Stack stack = own ? with_limits(asked, *own, loops) : asked;
   Hierarchy hierarchy;

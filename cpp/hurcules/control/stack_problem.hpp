@@ -12,7 +12,7 @@
 
 namespace hurcules {
 
-class LoopLimits;
+class JointRanges;
 
 class StackProblem {
  public:
@@ -21,7 +21,7 @@ class StackProblem {
   // With `own` these limits come first where the stack names none; `loops`, if it has rows, next to
   // them. `others`: unknowns after those of the tasks, whose columns are left at zero. Throws Error
   // for tasks and limits of another robot.
-  void set_stack(const Stack& stack, JointLimits* own = nullptr, LoopLimits* loops = nullptr,
+  void set_stack(const Stack& stack, JointLimits* own = nullptr, JointRanges* loops = nullptr,
                  Index others = 0);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }

@@ -64,8 +64,9 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
     : options_(std::move(options)),
       rates_{options_.dt, options_.horizon, kInfinity, options_.max_acceleration,
              options_.return_speed},
+      rotations_(robot.rotations()),
       own_limits_("limits", robot),
-      loop_limits_("limits of loops", robot),
+      joint_ranges_("limits of loops and balls", robot),
       problem_(robot.size()),
       reachable_(robot.size()),
       solver_(robot.size(), options_.solver) {
@@ -74,7 +75,7 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
           "no velocity can be given to a free root; a robot that floats wants an "
           "AccelerationController, or a stack by torques");
   if (options_.law == Law::Arrive) probe_.emplace(robot);
-  velocity_ = next_ = offset_ = Vector::Zero(robot.size());
+  velocity_ = next_ = step_ = offset_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(static_cast<std::size_t>(robot.size()));
 }
@@ -87,7 +88,7 @@ void VelocityController::set_stack(const Stack& stack) {
                   "' commands accelerations: it wants an acceleration controller");
     }
   }
-  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr, &loop_limits_);
+  problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr, &joint_ranges_);
   begin_transition();
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
@@ -177,10 +178,10 @@ bool VelocityController::scale_velocity(const VelocityBounds& window) {
 }
 
 void VelocityController::integrate(VectorRef q) const {
-  for (Index i = 0; i < q.size(); ++i) {
-    const double step = velocity_[i] * options_.dt;
-    q[i] += limits() ? limits()->held_step(i, step) : step;
-  }
+  step_ = velocity_ * options_.dt;
+  for (Index i = 0; limits() && i < q.size(); ++i) step_[i] = limits()->held_step(i, step_[i]);
+  add_step(rotations_, step_, q);
+  if (limits()) hold_ranges(rotations_, limits()->configuration(), q);
 }
 
 const Vector& VelocityController::step(Robot& robot) {

@@ -22,7 +22,7 @@
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
-#include "hurcules/tasks/loop_limits.hpp"
+#include "hurcules/tasks/joint_ranges.hpp"
 
 namespace hurcules {
 
@@ -61,7 +61,7 @@ class VelocityController {
   // accelerations and the limits of the first levels allow: a robot that stops at once tips over. A
   // coordinate that is pushed follows at once.
   bool scale_velocity(const VelocityBounds& window);
-  // q* += qdot* dt, (n) [rad]; rounding never carries a coordinate over its limit
+  // q* += qdot* dt, (n) [rad], ball joints turn; rounding never carries a coordinate over its limit
   void integrate(VectorRef q) const;  // [T 4.3.7]
   // compute, then moves the robot by one period, q* = integrate(q*): (n) [rad]
   const Vector& step(Robot& robot);
@@ -94,9 +94,10 @@ class VelocityController {
   void add_transition();
 
   VelocityControllerOptions options_;
-  RateLimits rates_;        // of a row, which has no speed limit
-  JointLimits own_limits_;  // those of the robot
-  LoopLimits loop_limits_;  // the same
+  RateLimits rates_;  // of a row, which has no speed limit
+  std::vector<RotationVector> rotations_;
+  JointLimits own_limits_;    // those of the robot
+  JointRanges joint_ranges_;  // the same
   StackProblem problem_;
   Reachable reachable_;  // by the limits of the coordinates
   Solver solver_;
@@ -106,9 +107,10 @@ class VelocityController {
   DeadZone dead_zone_;
   std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector velocity_;
-  Vector next_;        // [rad], (n): q* after a step
-  Vector offset_;      // [rad/s] (n) of the transition, at its start
-  double age_ = -1.0;  // [s] of the transition; < 0: it begins with the next solve
+  Vector next_;          // [rad], (n): q* after a step
+  mutable Vector step_;  // scratch, (n)
+  Vector offset_;        // [rad/s] (n) of the transition, at its start
+  double age_ = -1.0;    // [s] of the transition; < 0: it begins with the next solve
   bool fading_ = false;
   Vector lower_, upper_;                 // scratch for hold_limits, as many as a level has rows
   std::vector<RateInterval> intervals_;  // (n), of the last measure

@@ -167,6 +167,8 @@ void WholeBodyController::check_channels() {
       require(channel.kind() == ChannelKind::Joints || servo_.coordinate_of(joint) < 0,
               "channel '" + channel.name() + "' moves joint '" + name +
                   "', which the tasks move: it wants a task");
+      require(servo_.actuator(joint).part < 0, "channel '" + channel.name() + "' moves '" + name +
+                                                   "', a part of a ball joint: it wants a task");
       moved_.back().push_back(joint);
     }
     if (!channel.task()) continue;

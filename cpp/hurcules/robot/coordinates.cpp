@@ -34,10 +34,22 @@ bool is_single(const mjModel& m, int joint) {
   return m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE;
 }
 
-bool drives(const mjModel& m, int actuator, int joint) {
+bool is_ball(const mjModel& m, int joint) {
+  return m.jnt_type[joint] == mjJNT_BALL;
+}
+
+// `part`: of a ball joint one that it turns, -1 for any
+bool drives(const mjModel& m, int actuator, int joint, int part = -1) {
   const int kind = m.actuator_trntype[actuator];
   return (kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT) &&
-         m.actuator_trnid[2 * actuator] == joint;
+         m.actuator_trnid[2 * actuator] == joint &&
+         (part < 0 || axis_of(m, actuator) == part - kTurns);
+}
+
+int first_actuator(const mjModel& m, int joint, int part) {
+  for (int a = 0; a < m.nu; ++a)
+    if (drives(m, a, joint, part)) return a;
+  return -1;
 }
 
 DrivenJoint driven(const mjModel& m, int joint, double factor) {
@@ -71,29 +83,36 @@ std::vector<Coordinate> from_tuples(const mjModel& m) {
   return found;
 }
 
-std::vector<Coordinate> from_joints(const mjModel& m, bool with_actuator) {
+// those of a free joint, or of a ball joint, which is the turns alone
+std::vector<Coordinate> from_parts(const mjModel& m, int joint) {
   std::vector<Coordinate> found;
-  for (int j = 0; j < m.njnt; ++j) {
-    if (!is_single(m, j) || (with_actuator && actuator_of(m, j) < 0)) continue;
-    found.emplace_back();
-    found.back().name = joint_name(m, j);
-    found.back().joints = {driven(m, j, 1.0)};
+  const int first = is_ball(m, joint) ? kTurns : 0;
+  for (int part = first; part < kParts; ++part) {
+    DrivenJoint driven_joint = driven(m, joint, 1.0);
+    driven_joint.part = part;
+    driven_joint.dof += part - first;
+    if (is_ball(m, joint)) driven_joint.actuator = first_actuator(m, joint, part);
+    Coordinate coordinate;
+    coordinate.name = part_name(m, joint, part);
+    coordinate.joints = {driven_joint};
+    coordinate.lower = -kInfinity;
+    coordinate.upper = coordinate.max_velocity = kInfinity;
+    found.push_back(std::move(coordinate));
   }
   return found;
 }
 
-// those of a free joint
-std::vector<Coordinate> from_free_joint(const mjModel& m, int joint) {
-  static constexpr std::array<const char*, 6> kParts = {"x", "y", "z", "rx", "ry", "rz"};
-  std::vector<Coordinate> found(kParts.size());
-  for (std::size_t part = 0; part < kParts.size(); ++part) {
-    found[part].name = joint_name(m, joint) + "_" + kParts[part];
-    DrivenJoint driven_joint = driven(m, joint, 1.0);
-    driven_joint.part = static_cast<int>(part);
-    driven_joint.dof += driven_joint.part;
-    found[part].joints = {driven_joint};
-    found[part].lower = -kInfinity;
-    found[part].upper = found[part].max_velocity = kInfinity;
+std::vector<Coordinate> from_joints(const mjModel& m, bool with_actuator) {
+  std::vector<Coordinate> found;
+  for (int j = 0; j < m.njnt; ++j) {
+    if (with_actuator && actuator_of(m, j) < 0) continue;
+    if (is_ball(m, j)) {
+      for (Coordinate& part : from_parts(m, j)) found.push_back(std::move(part));
+    } else if (is_single(m, j)) {
+      found.emplace_back();
+      found.back().name = joint_name(m, j);
+      found.back().joints = {driven(m, j, 1.0)};
+    }
   }
   return found;
 }
@@ -113,7 +132,7 @@ int free_joint_of(const mjModel& m, const std::vector<Coordinate>& coordinates) 
 bool take_root(const mjModel& m, std::vector<std::string>& names) {
   for (int j = 0; j < m.njnt; ++j) {
     if (m.jnt_type[j] != mjJNT_FREE) continue;
-    const std::vector<Coordinate> root = from_free_joint(m, j);
+    const std::vector<Coordinate> root = from_parts(m, j);
     const auto same = [](const Coordinate& part, const std::string& name) {
       return part.name == name;
     };
@@ -126,14 +145,40 @@ bool take_root(const mjModel& m, std::vector<std::string>& names) {
 }
 
 // why a joint of this name can be none
-void require_single(const mjModel& m, const std::string& name) {
+void require_not_free(const mjModel& m, const std::string& name) {
   const int joint = mj_name2id(&m, mjOBJ_JOINT, name.c_str());
-  if (joint < 0 || is_single(m, joint)) return;
-  require(m.jnt_type[joint] == mjJNT_FREE,
-          "joint '" + name + "' is a ball joint and can be no coordinate: three hinges in its " +
-              "place, one after the other in one body about the axes 1 0 0, 0 1 0 and 0 0 1, can");
-  throw Error("joint '" + name + "' is free and can be no coordinate by name: Robot(model, " +
+  require(joint < 0 || m.jnt_type[joint] != mjJNT_FREE,
+          "joint '" + name + "' is free and can be no coordinate by name: Robot(model, " +
               "floating=True) makes it six");
+}
+
+// ball joints by the names of their three coordinates
+std::vector<std::string> with_parts(const mjModel& m, const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const std::string& name : names) {
+    const int joint = mj_name2id(&m, mjOBJ_JOINT, name.c_str());
+    if (joint >= 0 && is_ball(m, joint)) {
+      for (const Coordinate& part : from_parts(m, joint)) all.push_back(part.name);
+    } else {
+      all.push_back(name);
+    }
+  }
+  return all;
+}
+
+// the three of a ball joint, none without the others
+void require_whole(const mjModel& m, const std::vector<Coordinate>& coordinates) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const DrivenJoint& own = coordinates[i].joints.front();
+    if (own.part < 0) continue;
+    const std::size_t first = i - std::min(i, static_cast<std::size_t>(own.part - kTurns));
+    for (int part = kTurns; part < kParts; ++part) {
+      const std::size_t at = first + static_cast<std::size_t>(part - kTurns);
+      require(at < coordinates.size() && coordinates[at].name == part_name(m, own.joint, part),
+              "'" + coordinates[i].name + "' is one of three coordinates of a ball joint: they " +
+                  "are wanted together and in their order, as '" + joint_name(m, own.joint) + "'");
+    }
+  }
 }
 
 // each name among the tuples' coordinates, then among the joints
@@ -141,17 +186,18 @@ std::vector<Coordinate> chosen(const mjModel& m, std::vector<Coordinate> all,
                                const std::vector<std::string>& names) {
   for (Coordinate& joint : from_joints(m, false)) all.push_back(std::move(joint));
   std::vector<Coordinate> found;
-  for (const std::string& name : names) {
+  for (const std::string& name : with_parts(m, names)) {
     const auto same = [&](const Coordinate& coordinate) { return coordinate.name == name; };
     const auto one = std::find_if(all.begin(), all.end(), same);
     if (one == all.end()) {
-      require_single(m, name);
+      require_not_free(m, name);
       std::vector<std::string> existing;
       for (const Coordinate& coordinate : all) existing.push_back(coordinate.name);
       throw Error(unknown_name("joint", name, existing));
     }
     found.push_back(*one);
   }
+  require_whole(m, found);
   return found;
 }
 
@@ -235,13 +281,13 @@ double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
 }
 
 // [N m] or [N] that every actuator of the joint can give both ways, 0 without actuators
-double effort_limit(const mjModel& m, int joint) {
+double effort_limit(const mjModel& m, int joint, int part) {
   double sum = 0;
   for (int a = 0; a < m.nu; ++a) {
-    if (!drives(m, a, joint)) continue;
+    if (!drives(m, a, joint, part)) continue;
     if (!m.actuator_forcelimited[a]) sum = kInfinity;
     const double* range = m.actuator_forcerange + 2 * a;
-    sum += std::min(-range[0], range[1]) * std::abs(m.actuator_gear[6 * a]);
+    sum += std::min(-range[0], range[1]) * std::abs(gear_of(m, a));
   }
   if (!m.jnt_actfrclimited[joint]) return sum;
   const double* range = m.jnt_actfrcrange + 2 * joint;
@@ -256,7 +302,10 @@ void set_limits(const mjModel& m, Coordinate& coordinate) {
   for (const DrivenJoint& driven_joint : coordinate.joints) {
     const int joint = driven_joint.joint;
     const double factor = driven_joint.factor;
-    if (m.jnt_limited[joint]) {
+    if (m.jnt_limited[joint] && is_ball(m, joint)) {  // no part of it turns further than all of it
+      coordinate.upper = m.jnt_range[2 * joint + 1];
+      coordinate.lower = -coordinate.upper;
+    } else if (m.jnt_limited[joint]) {
       const double a = (m.jnt_range[2 * joint] - driven_joint.offset) / factor;
       const double b = (m.jnt_range[2 * joint + 1] - driven_joint.offset) / factor;
       coordinate.lower = std::max(coordinate.lower, std::min(a, b));
@@ -264,7 +313,7 @@ void set_limits(const mjModel& m, Coordinate& coordinate) {
     }
     coordinate.max_velocity =
         std::min(coordinate.max_velocity, velocity_limit(m, driven_joint) / std::abs(factor));
-    coordinate.max_effort += std::abs(factor) * effort_limit(m, joint);
+    coordinate.max_effort += std::abs(factor) * effort_limit(m, joint, driven_joint.part);
   }
   if (coordinate.max_effort <= 0) coordinate.max_effort = kInfinity;
   require(coordinate.lower <= coordinate.upper,
@@ -273,23 +322,42 @@ void set_limits(const mjModel& m, Coordinate& coordinate) {
 
 void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinates) {
   std::set<std::string> names;
-  std::set<int> joints;
+  std::set<int> dofs;
   for (const Coordinate& coordinate : coordinates) {
     require(names.insert(coordinate.name).second,
             "two coordinates are called '" + coordinate.name + "'");
     for (const DrivenJoint& driven_joint : coordinate.joints)
-      require(joints.insert(driven_joint.joint).second,
-              "joint '" + joint_name(m, driven_joint.joint) +
-                  "' belongs to one coordinate only, '" + coordinate.name + "' names it again");
+      require(dofs.insert(driven_joint.dof).second, "joint '" + joint_name(m, driven_joint.joint) +
+                                                        "' belongs to one coordinate only, '" +
+                                                        coordinate.name + "' names it again");
   }
 }
 
 }  // namespace
 
 int actuator_of(const mjModel& m, int joint) {
-  for (int a = 0; a < m.nu; ++a)
-    if (drives(m, a, joint)) return a;
+  return first_actuator(m, joint, -1);
+}
+
+int axis_of(const mjModel& m, int actuator) {
+  const double* const gear = m.actuator_gear + 6 * actuator;
+  if (m.actuator_trntype[actuator] != mjTRN_JOINT) return -1;  // those of the parent turn
+  for (int axis = 0; axis < 3; ++axis)
+    if (gear[axis] != 0.0 && gear[(axis + 1) % 3] == 0.0 && gear[(axis + 2) % 3] == 0.0)
+      return axis;
   return -1;
+}
+
+double gear_of(const mjModel& m, int actuator) {
+  const double* const gear = m.actuator_gear + 6 * actuator;
+  if (!is_ball(m, m.actuator_trnid[2 * actuator])) return gear[0];
+  const int axis = axis_of(m, actuator);
+  return axis < 0 ? std::hypot(gear[0], gear[1], gear[2]) : gear[axis];
+}
+
+std::string part_name(const mjModel& m, int joint, int part) {
+  static constexpr std::array<const char*, kParts> kNames = {"x", "y", "z", "rx", "ry", "rz"};
+  return joint_name(m, joint) + "_" + kNames[static_cast<std::size_t>(part)];
 }
 
 std::string joint_name(const mjModel& m, int joint) {
@@ -317,7 +385,7 @@ std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std
   for (Coordinate& coordinate : found) set_limits(m, coordinate);
   require_distinct(m, found);
   if (!floating) return found;
-  std::vector<Coordinate> all = from_free_joint(m, free_joint_of(m, found));
+  std::vector<Coordinate> all = from_parts(m, free_joint_of(m, found));
   all.insert(all.end(), found.begin(), found.end());
   return all;
 }

@@ -2,9 +2,12 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -36,7 +39,7 @@ JointActuator read(const mjModel* m, int a) {
   require_affine(m, a, found.joint);
   found.qpos = m->jnt_qposadr[found.joint_id];
   found.dof = m->jnt_dofadr[found.joint_id];
-  found.gear = m->actuator_gear[6 * a];
+  found.gear = gear_of(*m, a);
   found.gain = m->actuator_gainprm[mjNGAIN * a];
   if (m->actuator_biastype[a] == mjBIAS_AFFINE) {
     for (int i = 0; i < 3; ++i)
@@ -44,14 +47,46 @@ JointActuator read(const mjModel* m, int a) {
   }
   found.is_motor = found.gain == 1.0 && found.bias == std::array<double, 3>{};
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const bool limited = m->jnt_limited[found.joint_id] != 0;
+  const bool ball = m->jnt_type[found.joint_id] == mjJNT_BALL;
+  if (ball) {
+    const int axis = axis_of(*m, a);
+    require(axis >= 0, "the actuator '" + name_of(m, mjOBJ_ACTUATOR, a) + "' of ball joint '" +
+                           found.joint + "' wants a gear about one axis of its body: 1 0 0, " +
+                           "0 1 0 or 0 0 1, and joint instead of jointinparent");
+    found.part = kTurns + axis;
+    found.dof += axis;
+    found.joint = part_name(*m, found.joint_id, found.part);
+  }
+  const bool limited = m->jnt_limited[found.joint_id] != 0 && !ball;
   found.lower = limited ? m->jnt_range[2 * found.joint_id] : -kNone;
   found.upper = limited ? m->jnt_range[2 * found.joint_id + 1] : kNone;
   found.limits = read_motor_limits(m, a);
   return found;
 }
 
+// where a ball joint has one, it has three
+void require_three(const mjModel* m, const std::vector<JointActuator>& actuators) {
+  for (const JointActuator& own : actuators) {
+    if (own.part < 0) continue;
+    std::array<int, kParts> count = {};
+    for (const JointActuator& one : actuators)
+      if (one.joint_id == own.joint_id) ++count[static_cast<std::size_t>(one.part)];
+    const std::string name = name_of(m, mjOBJ_JOINT, own.joint_id);
+    for (int part = kTurns; part < kParts; ++part)
+      require(count[static_cast<std::size_t>(part)] == 1,
+              "ball joint '" + name + "' wants three actuators, one about each axis of its " +
+                  "body (gear 1 0 0, 0 1 0 and 0 0 1); for '" + part_name(*m, own.joint_id, part) +
+                  "' it has " + std::to_string(count[static_cast<std::size_t>(part)]));
+  }
+}
+
 }  // namespace
+
+double JointActuator::position(const Vector& all) const {
+  if (part < 0) return all[qpos];
+  const Eigen::Quaterniond turn(all[qpos], all[qpos + 1], all[qpos + 2], all[qpos + 3]);
+  return rotation_log(turn.normalized().toRotationMatrix())[part - kTurns];
+}
 
 std::vector<JointActuator> joint_actuators(const Robot& robot) {
   const mjModel* const m = robot.model().get();
@@ -60,8 +95,9 @@ std::vector<JointActuator> joint_actuators(const Robot& robot) {
     const int kind = m->actuator_trntype[a];
     if (kind != mjTRN_JOINT && kind != mjTRN_JOINTINPARENT) continue;
     const int type = m->jnt_type[m->actuator_trnid[2 * a]];
-    if (type == mjJNT_HINGE || type == mjJNT_SLIDE) found.push_back(read(m, a));
+    if (type != mjJNT_FREE) found.push_back(read(m, a));
   }
+  require_three(m, found);
   return found;
 }
 

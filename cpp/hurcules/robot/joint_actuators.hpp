@@ -4,6 +4,7 @@
 // transmission: a motor has b = 0, a position or velocity servo has not. Whichever it is, the
 // control that makes it give an effort tau at the joint is
 //   ctrl = (tau / gear - b_0 - b_1 l - b_2 dl/dt) / gain.
+// A ball joint has three, one about each axis of its body; q is that part of its rotation vector.
 #pragma once
 
 #include <array>
@@ -17,9 +18,10 @@ namespace hurcules {
 
 struct JointActuator {
   int actuator = 0;
-  std::string joint;  // its name
+  std::string joint;  // its name, of a ball joint that of the coordinate: NAME_rx
   int joint_id = 0;
-  int qpos = 0, dof = 0;  // addresses
+  int part = -1;          // 3 to 5 of a ball joint, else -1
+  int qpos = 0, dof = 0;  // addresses, in qpos of a ball joint that of its quaternion
   double gear = 1.0;
   double gain = 1.0;
   std::array<double, 3> bias = {};
@@ -27,6 +29,8 @@ struct JointActuator {
   double lower = 0.0, upper = 0.0;  // [rad] or [m] range of the joint, -inf and inf without
   MotorLimits limits = {};
 
+  // [rad] or [m] where it is, in all of qpos (nq)
+  [[nodiscard]] double position(const Vector& all) const;
   // control for an effort [N m] or [N] at the joint, at its position and velocity
   [[nodiscard]] double control(double effort, double position, double velocity) const {
     if (is_motor) return effort / gear;
@@ -36,7 +40,8 @@ struct JointActuator {
 };
 
 // All of them, in the model's order. Throws Error for an actuator of a joint whose force is no
-// affine function of its control (muscles, actuators with a state of their own).
+// affine function of its control (muscles, actuators with a state of their own), and for a ball joint
+// that has others than one about each axis of its body.
 [[nodiscard]] std::vector<JointActuator> joint_actuators(const Robot& robot);
 
 }  // namespace hurcules

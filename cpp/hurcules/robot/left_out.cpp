@@ -12,8 +12,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kTight = 1e-6;  // of a loop that stays closed
-constexpr const char* kBall = " (ball)";
+constexpr double kTight = 1e-6;    // of a loop that stays closed
 constexpr std::size_t kShown = 8;  // names, then how many more
 
 std::string listed(const std::vector<std::string>& names) {
@@ -49,10 +48,7 @@ class Kept {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
       if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
-      const bool ball = m_.jnt_type[j] == mjJNT_BALL;
-      // where nothing is a coordinate, nothing but balls is left
-      if (moves(m_.jnt_bodyid[j]) || trees_.empty())
-        names.push_back(name_of(m_, mjOBJ_JOINT, j) + (ball ? kBall : ""));
+      if (moves(m_.jnt_bodyid[j])) names.push_back(name_of(m_, mjOBJ_JOINT, j));
     }
     return names;
   }
@@ -108,7 +104,6 @@ std::string left_out(const Robot& robot) {
   if (!joints.empty()) {
     text = std::to_string(joints.size()) + " joints of the robot are held, they belong to no " +
            "coordinate: " + listed(joints) + "; Robot(model, joints=[...]) says which move";
-    if (text.find(kBall) != std::string::npos) text += ", three hinges may stand for a ball";
   }
   if (!constraints.empty()) {
     text += std::string(text.empty() ? "" : ". ") +

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -39,14 +40,15 @@ double smaller_side(const mjtNum* range) {
 
 double find_peak(const mjModel* m, int actuator) {
   double force = kNone;
-  if (m->actuator_forcelimited[actuator]) force = smaller_side(m->actuator_forcerange + 2 * actuator);
+  if (m->actuator_forcelimited[actuator])
+    force = smaller_side(m->actuator_forcerange + 2 * actuator);
   const bool plain = m->actuator_gaintype[actuator] == mjGAIN_FIXED &&
                      m->actuator_biastype[actuator] == mjBIAS_NONE;
   if (plain && m->actuator_ctrllimited[actuator]) {
     const double gain = std::abs(m->actuator_gainprm[mjNGAIN * actuator]);
     force = std::min(force, gain * smaller_side(m->actuator_ctrlrange + 2 * actuator));
   }
-  const double peak = force * std::abs(m->actuator_gear[6 * actuator]);
+  const double peak = force * std::abs(gear_of(*m, actuator));
   const int joint = m->actuator_trnid[2 * actuator];
   if (!m->jnt_actfrclimited[joint]) return peak;
   return std::min(peak, smaller_side(m->jnt_actfrcrange + 2 * joint));

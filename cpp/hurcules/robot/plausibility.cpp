@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "hurcules/robot/coordinates.hpp"
+
 namespace hurcules {
 namespace {
 
@@ -22,11 +24,13 @@ std::string number(double value) {
 }
 
 bool turns(const Robot& robot, const Coordinate& coordinate) {
-  return robot.model()->jnt_type[coordinate.joints.front().joint] == mjJNT_HINGE;
+  const DrivenJoint& joint = coordinate.joints.front();
+  const int type = robot.model()->jnt_type[joint.joint];
+  return type == mjJNT_HINGE || (type == mjJNT_BALL && joint.part == kTurns);  // of three the first
 }
 
-std::string named(const Coordinate& coordinate, const std::string& text) {
-  return "'" + coordinate.name + "' " + text;
+std::string named(const std::string& name, const std::string& text) {
+  return "'" + name + "' " + text;
 }
 
 std::string interval(const Coordinate& coordinate, double unit) {
@@ -45,9 +49,9 @@ std::string implausible_ranges(const Robot& robot) {
     const double most = std::max(std::abs(coordinate.lower), std::abs(coordinate.upper));
     if (!turns(robot, coordinate) || !std::isfinite(most)) continue;
     if (most <= kRadiansAsDegrees && coordinate.lower < coordinate.upper)
-      append(narrow, named(coordinate, interval(coordinate, kDegree) + " degrees"));
+      append(narrow, named(coordinate.name, interval(coordinate, kDegree) + " degrees"));
     if (most > kDegreesAsRadians)
-      append(wide, named(coordinate, interval(coordinate, 1.0) + " rad"));
+      append(wide, named(coordinate.name, interval(coordinate, 1.0) + " rad"));
   }
   std::string text;
   if (!narrow.empty())
@@ -61,9 +65,17 @@ std::string outside_limits(const Robot& robot) {
   std::string found;
   for (Index i = 0; i < robot.size(); ++i) {
     const Coordinate& coordinate = robot.coordinates()[i];
+    if (coordinate.joints.front().part >= 0) continue;
     const double q = robot.configuration()[i];
     if (q >= coordinate.lower - kTolerance && q <= coordinate.upper + kTolerance) continue;
-    append(found, named(coordinate, "at " + number(q) + ", limits " + interval(coordinate, 1.0)));
+    append(found,
+           named(coordinate.name, "at " + number(q) + ", limits " + interval(coordinate, 1.0)));
+  }
+  for (const RotationVector& rotation : robot.rotations()) {
+    const double angle = robot.configuration().segment<3>(rotation.first).norm();
+    if (angle <= rotation.range + kTolerance) continue;
+    append(found, named(joint_name(*robot.model(), rotation.joint),
+                        "turned by " + number(angle) + ", limit " + number(rotation.range)));
   }
   if (found.empty()) return found;
   return "the configuration lies outside the joint limits [rad or m]: " + found;

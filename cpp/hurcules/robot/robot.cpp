@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
@@ -18,6 +19,9 @@
 
 namespace hurcules {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-9;  // [rad] a ball joint that is so far beyond its range is at it
 
 int count(const mjModel& m, int type) {
   switch (type) {
@@ -51,6 +55,12 @@ void require_values(const ConstVectorRef& values, Index size, const char* what) 
       throw Error(std::string(what) + ": value " + std::to_string(i) + " is not finite");
 }
 
+Matrix3 rotation_at(const ConstVectorRef& qpos, int address) {
+  const Eigen::Quaterniond turn(qpos[address], qpos[address + 1], qpos[address + 2],
+                                qpos[address + 3]);
+  return turn.normalized().toRotationMatrix();
+}
+
 // The struct alone, pointing into the model: MuJoCo's kinematics then leave the geoms out, which
 // are most of its work.
 std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjModel* model) {
@@ -62,11 +72,39 @@ std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjM
 
 }  // namespace
 
+void add_step(const std::vector<RotationVector>& rotations, const ConstVectorRef& step,
+              VectorRef q) {
+  auto next = rotations.begin();
+  for (Index i = 0; i < q.size();) {
+    if (next == rotations.end() || i < next->first) {
+      q[i] += step[i];
+      ++i;
+      continue;
+    }
+    const Vector3 turn = step.segment<3>(i), before = q.segment<3>(i);
+    if (turn.squaredNorm() > 0.0)  // at rest it keeps its bits
+      q.segment<3>(i) = rotation_log(rotation_exp(before) * rotation_exp(turn));
+    i += 3;
+    ++next;
+  }
+}
+
+void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVectorRef& before,
+                 VectorRef q) {
+  for (const RotationVector& rotation : rotations) {
+    auto r = q.segment<3>(rotation.first);
+    const double was = before.segment<3>(rotation.first).norm(), angle = r.norm();
+    const double most = was > rotation.range + kRounding ? was : rotation.range;
+    if (angle > most) r *= most / angle;
+  }
+}
+
 Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floating)
     : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;
   coordinates_ = find_coordinates(m, joints, floating);
   floating_ = size() > 0 && coordinates_[0].joints[0].part == 0;
+  find_rotations();
   if (!names_coordinates(m))
     closures_ = std::make_unique<Closures>(m, coordinates_, !joints.empty());
   if (closures_ && closures_->size() == 0) closures_.reset();
@@ -149,15 +187,18 @@ void Robot::set_configuration(const ConstVectorRef& q) {
   require_values(q, size(), "set_configuration");
   for (Index i = root_size(); i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
-      qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
-  if (floating_) {
-    const Eigen::Quaterniond turn(rotation_exp(Vector3(q.segment<3>(3))));
-    qpos_.segment<7>(root_qpos_) << q.head<3>(), turn.w(), turn.vec();
+      if (joint.part < 0) qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
+  if (floating_) qpos_.segment<3>(root_qpos_) = q.head<3>();
+  if (closures_) change_ = q - q_;
+  for (const RotationVector& rotation : rotations_) {
+    const Matrix3 R = rotation_exp(Vector3(q.segment<3>(rotation.first)));
+    if (closures_ && !change_.segment<3>(rotation.first).isZero(0.0))
+      change_.segment<3>(rotation.first) =
+          rotation_log(rotation_at(qpos_, rotation.qpos).transpose() * R);
+    const Eigen::Quaterniond turn(R);
+    qpos_.segment<4>(rotation.qpos) << turn.w(), turn.vec();
   }
-  if (closures_) {
-    change_ = q - q_;
-    closures_->close(qpos_.data(), change_);
-  }
+  if (closures_) closures_->close(qpos_.data(), change_);
   keep_support();
   screws_stale_ = std::max(screws_stale_, Stale::Places);
   note_motion();
@@ -189,11 +230,9 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
     const DrivenJoint& first = coordinates_[i].joints.front();
     q[i] = (qpos[first.qpos] - first.offset) / first.factor;
   }
-  if (!floating_) return;
-  const auto root = qpos.segment<7>(root_qpos_);
-  q.head<3>() = root.head<3>();
-  const Eigen::Quaterniond turn(root[3], root[4], root[5], root[6]);
-  q.segment<3>(3) = rotation_log(turn.normalized().toRotationMatrix());
+  if (floating_) q.head<3>() = qpos.segment<3>(root_qpos_);
+  for (const RotationVector& rotation : rotations_)
+    q.segment<3>(rotation.first) = rotation_log(rotation_at(qpos, rotation.qpos));
 }
 
 void Robot::velocities_of(const ConstVectorRef& qvel, VectorRef velocity) const {
@@ -252,6 +291,17 @@ void Robot::keep_support() {
   const Eigen::Quaterniond turn(R);
   qpos_.segment<3>(root_qpos_) = p_WS_ - R * RS.p;
   qpos_.segment<4>(root_qpos_ + 3) << turn.w(), turn.x(), turn.y(), turn.z();
+}
+
+void Robot::find_rotations() {
+  const mjModel& m = *model_;
+  for (Index i = 0; i < size(); ++i) {
+    const DrivenJoint& joint = coordinates_[i].joints.front();
+    if (joint.part != kTurns) continue;
+    const bool free = m.jnt_type[joint.joint] == mjJNT_FREE;
+    rotations_.push_back(
+        {i, joint.joint, joint.qpos + (free ? 3 : 0), free ? kInfinity : coordinates_[i].upper});
+  }
 }
 
 void Robot::find_screws() {

@@ -2,11 +2,14 @@
 //
 // The controller moves n coordinates. A coordinate drives one joint or several together (both knees
 // of Hurcules are one); the MJCF names them by tuples `coordinate_NAME` of (joint, factor). Without
-// such tuples every hinge or slide joint that has an actuator is a coordinate, and without
-// actuators every hinge or slide joint; joints that an equality constraint of the model couples
+// such tuples every hinge, slide or ball joint that has an actuator is a coordinate, and without
+// actuators every one; joints that an equality constraint of the model couples
 // linearly (the mimic joints of a URDF) are one. Joints that other constraints tie to coordinates
 // follow them (closures.hpp), those of other bodies and of the ground too. All other joints are held:
-// free, ball, belts, other bodies (left_out.hpp).
+// free, belts, other bodies (left_out.hpp).
+// A ball joint is three coordinates, NAME_rx, NAME_ry and NAME_rz: its rotation vector [rad], at most
+// pi long. Their velocities [rad/s] and efforts [N m] are MuJoCo's, about the axes of its body, and not
+// the derivative of the rotation vector: `add_step` goes from one to the other.
 // With `floating` the free joint at the root is six coordinates more, in front: its position in W and
 // its rotation vector in W [m], [rad]; their velocities are those of MuJoCo's free joint, [m/s] in W
 // and [rad/s] in the axes of the root. Nothing drives them but contacts (contact_task.hpp).
@@ -44,23 +47,39 @@ void check_mujoco_version();
 // One joint of a coordinate: joint position = factor * coordinate + offset.
 struct DrivenJoint {
   int joint = 0;      // mjModel joint id
-  int qpos = 0;       // address in qpos; of all parts of a free joint its first
+  int qpos = 0;       // address in qpos; of all parts of a free or a ball joint its first
   int dof = 0;        // address in qvel
   int actuator = -1;  // actuator id, -1 for none
   double factor = 1.0;
   double offset = 0.0;  // [rad] or [m]; 0 for the first joint of a coordinate
-  int part = -1;        // 0 to 5 of a free joint, else -1
+  int part = -1;        // 0 to 5 of a free joint, 3 to 5 of a ball joint, else -1
 };
 
 struct Coordinate {
   std::string name;
   std::vector<DrivenJoint> joints;  // at least one; the first is the one whose position is read
-  double lower = 0.0;               // [rad] or [m], -inf when unlimited
-  double upper = 0.0;               // [rad] or [m]
-  double max_velocity = 0.0;        // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
+  double lower = 0.0;  // [rad] or [m], -inf when unlimited; of a ball joint the range of all of it
+  double upper = 0.0;  // [rad] or [m]
+  double max_velocity = 0.0;  // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
   double max_effort =
       0.0;  // [N m] or [N], sum over its actuators; inf without force ranges, 0 of a root
 };
+
+// Three coordinates that are the rotation vector of a ball joint or a free root; their velocities are about
+// the axes of the body that turns.
+struct RotationVector {
+  Index first = 0;     // coordinate
+  int joint = 0;       // mjModel joint id
+  int qpos = 0;        // address of its quaternion
+  double range = 0.0;  // [rad] largest angle of a ball joint, inf when unlimited
+};
+
+// q (n) a step (n) further: of rotation vectors a turn about the axes of their bodies, q + step elsewhere
+void add_step(const std::vector<RotationVector>& rotations, const ConstVectorRef& step,
+              VectorRef q);
+// q (n) where it turned no ball joint beyond its range, or further out than it was `before` (n)
+void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVectorRef& before,
+                 VectorRef q);
 
 // A site, body, camera or geom of the model, by number (mjtObj type and id).
 struct Frame {
@@ -181,6 +200,8 @@ class Robot {
   [[nodiscard]] const Closures* closures() const { return closures_.get(); }
   // its first coordinates are those of the root
   [[nodiscard]] bool floating() const { return floating_; }
+  // which coordinates are rotation vectors, in their order
+  [[nodiscard]] const std::vector<RotationVector>& rotations() const { return rotations_; }
   [[nodiscard]] Index root_size() const { return floating_ ? 6 : 0; }  // so many
   // its root is free, no coordinate, and stands on nothing: what holds it in the plan, no ground does
   [[nodiscard]] bool floats() const { return root_dof_ >= 0 && support_ < 0 && !floating_; }
@@ -192,6 +213,7 @@ class Robot {
   [[nodiscard]] mjData_& geom_poses() const { return *data_; }
 
  private:
+  void find_rotations();
   void find_screws();   // where another body comes to stand
   void read_qpos();     // all of it, after a change
   void keep_support();  // moves the root so that the support stands where it stood
@@ -217,6 +239,7 @@ class Robot {
   std::unique_ptr<Momentum> momentum_;  // of their tree
   mutable Stale screws_stale_ = Stale::All, momentum_stale_ = Stale::All;
   std::vector<Coordinate> coordinates_;
+  std::vector<RotationVector> rotations_;
   Vector q_, v_, qpos_;
   Vector dry_friction_, change_;  // (n), the latter scratch
   int tree_ = 0;                  // body at the root of the tree that holds the first coordinate

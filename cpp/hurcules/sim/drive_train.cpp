@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -50,8 +51,7 @@ DriveTrain::DriveTrain(const mjModel* m) : dt_(m->opt.timestep), ratio_(Vector::
     MotorLimits motor = read_motor_limits(m, actuator);
     motor.peak /= transmission.low;
     motor.speed *= transmission.high;
-    drives_.push_back(
-        {actuator, m->jnt_dofadr[joint], m->actuator_gear[6 * actuator], transmission, motor});
+    drives_.push_back({actuator, m->jnt_dofadr[joint], gear_of(*m, actuator), transmission, motor});
     ratio_[actuator] = transmission.low;
   }
   asked_.resize(drives_.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -21,7 +22,7 @@ MotorThermalModel::MotorThermalModel(const mjModel* m, const MotorLosses& losses
   for (int actuator = 0; actuator < m->nu; ++actuator) {
     if (m->actuator_trntype[actuator] != mjTRN_JOINT) continue;
     const MotorLimits limits = read_motor_limits(m, actuator);
-    Motor motor{actuator, m->actuator_gear[6 * actuator], MotorPower(limits, losses), 0.0};
+    Motor motor{actuator, gear_of(*m, actuator), MotorPower(limits, losses), 0.0};
     // no heat, no warmth: a motor without limits or losses stays cold
     const double heat =
         std::isfinite(limits.peak) ? motor.power.heat(options.continuous * limits.peak) : 0.0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -45,7 +46,9 @@ Plant::Plant(ModelPtr model, mjData* borrowed)
   for (int a = 0; a < m->nu; ++a) {
     const int kind = m->actuator_trntype[a];
     if (kind != mjTRN_JOINT && kind != mjTRN_JOINTINPARENT) continue;
-    motors_.push_back({a, m->jnt_dofadr[m->actuator_trnid[2 * a]], read_motor_limits(m, a)});
+    const int joint = m->actuator_trnid[2 * a];
+    const int axis = m->jnt_type[joint] == mjJNT_BALL ? std::max(axis_of(*m, a), 0) : 0;
+    motors_.push_back({a, m->jnt_dofadr[joint] + axis, read_motor_limits(m, a)});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
 
@@ -16,8 +17,7 @@ PowerMeter::PowerMeter(const mjModel* m, const PowerOptions& options) : options_
     if (m->actuator_trntype[actuator] != mjTRN_JOINT) continue;
     const MotorLimits limits =
         train.exists(actuator) ? train.motor(actuator) : read_motor_limits(m, actuator);
-    drives_.push_back(
-        {actuator, m->actuator_gear[6 * actuator], MotorPower(limits, options.motors)});
+    drives_.push_back({actuator, gear_of(*m, actuator), MotorPower(limits, options.motors)});
   }
 }
 

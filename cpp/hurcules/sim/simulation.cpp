@@ -289,7 +289,7 @@ void Simulation::advance_plan() {
   for (Index i = 0; i < servo.size(); ++i) {
     const bool belt = drive && (servo.actuator(i).actuator == drive->left().actuator ||
                                 servo.actuator(i).actuator == drive->right().actuator);
-    if (!belt) seen_qpos_[servo.actuator(i).qpos] = servo.position()[i];
+    if (!belt) servo.place(i, seen_qpos_);
   }
   if (drive) drive->roll(seen_qpos_, placed_->com(), dt());  // skids about its weight
   plant_.move(seen_qpos_, dt());

@@ -23,7 +23,8 @@ ManipulabilityTask::ManipulabilityTask(std::string name, const Robot& robot,
       probe_(robot.model(), robot.coordinate_names()),
       linear_(Matrix::Zero(3, robot.size())),
       angular_(Matrix::Zero(3, robot.size())),
-      q_(robot.size()) {
+      q_(robot.size()),
+      step_(robot.size()) {
   require(axes_.cols() == 3 && axes_.rows() >= 1 && axes_.rows() <= 3 && axes_.allFinite(),
           "axes of task '" + name_ + "' want shape (1 to 3, 3) and finite values");
   require(robot.moves(frame_),
@@ -47,7 +48,8 @@ ManipulabilityTask::ManipulabilityTask(const ManipulabilityTask& other)
       rows_(other.rows_),
       gram_(other.gram_),
       factor_(other.factor_),
-      q_(other.q_) {}
+      q_(other.q_),
+      step_(other.step_) {}
 
 double ManipulabilityTask::volume(const Robot& robot) {
   robot.position_jacobian(frame_, linear_);
@@ -78,7 +80,9 @@ void ManipulabilityTask::measure(const Robot& robot) {
     if (jacobian_(0, i) == 0.0) continue;  // it does not move the frame
     const auto at = [&](double steps) {
       q_ = q;
-      q_[i] += steps * kStep;
+      step_.setZero();
+      step_[i] = steps * kStep;
+      add_step(robot.rotations(), step_, q_);
       return volume_at(q_);
     };
     jacobian_(0, i) = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * kStep);
@@ -88,7 +92,9 @@ void ManipulabilityTask::measure(const Robot& robot) {
   if (speed == 0.0) return;
   const double h = kStep / speed;  // [s]
   const auto at = [&](double steps) {
-    q_ = q + steps * h * robot.velocity();
+    q_ = q;
+    step_ = steps * h * robot.velocity();
+    add_step(robot.rotations(), step_, q_);
     return volume_at(q_);
   };
   drift_[0] = (16 * (at(1) + at(-1)) - 30 * value_[0] - (at(2) + at(-2))) / (12 * h * h);

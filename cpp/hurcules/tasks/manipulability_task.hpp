@@ -39,7 +39,7 @@ class ManipulabilityTask : public ValueTask {
   Robot probe_;
   Matrix linear_, angular_, rows_, gram_;  // (3, n), (3, n), (m, n), (m, m)
   Eigen::LLT<Matrix> factor_;
-  Vector q_;  // (n)
+  Vector q_, step_;  // (n)
 };
 
 }  // namespace hurcules

@@ -1,5 +1,7 @@
 #include "hurcules/tasks/posture_task.hpp"
 
+#include "hurcules/base/pose.hpp"
+
 namespace hurcules {
 
 PostureTask::PostureTask(std::string name, const Robot& robot,
@@ -19,6 +21,18 @@ PostureTask::PostureTask(std::string name, const Robot& robot,
 
 void PostureTask::measure(const Robot& robot) {
   for (Index row = 0; row < rows(); ++row) value_[row] = robot.configuration()[selected_[row]];
+  for (const RotationVector& rotation : robot.rotations()) {
+    const Vector3 r = robot.configuration().segment<3>(rotation.first);
+    const Vector3 w = robot.velocity().segment<3>(rotation.first);
+    const Matrix3 rate = right_jacobian_inverse(r);
+    const Vector3 drift = left_jacobian_inverse_rate(-r, -rate * w, w);
+    for (Index row = 0; row < rows(); ++row) {
+      const Index part = selected_[row] - rotation.first;
+      if (part < 0 || part >= 3) continue;
+      jacobian_.row(row).segment<3>(rotation.first) = rate.row(part);
+      drift_[row] = drift[part];
+    }
+  }
 }
 
 }  // namespace hurcules

@@ -1,7 +1,8 @@
 // Coordinates at chosen positions.
 //
 //   e = q_selected - q_des [rad] or [m] (m),  J = rows of the identity (m, n)    [T 4.3.2]
-// Linear: exact everywhere, without drift.
+// Linear: exact everywhere, without drift. Of a rotation vector r (ball joint, free root) rdot = Jr^-1(r) w
+// stands in place of the identity; e jumps where the joint turns beyond pi.
 #pragma once
 
 #include <vector>

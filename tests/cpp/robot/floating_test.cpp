@@ -1,6 +1,6 @@
-// Strategy: a robot whose root is coordinates against MuJoCo, which has the same coordinates:
-// Jacobians of a point, drifts by differences of Jacobians along the motion, mass matrix, inverse
-// dynamics. Then where its numbers are read and written, and what is refused.
+// Strategy: robots whose root or ball joints are coordinates against MuJoCo, which has the same
+// coordinates: Jacobians of a point, drifts by differences of Jacobians along the motion, mass matrix,
+// inverse dynamics. Then where the numbers of a root are read and written, and what is refused.
 #include <mujoco/mujoco.h>
 
 #include "hurcules/robot/sole_points.hpp"
@@ -14,53 +14,47 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
-class Floating : public testing::Test {
- protected:
-  Floating() : data_(mj_makeData(model_.get()), mj_deleteData) {}
+// a robot of MuJoCo's own coordinates
+struct Case {
+  std::string name;
+  ModelPtr model;
+  bool floating;
+  std::string site;
+};
 
-  // MuJoCo at a configuration [T: qpos], its Jacobian of the hand's origin or of its turn
+class OfMuJoCo : public testing::TestWithParam<Case> {
+ protected:
+  // Jacobian of the site's origin or of its turn, at a configuration
   Matrix jacobian(const Vector& qpos, bool turn) {
     const mjModel* const m = model_.get();
     std::copy(qpos.begin(), qpos.end(), data_->qpos);
     mj_kinematics(m, data_.get());
     mj_comPos(m, data_.get());
     Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> linear(3, m->nv), angular(3, m->nv);
-    const int site = mj_name2id(m, mjOBJ_SITE, "hand");
-    mj_jacSite(m, data_.get(), linear.data(), angular.data(), site);
+    mj_jacSite(m, data_.get(), linear.data(), angular.data(), site_.id);
     return turn ? angular : linear;
   }
   void move(unsigned seed) {
     RandomMotion random(seed);
     Vector qpos = robot_.qpos() + random.vector(robot_.qpos().size(), 0.5);
-    qpos.segment<4>(3).normalize();
+    mj_normalizeQuat(model_.get(), qpos.data());
     robot_.set_qpos(qpos);
     robot_.set_velocity(random.vector(robot_.size(), 2.0));
   }
 
-  ModelPtr model_ = quadruped();
-  std::unique_ptr<mjData, void (*)(mjData*)> data_;
-  Robot robot_{model_, {}, true};
-  Frame hand_ = robot_.frame("hand");
+  ModelPtr model_ = GetParam().model;
+  std::unique_ptr<mjData, void (*)(mjData*)> data_{mj_makeData(model_.get()), mj_deleteData};
+  Robot robot_{model_, {}, GetParam().floating};
+  Frame site_ = robot_.frame(GetParam().site);
 };
 
-TEST_F(Floating, HasTheCoordinatesOfItsRootInFront) {
-  EXPECT_EQ(robot_.size(), 6 + 15);
-  EXPECT_TRUE(robot_.floating());
-  EXPECT_FALSE(robot_.floats());
-  EXPECT_EQ(robot_.coordinate_names()[0], "root_x");
-  EXPECT_EQ(robot_.coordinate_names()[5], "root_rz");
-  EXPECT_EQ(robot_.coordinates()[2].max_effort, 0.0);
-  const Robot again(model_, robot_.coordinate_names());
-  EXPECT_EQ(again.coordinate_names(), robot_.coordinate_names());
-}
-
-TEST_F(Floating, MovesAsMuJoCoSays) {
+TEST_P(OfMuJoCo, MovesAsMuJoCoSays) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     move(seed);
     const Index n = robot_.size();
     Matrix linear(3, n), angular(3, n);
-    robot_.position_jacobian(hand_, linear);
-    robot_.rotation_jacobian(hand_, angular);
+    robot_.position_jacobian(site_, linear);
+    robot_.rotation_jacobian(site_, angular);
     const Matrix J = jacobian(robot_.qpos(), false), Jw = jacobian(robot_.qpos(), true);
     EXPECT_TRUE(near(linear, J, 1e-12));
     EXPECT_TRUE(near(angular, Jw, 1e-12));
@@ -70,12 +64,12 @@ TEST_F(Floating, MovesAsMuJoCoSays) {
     mj_integratePos(model_.get(), ahead.data(), robot_.velocity().data(), step);
     const Vector3 drift = (jacobian(ahead, false) - J) * robot_.velocity() / step;
     const Vector3 turning = (jacobian(ahead, true) - Jw) * robot_.velocity() / step;
-    EXPECT_TRUE(near(robot_.position_drift(hand_), drift, 1e-4));
-    EXPECT_TRUE(near(robot_.rotation_drift(hand_), turning, 1e-4));
+    EXPECT_TRUE(near(robot_.position_drift(site_), drift, 1e-4));
+    EXPECT_TRUE(near(robot_.rotation_drift(site_), turning, 1e-4));
   }
 }
 
-TEST_F(Floating, TakesTheTorquesThatMuJoCoSays) {
+TEST_P(OfMuJoCo, TakesTheTorquesThatMuJoCoSays) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     move(seed);
     const mjModel* const m = model_.get();
@@ -94,6 +88,49 @@ TEST_F(Floating, TakesTheTorquesThatMuJoCoSays) {
     robot_.inverse_dynamics(acceleration, torque);
     EXPECT_TRUE(near(torque, M * acceleration + bias - passive, 1e-9));
   }
+}
+
+TEST_P(OfMuJoCo, GoesAStepFurtherAsMuJoCoDoes) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    move(seed);
+    const Vector velocity = robot_.velocity();
+    Vector ahead = robot_.qpos(), q = robot_.configuration();
+    mj_integratePos(model_.get(), ahead.data(), velocity.data(), 0.3);
+    add_step(robot_.rotations(), 0.3 * velocity, q);
+    robot_.set_configuration(q);
+    EXPECT_TRUE(near(jacobian(robot_.qpos(), false), jacobian(ahead, false), 1e-12));
+    EXPECT_TRUE(near(robot_.configuration(), q, 1e-12));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, OfMuJoCo,
+                         testing::Values(Case{"Floating", quadruped(), true, "hand"},
+                                         Case{"BallJoints", load_model_text(kBallArm), false,
+                                              "tip"}),
+                         [](const auto& test) { return test.param.name; });
+
+class Floating : public testing::Test {
+ protected:
+  void move(unsigned seed) {
+    RandomMotion random(seed);
+    Vector qpos = robot_.qpos() + random.vector(robot_.qpos().size(), 0.5);
+    qpos.segment<4>(3).normalize();
+    robot_.set_qpos(qpos);
+  }
+
+  ModelPtr model_ = quadruped();
+  Robot robot_{model_, {}, true};
+};
+
+TEST_F(Floating, HasTheCoordinatesOfItsRootInFront) {
+  EXPECT_EQ(robot_.size(), 6 + 15);
+  EXPECT_TRUE(robot_.floating());
+  EXPECT_FALSE(robot_.floats());
+  EXPECT_EQ(robot_.coordinate_names()[0], "root_x");
+  EXPECT_EQ(robot_.coordinate_names()[5], "root_rz");
+  EXPECT_EQ(robot_.coordinates()[2].max_effort, 0.0);
+  const Robot again(model_, robot_.coordinate_names());
+  EXPECT_EQ(again.coordinate_names(), robot_.coordinate_names());
 }
 
 TEST_F(Floating, ReadsAndWritesItsPlaceAsARotationVector) {

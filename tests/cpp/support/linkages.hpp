@@ -161,4 +161,29 @@ inline constexpr const char* kDoor = R"(
   <actuator><motor joint="a"/><motor joint="b"/><motor joint="c"/></actuator>
 </mujoco>)";
 
+// an arm on a driven ball joint lifts a piston by a rod that follows
+inline constexpr const char* kBallRod = R"(
+<mujoco>
+  <compiler angle="radian" autolimits="true"/>
+  <default><geom contype="0" conaffinity="0"/></default>
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="shoulder" type="ball" armature="0.01"/>
+      <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>
+      <body name="rod" pos="0.3 0 0">
+        <joint name="rod_x" axis="1 0 0"/><joint name="rod_y" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.02" mass="0.2"/>
+      </body>
+    </body>
+    <body name="piston" pos="0.3 0 0.5">
+      <joint name="piston" type="slide" axis="0.1 0 1"/><geom size="0.05" mass="0.5"/>
+      <site name="tip" pos="0.1 0.05 0"/>
+    </body>
+  </worldbody>
+  <equality><connect body1="rod" body2="piston" anchor="0 0 -0.5"/></equality>
+  <actuator>
+    <motor joint="shoulder" gear="1 0 0"/><motor joint="shoulder" gear="0 1 0"/><motor joint="shoulder" gear="0 0 1"/>
+  </actuator>
+</mujoco>)";
+
 }  // namespace hurcules_test

@@ -96,9 +96,23 @@ inline std::vector<TaskCase> twin_cases() {
   };
 }
 
+inline std::vector<TaskCase> ball_cases() {
+  using namespace hurcules;
+  return {
+      task_case<PostureTask>("ball_posture", kBallArm),
+      task_case<PostureTask>("ball_posture_of_parts", kBallArm,
+                             std::vector<std::string>{"wrist_rz", "shoulder_rx", "elbow"}),
+      task_case<PositionTask>("ball_position", kBallArm, std::string("tip")),
+      task_case<PoseTask>("ball_pose_orientation", kBallArm, std::string("tip")),
+      task_case<CenterOfMassTask>("ball_com", kBallArm),
+      task_case<ManipulabilityTask>("ball_manipulability", kBallArm, std::string("tip")),
+  };
+}
+
 inline std::vector<TaskCase> all_cases() {
   std::vector<TaskCase> cases = arm_cases();
   for (TaskCase& more : twin_cases()) cases.push_back(std::move(more));
+  for (TaskCase& more : ball_cases()) cases.push_back(std::move(more));
   return cases;
 }
 

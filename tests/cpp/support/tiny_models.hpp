@@ -133,4 +133,39 @@ inline constexpr const char* kTwin = R"(
   </custom>
 </mujoco>)";
 
+// An arm whose shoulder and wrist are ball joints, the former behind a hinge of the same body; a motor about
+// each axis.
+inline constexpr const char* kBallArm = R"(
+<mujoco>
+  <compiler angle="radian" autolimits="true"/>
+  <option timestep="0.001"/>
+  <default><geom contype="0" conaffinity="0"/><motor forcerange="-60 60"/></default>
+  <worldbody>
+    <body name="shoulder" pos="0 0 1" euler="0.3 0.2 -0.4">
+      <joint name="lift" axis="0 1 0" pos="0.1 0 0" range="-1 1" armature="0.1"/>
+      <joint name="shoulder" type="ball" pos="0.05 0 0.02" range="0 1.2" damping="0.5" armature="0.05"/>
+      <geom name="upper" type="capsule" fromto="0 0 0 0 0 -0.35" size="0.04" mass="2"/>
+      <body name="elbow" pos="0 0 -0.35">
+        <joint name="elbow" axis="0 1 0" range="-2.4 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1.2"/>
+        <body name="hand" pos="0 0 -0.3" euler="0 0.4 0">
+          <joint name="wrist" type="ball" range="0 1.6"/>
+          <geom type="box" pos="0.02 0 -0.05" size="0.05 0.02 0.06" mass="0.4"/>
+          <site name="tip" pos="0.03 0.01 -0.1" euler="0 0.5 0"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor joint="lift"/>
+    <motor joint="shoulder" gear="1 0 0"/><motor joint="shoulder" gear="0 2 0"/>
+    <motor joint="shoulder" gear="0 0 -1"/>
+    <motor joint="elbow"/>
+    <motor joint="wrist" gear="0 0 1"/><motor joint="wrist" gear="1 0 0"/><motor joint="wrist" gear="0 1 0"/>
+  </actuator>
+  <keyframe>
+    <key name="bent" qpos="0.1 0.96 0.15 -0.2 0.1 -1.2 0.96 0.05 0.2 -0.1"/>
+  </keyframe>
+</mujoco>)";
+
 }  // namespace hurcules_test

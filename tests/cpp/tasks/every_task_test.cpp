@@ -31,6 +31,11 @@ class EveryTask : public testing::TestWithParam<TaskCase> {
     robot_.set_velocity(random.vector(robot_.size(), 1.0));
     task_->update(robot_);
   }
+  Vector further(const Vector& q, const Vector& step) const {
+    Vector next = q;
+    add_step(robot_.rotations(), step, next);
+    return next;
+  }
   Vector error_at(const Vector& q) {
     robot_.set_configuration(q);
     task_->update(robot_);
@@ -60,8 +65,8 @@ TEST_P(EveryTask, JacobianEqualsDifferenceOfError) {
     const Vector q = robot_.configuration();
     Matrix wanted(J.rows(), J.cols());
     for (Index i = 0; i < q.size(); ++i) {
-      const Vector ahead = error_at(q + kStep * Vector::Unit(q.size(), i));
-      const Vector behind = error_at(q - kStep * Vector::Unit(q.size(), i));
+      const Vector ahead = error_at(further(q, kStep * Vector::Unit(q.size(), i)));
+      const Vector behind = error_at(further(q, -kStep * Vector::Unit(q.size(), i)));
       wanted.col(i) = difference(ahead, behind) / (2 * kStep);
     }
     const double scale = std::max(1.0, std::pow(J.cwiseAbs().maxCoeff(), 3));
@@ -76,9 +81,9 @@ TEST_P(EveryTask, DriftEqualsDifferenceOfJacobianTimesVelocity) {
     if (near_jump()) continue;
     const Vector drift = task_->drift(), q = robot_.configuration(), v = robot_.velocity();
     const double scale = std::max(1.0, std::pow(task_->jacobian().cwiseAbs().maxCoeff(), 4));
-    error_at(q + kStep * v);
+    error_at(further(q, kStep * v));
     const Vector ahead = task_->jacobian() * v;
-    error_at(q - kStep * v);
+    error_at(further(q, -kStep * v));
     const Vector wanted = (ahead - task_->jacobian() * v) / (2 * kStep);
     EXPECT_TRUE(near(drift, wanted, 1e-6 * scale)) << "seed " << seed;
   }
@@ -101,11 +106,11 @@ TEST_P(EveryTask, ErrorChangesByJacobianTimesVelocityLessFeedForward) {
     task_->save(writer);
 
     task_->advance(command, kStep);
-    const Vector ahead = error_at(q + kStep * v);
+    const Vector ahead = error_at(further(q, kStep * v));
     StateReader reader(state);
     task_->restore(reader);
     task_->advance(command, -kStep);
-    const Vector behind = error_at(q - kStep * v);
+    const Vector behind = error_at(further(q, -kStep * v));
     const Vector wanted = difference(ahead, behind) / (2 * kStep);
     const double scale = std::max(1.0, std::pow(task_->jacobian().cwiseAbs().maxCoeff(), 3));
     EXPECT_TRUE(near(rate, wanted, 1e-8 * scale)) << "seed " << seed;
