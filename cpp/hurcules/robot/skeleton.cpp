@@ -3,6 +3,8 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
+#include <bit>
+#include <cstdint>
 
 namespace hurcules {
 namespace {
@@ -51,10 +53,6 @@ constexpr auto kUnseen = [](int, const Vector3&, const Vector3&) {};
 
 }  // namespace
 
-Pose operator*(const Pose& ab, const Pose& bc) {
-  return {ab.p + ab.R * bc.p, ab.R * bc.R};
-}
-
 Skeleton::Skeleton(const mjModel& m, const std::vector<int>& driven, int root)
     : bodies_(static_cast<std::size_t>(m.nbody)),
       index_of_joint_(static_cast<std::size_t>(m.njnt), -1),
@@ -63,6 +61,7 @@ Skeleton::Skeleton(const mjModel& m, const std::vector<int>& driven, int root)
   for (std::size_t j = 0; j < driven.size(); ++j)
     index_of_joint_[static_cast<std::size_t>(driven[j])] = static_cast<int>(j);
   find_bones(m, driven, root);
+  find_held(m);
   poses_.resize(bones_.size());
 }
 
@@ -81,7 +80,26 @@ void Skeleton::find_bones(const mjModel& m, const std::vector<int>& driven, int 
   }
 }
 
-void Skeleton::note(const mjModel& m, const double* qpos) {
+void Skeleton::find_held(const mjModel& m) {
+  for (int joint = 0; joint < m.njnt; ++joint) {
+    if (bodies_[static_cast<std::size_t>(m.jnt_bodyid[joint])].is_bone) continue;
+    const int type = m.jnt_type[joint], first = m.jnt_qposadr[joint];
+    const int size = type == mjJNT_FREE ? 7 : type == mjJNT_BALL ? 4 : 1;
+    for (int i = 0; i < size; ++i) held_.push_back(first + i);
+  }
+  hung_.resize(held_.size());
+}
+
+bool Skeleton::note(const mjModel& m, const double* qpos) {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  bool changed = !noted_;
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const double now = qpos[held_[i]];
+    changed = changed || bits(hung_[i]) != bits(now);
+    hung_[i] = now;
+  }
+  noted_ = true;
+  if (!changed) return false;
   for (int body = 1; body < m.nbody; ++body) {
     Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
     const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;
@@ -91,6 +109,7 @@ void Skeleton::note(const mjModel& m, const double* qpos) {
       hanging.pose = parent * moved(m, body, mounted(m, body), qpos, kUnseen);
     }
   }
+  return true;
 }
 
 void Skeleton::place(const mjModel& m, const double* qpos) {

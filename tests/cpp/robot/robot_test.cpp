@@ -335,11 +335,16 @@ TEST(Robot, SeparationIsWhatTheJacobiansOfBothPointsSay) {
 
 TEST(Robot, LooseBodiesDoNotBelongToTheCenterOfMass) {
   Robot robot(load_model_text(kTwin));
-  const Vector3 before = robot.com();
-  Vector qpos = robot.qpos();
+  const Frame ball = robot.frame("ball");
+  const Vector3 before = robot.com(), lay = robot.position(ball);
+  const Vector there = robot.qpos();
+  Vector qpos = there;
   qpos[0] += 5;  // the ball
   robot.set_qpos(qpos);
   EXPECT_TRUE(near(robot.com(), before, 1e-14));
+  EXPECT_TRUE(near(robot.position(ball), lay + Vector3(5, 0, 0), 1e-14));
+  robot.set_qpos(there);
+  EXPECT_EQ(robot.position(ball), lay);
 }
 
 TEST(Robot, BaseGoesWhereQposPutsIt) {
