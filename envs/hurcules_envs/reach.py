@@ -287,7 +287,8 @@ class Reach(Environment):
 
     def _terms(self, achieved: Array, desired: Array) -> dict[str, Array]:
         distance, angle = self._errors(achieved, desired)
-        shaped, error = 0.0 if self.sparse else 1.0, distance + TURN * angle
+        shaped = 0.0 if self.sparse else 1.0
+        error = distance if self.angle is None else distance + TURN * angle
         return {
             "distance": -shaped * _mean(error),
             "nearness": shaped * _mean(1.0 - np.tanh(error / NEAR)),
