@@ -283,7 +283,7 @@ void Robot::note_velocity() {
 
 const Screws& Robot::screws() const {
   if (screws_stale_ == Stale::Nothing) return *screws_;
-  if (screws_stale_ == Stale::All && !screws_->note(qpos_.data())) screws_stale_ = Stale::Places;
+  if (screws_stale_ == Stale::All) screws_->note(qpos_.data());
   if (screws_stale_ >= Stale::Places) screws_->place(qpos_.data());
   screws_->set_velocity(v_);
   momentum_stale_ = std::max(momentum_stale_, screws_stale_);

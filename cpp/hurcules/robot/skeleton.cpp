@@ -3,8 +3,8 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
-#include <bit>
-#include <cstdint>
+#include <cstring>
+#include <utility>
 
 namespace hurcules {
 namespace {
@@ -87,19 +87,28 @@ void Skeleton::find_held(const mjModel& m) {
     const int size = type == mjJNT_FREE ? 7 : type == mjJNT_BALL ? 4 : 1;
     for (int i = 0; i < size; ++i) held_.push_back(first + i);
   }
-  hung_.resize(held_.size());
+  hung_.resize(held_.size() + static_cast<std::size_t>(7 * m.nbody + 6 * m.njnt + m.nq));
 }
 
 bool Skeleton::note(const mjModel& m, const double* qpos) {
-  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  bool changed = !noted_;
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    const double now = qpos[held_[i]];
-    changed = changed || bits(hung_[i]) != bits(now);
-    hung_[i] = now;
-  }
-  noted_ = true;
-  if (!changed) return false;
+  // the model's numbers too: who owns it may have written them anew
+  bool same = std::exchange(noted_, true);
+  double* place = hung_.data();
+  const auto take = [&](const double* values, mjtSize count) {
+    const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(double);
+    if (std::memcmp(place, values, bytes) != 0) {
+      std::memcpy(place, values, bytes);
+      same = false;
+    }
+    place += count;
+  };
+  for (const int address : held_) take(qpos + address, 1);
+  take(m.body_pos, 3 * m.nbody);
+  take(m.body_quat, 4 * m.nbody);
+  take(m.jnt_pos, 3 * m.njnt);
+  take(m.jnt_axis, 3 * m.njnt);
+  take(m.qpos0, m.nq);
+  if (same) return false;
   for (int body = 1; body < m.nbody; ++body) {
     Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
     const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;
