@@ -41,8 +41,8 @@ class Screws {
   // another body of the tree stands; not for a tree whose root stood
   void stand_on(int support) { support_ = support; }
 
-  // what hangs where; qpos (nq), of which all but the driven joints are read. False: as it did.
-  bool note(const double* qpos) { return skeleton_.note(*model_, qpos); }
+  // what hangs where; qpos (nq), of which all but the driven joints are read
+  void note(const double* qpos) { skeleton_.note(*model_, qpos); }
   // poses and screws; qpos (nq), of which the driven joints and the root are read
   void place(const double* qpos);
   // rates of the screws, where they are now; velocity of the coordinates [rad/s] (n)

@@ -87,13 +87,13 @@ void Skeleton::find_held(const mjModel& m) {
     const int size = type == mjJNT_FREE ? 7 : type == mjJNT_BALL ? 4 : 1;
     for (int i = 0; i < size; ++i) held_.push_back(first + i);
   }
-  hung_.resize(held_.size() + static_cast<std::size_t>(7 * m.nbody + 6 * m.njnt + m.nq));
+  read_.resize(held_.size() + static_cast<std::size_t>(7 * m.nbody + 6 * m.njnt + m.nq));
 }
 
-bool Skeleton::note(const mjModel& m, const double* qpos) {
+void Skeleton::note(const mjModel& m, const double* qpos) {
   // the model's numbers too: who owns it may have written them anew
   bool same = std::exchange(noted_, true);
-  double* place = hung_.data();
+  double* place = read_.data();
   const auto take = [&](const double* values, mjtSize count) {
     const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(double);
     if (std::memcmp(place, values, bytes) != 0) {
@@ -108,7 +108,7 @@ bool Skeleton::note(const mjModel& m, const double* qpos) {
   take(m.jnt_pos, 3 * m.njnt);
   take(m.jnt_axis, 3 * m.njnt);
   take(m.qpos0, m.nq);
-  if (same) return false;
+  if (same) return;
   for (int body = 1; body < m.nbody; ++body) {
     Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
     const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;
@@ -118,7 +118,6 @@ bool Skeleton::note(const mjModel& m, const double* qpos) {
       hanging.pose = parent * moved(m, body, mounted(m, body), qpos, kUnseen);
     }
   }
-  return true;
 }
 
 void Skeleton::place(const mjModel& m, const double* qpos) {

@@ -22,9 +22,8 @@ class Skeleton {
   // for none
   Skeleton(const mjModel_& model, const std::vector<int>& driven, int root);
 
-  // What hangs where; qpos (nq), of which all but the driven joints are read. False where it hangs
-  // as it did: nothing was to be done.
-  bool note(const mjModel_& model, const double* qpos);
+  // what hangs where; qpos (nq), of which all but the driven joints are read
+  void note(const mjModel_& model, const double* qpos);
   // the bones; qpos (nq), of which the driven joints and a root's seven numbers are read
   void place(const mjModel_& model, const double* qpos);
 
@@ -76,7 +75,7 @@ class Skeleton {
   std::vector<int> index_of_joint_;  // (njnt), -1 unless driven
   std::vector<Vector3> axes_, anchors_;
   std::vector<int> held_;     // addresses in qpos that `note` reads
-  std::vector<double> hung_;  // what it read there
+  std::vector<double> read_;  // what it read there, and in the model: the same again says the same
   bool noted_ = false;
 };
 
