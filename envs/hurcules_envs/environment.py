@@ -73,7 +73,8 @@ class Numbers:
 
     def __init__(
         self,
-        values: Mapping[str, Array],
+        values: Array,
+        places: Mapping[str, slice],
         memory: dict[str, Array],
         action: Array,
         dt: float,
@@ -81,6 +82,7 @@ class Numbers:
         endings: Callable[[], Sequence[hurcules.Ending]] = tuple,
     ) -> None:
         self._values = values
+        self._places = places  # of the quantities, by name, along the second axis
         self.memory = memory
         self.action = action
         self.dt = dt
@@ -90,20 +92,21 @@ class Numbers:
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
-        if not self.finished.any():
+        if not np.count_nonzero(self.finished):
             return np.zeros(len(self.finished), dtype=bool)
         return np.array([one == ending for one in self._endings()])
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""
-        return self._values[name] if name in self._values else self.memory[name]
+        place = self._places.get(name)
+        return self.memory[name] if place is None else self._values[:, place]
 
     def row(self, *names: str) -> Array:
         """Several of them side by side, (n, ...); not to be written to."""
         row = self._rows.get(names)
         if row is None:
             row = np.concatenate([self[name] for name in names], axis=1)
-            if all(name in self._values for name in names):  # these stay as they are
+            if all(name in self._places for name in names):  # these stay as they are
                 self._rows[names] = row
         return row
 

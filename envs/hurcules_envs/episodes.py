@@ -31,6 +31,7 @@ _WATCHED = {
     "scaled": "scaled",
     "status": "solver_status",
     "changes": "solver_changes",
+    "time": "time",
 }
 
 
@@ -48,6 +49,7 @@ class Episodes:
 
     Attributes:
         batch: their simulations.
+        period: of a step [s].
         generators: one each, for what differs between episodes.
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 means [SI].
@@ -90,13 +92,14 @@ class Episodes:
         own = bool(environment.parameters) or self.randomisation.wants_models
         self._copy_simulation(own_models=own)
         self.generators = [np.random.default_rng() for _ in range(n)]
-        names = [*environment.quantities, *_WATCHED]
+        names = [*environment.quantities, "finished", *_WATCHED]
         self._quantities = hurcules.Quantities(simulation, names)
         stops = np.cumsum(self._quantities.sizes)
-        self._slices = {
+        self._places = {
             name: slice(int(stop) - size, int(stop))
             for name, size, stop in zip(names, self._quantities.sizes, stops, strict=True)
         }
+        self._values: Array | None = None  # what a step read, until somebody looks
         self._commands = _Commands(environment)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
@@ -104,12 +107,8 @@ class Episodes:
         self._action = np.zeros((n, len(self.action_scale)))
         self._worst = np.zeros(n)
         self._ticks = round(1.0 / environment.rate / simulation.dt)
+        self.period = self._ticks * simulation.dt
         self._make_spaces()
-
-    @property
-    def period(self) -> float:
-        """Of a step [s]."""
-        return self._ticks * self.environment.simulation.dt
 
     def reset(self, mask: NDArray[np.bool_] | None = None) -> None:
         """New episodes, drawn by their generators.
@@ -132,6 +131,7 @@ class Episodes:
         for i in np.flatnonzero(chosen):
             self._configure(int(i))
         self.batch.reset(seeds, chosen.tolist(), starts)
+        self._values = None
         self._action[chosen] = 0.0
         self._worst[chosen] = 0.0
 
@@ -145,12 +145,12 @@ class Episodes:
         self._action = action if mask is None else np.where(mask[:, None], action, 0.0)
         forces = self.randomisation.pushes(self.period)
         taken = self.randomisation.delayed(self._action, mask)
-        commands = self._commands.of(taken, self._numbers, self._go)
+        commands = self._commands.of(taken, lambda: self._numbers(self._read()), self._go)
         if forces is not None or self._pushed:
             self._pushed = forces is not None
             still = np.zeros((self.n, 3))
             self.batch.push(self.randomisation.pushed, still if forces is None else forces)
-        self.batch.step(self._ticks, commands, mask)
+        self._values = self.batch.step_and_read(self._ticks, self._quantities, commands, mask)
 
     def look(self, *, remember: NDArray[np.bool_] | None) -> Step:
         """Reads the simulations and judges.
@@ -158,26 +158,25 @@ class Episodes:
         Args:
             remember: (n,) whose memory goes on; None: nobody's (after a reset).
         """
-        views = self._read()
-        numbers = self._numbers(views)
-        over = numbers.finished
+        values = self._read()
+        numbers = self._numbers(values)
         self.numbers = numbers
         environment = self.environment
         if remember is not None:
-            kept = None if remember.all() else {n: v[~remember] for n, v in self.memory.items()}
-            environment.remember(numbers)
-            for name, values in (kept or {}).items():
-                self.memory[name][~remember] = values
+            self._remember(numbers, remember)
         terms = environment.reward(numbers)
         success = environment.succeeded(numbers)
-        failure = environment.failed(numbers) | over & ~numbers.ended_as(hurcules.Ending.Completed)
+        failure = environment.failed(numbers)
+        if np.count_nonzero(numbers.finished):
+            fallen = numbers.finished & ~numbers.ended_as(hurcules.Ending.Completed)
+            failure = failure | fallen
         step = Step()
         step.observation = self._observe(numbers)
         step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
         step.terminated = failure | environment.ended(numbers)
-        step.info = self._describe(terms, success, failure, views)
-        np.maximum(step.info["cost"], environment.costs(numbers), out=step.info["cost"])
-        step.info |= {name: np.array(row) for name, row in environment.tell(numbers).items()}
+        step.info = self._describe(values, numbers, terms, success, failure)
+        for name, row in environment.tell(numbers).items():
+            step.info[name] = np.array(row)
         return step
 
     def state(self) -> Array:
@@ -201,6 +200,7 @@ class Episodes:
         values = state_of(state, (self.n, own + rest))
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
         self.batch.restore(values[:, :own], chosen.tolist())
+        self._values = None
         place = own
         entries = [self._action, self._worst[:, None]]
         for entry in entries:
@@ -229,7 +229,7 @@ class Episodes:
         values = numbers_of("action", action)
         if values.shape != shape:
             raise hurcules.Error(f"action: wanted shape {shape}, got {values.shape}")
-        if not np.isfinite(values).all():
+        if np.count_nonzero(np.isfinite(values)) < values.size:
             bad = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
             raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
         return np.maximum(np.minimum(values, 1.0), -1.0)
@@ -265,16 +265,27 @@ class Episodes:
             self.environment.configure(self._models[i], values)
         self.randomisation.vary_model(i, self._models[i])
 
-    def _read(self) -> dict[str, Array]:
-        values = self.batch.read(self._quantities)
-        return {name: values[:, part] for name, part in self._slices.items()}
+    def _read(self) -> Array:
+        values, self._values = self._values, None
+        return self.batch.read(self._quantities) if values is None else values
 
-    def _numbers(self, views: Mapping[str, Array] | None = None) -> Numbers:
-        read = self._read() if views is None else views
-        over = self.batch.finished
-        return Numbers(
-            read, self.memory, self._action, self.period, over, lambda: self.batch.endings
-        )
+    def _numbers(self, values: Array) -> Numbers:
+        places = self._places
+        over = values[:, places["finished"].start] > 0.0
+        return Numbers(values, places, self.memory, self._action, self.period, over, self._endings)
+
+    def _endings(self) -> Sequence[hurcules.Ending]:
+        return self.batch.endings
+
+    def _remember(self, numbers: Numbers, mask: NDArray[np.bool_]) -> None:
+        """A step in the memory of those of a mask."""
+        if np.count_nonzero(mask) == self.n:
+            self.environment.remember(numbers)
+            return
+        kept = {name: values[~mask] for name, values in self.memory.items()}
+        self.environment.remember(numbers)
+        for name, values in kept.items():
+            self.memory[name][~mask] = values
 
     def _go(self, phases: Mapping[int, str]) -> None:
         for i, phase in phases.items():
@@ -285,7 +296,9 @@ class Episodes:
         self._initial = np.array(environment.simulation.data.qpos)
         high = np.concatenate([np.full(g.size, g.bound) for g in environment.observation])
         self._high = high.astype(np.float32)
-        box = spaces.Box(-self._high, self._high, dtype=np.float32)
+        self._low = -self._high
+        self._groups = [group.name for group in environment.observation]
+        box = spaces.Box(self._low, self._high, dtype=np.float32)
         self.single_action_space = spaces.Box(-1.0, 1.0, self.action_scale.shape, np.float32)
         self.single_observation_space: spaces.Space[Any] = box
         if self._flat:
@@ -299,14 +312,13 @@ class Episodes:
 
     def _observe(self, numbers: Numbers) -> dict[str, NDArray[np.float32]]:
         groups = self.environment.observe(numbers)
-        names = [group.name for group in self.environment.observation]
-        parts = [groups[name] if name in groups else numbers[name] for name in names]
+        parts = [groups[name] if name in groups else numbers[name] for name in self._groups]
         errors = self.randomisation.errors()
         values = np.concatenate(parts, axis=1, dtype=np.float32)
         if errors is not None:
             values += errors[:, : values.shape[1]].astype(np.float32)
         np.minimum(values, self._high, out=values)
-        result = {"observation": np.maximum(values, -self._high, out=values)}
+        result = {"observation": np.maximum(values, self._low, out=values)}
         if self.environment.goal:
             achieved, desired = self.environment.goals(numbers)
             if errors is not None:
@@ -320,19 +332,21 @@ class Episodes:
 
     def _describe(
         self,
+        values: Array,
+        numbers: Numbers,
         terms: Mapping[str, Array],
         success: NDArray[np.bool_],
         failure: NDArray[np.bool_],
-        views: Mapping[str, Array],
     ) -> dict[str, NDArray[Any]]:
-        watched = {name: views[name][:, 0] for name in _WATCHED}
-        excess, touching = watched["excess/position"], watched["self_contacts"]
-        cost = ((excess > self._worst + 1e-12) | (touching > 0)).astype(np.float64)
+        columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
+        watched = dict(zip(_WATCHED.values(), columns, strict=True))
+        excess = watched["limit_excess"]
+        cost = (excess > self._worst + 1e-12) | (watched["self_contacts"] > 0.0)
+        cost |= self.environment.costs(numbers)
         self._worst[:] = excess
         info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
-        info |= {"is_success": success, "failed": failure, "cost": cost}
-        info |= {_WATCHED[name]: values for name, values in watched.items()}
-        info["time"] = self.batch.time
+        info |= {"is_success": success, "failed": failure, "cost": cost.astype(np.float64)}
+        info |= watched
         info |= {name: entry.copy() for name, entry in self._info.items()}
         info |= self.randomisation.info()
         return info
@@ -375,7 +389,8 @@ class _Commands:
         go: Callable[[Mapping[int, str]], None],
     ) -> Array:
         """(n, k) commands; the numbers are read only where an environment turns its action."""
-        parts = {name: (action * self.scale)[:, part] for name, part in self._parts.items()}
+        scaled = action * self.scale
+        parts = {name: scaled[:, part] for name, part in self._parts.items()}
         given: Mapping[str, Array] = parts
         if type(self._environment).command is not Environment.command:
             read = numbers()

@@ -42,6 +42,7 @@ _KNOWN: Mapping[str, tuple[float, float, float]] = {
     "push": (0.0, 0.0, 1e4),
 }
 NAMES = tuple(_KNOWN)
+_TOLD = tuple(f"drawn_{name}" for name in NAMES)  # in info
 IN_MODEL = NAMES[:3]
 PHYSICAL = (*IN_MODEL, "push")
 DELAY = int(_KNOWN["action_delay"][2])  # steps at most
@@ -132,7 +133,8 @@ class Randomisation:
         self._simulation = environment.simulation
         model = self._simulation.model
         self.ranges: dict[str, Range] = {name: (row[0],) * 2 for name, row in _KNOWN.items()}
-        self.drawn = {name: np.full(n, row[0]) for name, row in _KNOWN.items()}
+        self._drawn = np.array([np.full(n, row[0]) for row in _KNOWN.values()])
+        self.drawn = dict(zip(NAMES, self._drawn, strict=True))
         self.set_ranges(given)
         self._seed, self._count = np.zeros(n), np.zeros(n)
         self._past = np.zeros((n, 0, 0))
@@ -211,8 +213,8 @@ class Randomisation:
             mask: (n,) which episodes go on; None: all.
         """
         self._count += 1.0 if mask is None else mask
-        delay = self.drawn["action_delay"].astype(int)
-        if not delay.any():
+        delay = self.drawn["action_delay"]
+        if not np.count_nonzero(delay):
             return action
         past = self._queues(action.shape[1])
         row = np.concatenate([action[:, None], past], axis=1)
@@ -220,12 +222,12 @@ class Randomisation:
             past[:] = row[:, :-1]
         else:
             past[mask] = row[mask, :-1]
-        return np.ascontiguousarray(row[np.arange(len(action)), delay])
+        return np.ascontiguousarray(row[np.arange(len(action)), delay.astype(int)])
 
     def pushes(self, period: float) -> Array | None:
         """(n, 3) [N] on body `pushed` in the next step of `period` [s]; None: nobody is pushed."""
         force = self.drawn["push"]
-        if not force.any():
+        if not np.count_nonzero(force):
             return None
         result = np.zeros((len(force), 3))
         for i in np.flatnonzero(force):
@@ -240,7 +242,7 @@ class Randomisation:
     def errors(self) -> Array | None:
         """(n, m) of what is seen now, then of the goal that is achieved; None: there are none."""
         noise = self.drawn["observation_noise"]
-        if not noise.any():
+        if not np.count_nonzero(noise):
             return None
         keys = np.arange(1, len(self._scale) + 1, dtype=np.uint64)
         seeds = _mixed(self._seed.astype(np.uint64) ^ _mixed(self._count.astype(np.uint64)))
@@ -249,7 +251,7 @@ class Randomisation:
 
     def info(self) -> dict[str, Array]:
         """The values, for `info`."""
-        return {f"drawn_{name}": values.copy() for name, values in self.drawn.items()}
+        return dict(zip(_TOLD, self._drawn.copy(), strict=True))
 
     def state(self, actions: int) -> Array:
         """(n, s) all of it, with queues of so many numbers."""

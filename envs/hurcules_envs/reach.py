@@ -141,7 +141,7 @@ class Reach(Environment):
             self._swing(numbers, self._swings)
         distance, angle = self._errors(*self.goals(numbers))
         held = numbers.memory["held"]
-        held[:, 0] = np.where(self._at_goal(distance, angle), held[:, 0] + numbers.dt, 0.0)
+        held[:, 0] = (held[:, 0] + numbers.dt) * self._at_goal(distance, angle)
         numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
@@ -270,9 +270,10 @@ class Reach(Environment):
         plan = self._planned(numbers)
         rate = (plan - memory["plan"]) / numbers.dt
         sway, sway_rate = memory["sway"], memory["sway_rate"] - (rate - memory["plan_rate"])
+        (a, b), (c, d) = free.tolist()
         memory["sway"][:], memory["sway_rate"][:] = (
-            free[0, 0] * sway + free[0, 1] * sway_rate,
-            free[1, 0] * sway + free[1, 1] * sway_rate,
+            a * sway + b * sway_rate,
+            c * sway + d * sway_rate,
         )
         memory["plan"][:], memory["plan_rate"][:] = plan, rate
 
@@ -286,7 +287,8 @@ class Reach(Environment):
 
     def _terms(self, achieved: Array, desired: Array) -> dict[str, Array]:
         distance, angle = self._errors(achieved, desired)
-        shaped, error = 0.0 if self.sparse else 1.0, distance + TURN * angle
+        shaped = 0.0 if self.sparse else 1.0
+        error = distance if self.angle is None else distance + TURN * angle
         return {
             "distance": -shaped * _mean(error),
             "nearness": shaped * _mean(1.0 - np.tanh(error / NEAR)),
@@ -306,8 +308,11 @@ class Reach(Environment):
         difference = one[..., :3] - other[..., :3]
         distance = np.sqrt(np.einsum("...i,...i->...", difference, difference))
         if self.angle is None:
-            return distance, np.zeros_like(distance)
+            return distance, _NO_ANGLE
         return distance, angle_between(one[..., 3:], other[..., 3:])
+
+
+_NO_ANGLE = np.zeros(())
 
 
 def _mean(values: Array) -> Array:

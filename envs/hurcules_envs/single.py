@@ -190,9 +190,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
 
 def _first(step: Step) -> Observation:
     if len(step.observation) == 1:
-        return step.observation["observation"][0].copy()
-    return {name: values[0].copy() for name, values in step.observation.items()}
+        return step.observation["observation"][0]
+    return {name: values[0] for name, values in step.observation.items()}
 
 
 def _info(step: Step) -> dict[str, Any]:
-    return {name: values[0].item() for name, values in step.info.items()}
+    return {name: values.item() for name, values in step.info.items()}

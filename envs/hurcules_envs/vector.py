@@ -148,13 +148,14 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         episodes = self._episodes
         values = episodes.checked(actions, self.action_space.shape or ())
         over = self._over
-        if self.autoreset_mode == AutoresetMode.DISABLED and over.any():
+        some_over = np.count_nonzero(over) > 0
+        if self.autoreset_mode == AutoresetMode.DISABLED and some_over:
             raise hurcules.Error(
                 f"episodes {np.flatnonzero(over).tolist()} are over: reset them by reset_mask"
             )
         goes_on = ~over
-        episodes.step(values, None if goes_on.all() else goes_on)
-        if over.any():  # NEXT_STEP: the step after an end is the reset
+        episodes.step(values, goes_on if some_over else None)
+        if some_over:  # NEXT_STEP: the step after an end is the reset
             self._begin(over)
         step = episodes.look(remember=goes_on)
         self._steps[goes_on] += 1
@@ -163,7 +164,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         truncated = (self._steps >= self._limit) & goes_on & ~terminated
         ended = terminated | truncated
         observation, info = _observation(step), _info(step)
-        if self.autoreset_mode == AutoresetMode.SAME_STEP and ended.any():
+        if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):
             self._begin(ended)
             observation, info = self._same_step(ended, observation, info)
             ended = np.zeros(self.num_envs, dtype=bool)

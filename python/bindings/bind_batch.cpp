@@ -61,6 +61,24 @@ Raises:
   Error: arrays of another shape, or not finite.
 )";
 
+constexpr const char* kStepAndRead =
+    R"(Control ticks of all, and what is read then. Releases the interpreter lock.
+
+Faster than `step`, then `read`: each is read while the processor has it at hand.
+
+Args:
+  ticks: how many; one that is finished stands still.
+  quantities: what is read.
+  commands: (n, k) SI, or None.
+  mask: (n,) bool: which are stepped; None: all. All are read.
+
+Returns:
+  (n, m) as `read`.
+
+Raises:
+  Error: arrays of another shape, or not finite.
+)";
+
 std::unique_ptr<SimulationBatch> make_batch(const Simulation& original, std::size_t n, int threads,
                                             const std::vector<ModelObject>& models) {
   std::vector<ModelPtr> own;
@@ -75,6 +93,17 @@ void step_batch(SimulationBatch& self, int ticks, const std::optional<Matrix>& c
   const InUse in_use("SimulationBatch", &self);
   const py::gil_scoped_release release;
   self.step(ticks, commands ? &*commands : nullptr, mask ? &*mask : nullptr);
+}
+
+Matrix step_and_read_batch(SimulationBatch& self, int ticks, const Quantities& quantities,
+                           const std::optional<Matrix>& commands,
+                           const std::optional<std::vector<bool>>& mask) {
+  Matrix values(static_cast<Index>(self.size()), quantities.size());
+  const InUse in_use("SimulationBatch", &self);
+  const py::gil_scoped_release release;
+  self.step_and_read(ticks, commands ? &*commands : nullptr, mask ? &*mask : nullptr, quantities,
+                     values);
+  return values;
 }
 
 void push_batch(SimulationBatch& self, int body, const Matrix& forces) {
@@ -145,6 +174,8 @@ void bind_batch(py::module_& module) {
            "models"_a = std::vector<ModelObject>{}, py::keep_alive<1, 2>(), py::keep_alive<1, 5>())
       .def("step", &step_batch, "ticks"_a, "commands"_a = py::none(), "mask"_a = py::none(),
            kBatchStep)
+      .def("step_and_read", &step_and_read_batch, "ticks"_a, "quantities"_a,
+           "commands"_a = py::none(), "mask"_a = py::none(), kStepAndRead)
       .def("push", &push_batch, "body"_a, "forces"_a, kPush)
       .def("reset", &reset_batch, "seeds"_a, "mask"_a = py::none(), "starts"_a = py::none(),
            "Back to the start; seeds (n,), mask (n,) bool: which, starts (n, nq): where that is.")

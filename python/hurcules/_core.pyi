@@ -3903,8 +3903,9 @@ class Quantities:
     Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FRAME (3 each, in the
     world), matrix/FRAME (9); value/TASK, target/TASK; force/TASK (what a force task read);
     joint/JOINT, joint_velocity/JOINT; sensor/SENSOR; monitor/NAME; excess/KIND, commanded_excess/KIND
-    (position, velocity, torque: the worst so far); contact_force/BODY; self_contacts; scaled; and each channel of the observation and the log, alone
-    ("q/KN") or as a group ("q").
+    (position, velocity, torque: the worst so far); contact_force/BODY; self_contacts; scaled; finished
+    (1 where it is over); and each channel of the observation and the log, alone ("q/KN") or as a group
+    ("q").
 
     Args:
       simulation: Simulation that they are of; they can be read from any copy of it.
@@ -3990,6 +3991,29 @@ class SimulationBatch:
           ticks: how many; one that is finished stands still.
           commands: (n, k) SI, or None.
           mask: (n,) bool: which are stepped; None: all.
+
+        Raises:
+          Error: arrays of another shape, or not finite."""
+
+    def step_and_read(
+        self,
+        ticks: int,
+        quantities: Quantities,
+        commands: ArrayLike | None = None,
+        mask: collections.abc.Sequence[bool] | None = None,
+    ) -> NDArray[np.float64]:
+        """Control ticks of all, and what is read then. Releases the interpreter lock.
+
+        Faster than `step`, then `read`: each is read while the processor has it at hand.
+
+        Args:
+          ticks: how many; one that is finished stands still.
+          quantities: what is read.
+          commands: (n, k) SI, or None.
+          mask: (n,) bool: which are stepped; None: all. All are read.
+
+        Returns:
+          (n, m) as `read`.
 
         Raises:
           Error: arrays of another shape, or not finite."""

@@ -264,8 +264,34 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: an unknown channel, a wrong shape, or numbers that are not finite.
         """
+        super().step(ticks, *self._given(commands, mask))
+
+    def step_and_read(
+        self,
+        ticks: int,
+        quantities: _core.Quantities,
+        commands: Command | None = None,
+        mask: ArrayLike | None = None,
+    ) -> Array:
+        """Takes control ticks in all, and reads them: faster than `step`, then `read`.
+
+        Args:
+            ticks: as for `step`.
+            quantities: what is read of all, stepped or not.
+            commands: as for `step`.
+            mask: as for `step`.
+
+        Returns:
+            (n, m) as `read`.
+
+        Raises:
+            Error: as `step`.
+        """
+        return super().step_and_read(ticks, quantities, *self._given(commands, mask))
+
+    def _given(self, commands: Command | None, mask: ArrayLike | None) -> tuple[Any, Any]:
         flat = None if commands is None else _flat(self._controller, commands, len(self))
-        super().step(ticks, flat, None if mask is None else np.asarray(mask, bool).tolist())
+        return flat, None if mask is None else np.asarray(mask, bool).tolist()
 
 
 def _flat(controller: WholeBodyController, command: Command, rows: int | None = None) -> Array:

@@ -107,8 +107,10 @@ def test_a_batch_has_the_bits_of_each_alone() -> None:
     simulation.step(100, {"tip": [-0.1, 0.0]})
     commands = np.linspace(-0.2, 0.2, 8).reshape(4, 2)
     one, two = (hurcules.SimulationBatch(simulation, 4, threads=n) for n in (1, 2))
-    for batch in (one, two):
-        batch.step(200, {"tip": commands})
+    tip = hurcules.Quantities(simulation, ["value/tip", "finished"])
+    one.step(200, {"tip": commands})
+    read = two.step_and_read(200, tip, {"tip": commands})
+    assert np.array_equal(read, one.read(tip))
     same(one, two.state())
     assert one.qpos.shape == (4, 4) and one.time.tolist() == pytest.approx([0.6] * 4)
     simulation.step(200, {"tip": commands[2]})

@@ -3,6 +3,8 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
+#include <cstring>
+#include <utility>
 
 namespace hurcules {
 namespace {
@@ -51,10 +53,6 @@ constexpr auto kUnseen = [](int, const Vector3&, const Vector3&) {};
 
 }  // namespace
 
-Pose operator*(const Pose& ab, const Pose& bc) {
-  return {ab.p + ab.R * bc.p, ab.R * bc.R};
-}
-
 Skeleton::Skeleton(const mjModel& m, const std::vector<int>& driven, int root)
     : bodies_(static_cast<std::size_t>(m.nbody)),
       index_of_joint_(static_cast<std::size_t>(m.njnt), -1),
@@ -63,6 +61,7 @@ Skeleton::Skeleton(const mjModel& m, const std::vector<int>& driven, int root)
   for (std::size_t j = 0; j < driven.size(); ++j)
     index_of_joint_[static_cast<std::size_t>(driven[j])] = static_cast<int>(j);
   find_bones(m, driven, root);
+  find_held(m);
   poses_.resize(bones_.size());
 }
 
@@ -81,7 +80,35 @@ void Skeleton::find_bones(const mjModel& m, const std::vector<int>& driven, int 
   }
 }
 
+void Skeleton::find_held(const mjModel& m) {
+  for (int joint = 0; joint < m.njnt; ++joint) {
+    if (bodies_[static_cast<std::size_t>(m.jnt_bodyid[joint])].is_bone) continue;
+    const int type = m.jnt_type[joint], first = m.jnt_qposadr[joint];
+    const int size = type == mjJNT_FREE ? 7 : type == mjJNT_BALL ? 4 : 1;
+    for (int i = 0; i < size; ++i) held_.push_back(first + i);
+  }
+  read_.resize(held_.size() + static_cast<std::size_t>(7 * m.nbody + 6 * m.njnt + m.nq));
+}
+
 void Skeleton::note(const mjModel& m, const double* qpos) {
+  // the model's numbers too: who owns it may have written them anew
+  bool same = std::exchange(noted_, true);
+  double* place = read_.data();
+  const auto take = [&](const double* values, mjtSize count) {
+    const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(double);
+    if (std::memcmp(place, values, bytes) != 0) {
+      std::memcpy(place, values, bytes);
+      same = false;
+    }
+    place += count;
+  };
+  for (const int address : held_) take(qpos + address, 1);
+  take(m.body_pos, 3 * m.nbody);
+  take(m.body_quat, 4 * m.nbody);
+  take(m.jnt_pos, 3 * m.njnt);
+  take(m.jnt_axis, 3 * m.njnt);
+  take(m.qpos0, m.nq);
+  if (same) return;
   for (int body = 1; body < m.nbody; ++body) {
     Hanging& hanging = bodies_[static_cast<std::size_t>(body)];
     const Pose& parent = bodies_[static_cast<std::size_t>(m.body_parentid[body])].pose;

@@ -66,6 +66,7 @@ class Skeleton {
     Pose pose;  // in the bone, or in W
   };
   void find_bones(const mjModel_& model, const std::vector<int>& driven, int root);
+  void find_held(const mjModel_& model);
   [[nodiscard]] const Bone& at(int bone) const { return bones_[static_cast<std::size_t>(bone)]; }
 
   std::vector<Bone> bones_;  // parents first
@@ -73,9 +74,14 @@ class Skeleton {
   std::vector<Hanging> bodies_;
   std::vector<int> index_of_joint_;  // (njnt), -1 unless driven
   std::vector<Vector3> axes_, anchors_;
+  std::vector<int> held_;     // addresses in qpos that `note` reads
+  std::vector<double> read_;  // what it read there, and in the model: the same again says the same
+  bool noted_ = false;
 };
 
 // X_AC = X_AB X_BC
-[[nodiscard]] Skeleton::Pose operator*(const Skeleton::Pose& ab, const Skeleton::Pose& bc);
+[[nodiscard]] inline Skeleton::Pose operator*(const Skeleton::Pose& ab, const Skeleton::Pose& bc) {
+  return {ab.p + ab.R * bc.p, ab.R * bc.R};
+}
 
 }  // namespace hurcules

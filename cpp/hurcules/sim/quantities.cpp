@@ -154,8 +154,11 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.places = {find_object(m, mjOBJ_BODY, m->nbody, "body", rest)};
     return found;
   }
-  if (name == "self_contacts" || name == "scaled") {
-    found.kind = name == "scaled" ? Kind::Scaled : Kind::SelfContacts;
+  for (const auto& [word, kind] : {std::pair{"self_contacts", Kind::SelfContacts},
+                                   {"scaled", Kind::Scaled},
+                                   {"finished", Kind::Finished}}) {
+    if (name != word) continue;
+    found.kind = kind;
     return found;
   }
   for (const Kind kind : {Kind::Observation, Kind::Log}) {
@@ -172,7 +175,7 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
                                     "target/TASK",           "force/TASK",     "joint/JOINT",
                                     "joint_velocity/JOINT",  "sensor/SENSOR",  "excess/KIND",
                                     "commanded_excess/KIND", "self_contacts",  "scaled",
-                                    "contact_force/BODY"};
+                                    "contact_force/BODY",    "finished"};
   for (const Recorder* recorder : {&simulation.observation(), &simulation.log()}) {
     for (const std::string& channel : recorder->channels()) {
       const std::string word = channel.substr(0, channel.find('/'));
@@ -258,6 +261,9 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       return;
     case Kind::Scaled:
       out[0] = simulation.controller().scaled() ? 1.0 : 0.0;
+      return;
+    case Kind::Finished:
+      out[0] = simulation.finished() ? 1.0 : 0.0;
       return;
   }
 }

@@ -149,6 +149,7 @@ std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
   options.clock = nullptr;
   auto copy = std::make_unique<Simulation>(own, std::move(controller), std::move(options),
                                            std::move(supervisor));
+  copy->data_seen_ = copy->supervisor_ != nullptr;
   copy->restore(state());
   return copy;
 }
@@ -357,7 +358,7 @@ void Simulation::stand_on_new_support() {
 // what somebody outside sees between two calls: the state as it is now
 void Simulation::observe() {
   if (!plant_.is_sound()) return;
-  if (!options_.physics) mj_kinematics(plant_.model(), plant_.data());
+  if (!options_.physics && data_seen_) mj_kinematics(plant_.model(), plant_.data());
   sense();
 }
 

@@ -64,7 +64,8 @@ class Simulation {
              mjData_* data = nullptr);
   // The same loop in the same state, with data, controller and supervisor of its own; `model` may
   // differ in its numbers, null: this one's. The controller goes on reckoning with the model that
-  // it has, so that it does not know what differs. It records nothing.
+  // it has, so that it does not know what differs. It records nothing, and without physics and mission
+  // its mjData has the positions of its joints, not what MuJoCo makes of them: nobody looks there.
   [[nodiscard]] std::unique_ptr<Simulation> clone(ModelPtr model = nullptr) const;
   virtual ~Simulation() = default;
 
@@ -175,6 +176,7 @@ class Simulation {
   Frame support_;
   std::optional<Frame> fall_frame_, target_;
   std::unique_ptr<Robot> placed_;  // without physics: where it moves to
+  bool data_seen_ = true;          // somebody may look into its mjData
   std::size_t state_size_ = 0;
   std::int64_t ticks_ = 0;
   Ending ending_ = Ending::Running;

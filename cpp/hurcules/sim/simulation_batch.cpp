@@ -36,6 +36,34 @@ SimulationBatch::~SimulationBatch() {
 }
 
 void SimulationBatch::step(int ticks, const Matrix* commands, const std::vector<bool>* mask) {
+  take(ticks, commands, mask);
+  for_each([&](std::size_t i) {
+    if (mask && !(*mask)[i]) return;
+    simulations_[i]->step(ticks, commands ? &commands_[i] : nullptr);
+  });
+}
+
+void SimulationBatch::read(const Quantities& quantities, MatrixRef out) {
+  require_room(quantities, out);
+  for_each([&](std::size_t i) {
+    const auto row = static_cast<Index>(i);
+    quantities.read(*simulations_[i], Eigen::Map<Vector>(&out(row, 0), out.cols()));
+  });
+}
+
+void SimulationBatch::step_and_read(int ticks, const Matrix* commands,
+                                    const std::vector<bool>* mask, const Quantities& quantities,
+                                    MatrixRef out) {
+  take(ticks, commands, mask);
+  require_room(quantities, out);
+  for_each([&](std::size_t i) {
+    if (!mask || (*mask)[i]) simulations_[i]->step(ticks, commands ? &commands_[i] : nullptr);
+    const auto row = static_cast<Index>(i);
+    quantities.read(*simulations_[i], Eigen::Map<Vector>(&out(row, 0), out.cols()));
+  });
+}
+
+void SimulationBatch::take(int ticks, const Matrix* commands, const std::vector<bool>* mask) {
   const auto n = static_cast<Index>(size());
   const Index channels = commands_.front().size();
   require(ticks >= 0, "step wants a number of ticks >= 0, got " + std::to_string(ticks));
@@ -52,20 +80,12 @@ void SimulationBatch::step(int ticks, const Matrix* commands, const std::vector<
             "commands of simulation " + std::to_string(i) + " want finite numbers");
     commands_[static_cast<std::size_t>(i)] = commands->row(i).transpose();
   }
-  for_each([&](std::size_t i) {
-    if (mask && !(*mask)[i]) return;
-    simulations_[i]->step(ticks, commands ? &commands_[i] : nullptr);
-  });
 }
 
-void SimulationBatch::read(const Quantities& quantities, MatrixRef out) {
+void SimulationBatch::require_room(const Quantities& quantities, const MatrixRef& out) const {
   require(out.rows() == static_cast<Index>(size()) && out.cols() == quantities.size(),
           "quantities want room for (" + std::to_string(size()) + ", " +
               std::to_string(quantities.size()) + ") numbers");
-  for_each([&](std::size_t i) {
-    const auto row = static_cast<Index>(i);
-    quantities.read(*simulations_[i], Eigen::Map<Vector>(&out(row, 0), out.cols()));
-  });
 }
 
 void SimulationBatch::for_each(const std::function<void(std::size_t)>& work) {

@@ -37,12 +37,18 @@ class SimulationBatch {
   // each up to this many ticks with its row of commands (n, k), null for none; those that are
   // finished stand still. mask (n): which are stepped, null for all
   void step(int ticks, const Matrix* commands = nullptr, const std::vector<bool>* mask = nullptr);
+  // the same, then `read`: of each while the processor's cache has it
+  void step_and_read(int ticks, const Matrix* commands, const std::vector<bool>* mask,
+                     const Quantities& quantities, MatrixRef out);
   // (n, m) the quantities of each now
   void read(const Quantities& quantities, MatrixRef out);
   // runs work(i) for each i on the pool; throws what the first failing one threw
   void for_each(const std::function<void(std::size_t)>& work);
 
  private:
+  // throws Error unless these are arguments of step; takes the commands
+  void take(int ticks, const Matrix* commands, const std::vector<bool>* mask);
+  void require_room(const Quantities& quantities, const MatrixRef& out) const;
   void work();
   void take_jobs();
 

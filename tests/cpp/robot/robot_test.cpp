@@ -307,6 +307,23 @@ TEST(Robot, TwistCenterOfMassAndMomentumAreMuJoCos) {
   }
 }
 
+TEST(Robot, WhatHangsIsWhereTheModelHasItNow) {
+  mjModel* const own = mj_copyModel(nullptr, load_model_text(kManyJoints).get());
+  const ModelPtr model(own, [](const mjModel* m) { mj_deleteModel(const_cast<mjModel*>(m)); });
+  Robot robot(model, {"a"});  // "hung" hangs
+  const Frame hung = robot.frame("hung");
+  const Vector3 before = robot.position(hung);
+  const Vector qpos = robot.qpos();
+  double& height = own->body_pos[3 * hung.id + 2];
+  const double first = height;
+  height += 0.5;
+  robot.set_qpos(qpos);
+  EXPECT_NEAR((robot.position(hung) - before).norm(), 0.5, 1e-14);
+  height = first;
+  robot.set_qpos(qpos);
+  EXPECT_EQ(robot.position(hung), before);
+}
+
 TEST(Robot, SeparationIsWhatTheJacobiansOfBothPointsSay) {
   for (const char* support : {"", "leg_l"}) {
     Robot robot(load_model_text(kTwin));
@@ -335,11 +352,16 @@ TEST(Robot, SeparationIsWhatTheJacobiansOfBothPointsSay) {
 
 TEST(Robot, LooseBodiesDoNotBelongToTheCenterOfMass) {
   Robot robot(load_model_text(kTwin));
-  const Vector3 before = robot.com();
-  Vector qpos = robot.qpos();
+  const Frame ball = robot.frame("ball");
+  const Vector3 before = robot.com(), lay = robot.position(ball);
+  const Vector there = robot.qpos();
+  Vector qpos = there;
   qpos[0] += 5;  // the ball
   robot.set_qpos(qpos);
   EXPECT_TRUE(near(robot.com(), before, 1e-14));
+  EXPECT_TRUE(near(robot.position(ball), lay + Vector3(5, 0, 0), 1e-14));
+  robot.set_qpos(there);
+  EXPECT_EQ(robot.position(ball), lay);
 }
 
 TEST(Robot, BaseGoesWhereQposPutsIt) {

@@ -258,8 +258,8 @@ TEST(Quantities, AreReadByNameFromACopyToo) {
   const Quantities quantities(
       original, {"position/tip", "velocity/tip", "rotation/tip", "value/tip", "joint/j2",
                  "joint_velocity/finger", "q", "q/j3", "monitor/power_W", "excess/position",
-                 "self_contacts"});
-  EXPECT_EQ(quantities.sizes(), (std::vector<Index>{3, 3, 3, 2, 1, 1, 3, 1, 1, 1, 1}));
+                 "self_contacts", "finished", "time"});
+  EXPECT_EQ(quantities.sizes(), (std::vector<Index>{3, 3, 3, 2, 1, 1, 3, 1, 1, 1, 1, 1, 1}));
   const std::unique_ptr<Simulation> copy = original.clone();
   const Vector command = Eigen::Vector3d(-0.1, 0.05, 0.01);
   copy->step(300, &command);
@@ -274,6 +274,8 @@ TEST(Quantities, AreReadByNameFromACopyToo) {
   EXPECT_EQ(values[12], copy->plant().qvel()[3]);
   EXPECT_EQ(values[15], values[16]);  // the third coordinate, alone
   EXPECT_EQ(values[18], copy->limits().measured().position);
+  EXPECT_EQ(values[20], 0.0);
+  EXPECT_EQ(values[21], copy->time());
   EXPECT_TRUE(contains(error_text([&] { Quantities(original, {"speed"}); }), "there are: "));
   EXPECT_TRUE(contains(error_text([&] { Quantities(original, {"position/nose"}); }), "nose"));
 }
@@ -281,13 +283,17 @@ TEST(Quantities, AreReadByNameFromACopyToo) {
 TEST(SimulationBatch, HasTheBitsOfEachAloneOnOneThreadAndOnTwo) {
   const Simulation original = simulate();
   SimulationBatch one(original, 5, 1), two(original, 5, 2);
+  const Quantities quantities(original, {"value/tip", "q", "excess/velocity"});
+  Matrix read(5, quantities.size()), at_once(5, quantities.size());
   Matrix commands(5, 3);
   for (int i = 0; i < 5; ++i) commands.row(i) << -0.05 * i, 0.03 * i, 0.0;
   std::vector<std::unique_ptr<Simulation>> alone;
   for (int i = 0; i < 5; ++i) alone.push_back(original.clone());
   for (int k = 0; k < 10; ++k) {
     one.step(20, &commands);
-    two.step(20, &commands);
+    one.read(quantities, read);
+    two.step_and_read(20, &commands, nullptr, quantities, at_once);
+    EXPECT_EQ(read, at_once);
     for (std::size_t i = 0; i < 5; ++i) {
       const Vector command = commands.row(static_cast<Index>(i)).transpose();
       alone[i]->step(20, &command);
@@ -298,6 +304,13 @@ TEST(SimulationBatch, HasTheBitsOfEachAloneOnOneThreadAndOnTwo) {
     EXPECT_TRUE(same_bits(two[i].state(), alone[i]->state())) << i;
   }
   EXPECT_FALSE(same_bits(one[1].state(), one[2].state()));
+  const std::vector<bool> mask = {true, false, false, false, false};  // all are read
+  one.step_and_read(20, &commands, &mask, quantities, read);
+  EXPECT_NE(read.row(0), at_once.row(0));
+  EXPECT_EQ(read.bottomRows(4), at_once.bottomRows(4));
+  Matrix small(5, 1);
+  EXPECT_TRUE(contains(
+      error_text([&] { one.step_and_read(1, nullptr, nullptr, quantities, small); }), "room"));
 }
 
 TEST(SimulationBatch, TakesModelsOfItsOwn) {
