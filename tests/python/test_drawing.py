@@ -31,7 +31,7 @@ ARM = """
     <camera name="side" pos="0.3 -2 0.5" xyaxes="1 0 0 0 0 1"/>
     <body>{root}
       <geom fromto="0 0 0 0 0 -0.2"/>
-      <body>
+      <body name="upper">
         <geom fromto="0 0 0 0.4 0 0"/>
         <joint name="shoulder" range="-1 1"/>
         <body pos="0.4 0 0">
@@ -77,11 +77,11 @@ def test_a_point_of_one_axis_is_led_along_it_alone() -> None:
     height = hurcules.PositionTask("height", robot, "hand", axes=[[0.0, 0.0, 2.0]])
     height.set_target([0.4])
     np.testing.assert_allclose(height.world_target, [0.7, 0.0, 0.2], atol=1e-12)
-    bend = hurcules.PositionTask("bend", robot, "hand", reference="hand")
+    bend = hurcules.PositionTask("bend", robot, "hand", reference="upper")
     robot.set_configuration([0.5, 0.5])
     bend.update(robot)
     bend.set_target([0.1, 0.0, 0.0])
-    along = robot.position("hand") + 0.1 * robot.orientation("hand")[:, 0]
+    along = robot.position("upper") + 0.1 * robot.orientation("upper")[:, 0]
     np.testing.assert_allclose(bend.world_target, along, atol=1e-12)
 
 
