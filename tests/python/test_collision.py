@@ -2,7 +2,8 @@
 
 Strategy: a hand is sent through a post by both controllers and both laws, at gains from usual to
 absurd and at several control periods: the distance, measured by MuJoCo, never becomes less than the
-margin by more than a millimetre. A ball comes flying: the arm gives way. Hurcules claps its hands.
+margin by more than a millimetre. What an obstacle holds off its target comes to the margin and
+rests. A ball comes flying: the arm gives way. Hurcules claps its hands.
 Not tested here: which pairs are found, and the rows (tests/cpp/tasks/distance_task_test.cpp).
 """
 
@@ -139,6 +140,55 @@ def test_the_arm_gives_way_to_a_ball_that_comes(model: mujoco.MjModel) -> None:
         least = min(least, float(clear.error.min()))
     assert least > MARGIN - 1e-3
     assert least < MARGIN + 5e-3, "the ball missed the arm"
+
+
+SLIDER = """
+<mujoco>
+  <worldbody>
+    <geom name="wall" type="box" size="0.05 1 1" pos="1.05 0 0"/>
+    <body name="cart"><joint name="x" type="slide" axis="1 0 0" range="-2 2" limited="true"/>
+      <geom name="cart" type="sphere" size="0.1"/><site name="tip"/></body>
+  </worldbody>
+</mujoco>
+"""
+CONTROLLERS = [hurcules.VelocityController, hurcules.AccelerationController]
+
+
+@pytest.mark.parametrize("controller", CONTROLLERS)
+@pytest.mark.parametrize("target", [0.85, 1.2], ids=["before the wall", "in the wall"])
+def test_an_obstacle_stops_what_it_is_near_no_sooner_than_at_its_margin(
+    controller: type, target: float
+) -> None:
+    robot = hurcules.Robot(mujoco.MjModel.from_xml_string(SLIDER))
+    clear = hurcules.obstacles(robot, margin=MARGIN)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=[[1.0, 0.0, 0.0]])
+    tip.set_target([target])
+    controls = controller(robot)
+    controls.set_stack(hurcules.Stack([clear, tip]))
+    for _ in range(6000):
+        controls.step(robot)
+    at_margin = 0.9 - MARGIN
+    assert robot.configuration[0] == pytest.approx(min(target, at_margin), abs=5e-4)
+
+
+@pytest.mark.parametrize("controller", CONTROLLERS)
+@pytest.mark.parametrize("target", [(0.62, 0.0, 0.8), (0.7, -0.1, 0.9)])
+def test_a_hand_that_an_obstacle_holds_off_its_target_rests(
+    model: mujoco.MjModel, controller: type, target: tuple[float, float, float]
+) -> None:
+    robot = hurcules.Robot(model)
+    robot.set_configuration(START)
+    clear = hurcules.obstacles(robot, margin=MARGIN)
+    hand = hurcules.PositionTask("hand", robot, "tip")
+    hand.set_target(target)
+    controls = controller(robot)
+    posture = hurcules.PostureTask("posture", robot)
+    controls.set_stack(hurcules.Stack([clear, hand, posture]))
+    for _ in range(6000):
+        before = robot.configuration
+        controls.step(robot)
+    assert np.abs(robot.configuration - before).max() < 1e-6  # 1 mrad/s
+    assert min(pair[2] for pair in clear.near(robot)) == pytest.approx(MARGIN, abs=1e-4)
 
 
 def test_notes_name_what_is_in_the_way(model: mujoco.MjModel) -> None:

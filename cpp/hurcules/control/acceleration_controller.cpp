@@ -248,12 +248,17 @@ void AccelerationController::fill_rates(std::size_t k) {
   for (const Task* task : source.tasks) {
     const Index rows = task->rows();
     level.A.block(row, 0, rows, task->jacobian().cols()) = task->jacobian();
-    if (task->commands_acceleration() || task->is_limit()) {
-      level.lower.segment(row, rows).setZero();
-      level.upper.segment(row, rows).setZero();
+    auto lower = level.lower.segment(row, rows), upper = level.upper.segment(row, rows);
+    if (task->bounds_acceleration()) {
+      lower.setConstant(-kInfinity);
+      upper.setConstant(kInfinity);
+    } else if (task->commands_acceleration()) {
+      lower.setZero();
+      upper.setZero();
+    } else if (task->is_limit()) {
+      limit_rates(*task, rates_, lower, upper);
     } else {
-      wanted_rates(*task, gain, options_.dt, most, level.lower.segment(row, rows),
-                   level.upper.segment(row, rows));
+      wanted_rates(*task, gain, options_.dt, most, lower, upper);
     }
     for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);
     row += rows;

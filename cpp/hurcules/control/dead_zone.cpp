@@ -16,6 +16,7 @@ constexpr double kSaddleBegins = 0.025, kSaddle = 0.075;  // d [1/rad]
 constexpr double kLooks = 0.05;   // share that a zone takes from which on a saddle is looked for
 constexpr double kNoPull = 1e-7;  // slope below which the pull has no direction
 constexpr double kWeak = 0.03;    // of S: a row that moves no more may vanish at a saddle
+constexpr double kSlow = 0.3;     // [rad/s] that a row may come nearer: it begins to be held
 constexpr double kNudge = 0.02;   // [rad/s]
 
 bool is_equality(const Level& level, Index row) {
@@ -54,7 +55,7 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
     const double open = std::clamp((weights[k] - kOpens) / (kWide - kOpens), 0.0, 1.0);
     const double eps = kZone + (kZoneBelow - kZone) * above;
     if (open > 0.0 && !(rank_ == 0 && apart_[k])) {
-      const double slope = slope_of(k, level, limits);
+      const double slope = slope_of(k, hierarchy, limits);
       const double taken = slope > eps * open ? eps * open / slope : 1.0;
       shares_[k] = 1.0 - taken;
       const double looks = (1.0 - above) * std::clamp(taken / kLooks - 1.0, 0.0, 1.0);
@@ -81,10 +82,13 @@ void DeadZone::add_held(Eigen::VectorXi& held) const {
   }
 }
 
-double DeadZone::slope_of(std::size_t k, const Level& level, const JointLimits* limits) {
-  find_pull(level);
+double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const JointLimits* limits) {
+  find_pull(hierarchy[k]);
   remove_known(pull_);
+  last_ = rank_;
   if (limits) hold_pressed_joints(k, *limits);
+  for (std::size_t j = 0; j < k; ++j)
+    if (!hierarchy[j].bounds) hold_pressed_rows(hierarchy[j]);
   const double most = asked_ * lever_;
   return most > 0.0 ? pull_.norm() / most : std::numeric_limits<double>::infinity();
 }
@@ -159,8 +163,7 @@ void DeadZone::find_pull(const Level& level) {
 
 // takes from the pull what presses joints against their limits, the more the nearer they are
 void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
-  Index last = rank_;
-  for (Index i = 0; i < pull_.size() && last < known_.rows(); ++i) {
+  for (Index i = 0; i < pull_.size(); ++i) {
     const double q = limits.configuration()[i];
     const double distance = pull_[i] > 0.0 ? limits.upper()[i] - q : q - limits.lower()[i];
     const double held = 1.0 - std::max(0.0, distance) / kNearLimit;
@@ -168,16 +171,35 @@ void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
     pressed_(static_cast<Index>(k), i) = held < 0.5 ? 0 : pull_[i] > 0.0 ? 1 : -1;
     direction_.setZero();
     direction_[i] = 1.0;
-    remove_known(direction_);
-    for (Index j = rank_; j < last; ++j)
-      direction_ -= held_[j] * known_.row(j).dot(direction_) * known_.row(j).transpose();
-    const double length = direction_.norm();
-    if (length < kFreeJoint) continue;
-    direction_ /= length;
-    pull_ -= held * direction_.dot(pull_) * direction_;
-    held_[last] = held;
-    known_.row(last++) = direction_;
+    hold_direction(held);
   }
+}
+
+// the same for the inequality rows of a level, which say how fast they may come nearer
+void DeadZone::hold_pressed_rows(const Level& level) {
+  for (Index row = 0; row < level.rows(); ++row) {
+    const double length = level.A.row(row).norm();
+    if (is_equality(level, row) || length < kFreeJoint) continue;
+    direction_ = level.A.row(row) / length;
+    const double along = direction_.dot(pull_);
+    const double room = (along > 0.0 ? level.upper[row] : -level.lower[row]) / length;
+    const double held = std::min(1.0, 1.0 - room / kSlow);
+    if (held > 0.0 && along != 0.0) hold_direction(held);
+  }
+}
+
+// takes so much of direction_, of length 1, from the pull
+void DeadZone::hold_direction(double held) {
+  if (last_ == known_.rows()) return;
+  remove_known(direction_);
+  for (Index j = rank_; j < last_; ++j)
+    direction_ -= held_[j] * known_.row(j).dot(direction_) * known_.row(j).transpose();
+  const double length = direction_.norm();
+  if (length < kFreeJoint) return;
+  direction_ /= length;
+  pull_ -= held * direction_.dot(pull_) * direction_;
+  held_[last_] = held;
+  known_.row(last_++) = direction_;
 }
 
 // direction_, of length 1, unless it is known already

@@ -8,6 +8,7 @@
 //   p = P A'y                         P: projection on what the equality rows above leave, and
 //                                     away from joints that p would press against their limits:
 //                                     in full at a limit, not at all from 0.02 rad before it on
+//                                     and from inequality rows above that let it press no further
 //   slope = |p| / (|y| S)             S: largest column of A; what a rad wins, as a share of the
 //                                     most that a joint of this level could win; 0 to about 1
 //   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)
@@ -58,7 +59,8 @@ class DeadZone {
 
  private:
   // the slope of a level; leaves its pull
-  [[nodiscard]] double slope_of(std::size_t k, const Level& level, const JointLimits* limits);
+  [[nodiscard]] double slope_of(std::size_t k, const Hierarchy& hierarchy,
+                                const JointLimits* limits);
   // 1 where the level whose pull is known stands at a saddle, 0 where not; nudges it off one
   [[nodiscard]] double saddle_at(std::size_t k, const Level& level, double gain,
                                  SaddleProbe& probe);
@@ -68,11 +70,14 @@ class DeadZone {
   void add_strong_rows(const Level& level);
   void find_pull(const Level& level);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
+  void hold_pressed_rows(const Level& level);
+  void hold_direction(double held);
   void add_direction();
   void remove_known(VectorRef direction);
 
   Matrix known_;  // (n, n): orthonormal rows, the first rank_ count
   Index rank_ = 0;
+  Index last_ = 0;                    // known, and held by limits
   Vector pull_;                       // p (n)
   Vector direction_, parts_;          // scratch (n)
   Vector nudge_, off_;                // (n); off_: scratch
