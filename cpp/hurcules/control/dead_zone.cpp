@@ -31,12 +31,17 @@ void DeadZone::set_stack(const Stack& stack, Index n) {
   shares_.assign(stack.levels().size(), 1.0);
   pressed_ = Eigen::MatrixXi::Zero(static_cast<Index>(shares_.size()), n);
   apart_.clear();
+  nearness_.clear();
   Index rows = 0;
   for (const StackLevel& level : stack.levels()) {
     apart_.push_back(std::all_of(level.tasks.begin(), level.tasks.end(),
                                  [](const Task* task) { return task->rows_apart(); }));
     Index sum = 0;
-    for (const Task* task : level.tasks) sum += task->rows();
+    std::vector<bool>& nearness = nearness_.emplace_back();
+    for (const Task* task : level.tasks) {
+      sum += task->rows();
+      nearness.resize(static_cast<std::size_t>(sum), !task->bounds_acceleration());
+    }
     rows = std::max(rows, sum);
   }
   left_ = Matrix::Zero(rows, n);
@@ -88,7 +93,7 @@ double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const Joint
   last_ = rank_;
   if (limits) hold_pressed_joints(k, *limits);
   for (std::size_t j = 0; j < k; ++j)
-    if (!hierarchy[j].bounds) hold_pressed_rows(hierarchy[j]);
+    if (!hierarchy[j].bounds) hold_pressed_rows(hierarchy[j], nearness_[j]);
   const double most = asked_ * lever_;
   return most > 0.0 ? pull_.norm() / most : std::numeric_limits<double>::infinity();
 }
@@ -176,10 +181,11 @@ void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
 }
 
 // the same for the inequality rows of a level, which say how fast they may come nearer
-void DeadZone::hold_pressed_rows(const Level& level) {
+void DeadZone::hold_pressed_rows(const Level& level, const std::vector<bool>& nearness) {
   for (Index row = 0; row < level.rows(); ++row) {
+    if (!nearness[static_cast<std::size_t>(row)] || is_equality(level, row)) continue;
     const double length = level.A.row(row).norm();
-    if (is_equality(level, row) || length < kFreeJoint) continue;
+    if (length < kFreeJoint) continue;
     direction_ = level.A.row(row) / length;
     const double along = direction_.dot(pull_);
     const double room = (along > 0.0 ? level.upper[row] : -level.lower[row]) / length;

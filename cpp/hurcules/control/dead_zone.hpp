@@ -70,7 +70,7 @@ class DeadZone {
   void add_strong_rows(const Level& level);
   void find_pull(const Level& level);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
-  void hold_pressed_rows(const Level& level);
+  void hold_pressed_rows(const Level& level, const std::vector<bool>& nearness);
   void hold_direction(double held);
   void add_direction();
   void remove_known(VectorRef direction);
@@ -86,6 +86,8 @@ class DeadZone {
   Vector held_;                       // (n): how much of each further row of known_ counts
   std::vector<double> shares_;
   std::vector<bool> apart_;  // levels whose rows stand apart
+  // rows of a level whose limits say how near something is, not how fast velocities may change
+  std::vector<std::vector<bool>> nearness_;
   Eigen::MatrixXi pressed_;  // (levels, n)
 };
 
