@@ -42,6 +42,11 @@ Matrix3 rotation_exp(const Vector3& r) {
   return Eigen::AngleAxisd(angle, r / angle).toRotationMatrix();
 }
 
+Matrix3 rotation_of(const double* quaternion) {
+  const double* const q = quaternion;
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
 Vector3 rotation_log(const Matrix3& R) {
   const Eigen::Quaterniond quaternion(R);
   const double sine = quaternion.vec().norm();  // of half the angle

@@ -191,12 +191,13 @@ void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
   const double dt = options_.dt;
   for (Index i = 0; i < q.size(); ++i) {
     const double next = velocity[i] + acceleration_[i] * dt;
-    const double step = 0.5 * (velocity[i] + next) * dt;  // [T 5.6.50]
-    step_[i] = limits() ? limits()->held_step(i, step) : step;
+    step_[i] = 0.5 * (velocity[i] + next) * dt;  // [T 5.6.50]
     velocity[i] = next;
   }
-  add_step(rotations_, step_, q);
-  if (limits()) hold_ranges(rotations_, limits()->configuration(), q);
+  if (limits())
+    limits()->add_held_step(rotations_, step_, q);
+  else
+    add_step(rotations_, step_, q);
 }
 
 void AccelerationController::reset() {

@@ -63,8 +63,8 @@ class AccelerationController {
   // (torque_scaling.hpp), sooner than accelerations but no sooner than velocity limits; true when it
   // changed qddot*
   bool scale_velocity(const VelocityBounds& bounds, const Vector& velocity);
-  // one dt further, (n) [rad], (n) [rad/s], ball joints turn; rounding never carries a coordinate over its limit;
-  // throws Error for a robot that floats
+  // one dt further, (n) [rad], (n) [rad/s], ball joints turn; rounding never carries a coordinate over
+  // its limit; throws Error for a robot that floats
   void integrate(VectorRef q, VectorRef velocity) const;
   // inverse dynamics: what the drives must give for qddot* and, in contact, against the forces that
   // the stack's force tasks read, beside what its contacts carry, and dry friction on the way to

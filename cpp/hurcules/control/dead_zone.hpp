@@ -7,8 +7,9 @@
 //
 //   p = P A'y                         P: projection on what the equality rows above leave, and
 //                                     away from joints that p would press against their limits:
-//                                     in full at a limit, not at all from 0.02 rad before it on
-//                                     and from inequality rows above that let it press no further
+//                                     in full at a limit, not at all from 0.02 rad before it on;
+//                                     and away from inequality rows above, likewise: in full where
+//                                     they let it come no nearer, not at all from 0.3 rad/s on
 //   slope = |p| / (|y| S)             S: largest column of A; what a rad wins, as a share of the
 //                                     most that a joint of this level could win; 0 to about 1
 //   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)

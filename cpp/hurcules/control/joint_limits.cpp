@@ -100,6 +100,13 @@ double JointLimits::held_step(Index i, double step) const {
                     std::max(upper_[i] - configuration_[i], 0.0));
 }
 
+void JointLimits::add_held_step(const std::vector<RotationVector>& rotations, Vector& step,
+                                VectorRef q) const {
+  for (Index i = 0; i < size(); ++i) step[i] = held_step(i, step[i]);
+  add_step(rotations, step, q);
+  hold_ranges(rotations, configuration_, q);
+}
+
 Index JointLimits::index(const std::string& coordinate) const {
   const auto found = std::find(coordinates_.begin(), coordinates_.end(), coordinate);
   if (found == coordinates_.end())

@@ -52,6 +52,9 @@ class JointLimits {
   // lead back
   [[nodiscard]] double held_step(Index i, double step) const;
 
+  // q (n) a step (n) further, no coordinate and no ball joint over its limit by rounding; step: held
+  void add_held_step(const std::vector<RotationVector>& rotations, Vector& step, VectorRef q) const;
+
  private:
   [[nodiscard]] Index index(const std::string& coordinate) const;
   void require_size(Index size, const char* what) const;

@@ -172,9 +172,7 @@ void JointServo::find_position_error(const Vector& reference, const Vector& qpos
     if (own.part < 0) {
       error_.position[i] = reference[i] - qpos[own.qpos];
     } else {  // about the axes of the body as it is
-      const Eigen::Quaterniond turn(qpos[own.qpos], qpos[own.qpos + 1], qpos[own.qpos + 2],
-                                    qpos[own.qpos + 3]);
-      const Matrix3 R = turn.normalized().toRotationMatrix();
+      const Matrix3 R = rotation_of(qpos.data() + own.qpos);
       error_.position[i] = rotation_log(R.transpose() * rotation(i, reference))[own.part - kTurns];
     }
   }

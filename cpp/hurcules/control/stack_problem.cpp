@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-Stack with_limits(const Stack& stack, JointLimits& limits, JointRanges* loops) {
+Stack with_limits(const Stack& stack, JointLimits& limits, JointRanges* ranges) {
   std::vector<StackLevel> levels = stack.levels();
   if (levels.empty() || !levels.front().limits) levels.insert(levels.begin(), StackLevel(limits));
-  if (loops && loops->rows() > 0) levels.insert(levels.begin() + 1, StackLevel(*loops));
+  if (ranges && ranges->rows() > 0) levels.insert(levels.begin() + 1, StackLevel(*ranges));
   return Stack(std::move(levels));
 }
 
@@ -39,9 +39,9 @@ void require_coordinates(const std::string& name, Index came, Index wanted) {
 
 }  // namespace
 
-void StackProblem::set_stack(const Stack& asked, JointLimits* own, JointRanges* loops,
+void StackProblem::set_stack(const Stack& asked, JointLimits* own, JointRanges* ranges,
                              Index others) {
-  const Stack stack = own ? with_limits(asked, *own, loops) : asked;
+  const Stack stack = own ? with_limits(asked, *own, ranges) : asked;
   Hierarchy hierarchy;
   for (const StackLevel& level : stack.levels()) {
     if (level.limits) require_coordinates("'" + level.name + "'", level.limits->size(), n_);

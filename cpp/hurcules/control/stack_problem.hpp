@@ -18,10 +18,10 @@ class StackProblem {
  public:
   // n unknowns
   explicit StackProblem(Index n) : n_(n) {}
-  // With `own` these limits come first where the stack names none; `loops`, if it has rows, next to
+  // With `own` these limits come first where the stack names none; `ranges`, if it has rows, next to
   // them. `others`: unknowns after those of the tasks, whose columns are left at zero. Throws Error
   // for tasks and limits of another robot.
-  void set_stack(const Stack& stack, JointLimits* own = nullptr, JointRanges* loops = nullptr,
+  void set_stack(const Stack& stack, JointLimits* own = nullptr, JointRanges* ranges = nullptr,
                  Index others = 0);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }

@@ -179,9 +179,10 @@ bool VelocityController::scale_velocity(const VelocityBounds& window) {
 
 void VelocityController::integrate(VectorRef q) const {
   step_ = velocity_ * options_.dt;
-  for (Index i = 0; limits() && i < q.size(); ++i) step_[i] = limits()->held_step(i, step_[i]);
-  add_step(rotations_, step_, q);
-  if (limits()) hold_ranges(rotations_, limits()->configuration(), q);
+  if (limits())
+    limits()->add_held_step(rotations_, step_, q);
+  else
+    add_step(rotations_, step_, q);
 }
 
 const Vector& VelocityController::step(Robot& robot) {

@@ -2,7 +2,6 @@
 
 #include <mujoco/mujoco.h>
 
-#include <Eigen/Geometry>
 #include <limits>
 
 #include "hurcules/base/error.hpp"
@@ -84,8 +83,7 @@ void require_three(const mjModel* m, const std::vector<JointActuator>& actuators
 
 double JointActuator::position(const Vector& all) const {
   if (part < 0) return all[qpos];
-  const Eigen::Quaterniond turn(all[qpos], all[qpos + 1], all[qpos + 2], all[qpos + 3]);
-  return rotation_log(turn.normalized().toRotationMatrix())[part - kTurns];
+  return rotation_log(rotation_of(all.data() + qpos))[part - kTurns];
 }
 
 std::vector<JointActuator> joint_actuators(const Robot& robot) {

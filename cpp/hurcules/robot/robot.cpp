@@ -55,12 +55,6 @@ void require_values(const ConstVectorRef& values, Index size, const char* what) 
       throw Error(std::string(what) + ": value " + std::to_string(i) + " is not finite");
 }
 
-Matrix3 rotation_at(const ConstVectorRef& qpos, int address) {
-  const Eigen::Quaterniond turn(qpos[address], qpos[address + 1], qpos[address + 2],
-                                qpos[address + 3]);
-  return turn.normalized().toRotationMatrix();
-}
-
 // The struct alone, pointing into the model: MuJoCo's kinematics then leave the geoms out, which
 // are most of its work.
 std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjModel* model) {
@@ -194,7 +188,7 @@ void Robot::set_configuration(const ConstVectorRef& q) {
     const Matrix3 R = rotation_exp(Vector3(q.segment<3>(rotation.first)));
     if (closures_ && !change_.segment<3>(rotation.first).isZero(0.0))
       change_.segment<3>(rotation.first) =
-          rotation_log(rotation_at(qpos_, rotation.qpos).transpose() * R);
+          rotation_log(rotation_of(qpos_.data() + rotation.qpos).transpose() * R);
     const Eigen::Quaterniond turn(R);
     qpos_.segment<4>(rotation.qpos) << turn.w(), turn.vec();
   }
@@ -232,7 +226,7 @@ void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
   }
   if (floating_) q.head<3>() = qpos.segment<3>(root_qpos_);
   for (const RotationVector& rotation : rotations_)
-    q.segment<3>(rotation.first) = rotation_log(rotation_at(qpos, rotation.qpos));
+    q.segment<3>(rotation.first) = rotation_log(rotation_of(qpos.data() + rotation.qpos));
 }
 
 void Robot::velocities_of(const ConstVectorRef& qvel, VectorRef velocity) const {

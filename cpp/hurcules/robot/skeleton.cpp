@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "hurcules/base/pose.hpp"
+
 namespace hurcules {
 namespace {
 
@@ -15,13 +17,9 @@ Eigen::Map<const Vector3> vector(const double* values) {
   return Eigen::Map<const Vector3>(values);
 }
 
-Matrix3 rotation(const double* q) {
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-}
-
 // in the body's parent, before its joints
 Pose mounted(const mjModel& m, int body) {
-  return {vector(m.body_pos + 3 * body), rotation(m.body_quat + 4 * body)};
+  return {vector(m.body_pos + 3 * body), rotation_of(m.body_quat + 4 * body)};
 }
 
 // by its own joints; `see` (joint, axis, anchor) is told each of them before it moves
@@ -35,14 +33,14 @@ Pose moved(const mjModel& m, int body, Pose pose, const double* qpos, See&& see)
     const Vector3 turned = pose.R * axis;
     const Vector3 anchor = pose.p + pose.R * vector(m.jnt_pos + 3 * joint);
     see(joint, turned, anchor);
-    if (m.jnt_type[joint] == mjJNT_FREE) return {vector(q), rotation(q + 3)};
+    if (m.jnt_type[joint] == mjJNT_FREE) return {vector(q), rotation_of(q + 3)};
     if (m.jnt_type[joint] == mjJNT_SLIDE) {
       pose.p += (q[0] - m.qpos0[address]) * turned;
       continue;
     }
     // about its anchor, which stays
     pose.R = pose.R * (m.jnt_type[joint] == mjJNT_BALL
-                           ? rotation(q)
+                           ? rotation_of(q)
                            : Eigen::AngleAxisd(q[0] - m.qpos0[address], axis).toRotationMatrix());
     pose.p = anchor - pose.R * vector(m.jnt_pos + 3 * joint);
   }
@@ -131,7 +129,7 @@ void Skeleton::place(const mjModel& m, const double* qpos) {
     const Bone& bone = bones_[i];
     if (bone.root) {
       const double* const q = qpos + m.jnt_qposadr[m.body_jntadr[bone.body]];
-      poses_[i] = {vector(q), rotation(q + 3)};
+      poses_[i] = {vector(q), rotation_of(q + 3)};
     } else {
       poses_[i] = moved(m, bone.body, of_bone(bone.parent) * bone.mounted, qpos, see);
     }
@@ -168,7 +166,7 @@ Pose Skeleton::before(const mjModel& m, int joint, const Pose& pose, const doubl
   const Vector3 anchor = pose.p + pose.R * own;
   const Matrix3 R =
       pose.R * (m.jnt_type[joint] == mjJNT_BALL
-                    ? Matrix3(rotation(q).transpose())
+                    ? Matrix3(rotation_of(q).transpose())
                     : Eigen::AngleAxisd(m.qpos0[address] - q[0], axis).toRotationMatrix());
   return {anchor - R * own, R};
 }

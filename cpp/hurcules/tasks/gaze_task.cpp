@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "hurcules/base/error.hpp"
 #include "hurcules/tasks/angle.hpp"
 
 namespace hurcules {
@@ -22,9 +21,7 @@ GazeTask::GazeTask(std::string name, const Robot& robot, const std::string& fram
       frame_(robot.frame(frame)),
       camera_(robot, frame_),
       seen_(robot) {
-  require(
-      robot.moves(frame_),
-      "task '" + name_ + "' wants a frame that the coordinates move, none moves '" + frame + "'");
+  Reference(robot, "").require_moved(robot, frame, name_);
   GazeTask::reset(robot);
 }
 
