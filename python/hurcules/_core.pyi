@@ -1136,14 +1136,15 @@ class DistanceTask(Task):
 
     Controllers brake before the margin as before a joint limit, with half of the acceleration that the
     coordinates have along a row; the gain plays no part. A row belongs to a pair of geoms while that is
-    nearer than `most` and among the nearest; without one it asks for nothing (e = most, J = 0).
+    nearer than `most` and among the nearest, up to three more to points of it that were nearest before:
+    flat faces rest on each other. Without a pair a row asks for nothing (e = most, J = 0).
 
     Args:
       name, robot: see TorqueLimits.
       pairs: of names of bodies or geoms; a body stands for its geoms that can touch something.
       margin: [m].
       most: [m] > margin; pairs farther apart ask for nothing.
-      rows: so many pairs of geoms count at a time, the nearest.
+      rows: so many points of pairs of geoms count at a time, the nearest.
 
     Raises:
       Error: a name that does not exist, no pair, two that no coordinate moves against each other, or

@@ -19,6 +19,9 @@ constexpr double kTouches = 1e-9;  // [m] nearer, there is no direction
 constexpr double kStale = 0.05;    // of its distance: a pair that moved so much is measured anew
 constexpr double kNearer = 5e-3;   // [m] by which a pair must be nearer to take another's place
 constexpr double kPlane = 100.0;   // [m] of a plane that moves: how far from its origin it counts
+// a pair nearer than kClose `most` keeps its nearest points when others that are kApart [m] away on
+// both bodies have become that, until it is nearer than they are by kLeft [m]
+constexpr double kClose = 1.0 / 3.0, kApart = 0.01, kLeft = 0.02;
 
 std::vector<int> geoms_of(const Robot& robot, const std::string& name) {
   const mjModel& m = *robot.model();
@@ -49,6 +52,12 @@ void get(StateReader& reader, Skeleton::Pose& pose) {
   for (Index i = 0; i < 9; ++i) pose.R(i) = reader.get();
 }
 
+// of two points on each of two bodies
+template <typename Points>
+bool apart(const Points& a, const Points& b) {
+  return (a.first - b.first).norm() > kApart && (a.second - b.second).norm() > kApart;
+}
+
 // [m] no point of a ball of this radius has moved further
 double travel(const Skeleton::Pose& from, const Skeleton::Pose& to, double radius) {
   return (to.p - from.p).norm() + radius * M_SQRT1_2 * (to.R - from.R).norm();
@@ -76,8 +85,13 @@ std::string geom_name(const Robot& robot, int geom) {
 }
 
 GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most,
-                           std::size_t count)
-    : model_(robot.model()), pairs_(std::move(pairs)), most_(most), seen_(count), near_(count) {
+                           std::size_t count, std::size_t points)
+    : model_(robot.model()),
+      pairs_(std::move(pairs)),
+      most_(most),
+      points_(points),
+      seen_(count),
+      near_(count) {
   require(std::isfinite(most) && most > 0.0, "the largest distance wants a positive number [m]");
   for (const GeomPair& pair : pairs_) {
     Pair entry;
@@ -92,6 +106,7 @@ GeomDistance::GeomDistance(const GeomDistance& other)
     : model_(other.model_),
       pairs_(other.pairs_),
       most_(other.most_),
+      points_(other.points_),
       bodies_(other.bodies_),
       geoms_(other.geoms_),
       table_(other.table_),
@@ -191,18 +206,68 @@ Skeleton::Pose GeomDistance::mover(const Pair& pair) const {
 void GeomDistance::renew_reported() {
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     Seen& seen = seen_[i];
-    if (seen.pair < 0) continue;
-    Pair& entry = pair(seen.pair);
+    if (seen.pair < 0 || seen.kept) continue;
+    const Pair& entry = pair(seen.pair);
     const bool first = refers_to_first(entry);
     const double radius = body_of(first ? entry.second : entry.first).radius;
     near_[i] = now(seen);
-    if (travel(seen.mover, mover(entry), radius) > kStale * std::max(0.0, near_[i].distance)) {
-      seen = look(seen.pair);
-      near_[i] = now(seen);
-    }
-    if (near_[i].distance < most_) continue;
-    forget(entry);
-    seen.pair = near_[i].pair = -1;
+    if (travel(seen.mover, mover(entry), radius) > kStale * std::max(0.0, near_[i].distance))
+      renew(i);
+    if (seen_[i].pair >= 0 && !seen_[i].kept && near_[i].distance >= most_) leave(i);
+  }
+  move_kept();
+}
+
+// the nearest points of the pair are looked for; those of before may stay beside them
+void GeomDistance::renew(std::size_t place) {
+  Seen& before = seen_[place];
+  const Seen fresh = look(before.pair);
+  near_[place] = now(fresh);
+  const bool close = points_ > 1 && fresh.distance < kClose * most_;
+  std::size_t next = place;
+  if (close && apart(fresh, before)) next = place_beside(place, fresh);
+  before.kept = next != place;
+  seen_[next] = fresh;
+  near_[next] = now(fresh);
+}
+
+// where the nearest points go, those at `place` being kept; `place` itself where they are not
+std::size_t GeomDistance::place_beside(std::size_t place, const Seen& fresh) {
+  std::size_t points = 1, least = place;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (seen_[i].pair != fresh.pair || i == place) continue;
+    if (!apart(fresh, seen_[i])) return i;  // nearest once more
+    ++points;
+    if (spread(i, fresh) < spread(least, fresh)) least = i;
+  }
+  if (points >= points_) return least;
+  const std::size_t free = free_place(fresh.distance);
+  return free < seen_.size() ? free : place;
+}
+
+// [m] from points of the pair to its others
+double GeomDistance::spread(std::size_t place, const Seen& fresh) const {
+  const Seen& one = seen_[place];
+  const auto way = [&one](const Seen& other) {
+    return (one.first - other.first).norm() + (one.second - other.second).norm();
+  };
+  double sum = way(fresh);
+  for (const Seen& other : seen_)
+    if (other.pair == fresh.pair) sum += way(other);
+  return sum;
+}
+
+// along the direction of the nearest points of their pair
+void GeomDistance::move_kept() {
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (seen_[i].pair < 0 || !seen_[i].kept) continue;
+    const auto nearest = [&](const Seen& seen) { return seen.pair == seen_[i].pair && !seen.kept; };
+    const auto found = std::find_if(seen_.begin(), seen_.end(), nearest);
+    const Near& near = near_[static_cast<std::size_t>(found - seen_.begin())];
+    near_[i] = now(seen_[i]);
+    near_[i].direction = near.direction;
+    near_[i].distance = near.direction.dot(near_[i].second - near_[i].first);
+    if (near_[i].distance > near.distance + kLeft) seen_[i].pair = near_[i].pair = -1;
   }
 }
 
@@ -232,7 +297,7 @@ GeomDistance::Seen GeomDistance::look(Index index) {
 GeomDistance::Near GeomDistance::now(const Seen& seen) const {
   const Pair& entry = pair(seen.pair);
   const Skeleton::Pose &a = body_of(entry.first).pose, &b = body_of(entry.second).pose;
-  Near near{.pair = seen.pair, .distance = seen.distance};
+  Near near{.pair = seen.pair, .kept = seen.kept, .distance = seen.distance};
   near.first = a.p + a.R * seen.first;
   near.second = b.p + b.R * seen.second;
   near.direction = (refers_to_first(entry) ? a : b).R * seen.direction;
@@ -247,6 +312,17 @@ void GeomDistance::forget(Pair& pair) {
   pair.bound = -std::numeric_limits<double>::infinity();
 }
 
+// nearest points go with all that their pair has kept
+void GeomDistance::leave(std::size_t place) {
+  const Index index = seen_[place].pair;
+  if (!seen_[place].kept) {
+    forget(pair(index));
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      if (seen_[i].pair == index) seen_[i].pair = near_[i].pair = -1;
+  }
+  seen_[place].pair = near_[place].pair = -1;
+}
+
 // [m] a pair below it has a place
 double GeomDistance::threshold() const {
   double farthest = 0.0;
@@ -257,17 +333,20 @@ double GeomDistance::threshold() const {
   return farthest - kNearer;
 }
 
-// in the first free place, else in that of the farthest
-void GeomDistance::report(const Seen& seen) {
+std::size_t GeomDistance::free_place(double distance) {
   std::size_t place = 0;
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    if (near_[i].pair < 0) {
-      place = i;
-      break;
-    }
+    if (near_[i].pair < 0) return i;
     if (near_[i].distance > near_[place].distance) place = i;
   }
-  if (near_[place].pair >= 0) forget(pair(near_[place].pair));
+  if (near_[place].distance - kNearer <= distance) return near_.size();
+  leave(place);
+  return place;
+}
+
+void GeomDistance::report(const Seen& seen) {
+  const std::size_t place = free_place(seen.distance);
+  if (place == near_.size()) return;
   pair(seen.pair).reported = true;
   seen_[place] = seen;
   near_[place] = now(seen);
@@ -352,6 +431,7 @@ void GeomDistance::save(StateWriter& writer) const {
   }
   for (const Seen& seen : seen_) {
     writer.put(static_cast<double>(seen.pair));
+    writer.put(seen.kept ? 1.0 : 0.0);
     writer.put(seen.distance);
     writer.put(seen.first);
     writer.put(seen.second);
@@ -376,6 +456,7 @@ void GeomDistance::restore(StateReader& reader) {
         index >= -1.0 && index < static_cast<double>(table_.size()) && index == std::floor(index),
         "the snapshot belongs to another model");
     seen.pair = static_cast<Index>(index);
+    seen.kept = reader.get_count(1) > 0;
     seen.distance = reader.get();
     reader.get(seen.first);
     reader.get(seen.second);
@@ -386,6 +467,7 @@ void GeomDistance::restore(StateReader& reader) {
   listed_ = false;
   for (std::size_t i = 0; i < seen_.size(); ++i)
     near_[i] = seen_[i].pair < 0 ? Near{} : now(seen_[i]);
+  move_kept();
 }
 
 }  // namespace hurcules

@@ -5,6 +5,12 @@
 // the others, bounds that shrink by what bodies move rule out most, then bounding spheres and boxes.
 // The pairs that are reported are measured anew when their bodies have moved against each other by a
 // twentieth of their distance; in between, their nearest points move with the bodies.
+//
+// Between flat faces the nearest point jumps from corner to corner. A pair that is near therefore keeps
+// the points that were nearest before, as physics engines keep a contact manifold: geoms are convex, so
+// along the direction d of the nearest points any other two are at least as far apart,
+//   d . (p_2 - p_1) >= distance,
+// and what keeps those apart forbids nothing that the distance allows.
 #pragma once
 
 #include <limits>
@@ -40,20 +46,23 @@ struct BodyMotion {
 class GeomDistance {
  public:
   struct Near {
-    Index pair = -1;        // -1: nothing that is near
+    Index pair = -1;        // -1: nothing that is near; one pair may have several points
+    bool kept = false;      // nearest before; others of the pair are now
     double distance = 0.0;  // [m], negative in each other
-    // [m] in W, of the geoms of the pair, nearest to each other; deepest in each other
+    // [m] in W, of the geoms of the pair: nearest to each other, deepest in each other, or once so
     Vector3 first = Vector3::Zero(), second = Vector3::Zero();
     Vector3 direction = Vector3::Zero();  // from first to second; 0 where they just touch
   };
 
-  // reports the `count` nearest pairs below `most` [m]; throws Error unless both are positive
-  GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most, std::size_t count);
+  // reports the `count` nearest below `most` [m], up to `points` of a pair; throws Error unless `most`
+  // is positive
+  GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most, std::size_t count,
+               std::size_t points = 1);
   GeomDistance(const GeomDistance& other);
 
   [[nodiscard]] const std::vector<GeomPair>& pairs() const { return pairs_; }
-  // At the robot's configuration: the nearest pairs, in no order. A pair keeps its place as long as
-  // no other is nearer by 5 mm. Until the next call.
+  // At the robot's configuration: the nearest, in no order. A pair, or a point that it keeps, has its
+  // place as long as no other is nearer by 5 mm. Until the next call.
   const std::vector<Near>& measure(const Robot& robot);
   [[nodiscard]] const std::vector<Near>& near() const { return near_; }
   // row (n) [m/rad]: how the distance changes with the coordinates; 0 where the pair just touches
@@ -89,9 +98,10 @@ class GeomDistance {
     // [m] the distance was at least `bound` when the bodies had moved by `moved`
     double bound = -std::numeric_limits<double>::infinity(), moved = 0.0;
   };
-  // what was measured for a pair that is reported
+  // what was measured for a pair that is reported, or a point that it keeps
   struct Seen {
     Index pair = -1;
+    bool kept = false;  // nearest once; its direction is that of the nearest points
     double distance = 0.0;
     Vector3 first = Vector3::Zero(), second = Vector3::Zero();  // each in its body
     Vector3 direction = Vector3::Zero();                        // in the body of the reference
@@ -107,7 +117,14 @@ class GeomDistance {
   [[nodiscard]] Seen look(Index index);
   [[nodiscard]] Near now(const Seen& seen) const;
   void renew_reported();
+  void renew(std::size_t place);
+  [[nodiscard]] std::size_t place_beside(std::size_t place, const Seen& fresh);
+  [[nodiscard]] double spread(std::size_t place, const Seen& fresh) const;
+  void move_kept();
   void report(const Seen& seen);
+  // free, or taken from what is farther by 5 mm than `distance`; count: none
+  [[nodiscard]] std::size_t free_place(double distance);
+  void leave(std::size_t place);
   static void forget(Pair& pair);
   [[nodiscard]] double threshold() const;
   [[nodiscard]] Body& body_of(std::size_t geom) { return bodies_[geoms_[geom].body]; }
@@ -127,6 +144,7 @@ class GeomDistance {
   mjData_* data_ = nullptr;  // of the robot that is measured, for the poses of geoms
   std::vector<GeomPair> pairs_;
   double most_;
+  std::size_t points_;
   std::vector<Body> bodies_;
   std::vector<Geom> geoms_;
   std::vector<Pair> table_;  // of the pairs

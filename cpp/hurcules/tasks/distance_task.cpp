@@ -11,9 +11,12 @@ namespace hurcules {
 
 namespace {
 
+// a flat face touches another at three points or more
+constexpr std::size_t kPoints = 4;
+
 Index rows_for(std::size_t pairs, Index most) {
   require(most >= 1, "rows of a distance task want a number >= 1");
-  return std::clamp(static_cast<Index>(pairs), Index{1}, most);
+  return std::clamp(static_cast<Index>(kPoints * pairs), Index{1}, most);
 }
 
 std::vector<GeomPair> geoms_of(const std::vector<CollisionPair>& pairs) {
@@ -32,7 +35,7 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot, const DistanceT
     : Task(std::move(name), rows_for(named_geom_pairs(robot, options.pairs).size(), options.rows),
            robot),
       distances_(robot, named_geom_pairs(robot, options.pairs), options.most,
-                 static_cast<std::size_t>(rows())),
+                 static_cast<std::size_t>(rows()), kPoints),
       most_(options.most),
       nearer_(pairs().size(), 0.0) {
   require(!pairs().empty(), "task '" + name_ + "' wants at least one pair of bodies");
@@ -43,7 +46,7 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot, const DistanceT
 DistanceTask::DistanceTask(std::string name, const Robot& robot,
                            const std::vector<CollisionPair>& pairs, const CollisionOptions& options)
     : Task(std::move(name), rows_for(pairs.size(), options.rows), robot),
-      distances_(robot, geoms_of(pairs), options.most, static_cast<std::size_t>(rows())),
+      distances_(robot, geoms_of(pairs), options.most, static_cast<std::size_t>(rows()), kPoints),
       most_(options.most) {
   // nearer than the margin already: it keeps half of what there is
   for (const CollisionPair& pair : pairs) {

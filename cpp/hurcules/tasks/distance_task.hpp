@@ -1,11 +1,12 @@
 // Bodies keep away from each other: an inequality for each of the pairs that are nearest.
 //
 //   e_i = distance [m] (m),  J = its gradient (m, n),  de/dt = J qdot - velocity_des;   margin <= e_i
-// A row belongs to a pair of geoms while that is nearer than `most` and among the m nearest; without
-// one it asks for nothing (e = most, J = 0). Controllers brake before the margin as before joint
+// A row belongs to a pair of geoms while that is nearer than `most` and among the m nearest, up to
+// three more to points of it that were nearest before (flat faces); without one it asks for nothing
+// (e = most, J = 0). Controllers brake before the margin as before joint
 // limits (Task::is_limit): at the speed that half of the acceleration of the coordinates can
 // stop. A pair that stands nearer than the margin by construction counts as that much farther.
-// Left out: the change of J with the velocity (drift), and other points than the two nearest.
+// Left out: the change of J with the velocity (drift).
 #pragma once
 
 #include <string>
@@ -22,7 +23,7 @@ struct DistanceTaskOptions {
   std::vector<std::pair<std::string, std::string>> pairs;  // names of bodies or geoms
   double margin = 0.03;                                    // [m]
   double most = 0.3;                                       // [m] > margin
-  Index rows = 16;  // at most: so many pairs of geoms count at a time
+  Index rows = 16;  // at most: so many points of pairs of geoms count at a time
 };
 
 struct CollisionOptions {
@@ -66,6 +67,10 @@ class DistanceTask : public Task {
   // the pair of a row at the last update, -1 for none
   [[nodiscard]] Index pair(Index row) const {
     return distances_.near()[static_cast<std::size_t>(row)].pair;
+  }
+  // the points of a row were nearest before, others are now
+  [[nodiscard]] bool is_kept(Index row) const {
+    return distances_.near()[static_cast<std::size_t>(row)].kept;
   }
 
  private:

@@ -1,7 +1,6 @@
 #include "hurcules/tasks/point_task.hpp"
 
-#include <Eigen/Cholesky>
-
+#include "hurcules/base/decompositions.hpp"
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -25,9 +24,11 @@ Vector3 PointTask::world_position() const {
 }
 
 Vector3 PointTask::world_target() const {
-  const Matrix AAt = axes_ * axes_.transpose();
-  const Vector3 way = axes_.transpose() * AAt.ldlt().solve(target_ - value_);
-  return reference_.point_in_world(point_.position + way);
+  LdltFactor AAt;
+  AAt.compute(axes_ * axes_.transpose());
+  Vector way = target_ - value_;
+  AAt.solve_in_place(way);
+  return reference_.point_in_world(point_.position + axes_.transpose() * way);
 }
 
 void PointTask::measure(const Robot& robot) {

@@ -117,7 +117,12 @@ TEST_F(Distances, NothingNearIsLostAlongAPath) {
       std::vector<double> found(wanted.size(), options.most);
       for (Index row = 0; row < task.rows(); ++row) {
         if (task.pair(row) < 0) continue;
-        found[static_cast<std::size_t>(task.pair(row))] = task.error()[row];
+        const auto pair = static_cast<std::size_t>(task.pair(row));
+        if (task.is_kept(row)) {
+          ASSERT_GE(task.error()[row], wanted[pair] - 0.05 * std::abs(wanted[pair]) - 1e-9);
+          continue;
+        }
+        found[pair] = task.error()[row];
         ++rows;
       }
       // a pair is measured anew when it has moved by a twentieth of its distance
@@ -237,6 +242,77 @@ TEST_F(Distances, WrongNumbersAreErrors) {
                          DistanceTask("d", robot_, {.pairs = {{"l1", "nobody"}}});
                        }),
                        "nobody"));
+}
+
+// a plate over a floor, tilted to each of its corners in turn
+TEST(FlatFaces, KeepTheCornersThatWereNearest) {
+  Robot robot(load_model_text(R"(<mujoco><worldbody>
+      <geom name="floor" type="plane" size="1 1 1"/>
+      <body><joint name="z" type="slide" axis="0 0 1"/><joint name="x" axis="1 0 0"/>
+        <joint name="y" axis="0 1 0"/><geom name="plate" type="box" size="0.05 0.05 0.01"/></body>
+      </worldbody></mujoco>)"),
+              {"z", "x", "y"});
+  robot.set_configuration(Vector3(0.05, 0.03, 0.04));
+  DistanceTask task("floor", robot, {.pairs = {{"plate", "floor"}}, .margin = 0.01, .most = 0.3});
+  ASSERT_EQ(task.rows(), 4);
+  // heights of the lower four corners, sorted; tilts are about x, then about the turned y
+  const auto heights = [](const Vector3& q) {
+    std::vector<double> found;
+    for (const double x : {-0.05, 0.05})
+      for (const double y : {-0.05, 0.05})
+        found.push_back(q[0] + std::sin(q[1]) * y +
+                        std::cos(q[1]) * (-std::sin(q[2]) * x - std::cos(q[2]) * 0.01));
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  const auto rows = [&] {
+    std::vector<double> found;
+    for (Index row = 0; row < 4; ++row)
+      if (task.pair(row) >= 0) found.push_back(task.error()[row]);
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  Vector3 q;
+  std::size_t seen = 0;
+  for (const auto& [x, y] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}, {1, 1}}) {
+    q = Vector3(0.05, 0.03 * x, 0.04 * y);
+    robot.set_configuration(q);
+    task.update(robot);
+    const std::vector<double> found = rows();
+    EXPECT_EQ(found.size(), std::min<std::size_t>(++seen, 4));
+    EXPECT_NEAR(found.front(), heights(q).front(), 1e-9);
+  }
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(rows()[i], heights(q)[i], 1e-9);
+
+  // each row says how its corner moves
+  const Matrix J = task.jacobian();
+  const Vector e = task.error();
+  const Vector3 move(-1e-6, 2e-6, -1e-6);
+  robot.set_configuration(q + move);
+  task.update(robot);
+  for (Index row = 0; row < 4; ++row)
+    EXPECT_NEAR(task.error()[row] - e[row], J.row(row) * move, 1e-10);
+
+  // a snapshot holds them
+  std::vector<double> state;
+  StateWriter writer(state);
+  task.save(writer);
+  const std::vector<double> before = rows();
+  robot.set_configuration(Vector3(1.0, 0.0, 0.0));
+  task.update(robot);
+  EXPECT_TRUE(rows().empty());
+  robot.set_configuration(q + move);
+  StateReader reader(state);
+  task.restore(reader);
+  task.update(robot);
+  EXPECT_EQ(rows(), before);
+
+  // what has turned away is no support any more
+  robot.set_configuration(Vector3(0.05, 0.6, 0.0));
+  task.update(robot);
+  for (Index row = 0; row < 4; ++row) {
+    if (task.pair(row) >= 0) EXPECT_LT(task.error()[row], rows().front() + 0.02);
+  }
 }
 
 TEST(SelfCollision, ARobotWithoutPairsHasATaskThatAsksForNothing) {
