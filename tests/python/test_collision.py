@@ -214,9 +214,7 @@ FLAT = """
 
 @pytest.mark.parametrize("controller", CONTROLLERS)
 @pytest.mark.parametrize("shape", ['box" size="0.06 0.04 0.01', 'cylinder" size="0.05 0.01'])
-def test_a_flat_hand_that_is_pressed_at_a_table_does_not_rock(
-    controller: type, shape: str
-) -> None:
+def test_a_flat_hand_that_is_pressed_at_a_table_does_not_rock(controller: type, shape: str) -> None:
     # its nearest point jumps from corner to corner: with a row for the nearest alone 11 of these 12
     # moved for ever, at up to 0.8 rad/s
     robot = hurcules.Robot(mujoco.MjModel.from_xml_string(FLAT.format(shape=shape)))

@@ -238,10 +238,8 @@ TEST_F(Distances, WrongNumbersAreErrors) {
   EXPECT_TRUE(contains(error_text([&] { (void)obstacles(robot_, {"bal"}); }), "'bal'"));
   EXPECT_TRUE(
       contains(error_text([&] { (void)obstacles(robot_, {"left"}); }), "part of the robot"));
-  EXPECT_TRUE(contains(error_text([&] {
-                         DistanceTask("d", robot_, {.pairs = {{"l1", "nobody"}}});
-                       }),
-                       "nobody"));
+  EXPECT_TRUE(contains(
+      error_text([&] { DistanceTask("d", robot_, {.pairs = {{"l1", "nobody"}}}); }), "nobody"));
 }
 
 // a plate over a floor, tilted to each of its corners in turn

@@ -156,10 +156,8 @@ void LevelKktSystem::invert_keeping(const SolvedHierarchy& solved) {
   W_inverse.setZero(V.cols(), W.rows());
   if (W.rows() == 0 || Z.cols() == 0) return;
   const Svd found = svd(W * Z, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Index rank =
-      count_above(found.sigma, tolerance::kRank * largest_row(solved, keeping));
-  W_inverse = Z * found.V.leftCols(rank) *
-              found.sigma.head(rank).cwiseInverse().asDiagonal() *
+  const Index rank = count_above(found.sigma, tolerance::kRank * largest_row(solved, keeping));
+  W_inverse = Z * found.V.leftCols(rank) * found.sigma.head(rank).cwiseInverse().asDiagonal() *
               found.U.leftCols(rank).transpose();
 }
 

@@ -32,7 +32,7 @@ Vector RowSpace::free_part(const Vector& v) const {
 Eigen::MatrixXd RowSpace::free_basis() const {
   const Index n = Q_.rows();
   if (size() == 0) return Eigen::MatrixXd::Identity(n, n);
-    Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n).rightCols(n - size());
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n).rightCols(n - size());
   QrFactor(Q_).apply_q(basis);
   return basis;
 }
