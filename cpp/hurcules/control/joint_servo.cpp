@@ -1,11 +1,11 @@
 #include "hurcules/control/joint_servo.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "hurcules/base/decompositions.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/robot/closures.hpp"
@@ -70,9 +70,9 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       continue;
     }
     sampled.mass_matrix(M);
-    const Matrix inverse_M = inverse(M);
+    const Matrix inverse = M.inverse();
     most = most.cwiseMax(M.diagonal());
-    least = least.cwiseMin(inverse_M.diagonal().cwiseInverse());
+    least = least.cwiseMin(inverse.diagonal().cwiseInverse());
   }
   std::vector<ServoGains> table;
   for (const JointActuator& actuator : joint_actuators(robot)) {

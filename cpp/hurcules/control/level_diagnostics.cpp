@@ -1,10 +1,10 @@
 #include "hurcules/control/level_diagnostics.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "hurcules/base/decompositions.hpp"
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/custom_task.hpp"
@@ -65,7 +65,9 @@ std::string holder(const SolvedStack& solved, const ActiveRow& active) {
 // of the rows as they are, without the levels above
 Index own_rank(const Level& level) {
   if (level.bounds) return level.rows();
-  return rank(level.A, 1e-9);
+  Eigen::ColPivHouseholderQR<Matrix> qr(level.A);
+  qr.setThreshold(1e-9);
+  return qr.rank();
 }
 
 // the levels above k with equality rows, which took the directions that it lacks

@@ -199,7 +199,7 @@ void Closures::find_share() {
       right_.noalias() -= factor * (C_f_.topRows(rows_).transpose() * C_.col(dof).head(rows_));
     share_.col(i) = right_;
   }
-  factor_.solve_in_place(share_);
+  factor_.solveInPlace(share_);
   drift_.setZero();
   slack_ = 0.0;
   for (Index i = 0; i < share_.cols(); ++i) {
@@ -216,7 +216,7 @@ void Closures::close(double* qpos, const Vector& change) {
   linearize(qpos);
   for (int i = 0; i < kIterations && error_ >= kClosed; ++i) {
     step_.noalias() = -C_f_.topRows(rows_).transpose() * c_.head(rows_);
-    factor_.solve_in_place(step_);
+    factor_.solveInPlace(step_);
     move(qpos, step_);
     linearize(qpos);
   }
@@ -244,7 +244,7 @@ void Closures::set_velocity(const double* qpos, const double* qvel) {
   rate_.head(rows_).noalias() -= C_.topRows(rows_) * velocity;
   drift_.noalias() = C_f_.topRows(rows_).transpose() * rate_.head(rows_);
   drift_ /= -kAhead;
-  factor_.solve_in_place(drift_);
+  factor_.solveInPlace(drift_);
 }
 
 }  // namespace hurcules

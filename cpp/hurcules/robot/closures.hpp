@@ -10,12 +10,12 @@
 // MuJoCo.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "hurcules/base/decompositions.hpp"
 #include "hurcules/base/types.hpp"
 
 struct mjModel_;
@@ -84,7 +84,7 @@ class Closures {
   Matrix C_, C_f_;                                                // (most rows, nv), (most rows, f)
   Vector c_, rate_;                                               // (most rows)
   Matrix normal_;                                                 // C_f' C_f, damped (f, f)
-  LdltFactor factor_;
+  Eigen::LDLT<Matrix> factor_;
   Matrix share_;
   Vector drift_, step_, right_;
   Vector full_, ahead_;  // (nv), (nq)

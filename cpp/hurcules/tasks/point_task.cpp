@@ -1,6 +1,7 @@
 #include "hurcules/tasks/point_task.hpp"
 
-#include "hurcules/base/decompositions.hpp"
+#include <Eigen/Cholesky>
+
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -24,11 +25,9 @@ Vector3 PointTask::world_position() const {
 }
 
 Vector3 PointTask::world_target() const {
-  LdltFactor AAt;
-  AAt.compute(axes_ * axes_.transpose());
-  Vector way = target_ - value_;
-  AAt.solve_in_place(way);
-  return reference_.point_in_world(point_.position + axes_.transpose() * way);
+  const Matrix AAt = axes_ * axes_.transpose();
+  const Vector3 way = axes_.transpose() * AAt.ldlt().solve(target_ - value_);
+  return reference_.point_in_world(point_.position + way);
 }
 
 void PointTask::measure(const Robot& robot) {

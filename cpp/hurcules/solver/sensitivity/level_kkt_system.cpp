@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hurcules/base/decompositions.hpp"
+#include "hurcules/solver/kernels/dense_decompositions.hpp"
 #include "hurcules/solver/problem/tolerances.hpp"
 
 namespace hurcules {
@@ -40,6 +40,8 @@ Vector wanted(const SolvedHierarchy& solved, const std::vector<DecidingRow>& row
   }
   return values;
 }
+
+using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
 
 double largest_row(const SolvedHierarchy& solved, const std::vector<DecidingRow>& rows) {
   double largest = 0.0;
@@ -143,11 +145,11 @@ void LevelKktSystem::decompose(const SolvedHierarchy& solved) {
   Z = C.free_basis();
   U.resize(V.rows(), 0), Y.resize(V.cols(), 0), sigma.resize(0);
   if (V.rows() == 0 || Z.cols() == 0) return;
-  const Svd found = svd(V * Z, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  const Index rank = count_above(found.sigma, tolerance::kRank * largest_row(solved, own));
-  U = found.U.leftCols(rank);
-  sigma = found.sigma.head(rank);
-  const Eigen::MatrixXd turned = Z * found.V;
+  const Svd svd(V * Z, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const Index rank = count_above(svd.singularValues(), tolerance::kRank * largest_row(solved, own));
+  U = svd.matrixU().leftCols(rank);
+  sigma = svd.singularValues().head(rank);
+  const Eigen::MatrixXd turned = Z * svd.matrixV();
   Y = turned.leftCols(rank);
   Z = turned.rightCols(Z.cols() - rank);
 }
@@ -155,10 +157,12 @@ void LevelKktSystem::decompose(const SolvedHierarchy& solved) {
 void LevelKktSystem::invert_keeping(const SolvedHierarchy& solved) {
   W_inverse.setZero(V.cols(), W.rows());
   if (W.rows() == 0 || Z.cols() == 0) return;
-  const Svd found = svd(W * Z, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Index rank = count_above(found.sigma, tolerance::kRank * largest_row(solved, keeping));
-  W_inverse = Z * found.V.leftCols(rank) * found.sigma.head(rank).cwiseInverse().asDiagonal() *
-              found.U.leftCols(rank).transpose();
+  const Svd svd(W * Z, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Index rank =
+      count_above(svd.singularValues(), tolerance::kRank * largest_row(solved, keeping));
+  W_inverse = Z * svd.matrixV().leftCols(rank) *
+              svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
+              svd.matrixU().leftCols(rank).transpose();
 }
 
 void LevelKktSystem::find_step(const SolvedHierarchy& solved) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hurcules/base/decompositions.hpp"
+#include "hurcules/solver/kernels/dense_decompositions.hpp"
 #include "hurcules/solver/sensitivity/level_kkt_system.hpp"
 #include "hurcules/solver/sensitivity/nullspace_derivative.hpp"
 
@@ -23,7 +23,7 @@ Vector singular_values(const SolvedHierarchy& solved, int k, const EqualityRows&
   for (std::size_t i = 0; i < rows.size(); ++i) {
     projected.row(static_cast<Index>(i)) = above.space.free_part(solved.dense(rows[i]));
   }
-  return svd(projected).sigma.head(count);
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(projected).singularValues().head(count);
 }
 
 // the part of the violation that a step in the level's own directions could remove

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hurcules/base/decompositions.hpp"
+#include "hurcules/solver/kernels/dense_decompositions.hpp"
 #include "hurcules/solver/problem/nullspace_bases.hpp"
 #include "hurcules/solver/problem/tolerances.hpp"
 
@@ -60,12 +60,12 @@ void NullspaceDerivative::decompose(const SolvedHierarchy& solved) {
   MV_.setZero(m, n);
   if (m == 0) return;
   const Eigen::MatrixXd M = A_ * B_;
-  const Svd found = svd(M, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  V_ = found.V;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  V_ = svd.matrixV();
   for (Index i = 0; i < count_; ++i) {
-    if (found.sigma[i] <= tolerance::kRank * longest) break;
-    sigma_[i] = found.sigma[i];
-    MV_.col(i) = sigma_[i] * found.U.col(i);
+    if (svd.singularValues()[i] <= tolerance::kRank * longest) break;
+    sigma_[i] = svd.singularValues()[i];
+    MV_.col(i) = sigma_[i] * svd.matrixU().col(i);
     ++rank_;
   }
 }

@@ -1,6 +1,7 @@
 #include "hurcules/solver/sensitivity/row_space.hpp"
 
-#include "hurcules/base/decompositions.hpp"
+
+#include "hurcules/solver/kernels/dense_decompositions.hpp"
 #include "hurcules/solver/problem/tolerances.hpp"
 
 namespace hurcules {
@@ -32,8 +33,9 @@ Vector RowSpace::free_part(const Vector& v) const {
 Eigen::MatrixXd RowSpace::free_basis() const {
   const Index n = Q_.rows();
   if (size() == 0) return Eigen::MatrixXd::Identity(n, n);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(Q_);
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n).rightCols(n - size());
-  QrFactor(Q_).apply_q(basis);
+  basis.applyOnTheLeft(qr.householderQ());
   return basis;
 }
 

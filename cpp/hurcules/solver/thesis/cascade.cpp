@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hurcules/base/decompositions.hpp"
+#include "hurcules/solver/kernels/dense_decompositions.hpp"
 #include "hurcules/solver/problem/tolerances.hpp"
 
 namespace hurcules {
@@ -31,10 +31,11 @@ Matrix null_space(const Matrix& A, const Matrix& Z) {
     const double norm = A.row(i).norm();
     if (norm > 0.0) projected.row(i) /= norm;
   }
-  const Svd found = svd(projected, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(projected, Eigen::ComputeFullV);
   Index rank = 0;
-  while (rank < found.sigma.size() && found.sigma[rank] > tolerance::kRank) ++rank;
-  return Z * found.V.rightCols(Z.cols() - rank);
+  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > tolerance::kRank)
+    ++rank;
+  return Z * svd.matrixV().rightCols(Z.cols() - rank);
 }
 // forces below this part of |a|^2 |x| are rounding, as in Optimality
 constexpr double kLeastForce = 1e-3;
@@ -306,7 +307,9 @@ std::vector<std::vector<Vector>> Cascade::multipliers() const {
     // equality rows above take what is left of the gradient
     const Matrix A = k > 0 ? equality_rows(0, k - 1) : Matrix(0, unknowns_);
     if (A.rows() > 0) {
-      const Vector mu = least_squares(A.transpose(), -records_[k].gradient);
+      const Vector mu = Eigen::MatrixXd(A.transpose())
+                            .completeOrthogonalDecomposition()
+                            .solve(-records_[k].gradient);
       for (int i = 0, e = 0; i < rows_.begin(k); ++i) {
         if (rows_[i].equality) all[i] = mu[e++];
       }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hurcules/base/decompositions.hpp"
+#include "hurcules/solver/kernels/dense_decompositions.hpp"
 
 namespace hurcules {
 
@@ -80,7 +80,7 @@ class NearestPoint {
       const Eigen::MatrixXd W = columns();
       Eigen::VectorXd direction = M_.col(p), r(W.cols());
       if (W.cols() > 0) {
-        r = QrFactor(W).solve(direction);
+        r = W.householderQr().solve(direction);
         direction -= W * r;
       }
       const double slope = direction.squaredNorm();
@@ -119,8 +119,8 @@ class NearestPoint {
       z_ = target_;
       return;
     }
-    const QrFactor qr(W);
-    const auto R = qr.packed().topRows(W.cols()).triangularView<Eigen::Upper>();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(W);
+    const auto R = qr.matrixQR().topRows(W.cols()).triangularView<Eigen::Upper>();
     Eigen::VectorXd d(W.cols()), lambda = Eigen::VectorXd::Zero(W.cols());
     for (std::size_t j = 0; j < set_.size(); ++j) d[j] = d_[set_[j]];
     z_ = target_;
@@ -129,8 +129,7 @@ class NearestPoint {
       R.transpose().solveInPlace(u);
       Eigen::VectorXd move = Eigen::VectorXd::Zero(z_.size());
       move.head(u.size()) = u;
-      qr.apply_q(move);
-      z_ += move;
+      z_ += qr.householderQ() * move;
       R.solveInPlace(u);
       lambda += u;
     }
