@@ -15,6 +15,10 @@ namespace hurcules {
 [[nodiscard]] Matrix3 rotation_exp(const Vector3& r);
 // R of a quaternion w, x, y, z of any length above 0, as qpos has it
 [[nodiscard]] Matrix3 rotation_of(const double* quaternion);
+// as MuJoCo has it in its arrays
+[[nodiscard]] inline Eigen::Map<const Vector3> vector_of(const double* values) {
+  return Eigen::Map<const Vector3>(values);
+}
 // rotation vector [rad] of R
 [[nodiscard]] Vector3 rotation_log(const Matrix3& R);
 // inverse left Jacobian: rdot = Jl^-1(r) w for dR/dt = [w]x R; bounded for |r| <= pi

@@ -16,7 +16,7 @@ namespace hurcules {
 namespace {
 
 // of the peak that a reference may ask for: rounding carries it no further
-constexpr double kShare = 1.0 - 1e-12;
+constexpr double kOfPeak = 1.0 - 1e-12;
 constexpr double kBandwidth = 30.0;  // [rad/s]
 constexpr int kSamples = 32;         // of the ranges
 // the fastest pole of a loop is about 3 omega J_rated / J; times dt it stays below this
@@ -248,7 +248,7 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
     if (rests_[static_cast<std::size_t>(i)].on) continue;
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
-    const double peak = kShare * pid_.options().max_torque[i];
+    const double peak = kOfPeak * pid_.options().max_torque[i];
     const double beside = feed_forward_[i];
     const double a = pid_.rate_at(i, error_, -peak - beside) / motor.factor;
     const double b = pid_.rate_at(i, error_, peak - beside) / motor.factor;

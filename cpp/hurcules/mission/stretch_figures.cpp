@@ -17,7 +17,7 @@ enum : std::size_t {
   kHipLocked,
   kHipReleased,
   kShoulderLocked,
-  kPelvis,
+  kPelvisCommanded,
   kPelvisMeasured,
   kPelvisAtHip,
   kPelvisAtShoulder,
@@ -27,7 +27,7 @@ enum : std::size_t {
   kPitch,
   kPitchMeasured,
   kPitchFinal,
-  kGaze,
+  kGazeCommanded,
   kGazeMeasured,
   kJoint,
   kJointTime,
@@ -75,10 +75,10 @@ void StretchFigures::reset() {
 
 void StretchFigures::note_commanded(const TickReport& report, const StretchErrors& errors) {
   note_limits(report, errors.pelvis);
-  set(kPelvis, errors.pelvis);
+  set(kPelvisCommanded, errors.pelvis);
   raise(kHand, errors.hand);
   raise(kPitch, errors.pitch);
-  raise(kGaze, errors.gaze);
+  raise(kGazeCommanded, errors.gaze);
 }
 
 void StretchFigures::note_measured(const TickReport& report, const StretchErrors& errors) {

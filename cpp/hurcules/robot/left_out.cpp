@@ -23,7 +23,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string name_of(const mjModel& m, int type, int id) {
+std::string named(const mjModel& m, int type, int id) {
   const char* const name = mj_id2name(&m, type, id);
   return name && *name ? name : "number " + std::to_string(id);
 }
@@ -48,7 +48,7 @@ class Kept {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
       if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
-      if (moves(m_.jnt_bodyid[j])) names.push_back(name_of(m_, mjOBJ_JOINT, j));
+      if (moves(m_.jnt_bodyid[j])) names.push_back(named(m_, mjOBJ_JOINT, j));
     }
     return names;
   }
@@ -56,7 +56,7 @@ class Kept {
   [[nodiscard]] std::vector<std::string> constraints() const {
     std::vector<std::string> names;
     for (int i = 0; i < m_.neq; ++i)
-      if (m_.eq_active0[i] && !keeps(i)) names.push_back(name_of(m_, mjOBJ_EQUALITY, i));
+      if (m_.eq_active0[i] && !keeps(i)) names.push_back(named(m_, mjOBJ_EQUALITY, i));
     return names;
   }
 

@@ -4,16 +4,13 @@
 
 #include <Eigen/Geometry>
 
+#include "hurcules/base/pose.hpp"
 #include "hurcules/robot/each_screw.hpp"
 
 namespace hurcules {
 namespace {
 
 using Pose = Skeleton::Pose;
-
-Eigen::Map<const Vector3> vector(const double* values) {
-  return Eigen::Map<const Vector3>(values);
-}
 
 // of a kilogram at r
 Matrix3 second_moment(const Vector3& r) {
@@ -23,7 +20,7 @@ Matrix3 second_moment(const Vector3& r) {
 // how its own frame stands in a body
 Pose of_inertia(const mjModel& m, int body) {
   const double* const q = m.body_iquat + 4 * body;
-  return {vector(m.body_ipos + 3 * body),
+  return {vector_of(m.body_ipos + 3 * body),
           Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix()};
 }
 
@@ -50,7 +47,7 @@ void Momentum::note(const Skeleton& skeleton) {
     Inertia& part = noted_[static_cast<std::size_t>(skeleton.bone_of(body) + 1)];
     part.mass += mass;
     part.moment += mass * pose.p;
-    part.second += pose.R * vector(m.body_inertia + 3 * body).asDiagonal() * pose.R.transpose() +
+    part.second += pose.R * vector_of(m.body_inertia + 3 * body).asDiagonal() * pose.R.transpose() +
                    mass * second_moment(pose.p);
   }
   for (Inertia& part : noted_)
@@ -85,7 +82,7 @@ void Momentum::place(const Screws& screws) {
     arm_ = all.moment / all.mass;
   } else {  // as MuJoCo: that of the root
     const Pose pose = skeleton.pose(root_);
-    arm_ = pose.p + pose.R * vector(model_->body_ipos + 3 * root_) - origin;
+    arm_ = pose.p + pose.R * vector_of(model_->body_ipos + 3 * root_) - origin;
   }
   com_ = origin + arm_;
 }

@@ -13,13 +13,9 @@ namespace {
 
 using Pose = Skeleton::Pose;
 
-Eigen::Map<const Vector3> vector(const double* values) {
-  return Eigen::Map<const Vector3>(values);
-}
-
 // in the body's parent, before its joints
 Pose mounted(const mjModel& m, int body) {
-  return {vector(m.body_pos + 3 * body), rotation_of(m.body_quat + 4 * body)};
+  return {vector_of(m.body_pos + 3 * body), rotation_of(m.body_quat + 4 * body)};
 }
 
 // by its own joints; `see` (joint, axis, anchor) is told each of them before it moves
@@ -29,11 +25,11 @@ Pose moved(const mjModel& m, int body, Pose pose, const double* qpos, See&& see)
   for (int joint = m.body_jntadr[body]; joint < end; ++joint) {
     const int address = m.jnt_qposadr[joint];
     const double* const q = qpos + address;
-    const auto axis = vector(m.jnt_axis + 3 * joint);
+    const auto axis = vector_of(m.jnt_axis + 3 * joint);
     const Vector3 turned = pose.R * axis;
-    const Vector3 anchor = pose.p + pose.R * vector(m.jnt_pos + 3 * joint);
+    const Vector3 anchor = pose.p + pose.R * vector_of(m.jnt_pos + 3 * joint);
     see(joint, turned, anchor);
-    if (m.jnt_type[joint] == mjJNT_FREE) return {vector(q), rotation_of(q + 3)};
+    if (m.jnt_type[joint] == mjJNT_FREE) return {vector_of(q), rotation_of(q + 3)};
     if (m.jnt_type[joint] == mjJNT_SLIDE) {
       pose.p += (q[0] - m.qpos0[address]) * turned;
       continue;
@@ -42,7 +38,7 @@ Pose moved(const mjModel& m, int body, Pose pose, const double* qpos, See&& see)
     pose.R = pose.R * (m.jnt_type[joint] == mjJNT_BALL
                            ? rotation_of(q)
                            : Eigen::AngleAxisd(q[0] - m.qpos0[address], axis).toRotationMatrix());
-    pose.p = anchor - pose.R * vector(m.jnt_pos + 3 * joint);
+    pose.p = anchor - pose.R * vector_of(m.jnt_pos + 3 * joint);
   }
   return pose;
 }
@@ -129,7 +125,7 @@ void Skeleton::place(const mjModel& m, const double* qpos) {
     const Bone& bone = bones_[i];
     if (bone.root) {
       const double* const q = qpos + m.jnt_qposadr[m.body_jntadr[bone.body]];
-      poses_[i] = {vector(q), rotation_of(q + 3)};
+      poses_[i] = {vector_of(q), rotation_of(q + 3)};
     } else {
       poses_[i] = moved(m, bone.body, of_bone(bone.parent) * bone.mounted, qpos, see);
     }
@@ -159,7 +155,7 @@ Pose Skeleton::between(const mjModel& m, int ancestor, int body, const double* q
 
 Pose Skeleton::before(const mjModel& m, int joint, const Pose& pose, const double* qpos) {
   const int address = m.jnt_qposadr[joint];
-  const auto axis = vector(m.jnt_axis + 3 * joint), own = vector(m.jnt_pos + 3 * joint);
+  const auto axis = vector_of(m.jnt_axis + 3 * joint), own = vector_of(m.jnt_pos + 3 * joint);
   const double* const q = qpos + address;
   if (m.jnt_type[joint] == mjJNT_SLIDE)
     return {pose.p - (q[0] - m.qpos0[address]) * (pose.R * axis), pose.R};

@@ -48,7 +48,7 @@ bool is_below(const mjModel* m, int body, int above) {
   return body == above;
 }
 
-double contact_force(const mjModel* m, const mjData* d, int body) {
+double force_below(const mjModel* m, const mjData* d, int body) {
   double sum = 0.0;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
@@ -254,7 +254,7 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       out[0] = part_of(simulation.limits().commanded(), quantity.places.front());
       return;
     case Kind::ContactForce:
-      out[0] = contact_force(m, d, static_cast<int>(quantity.places.front()));
+      out[0] = force_below(m, d, static_cast<int>(quantity.places.front()));
       return;
     case Kind::SelfContacts:
       out[0] = self_contacts(m, d, world.root_body());

@@ -2,18 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "hurcules/solver/problem/tolerances.hpp"
 
 namespace hurcules {
-
-namespace {
-
-constexpr double kAbsent = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void ActiveSet::reserve(Index unknowns, Index most_rows, Index most_own) {
   const Index dimension = padded(unknowns) + most_own;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "hurcules/solver/problem/tolerances.hpp"
 
@@ -10,7 +9,6 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kAbsent = std::numeric_limits<double>::infinity();
 constexpr int kMostCorrections = 2;
 // a row of which more than this part is left (squared) is clean enough: what orthogonality it costs
 // the corrections bring back

@@ -1,17 +1,10 @@
 #include "hurcules/solver/level/working_set.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "hurcules/solver/problem/tolerances.hpp"
 
 namespace hurcules {
-
-namespace {
-
-constexpr double kAbsent = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void WorkingSet::reserve(Index rows, Index dimension) {
   factor_.reserve(std::min(rows, dimension) + 1, dimension);

@@ -10,7 +10,7 @@ namespace {
 using Long = long double;
 
 // a pull that is rounding, relative to b
-constexpr Long kNoPull = 1e-18L;
+constexpr Long kLeastPull = 1e-18L;
 // a direction of which less is outside the others depends on them
 constexpr Long kDependent = 1e-15L;
 
@@ -65,7 +65,7 @@ void NonnegativeLeastSquares::solve(const Long* b, Long no_pull) {
 
 Index NonnegativeLeastSquares::most_pulling(Long no_pull) const {
   Long best = no_pull;
-  for (Index j = 0; j < columns_; ++j) best += kNoPull * std::abs(b_[j]);
+  for (Index j = 0; j < columns_; ++j) best += kLeastPull * std::abs(b_[j]);
   Index found = -1;
   for (Index i = 0; i < size_; ++i) {
     if (state_[i] != State::Out) continue;

@@ -1,18 +1,11 @@
 #include "hurcules/solver/problem/candidates.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "hurcules/solver/problem/tolerances.hpp"
 
 namespace hurcules {
-
-namespace {
-
-constexpr double kAbsent = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void Candidates::reserve(Index most) {
   for (PaddedVector* v : {&above, &value, &target, &lower_, &upper_}) v->reserve(most + 8);

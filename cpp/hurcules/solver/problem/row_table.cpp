@@ -2,14 +2,12 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 namespace hurcules {
 
 namespace {
 
 constexpr Index kMostRows = 1'000'000;  // in a snapshot
-constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
 enum Pattern : char {
   kEquality,

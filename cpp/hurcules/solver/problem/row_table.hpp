@@ -10,6 +10,7 @@
 // candidate behind the others.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "hurcules/base/state.hpp"
@@ -18,6 +19,9 @@
 #include "hurcules/solver/kernels/padded.hpp"
 
 namespace hurcules {
+
+// a limit that is not there, on either side
+inline constexpr double kAbsent = std::numeric_limits<double>::infinity();
 
 struct Row {
   int level = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "hurcules/solver/problem/tolerances.hpp"
 
@@ -10,7 +9,6 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kAbsent = std::numeric_limits<double>::infinity();
 // a set of the last solve that is wrong in more places takes longer to mend than a cold start
 constexpr Index kMostMended = 8;
 

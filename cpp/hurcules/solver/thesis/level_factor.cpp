@@ -9,7 +9,7 @@ namespace hurcules {
 
 namespace {
 
-using Map = Eigen::Map<const Vector>;
+using ConstMap = Eigen::Map<const Vector>;
 
 constexpr int kMaxSweeps = 40;         // three to four are usual
 constexpr double kOrthogonal = 1e-15;  // cosine of two rows that need no rotation
@@ -96,7 +96,7 @@ void factor_singular(MatrixRef B, double tolerance, LevelFactor& level, FactorRo
     room.squares[largest] = -1.0;  // taken
     level.S(k, k) = sigma * scale;
     const double *u = room.turned.row(largest), *w = u + padded(m);
-    level.Ut.row(k).head(m) = Map(u, m).transpose() / sigma;
+    level.Ut.row(k).head(m) = ConstMap(u, m).transpose() / sigma;
     std::fill_n(room.row.data(), Y.stride(), 0.0);
     kernels::chosen->axpys(Y.row(0), r, Y.stride(), w, room.row.data());
     std::copy_n(room.row.data(), o, B.row(k).data());
