@@ -213,7 +213,7 @@ void GeomDistance::renew_reported() {
     near_[i] = now(seen);
     if (travel(seen.mover, mover(entry), radius) > kStale * std::max(0.0, near_[i].distance))
       renew(i);
-    if (seen_[i].pair >= 0 && !seen_[i].kept && near_[i].distance >= most_) leave(i);
+    if (seen.pair >= 0 && !seen.kept && near_[i].distance >= most_) leave(i);
   }
   move_kept();
 }
@@ -263,6 +263,10 @@ void GeomDistance::move_kept() {
     if (seen_[i].pair < 0 || !seen_[i].kept) continue;
     const auto nearest = [&](const Seen& seen) { return seen.pair == seen_[i].pair && !seen.kept; };
     const auto found = std::find_if(seen_.begin(), seen_.end(), nearest);
+    if (found == seen_.end()) {  // of a snapshot that was made up
+      seen_[i].pair = near_[i].pair = -1;
+      continue;
+    }
     const Near& near = near_[static_cast<std::size_t>(found - seen_.begin())];
     near_[i] = now(seen_[i]);
     near_[i].direction = near.direction;
