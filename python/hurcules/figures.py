@@ -129,5 +129,7 @@ def readable(name: str, value: float | None) -> str:
 
 
 def _digits(value: float) -> str:
-    """Three digits that count, trailing zeros kept; plain 0 for nothing."""
+    """Three digits that count, trailing zeros kept, whole from 1000 on; plain 0 for nothing."""
+    if abs(value) >= 999.5:
+        return f"{value:.0f}"
     return f"{value:#.3g}".rstrip(".") if value else "0"

@@ -123,7 +123,8 @@ class Painter:
         draw = ImageDraw.Draw(image)
         draw.rectangle((left - 3, top - 3, left + INSET_WIDTH + 2, top + INSET_HEIGHT + 2), PAPER)
         image.paste(Image.fromarray(self._small.render()), (left, top))
-        draw.text((left + 10, top + 8), inset.title, PAPER, self._text.font_variant(size=16))
+        draw.rectangle((left, top, left + INSET_WIDTH - 1, top + 29), INK)
+        draw.text((left + 10, top + 15), inset.title, PAPER, self._text.font_variant(size=16), "lm")
 
     def _write_caption(self, image: Any, frame: Frame, note: str) -> None:
         from PIL import ImageDraw
