@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import _core
 from hurcules.rendering import make_renderer, pose
+from hurcules.view import require_display
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
 from hurcules_envs.randomisation import known_ranges, split
@@ -182,6 +183,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         import mujoco.viewer
 
         if self._viewer is None:
+            require_display()
             self._shown = mujoco.MjData(model)
             self._viewer = mujoco.viewer.launch_passive(model, self._shown)
         pose(model, self._shown, data.qpos)

@@ -131,7 +131,10 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     environment = make_sb3(options.environment, options.episodes, **options.options)
     out, checkpoint = options.out, options.out / "checkpoint.zip"
     settings = json.loads(json.dumps(asdict(options) | {"out": str(out)}))
-    out.mkdir(parents=True, exist_ok=True)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise hurcules.Error(f"--out: {out}: {error.strerror}") from error
     written = out / "settings.json"
     if written.exists() and checkpoint.exists():  # else nothing is lost
         earlier = json.loads(written.read_text())

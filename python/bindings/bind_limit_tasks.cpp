@@ -1,10 +1,13 @@
 // tasks: inequalities: torques of the drives, balance, distances.
+#include <mujoco/mujoco.h>
 #include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -16,6 +19,7 @@
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
 #include "hurcules/tasks/zero_moment_task.hpp"
+#include "warn.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -119,7 +123,7 @@ Args:
 
 Raises:
   Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
-    most <= margin.
+    most <= margin, or margin < 0.
 )";
 constexpr const char* kSelfCollision =
     R"(The robot keeps away from itself: a DistanceTask for a level above the hands.
@@ -153,7 +157,8 @@ Args:
   bodies: names of bodies that have joints, or are moved by mocap, and count too.
 
 Returns:
-  DistanceTask "obstacles"; without a pair it asks for nothing.
+  DistanceTask "obstacles"; without a pair it asks for nothing. Warns (UserWarning) of pairs that are
+  left out since they touch now.
 
 Raises:
   Error: a name that is no body or a body of the robot, or see self_collision.
@@ -186,6 +191,31 @@ std::vector<std::pair<std::string, std::string>> pair_names(const DistanceTask& 
   std::vector<std::pair<std::string, std::string>> names;
   for (const GeomPair& pair : task.pairs()) names.push_back(names_of(robot, pair));
   return names;
+}
+
+// pairs that are left out since they touch now: feet on the ground, but a hand on a table too
+void warn_of_contacts(const Robot& robot, const DistanceTask& task) {
+  const mjModel& m = *robot.model();
+  const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(&m), mj_deleteData);
+  std::copy(robot.qpos().begin(), robot.qpos().end(), d->qpos);
+  mj_fwdPosition(&m, d.get());
+  std::set<std::string> touching;
+  for (int i = 0; i < d->ncon; ++i) {
+    const int a = d->contact[i].geom[0], b = d->contact[i].geom[1];
+    if (a < 0 || b < 0 || d->contact[i].dist > 0.0) continue;
+    if (m.body_rootid[m.geom_bodyid[a]] == m.body_rootid[m.geom_bodyid[b]]) continue;
+    if (!robot.moves({mjOBJ_GEOM, a}, {mjOBJ_GEOM, b})) continue;
+    const auto same = [a, b](const GeomPair& pair) {
+      return pair == GeomPair{a, b} || pair == GeomPair{b, a};
+    };
+    if (std::none_of(task.pairs().begin(), task.pairs().end(), same))
+      touching.insert("(" + geom_name(robot, a) + ", " + geom_name(robot, b) + ")");
+  }
+  std::string names;
+  for (const std::string& pair : touching) names += (names.empty() ? "" : ", ") + pair;
+  if (names.empty()) return;
+  hurcules_bindings::warn("obstacles leaves out what touches now: " + names +
+                          ". Make it in a posture away from what the robot shall keep away from");
 }
 
 std::vector<NearPair> near_pairs(const DistanceTask& task, const Robot& robot) {
@@ -297,8 +327,10 @@ void bind_limit_tasks(py::module_& module) {
       "obstacles",
       [](const Robot& robot, const std::vector<std::string>& bodies, double margin, double most,
          Index rows, int postures, unsigned seed) {
-        return std::make_unique<DistanceTask>(
+        auto task = std::make_unique<DistanceTask>(
             obstacles(robot, bodies, {margin, most, rows, postures, seed}));
+        warn_of_contacts(robot, *task);
+        return task;
       },
       "robot"_a, "bodies"_a = std::vector<std::string>(), "margin"_a = usual.margin,
       "most"_a = usual.most, "rows"_a = usual.rows, "postures"_a = usual.postures,

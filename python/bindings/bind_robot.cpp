@@ -13,11 +13,13 @@
 #include "hurcules/robot/plausibility.hpp"
 #include "hurcules/robot/robot.hpp"
 #include "mujoco_pointer.hpp"
+#include "warn.hpp"
 
 namespace py = pybind11;
 using namespace hurcules;
 using hurcules_bindings::held_model;
 using hurcules_bindings::ModelObject;
+using hurcules_bindings::warn;
 
 namespace {
 
@@ -147,12 +149,6 @@ auto by_name(Result (Robot::*question)(Frame) const) {
   };
 }
 
-// a UserWarning at the caller's line; "" is none
-void warn(const std::string& text) {
-  if (!text.empty() && PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0)
-    throw py::error_already_set();
-}
-
 using Names = std::vector<std::string>;
 
 using OptionalNames = hurcules_bindings::As<"collections.abc.Sequence[str] | None">;
@@ -177,7 +173,7 @@ std::unique_ptr<Robot> checked(ModelPtr model, const OptionalNames& joints, bool
 
 std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const OptionalNames& joints,
                                        bool floating) {
-  if (!py::hasattr(model, "_address"))
+  if (!py::isinstance(model, py::module_::import("mujoco").attr("MjModel")))
     throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
                 std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
   return checked(held_model(model), joints, floating);

@@ -88,6 +88,7 @@ constexpr const char* kController =
 Each tick: the command moves the targets; the tasks are measured at the plan, a robot that stands at
 the reference; the hierarchy is solved; the reference follows; the servos follow the reference.
 Position, velocity and acceleration limits of all coordinates come before every level.
+Here, and at each start of a simulation, targets go to where the robot is: set them afterwards.
 
 Args:
   robot: Robot where it starts; any MJCF robot.

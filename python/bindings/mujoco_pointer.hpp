@@ -11,9 +11,11 @@
 
 namespace hurcules_bindings {
 
+// `wanted`: "mujoco.NAME"; throws Error for anything else
 template <typename Struct>
 Struct* pointer(const pybind11::object& object, const char* wanted) {
-  if (!pybind11::hasattr(object, "_address")) {
+  const auto type = pybind11::module_::import("mujoco").attr(wanted + sizeof("mujoco.") - 1);
+  if (!pybind11::isinstance(object, type)) {
     throw hurcules::Error(
         std::string("a ") + wanted + " is wanted, a " +
         pybind11::str(pybind11::type::of(object).attr("__name__")).cast<std::string>() + " came");

@@ -1148,7 +1148,7 @@ class DistanceTask(Task):
 
     Raises:
       Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
-        most <= margin."""
+        most <= margin, or margin < 0."""
 
     def __init__(
         self,
@@ -2599,6 +2599,7 @@ class WholeBodyController:
     Each tick: the command moves the targets; the tasks are measured at the plan, a robot that stands at
     the reference; the hierarchy is solved; the reference follows; the servos follow the reference.
     Position, velocity and acceleration limits of all coordinates come before every level.
+    Here, and at each start of a simulation, targets go to where the robot is: set them afterwards.
 
     Args:
       robot: Robot where it starts; any MJCF robot.
@@ -4238,7 +4239,8 @@ def obstacles(
       bodies: names of bodies that have joints, or are moved by mocap, and count too.
 
     Returns:
-      DistanceTask "obstacles"; without a pair it asks for nothing.
+      DistanceTask "obstacles"; without a pair it asks for nothing. Warns (UserWarning) of pairs that are
+      left out since they touch now.
 
     Raises:
       Error: a name that is no body or a body of the robot, or see self_collision."""

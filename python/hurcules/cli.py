@@ -150,6 +150,8 @@ def run_mission(
         _refuse(context, (*_MISSION_OPTIONS, *_METHOD_OPTIONS[1:]), "not with --policy")
         if context.args:
             raise Error(f"unexpected argument: {context.args[0]}")
+        if seed < 0:
+            raise Error(f"--seed: wanted 0 or more, got {seed}")
         environment = mission if _was_given(context, "mission") else None
         other = robot if _was_given(context, "robot") else None
         raise typer.Exit(

@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -25,12 +24,11 @@ from hurcules._core import (
     WholeBodyController,
 )
 from hurcules.mission_table import Mission
+from hurcules.start_checks import warn_of_physics
 from hurcules.table_missions import TABLE_MISSIONS, table_mission
 from hurcules.validation import require_known
 
 __all__ = ["Simulation", "SimulationBatch", "missions"]
-
-MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 
 Array = NDArray[np.float64]
 Command = Mapping[str, ArrayLike] | ArrayLike
@@ -137,8 +135,7 @@ class Simulation(_core.Simulation):
             self.mission = table.setup.name if table else None
             self.model = _model(model)
             if physics:
-                _warn_of_settings(self.model)
-                _warn_of_floating(self.model, controller)
+                warn_of_physics(self.model, controller)
             self.data = mujoco.MjData(self.model)
             if table is None:
                 super().__init__(self.model, self.data, controller, options)
@@ -297,51 +294,28 @@ class SimulationBatch(_core.SimulationBatch):
 def _flat(controller: WholeBodyController, command: Command, rows: int | None = None) -> Array:
     """A command as one array, (k,) or (rows, k)."""
     if not isinstance(command, Mapping):
-        return _numbers("a command", command)
+        return _finite("a command", command)
     known = [name for name, _ in controller.channels]
     for name in command:
         require_known("channel", name, known)
     parts = []
     for name, size in controller.channels:
         shape = (size,) if rows is None else (rows, size)
-        part = _numbers(f"channel {name!r}", command.get(name, np.zeros(shape)))
+        if name not in command:
+            parts.append(np.full(shape, np.nan))  # it holds
+            continue
+        part = _finite(f"channel {name!r}", command[name])
         if part.shape != shape and part.size != math.prod(shape):
             raise Error(f"channel {name!r}: wanted shape {shape}, got {part.shape}")
         parts.append(part.reshape(shape))
     return np.concatenate(parts, axis=-1)
 
 
-def _warn_of_settings(model: mujoco.MjModel) -> None:
-    """Warns of settings of the physics with which tracks were measured to go wrong in silence."""
-    if not _has_tracks(model):
-        return
-    step, iterations = model.opt.timestep, model.opt.iterations
-    if step > 1.001 * MAX_STEP:
-        warnings.warn(
-            f"a time step of {1e3 * step:g} ms is too long for tracks: with 4 ms they turn 10 % "
-            "faster already, up to 2 ms they agree to 1e-4",
-            stacklevel=3,
-        )
-    if iterations < MIN_ITERATIONS:
-        warnings.warn(
-            f"{iterations} iterations of MuJoCo's solver: with 4 or fewer contacts of tracks are "
-            "wrong, and nothing else says so",
-            stacklevel=3,
-        )
-
-
-def _has_tracks(model: mujoco.MjModel) -> bool:
-    return any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple))
-
-
-def _warn_of_floating(model: mujoco.MjModel, controller: WholeBodyController) -> None:
-    if controller.plan.floats and not _has_tracks(model):
-        warnings.warn(
-            "the robot's root is free, and nothing says what it stands on: the plan holds the root "
-            "where it starts, the physics lets it fall; WholeBodyController(..., support=BODY) "
-            "names the body that stands",
-            stacklevel=3,
-        )
+def _finite(what: str, values: ArrayLike) -> Array:
+    numbers = _numbers(what, values)
+    if not np.isfinite(numbers).all():
+        raise Error(f"{what}: wanted {numbers.size} finite numbers, got {numbers!r}")
+    return numbers
 
 
 def _numbers(what: str, values: ArrayLike) -> Array:

@@ -61,6 +61,7 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
         raise Error(f"{path} wants to be a URDF, whose root is <robot>; <{root.tag}> came")
     _fit_shapes(root, path, shapes)
     _fit_inertias(root, path)
+    _check_ranges(root, path)
     speeds = _speeds(root, path)
     extension = root.find("mujoco")
     if extension is None:
@@ -184,6 +185,21 @@ def _tensor(inertia: ET.Element) -> NDArray[np.float64]:
     for key, (i, j) in _ENTRIES.items():
         tensor[i, j] = tensor[j, i] = float(inertia.get(key, "0"))
     return tensor
+
+
+def _check_ranges(root: ET.Element, path: Path) -> None:
+    """MuJoCo takes a range that is none for no range."""
+    for joint in root.findall("joint"):
+        limit = joint.find("limit")
+        if limit is None or joint.get("type") not in ("revolute", "prismatic"):
+            continue
+        try:
+            lower, upper = (float(limit.get(side, "0")) for side in ("lower", "upper"))
+        except ValueError as error:
+            raise Error(f"{path}: range of joint {joint.get('name')!r}: {error}") from error
+        if not lower <= upper:
+            name = joint.get("name")
+            raise Error(f"{path}: range of joint {name!r}: lower {lower:g} above upper {upper:g}")
 
 
 def _speeds(root: ET.Element, path: Path) -> dict[str, float]:

@@ -19,7 +19,7 @@ from hurcules.drawing import draw
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
 
-__all__ = ["view", "watch"]
+__all__ = ["require_display", "view", "watch"]
 
 FPS = 60  # pictures a second
 
@@ -82,7 +82,7 @@ def _show(
     seconds: float | None,
 ) -> None:
     """Opens the window; `advance` takes steps of the physics, `mark` draws into its own scene."""
-    _require_display()
+    require_display()
     import mujoco.viewer
 
     threads = set(threading.enumerate())
@@ -136,7 +136,8 @@ def _read(path: Path) -> Any:
         raise Error(f"MuJoCo rejects {path}: {' '.join(str(error).split())}") from error
 
 
-def _require_display() -> None:
+def require_display() -> None:
+    """Raises Error, with the remedy, where no window can be opened (GLFW would end the process)."""
     has_display = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     if sys.platform == "linux" and not has_display:
         raise Error(

@@ -84,6 +84,33 @@ def test_a_target_is_set() -> None:
     assert at(simulation) == pytest.approx(wanted, abs=1e-3)
 
 
+def test_a_channel_that_a_command_does_not_name_holds() -> None:
+    # a Target went to zero
+    simulation = simulate(
+        lambda tip: {"tip": hurcules.Target(tip), "finger": hurcules.JointRate("finger", 0.1)}
+    )
+    where = at(simulation) + np.array([-0.1, 0.1])
+    simulation.step(100, {"tip": where})
+    simulation.step(1000, {"finger": [0.01]})
+    assert at(simulation) == pytest.approx(where, abs=1e-3)
+    with pytest.raises(hurcules.Error, match="finite"):
+        simulation.step(1, {"tip": [np.nan, np.nan]})
+    with pytest.raises(hurcules.Error, match="finite"):
+        simulation.step(1, [np.nan, np.nan, 0.0])
+
+
+@pytest.mark.parametrize("channels", [twist, lambda tip: {}], ids=["twist", "no channel"])
+def test_a_twist_that_rests_leaves_a_target_that_is_led_alone(channels: Channels) -> None:
+    # it took the feed-forward away: 41 mm behind at 0.2 m/s
+    simulation = simulate(channels)
+    tip = simulation.controller.tasks[0]
+    start, velocity = at(simulation), np.array([-0.2, 0.1])
+    for tick in range(1000):
+        tip.set_target(start + velocity * 0.002 * tick, velocity)
+        simulation.step()
+    assert np.linalg.norm(tip.error) < 2e-3
+
+
 def test_joints_follow_a_motion_and_a_stack_takes_over() -> None:
     simulation = simulate(twist)
     u = np.linspace(0.002, 1.0, 500)[:, np.newaxis]

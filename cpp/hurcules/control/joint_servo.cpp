@@ -1,10 +1,13 @@
 #include "hurcules/control/joint_servo.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
@@ -51,6 +54,7 @@ double spread(int i, Index coordinate) {
 
 std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool decoupled) {
   const Index n = robot.size();
+  const mjModel& m = *robot.model();
   Robot sampled(robot.model(), robot.coordinate_names());
   sampled.set_qpos(robot.qpos());
   const Vector start = sampled.configuration();
@@ -74,21 +78,33 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
     most = most.cwiseMax(M.diagonal());
     least = least.cwiseMin(inverse.diagonal().cwiseInverse());
   }
+  const std::vector<JointActuator> actuators = joint_actuators(robot);
+  const auto place_of = [&robot, n](const JointActuator& actuator) {
+    for (Index k = 0; k < n; ++k)
+      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints)
+        if (joint.dof == actuator.dof) return std::pair(k, joint.factor);
+    return std::pair(Index{-1}, 1.0);
+  };
+  const bool all = std::all_of(actuators.begin(), actuators.end(),
+                               [&](const auto& actuator) { return place_of(actuator).first >= 0; });
   std::vector<ServoGains> table;
-  for (const JointActuator& actuator : joint_actuators(robot)) {
-    double low = 1.0, high = 1.0;  // of a joint without a coordinate nothing is known
-    for (Index k = 0; k < n; ++k) {
-      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints) {
-        if (joint.dof != actuator.dof) continue;
-        const double share =
-            joint.factor * joint.factor *
-            static_cast<double>(robot.coordinates()[static_cast<std::size_t>(k)].joints.size());
-        low = least[k] / share;
-        high = most[k] / share;
-      }
+  for (const JointActuator& actuator : actuators) {
+    const auto [k, factor] = place_of(actuator);
+    // what it turns where all others give way, and where they hold
+    const auto dof = static_cast<std::size_t>(actuator.dof);
+    const double gives_way = 1.0 / m.dof_invweight0[dof];
+    double low = gives_way, high = m.dof_M0[dof], rated = high;
+    if (k >= 0) {
+      const double share =
+          factor * factor *
+          static_cast<double>(robot.coordinates()[static_cast<std::size_t>(k)].joints.size());
+      low = least[k] / share;
+      high = most[k] / share;
+      rated = std::sqrt(low * high);
+      if (!all) low = std::min(low, gives_way);
     }
-    const double rated = std::sqrt(low * high);
-    const double slowest = decoupled ? 1.0 : low / rated;
+    // the decoupling knows of coordinates alone
+    const double slowest = decoupled && all ? 1.0 : std::min(1.0, low / rated);
     const double bandwidth = std::min(kBandwidth, kFastest * slowest / (3.0 * dt));
     table.push_back({actuator.joint, rated, bandwidth});
   }

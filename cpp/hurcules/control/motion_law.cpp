@@ -34,7 +34,10 @@ class VelocityLaw final : public LawOf<VelocityController> {
  public:
   using LawOf::LawOf;
   ControlOrder order() const override { return ControlOrder::Velocity; }
-  void measure(Robot& plan, const Vector&) override { controller_.measure(plan); }
+  void measure(Robot& plan, const Vector& velocity) override {
+    plan.set_velocity(velocity);
+    controller_.measure(plan);
+  }
   bool scale(const VelocityBounds& bounds, const Vector&) override {
     return controller_.scale_velocity(bounds);
   }

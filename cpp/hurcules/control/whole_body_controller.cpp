@@ -374,28 +374,44 @@ void WholeBodyController::kinematics(const RobotState& state) {
 
 void WholeBodyController::apply(const Vector* command, bool first, const RobotState& state) {
   read_forces(state);
-  if (command) {
-    command_ = command->cwiseMax(-scale_).cwiseMin(scale_);
-  } else {
-    command_.setZero();
-  }
   Index row = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const auto part = command_.segment(row, channels_[i].size());
-    row += channels_[i].size();
+    const Index size = channels_[i].size();
+    auto part = command_.segment(row, size);
+    const bool moved = !part.isZero(0.0);
+    const bool given = command && !std::isnan((*command)[row]);
+    if (given) {
+      const auto scale = scale_.segment(row, size);
+      part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
+    } else {
+      part.setZero();
+    }
+    row += size;
     if (channels_[i].kind() == ChannelKind::Joints) {
       if (moves_joints_) lead_joints(moved_[i], part);
+    } else if (channels_[i].kind() == ChannelKind::Twist) {
+      // one that rests leaves a target that somebody else moves alone
+      if (moved || !part.isZero(0.0)) channels_[i].task()->advance(part, dt());
     } else {
-      apply(channels_[i], part, first && command, state);
+      apply(channels_[i], part, first && given, state);
     }
   }
+}
+
+bool WholeBodyController::takes(const ConstVectorRef& command) const {
+  if (command.size() != scale_.size()) return false;
+  Index row = 0;
+  for (const Channel& channel : channels_) {
+    const auto part = command.segment(row, channel.size()).array();
+    if (!part.isNaN().all() && !part.isFinite().all()) return false;
+    row += channel.size();
+  }
+  return true;
 }
 
 void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& command, bool first,
                                 const RobotState& state) {
   switch (channel.kind()) {
-    case ChannelKind::Twist:
-      return channel.task()->advance(command, dt());
     case ChannelKind::Delta:
       if (first && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
       return;
@@ -415,8 +431,9 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
       servo_.move(joint, held, held == place ? command[0] : 0.0);
       return;
     }
+    case ChannelKind::Twist:
     case ChannelKind::Joints:
-      return;  // lead_joints
+      return;  // where all are applied
   }
 }
 

@@ -102,10 +102,12 @@ class WholeBodyController {
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
   void sense(ForceTask& task, int sensor_row, double sign = 1.0);
 
-  // One tick in its stages. command (k) or null: every target holds, drives stand. `first`: the
-  // command is new, so that what it sets once (Delta, Target, Force) is set.
+  // One tick in its stages. command (k) or null: every target holds, drives stand; a channel of NaN
+  // alone does so. `first`: the command is new, so that what it sets once (Delta, Target, Force) is.
   void kinematics(const RobotState& state);
   void apply(const Vector* command, bool first, const RobotState& state);
+  // of its size, each channel finite or all NaN
+  [[nodiscard]] bool takes(const ConstVectorRef& command) const;
   void measure();
   void solve(const RobotState& state);
   void actuate(const RobotState& state, VectorRef ctrl);
@@ -124,7 +126,7 @@ class WholeBodyController {
   [[nodiscard]] const Vector& qd_des() const { return qd_; }  // [rad/s] (n)
   [[nodiscard]] const Vector& command() const {
     return command_;
-  }                                                             // (k) the last, as held to scale
+  }  // (k) the last, as held to scale
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (k)
   [[nodiscard]] const std::vector<std::string>& command_names() const { return command_names_; }
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }

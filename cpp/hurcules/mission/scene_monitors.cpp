@@ -31,8 +31,11 @@ void SceneMonitors::draw_errors(Random& random, double scale) {
 
 void SceneMonitors::reset() {
   if (casualty_) casualty_->reset();
-  if (load_) load_->reset();
-  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].second.set_error(errors_[i]);
+  if (load_) load_->reset(model_, data_);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    places_[i].second.set_error(errors_[i]);
+    places_[i].second.look(model_, data_);
+  }
 }
 
 void SceneMonitors::look() {

@@ -426,6 +426,14 @@ void GeomDistance::clear_motions() {
   for (Body& body : bodies_) body.own = false;
 }
 
+void GeomDistance::reset() {
+  clear_motions();
+  for (Pair& entry : table_) forget(entry);
+  std::fill(seen_.begin(), seen_.end(), Seen{});
+  std::fill(near_.begin(), near_.end(), Near{});
+  listed_ = false;
+}
+
 void GeomDistance::save(StateWriter& writer) const {
   for (const Body& body : bodies_) {
     writer.put(body.own ? 1.0 : 0.0);
@@ -471,7 +479,6 @@ void GeomDistance::restore(StateReader& reader) {
   listed_ = false;
   for (std::size_t i = 0; i < seen_.size(); ++i)
     near_[i] = seen_[i].pair < 0 ? Near{} : now(seen_[i]);
-  move_kept();
 }
 
 }  // namespace hurcules

@@ -74,6 +74,8 @@ class GeomDistance {
   // Error for a body that is in no pair
   void set_motion(int body, const BodyMotion& motion);
   void clear_motions();
+  // as it was made
+  void reset();
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 

@@ -53,9 +53,10 @@ void LoadMonitor::add_log_channels(Recorder& log, const std::string& prefix) con
   log.add(prefix, names(), values_);
 }
 
-void LoadMonitor::reset() {
+void LoadMonitor::reset(const mjModel* m, const mjData* d) {
   looked_ = false;
-  values_.setZero();
+  look(m, d);
+  looked_ = false;
 }
 
 void LoadMonitor::save(StateWriter& writer) const {

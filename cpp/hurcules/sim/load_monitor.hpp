@@ -22,8 +22,8 @@ class LoadMonitor {
   // container, "" for none. Throws Error for names that the model has not.
   LoadMonitor(const mjModel_* model, const std::string& body, const std::string& container);
   void add_log_channels(Recorder& log, const std::string& prefix) const;  // "PREFIX/NAME"
-  // heights and ways are counted from the first look after it
-  void reset();
+  // looks; heights and ways are counted from the next look on
+  void reset(const mjModel_* model, const mjData_* data);
   void look(const mjModel_* model, const mjData_* data);
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

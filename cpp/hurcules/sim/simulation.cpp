@@ -17,7 +17,7 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 
 // A snapshot begins with its version, its length, what it is of, and the number of values in use;
 // what is left of its room is zero.
-constexpr double kStateVersion = 1.0;
+constexpr double kStateVersion = 2.0;
 constexpr std::size_t kStateHeader = 4;
 
 // of all names along the vectors of a controller's simulation (FNV-1a), 32 bits
@@ -156,10 +156,10 @@ std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
 
 int Simulation::step(int n, const Vector* command) {
   if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
-  const Index channels = controller_->scale().size();
-  if (command && !(command->size() == channels && command->allFinite())) {
-    throw Error("a command wants " + std::to_string(channels) + " finite numbers, got " +
-                std::to_string(command->size()) + (command->allFinite() ? "" : ", not all finite"));
+  if (command && !controller_->takes(*command)) {
+    throw Error("a command wants " + std::to_string(controller_->scale().size()) +
+                " finite numbers, got " + std::to_string(command->size()) +
+                (command->allFinite() ? "" : ", not all finite"));
   }
   if (options_.record) record_.log.reserve(static_cast<std::size_t>(n));
   if (options_.clock) record_.timings.reserve(static_cast<std::size_t>(n));
@@ -208,7 +208,7 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   timer.done(Stage::Kinematics);
   if (supervisor_ && (!command || options_.adds_command)) {
     const Vector& own = supervisor_->command(dt());
-    if (command) summed_ = own + *command;
+    if (command) summed_ = own + command->array().isNaN().select(0.0, *command);
     command = command ? &summed_ : &own;
   }
   controller.apply(command, first, state);

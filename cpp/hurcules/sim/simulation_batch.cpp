@@ -76,9 +76,10 @@ void SimulationBatch::take(int ticks, const Matrix* commands, const std::vector<
     throw Error("a mask wants one entry for each of its " + std::to_string(n) + " simulations, " +
                 std::to_string(mask->size()) + " came");
   for (Index i = 0; commands && i < n; ++i) {
-    require(commands->row(i).allFinite(),
+    Vector& command = commands_[static_cast<std::size_t>(i)];
+    command = commands->row(i).transpose();
+    require(simulations_.front()->controller().takes(command),
             "commands of simulation " + std::to_string(i) + " want finite numbers");
-    commands_[static_cast<std::size_t>(i)] = commands->row(i).transpose();
   }
 }
 

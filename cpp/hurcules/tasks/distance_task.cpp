@@ -58,12 +58,18 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot,
 }
 
 void DistanceTask::make_rows(double margin) {
+  require(margin >= 0.0, "margin of task '" + name_ + "' wants 0 m or more");
   require(
       margin < most_,  // also for a number that is none
       "margin of task '" + name_ + "' wants to be below the largest distance that it looks for");
   lower_.setConstant(margin);
   upper_.setConstant(std::numeric_limits<double>::infinity());
   max_speed_ = 0.5;
+}
+
+void DistanceTask::reset(const Robot& robot) {
+  distances_.reset();
+  update(robot);
 }
 
 void DistanceTask::update(const Robot& robot) {

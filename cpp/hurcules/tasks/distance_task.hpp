@@ -37,7 +37,7 @@ struct CollisionOptions {
 class DistanceTask : public Task {
  public:
   // throws Error without a pair, for a name that is no body or geom, for two that no coordinate
-  // moves against each other, and unless margin < most
+  // moves against each other, and unless 0 <= margin < most
   DistanceTask(std::string name, const Robot& robot, const DistanceTaskOptions& options);
   // pairs that were found; none is no error: the task then asks for nothing
   DistanceTask(std::string name, const Robot& robot, const std::vector<CollisionPair>& pairs,
@@ -47,6 +47,8 @@ class DistanceTask : public Task {
   }
 
   void update(const Robot& robot) override;
+  // as it was made: nothing is near yet, no obstacle has moved
+  void reset(const Robot& robot) override;
   // there is no target: hold and advance change nothing
   void hold(const Robot& robot) override { update(robot); }
   void advance(const ConstVectorRef& velocity, double dt) override;

@@ -60,6 +60,7 @@ void Task::set_weights(const ConstVectorRef& weights) {
 void Task::back_calculate(double /*share*/) {}
 
 void Task::save(StateWriter& writer) const {
+  writer.put(error_);  // a reference that is led counts with that of the tick before
   writer.put(velocity_des_);
   writer.put(acceleration_des_);
   writer.put(lower_);
@@ -67,6 +68,7 @@ void Task::save(StateWriter& writer) const {
 }
 
 void Task::restore(StateReader& reader) {
+  reader.get(error_);
   reader.get(velocity_des_);
   reader.get(acceleration_des_);
   reader.get(lower_);

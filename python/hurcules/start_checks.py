@@ -1,0 +1,146 @@
+"""Warnings before a robot is let go in the physics: what would go wrong there without a word."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from hurcules._core import WholeBodyController
+
+__all__ = ["warn_of_physics"]
+
+MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
+ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+
+HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
+SPINS = (HINGE, SLIDE)
+
+
+def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> None:
+    """Warns of settings with which tracks go wrong, and of robots that will fall or sink."""
+    for text in _doubts(model, controller):
+        warnings.warn(text, stacklevel=3)
+
+
+def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
+        yield from _settings(model)
+    elif controller.plan.floats:
+        yield (
+            "the robot's root is free, and nothing says what it stands on: the plan holds the root "
+            "where it starts, the physics lets it fall; WholeBodyController(..., support=BODY) "
+            "names the body that stands"
+        )
+    else:
+        chain = _chain(model, controller)
+        yield from _loose_joints(model, controller, chain)
+        yield from _weak_motors(model, controller, chain)
+
+
+def _settings(model: mujoco.MjModel) -> Iterator[str]:
+    step, iterations = model.opt.timestep, model.opt.iterations
+    if step > 1.001 * MAX_STEP:
+        yield (
+            f"a time step of {1e3 * step:g} ms is too long for tracks: with 4 ms they turn 10 % "
+            "faster already, up to 2 ms they agree to 1e-4"
+        )
+    if iterations < MIN_ITERATIONS:
+        yield (
+            f"{iterations} iterations of MuJoCo's solver: with 4 or fewer contacts of tracks are "
+            "wrong, and nothing else says so"
+        )
+
+
+def _chain(model: mujoco.MjModel, controller: WholeBodyController) -> set[int]:
+    """The bodies between the ground and what the coordinates move, where no root is free."""
+    bodies: set[int] = set()
+    for coordinate in controller.plan.coordinates:
+        for driven in coordinate.joints:
+            body = int(model.dof_bodyid[driven.dof])
+            while body > 0:
+                bodies.add(body)
+                body = int(model.body_parentid[body])
+    joints = model.body_jntadr[sorted(bodies)]
+    free = {int(model.jnt_type[j]) == mujoco.mjtJoint.mjJNT_FREE for j in joints if j >= 0}
+    return set() if True in free else bodies
+
+
+def _actuated(model: mujoco.MjModel) -> dict[int, list[int]]:
+    """Actuators by the joint that they move by itself."""
+    found: dict[int, list[int]] = {}
+    alone = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+    for i in range(model.nu):
+        if int(model.actuator_trntype[i]) in alone:
+            found.setdefault(int(model.actuator_trnid[i, 0]), []).append(i)
+    return found
+
+
+def _loose_joints(
+    model: mujoco.MjModel, controller: WholeBodyController, chain: set[int]
+) -> Iterator[str]:
+    """Joints that carry the robot and that nothing holds."""
+    if model.ntendon:  # whatever a tendon moves is moved
+        return
+    held = {model.joint(name).id for name in controller.plan.followers} | set(_actuated(model))
+    loose = [
+        model.joint(joint).name or f"joint {joint}"
+        for joint in range(model.njnt)
+        if int(model.jnt_bodyid[joint]) in chain
+        and joint not in held
+        and int(model.jnt_type[joint]) in SPINS
+        and model.jnt_stiffness[joint] == 0.0
+        and not _tied(model, joint)
+    ]
+    if loose:
+        yield (
+            f"nothing holds {', '.join(loose)}, and parts that the controller moves hang on it: it "
+            "falls in the physics. hurcules.with_motors gives each joint a motor"
+        )
+
+
+def _tied(model: mujoco.MjModel, joint: int) -> bool:
+    ties = model.eq_type == mujoco.mjtEq.mjEQ_JOINT
+    return bool(np.any(ties & ((model.eq_obj1id == joint) | (model.eq_obj2id == joint))))
+
+
+def _weak_motors(
+    model: mujoco.MjModel, controller: WholeBodyController, chain: set[int]
+) -> Iterator[str]:
+    """Motors that cannot hold what hangs on them where the robot starts."""
+    data = mujoco.MjData(model)
+    data.qpos[:] = controller.plan.qpos
+    mujoco.mj_forward(model, data)
+    weight: NDArray[np.float64] = data.qfrc_bias - data.qfrc_passive
+    weak = []
+    for joint, motors in _actuated(model).items():
+        if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SPINS:
+            continue
+        most = sum(_most(model, motor) for motor in motors)
+        if model.jnt_actfrclimited[joint]:
+            most = min(most, float(np.abs(model.jnt_actfrcrange[joint]).max()))
+        asked = abs(float(weight[model.jnt_dofadr[joint]]))
+        if asked > most * ENOUGH:
+            unit = "N m" if int(model.jnt_type[joint]) == HINGE else "N"
+            weak.append(f"{model.joint(joint).name} ({asked:.3g} of {most:.3g} {unit})")
+    if weak:
+        yield (
+            f"motors cannot hold the weight on them where the robot starts: {', '.join(weak)}. It "
+            "sinks in the physics, and all that it is told waits for it"
+        )
+
+
+def _most(model: mujoco.MjModel, motor: int) -> float:
+    """[N m] or [N] at the joint, inf for one without a limit."""
+    gear = abs(float(model.actuator_gear[motor, 0]))
+    most = float("inf")
+    if model.actuator_forcelimited[motor]:
+        most = float(np.abs(model.actuator_forcerange[motor]).max())
+    plain = model.actuator_biastype[motor] == mujoco.mjtBias.mjBIAS_NONE
+    if plain and model.actuator_ctrllimited[motor]:
+        control = float(np.abs(model.actuator_ctrlrange[motor]).max())
+        most = min(most, control * abs(float(model.actuator_gainprm[motor, 0])))
+    return most * gear
