@@ -134,14 +134,14 @@ class Simulation(_core.Simulation):
                 raise Error(f"controller: wanted a WholeBodyController, got {controller!r}")
             self.mission = table.setup.name if table else None
             self.model = _model(model)
-            if physics:
-                warn_of_physics(self.model, controller)
             self.data = mujoco.MjData(self.model)
             if table is None:
                 super().__init__(self.model, self.data, controller, options)
             else:
                 phases, setup = table.rows, table.setup
                 super().__init__(self.model, self.data, controller, phases, setup, options)
+            if physics:
+                warn_of_physics(self.model, controller)
             return
         name = str(mission or "stretch")
         self.mission = name
@@ -302,7 +302,7 @@ def _flat(controller: WholeBodyController, command: Command, rows: int | None = 
     for name, size in controller.channels:
         shape = (size,) if rows is None else (rows, size)
         if name not in command:
-            parts.append(np.full(shape, np.nan))  # it holds
+            parts.append(np.full(shape, np.nan if command else 0.0))  # it holds
             continue
         part = _finite(f"channel {name!r}", command[name])
         if part.shape != shape and part.size != math.prod(shape):

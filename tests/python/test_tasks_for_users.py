@@ -216,7 +216,7 @@ def test_manipulability_is_kept_above_a_bound(model: mujoco.MjModel) -> None:
 @pytest.mark.parametrize("task", [hurcules.PositionTask, hurcules.PoseTask, hurcules.AngleTask])
 def test_a_task_wants_a_frame_that_moves(model: mujoco.MjModel, task: type) -> None:
     left = hurcules.Robot(model, joints=[f"l{i}" for i in range(1, 7)])
-    with pytest.raises(hurcules.Error, match="'hand'.* none moves 'r_hand'"):
+    with pytest.raises(hurcules.Error, match=r"'hand'.* none moves 'r_hand'"):
         task("hand", left, "r_hand")
     with pytest.raises(hurcules.Error, match="none moves 'l_hand' against its reference"):
         task("hand", left, "l_hand", reference="l_hand")

@@ -1,7 +1,5 @@
 #include "hurcules/control/joint_servo.hpp"
 
-#include <mujoco/mujoco.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -54,7 +52,6 @@ double spread(int i, Index coordinate) {
 
 std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool decoupled) {
   const Index n = robot.size();
-  const mjModel& m = *robot.model();
   Robot sampled(robot.model(), robot.coordinate_names());
   sampled.set_qpos(robot.qpos());
   const Vector start = sampled.configuration();
@@ -90,10 +87,7 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
   std::vector<ServoGains> table;
   for (const JointActuator& actuator : actuators) {
     const auto [k, factor] = place_of(actuator);
-    // what it turns where all others give way, and where they hold
-    const auto dof = static_cast<std::size_t>(actuator.dof);
-    const double gives_way = 1.0 / m.dof_invweight0[dof];
-    double low = gives_way, high = m.dof_M0[dof], rated = high;
+    double low = actuator.least_inertia, high = actuator.most_inertia, rated = high;
     if (k >= 0) {
       const double share =
           factor * factor *
@@ -101,7 +95,7 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       low = least[k] / share;
       high = most[k] / share;
       rated = std::sqrt(low * high);
-      if (!all) low = std::min(low, gives_way);
+      if (!all) low = std::min(low, actuator.least_inertia);
     }
     // the decoupling knows of coordinates alone
     const double slowest = decoupled && all ? 1.0 : std::min(1.0, low / rated);

@@ -400,6 +400,7 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
 
 bool WholeBodyController::takes(const ConstVectorRef& command) const {
   if (command.size() != scale_.size()) return false;
+  if (command.size() > 0 && command.array().isNaN().all()) return false;
   Index row = 0;
   for (const Channel& channel : channels_) {
     const auto part = command.segment(row, channel.size()).array();

@@ -106,7 +106,7 @@ class WholeBodyController {
   // alone does so. `first`: the command is new, so that what it sets once (Delta, Target, Force) is.
   void kinematics(const RobotState& state);
   void apply(const Vector* command, bool first, const RobotState& state);
-  // of its size, each channel finite or all NaN
+  // of its size, each channel finite or all NaN, not all of them
   [[nodiscard]] bool takes(const ConstVectorRef& command) const;
   void measure();
   void solve(const RobotState& state);

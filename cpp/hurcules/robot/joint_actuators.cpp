@@ -60,6 +60,8 @@ JointActuator read(const mjModel* m, int a) {
   found.lower = limited ? m->jnt_range[2 * found.joint_id] : -kNone;
   found.upper = limited ? m->jnt_range[2 * found.joint_id + 1] : kNone;
   found.limits = read_motor_limits(m, a);
+  found.least_inertia = 1.0 / m->dof_invweight0[found.dof];
+  found.most_inertia = m->dof_M0[found.dof];
   return found;
 }
 

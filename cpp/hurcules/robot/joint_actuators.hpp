@@ -28,6 +28,9 @@ struct JointActuator {
   bool is_motor = true;             // gain 1, no bias
   double lower = 0.0, upper = 0.0;  // [rad] or [m] range of the joint, -inf and inf without
   MotorLimits limits = {};
+  // [kg m^2] or [kg] that it turns in the model's initial posture, where all other joints give way
+  // and where they hold
+  double least_inertia = 0.0, most_inertia = 0.0;
 
   // [rad] or [m] where it is, in all of qpos (nq)
   [[nodiscard]] double position(const Vector& all) const;
