@@ -85,7 +85,9 @@ def _loose_joints(
     """Joints that carry the robot and that nothing holds."""
     if model.ntendon:  # whatever a tendon moves is moved
         return
-    held = {model.joint(name).id for name in controller.plan.followers} | set(_actuated(model))
+    follow = controller.plan.followers
+    held = {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in follow}
+    held |= set(_actuated(model))
     loose = [
         model.joint(joint).name or f"joint {joint}"
         for joint in range(model.njnt)
