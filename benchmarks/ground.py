@@ -33,7 +33,6 @@ import hurcules
 from hurcules import driving, scenes
 
 Array = NDArray[np.float64]
-SIDES = (-1.0, 1.0)  # right, left
 BELT = 0.14  # [m] from the axles to the ground
 SETTLE = 5.0  # [s]
 SMALL = 1e-4  # [m/s] below which friction counts as proportional to slip

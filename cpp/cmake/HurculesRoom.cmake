@@ -24,7 +24,7 @@ function(hurcules_room name)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
   target_compile_features(hurcules_${name} PUBLIC cxx_std_20)
   hurcules_warnings(hurcules_${name})
-  # eight sources at a time, which share what they instantiate of Eigen: half the work of the compiler; two
+  # eight sources at a time, which share what they instantiate of Eigen: three quarters of the work; two
   # names that clash want another name
   set_target_properties(hurcules_${name} PROPERTIES UNITY_BUILD ${HURCULES_PRECOMPILE} UNITY_BUILD_BATCH_SIZE 8)
   target_link_libraries(hurcules_${name} PUBLIC ${ROOM_LINKS})

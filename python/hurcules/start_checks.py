@@ -17,7 +17,7 @@ MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/de
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
-SPINS = (HINGE, SLIDE)
+SINGLE = (HINGE, SLIDE)
 
 
 def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> None:
@@ -93,7 +93,7 @@ def _loose_joints(
         for joint in range(model.njnt)
         if int(model.jnt_bodyid[joint]) in chain
         and joint not in held
-        and int(model.jnt_type[joint]) in SPINS
+        and int(model.jnt_type[joint]) in SINGLE
         and model.jnt_stiffness[joint] == 0.0
         and not _tied(model, joint)
     ]
@@ -119,7 +119,7 @@ def _weak_motors(
     weight: NDArray[np.float64] = data.qfrc_bias - data.qfrc_passive
     weak = []
     for joint, motors in _actuated(model).items():
-        if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SPINS:
+        if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SINGLE:
             continue
         most = sum(_most(model, motor) for motor in motors)
         if model.jnt_actfrclimited[joint]:

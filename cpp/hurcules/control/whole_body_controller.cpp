@@ -389,10 +389,8 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     row += size;
     if (channels_[i].kind() == ChannelKind::Joints) {
       if (moves_joints_) lead_joints(moved_[i], part);
-    } else if (channels_[i].kind() == ChannelKind::Twist) {
-      // one that rests leaves a target that somebody else moves alone
-      if (moved || !part.isZero(0.0)) channels_[i].task()->advance(part, dt());
-    } else {
+    } else if (channels_[i].kind() != ChannelKind::Twist || moved || !part.isZero(0.0)) {
+      // a twist that rests leaves a target that somebody else moves alone
       apply(channels_[i], part, first && given, state);
     }
   }
@@ -413,6 +411,8 @@ bool WholeBodyController::takes(const ConstVectorRef& command) const {
 void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& command, bool first,
                                 const RobotState& state) {
   switch (channel.kind()) {
+    case ChannelKind::Twist:
+      return channel.task()->advance(command, dt());
     case ChannelKind::Delta:
       if (first && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
       return;
@@ -432,9 +432,8 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
       servo_.move(joint, held, held == place ? command[0] : 0.0);
       return;
     }
-    case ChannelKind::Twist:
     case ChannelKind::Joints:
-      return;  // where all are applied
+      return;  // lead_joints
   }
 }
 

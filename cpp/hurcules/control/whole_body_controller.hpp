@@ -124,9 +124,8 @@ class WholeBodyController {
   [[nodiscard]] Robot& plan_to_place() { return plan_; }
   [[nodiscard]] const Vector& q_des() const { return q_; }    // [rad] (n)
   [[nodiscard]] const Vector& qd_des() const { return qd_; }  // [rad/s] (n)
-  [[nodiscard]] const Vector& command() const {
-    return command_;
-  }  // (k) the last, as held to scale
+  // (k) the last, as held to scale
+  [[nodiscard]] const Vector& command() const { return command_; }
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (k)
   [[nodiscard]] const std::vector<std::string>& command_names() const { return command_names_; }
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }

@@ -21,9 +21,8 @@ class Support {
   // trees; each counts to the robot's mass while it does not touch the ground.
   [[nodiscard]] std::optional<Stability> measure(const mjModel_* model, const mjData_* data,
                                                  std::span<const int> carried = {});
-  [[nodiscard]] Index points() const {
-    return static_cast<Index>(polygon_.size());
-  }  // measured last
+  // measured last
+  [[nodiscard]] Index points() const { return static_cast<Index>(polygon_.size()); }
 
  private:
   void collect(const mjModel_* model, const mjData_* data);
