@@ -2,16 +2,28 @@
 
 #include <algorithm>
 #include <string>
+#include <thread>
 
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
 
+namespace {
+
+std::size_t thread_count(int wanted, std::size_t simulations) {
+  require(simulations >= 1, "a batch wants at least one simulation");
+  require(wanted >= 0,
+          "threads must be positive, or 0 for one a processor, got " + std::to_string(wanted));
+  const std::size_t count = wanted > 0 ? static_cast<std::size_t>(wanted)
+                                       : std::max(1u, std::thread::hardware_concurrency());
+  return std::min(count, simulations);
+}
+
+}  // namespace
+
 SimulationBatch::SimulationBatch(const Simulation& original, std::size_t n, int threads,
-                                 const std::vector<ModelPtr>& models) {
-  require(n >= 1, "a batch wants at least one simulation");
-  require(threads >= 0,
-          "threads must be positive, or 0 for one a processor, got " + std::to_string(threads));
+                                 const std::vector<ModelPtr>& models)
+    : pool_(thread_count(threads, n)) {
   require(models.empty() || models.size() == n, "a batch wants one model for each of its " +
                                                     std::to_string(n) + " simulations, " +
                                                     std::to_string(models.size()) + " came");
@@ -19,20 +31,6 @@ SimulationBatch::SimulationBatch(const Simulation& original, std::size_t n, int 
     simulations_.push_back(original.clone(models.empty() ? nullptr : models[i]));
     commands_.push_back(Vector::Zero(original.controller().scale().size()));
   }
-  const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads)
-                                         : std::max(1u, std::thread::hardware_concurrency());
-  for (std::size_t i = 1; i < std::min(wanted, n); ++i) {
-    workers_.emplace_back([this] { work(); });
-  }
-}
-
-SimulationBatch::~SimulationBatch() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  wake_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
 }
 
 void SimulationBatch::step(int ticks, const Matrix* commands, const std::vector<bool>* mask) {
@@ -87,54 +85,6 @@ void SimulationBatch::require_room(const Quantities& quantities, const MatrixRef
   require(out.rows() == static_cast<Index>(size()) && out.cols() == quantities.size(),
           "quantities want room for (" + std::to_string(size()) + ", " +
               std::to_string(quantities.size()) + ") numbers");
-}
-
-void SimulationBatch::for_each(const std::function<void(std::size_t)>& work) {
-  {
-    const std::lock_guard lock(mutex_);
-    job_ = &work;
-    next_ = 0;
-    thrown_ = nullptr;
-    busy_ = workers_.size();
-    ++round_;
-  }
-  wake_.notify_all();
-  take_jobs();
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return busy_ == 0; });
-  job_ = nullptr;
-  if (thrown_) std::rethrow_exception(thrown_);
-}
-
-// the simulations, one after the other, until none is left
-void SimulationBatch::take_jobs() {
-  for (std::size_t i = next_++; i < size(); i = next_++) {
-    try {
-      (*job_)(i);
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!thrown_) thrown_ = std::current_exception();
-    }
-  }
-}
-
-// of one thread of the pool
-void SimulationBatch::work() {
-  std::size_t round = 0;
-  for (;;) {
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return ends_ || round_ != round; });
-      if (ends_) return;
-      round = round_;
-    }
-    take_jobs();
-    {
-      const std::lock_guard lock(mutex_);
-      --busy_;
-    }
-    done_.notify_one();
-  }
 }
 
 }  // namespace hurcules

@@ -5,32 +5,26 @@
 // it has alone, whatever the number of threads.
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 #include "hurcules/sim/quantities.hpp"
 #include "hurcules/sim/simulation.hpp"
+#include "hurcules/sim/thread_pool.hpp"
 
 namespace hurcules {
 
 class SimulationBatch {
  public:
   // Copies of a simulation in its present state. models: none to share its model, else one each,
-  // of the same names and shapes, whose physics the controllers do not know. threads: 0 for one a processor. Throws Error for n < 1 and models
-  // that do not fit.
+  // of the same names and shapes, whose physics the controllers do not know. threads: 0 for one a
+  // processor. Throws Error for n < 1 and models that do not fit.
   SimulationBatch(const Simulation& original, std::size_t n, int threads = 0,
                   const std::vector<ModelPtr>& models = {});
-  ~SimulationBatch();
-  SimulationBatch(const SimulationBatch&) = delete;
-  SimulationBatch& operator=(const SimulationBatch&) = delete;
 
   [[nodiscard]] std::size_t size() const { return simulations_.size(); }
-  [[nodiscard]] std::size_t threads() const { return workers_.size() + 1; }
+  [[nodiscard]] std::size_t threads() const { return pool_.threads(); }
   [[nodiscard]] Simulation& operator[](std::size_t i) { return *simulations_[i]; }
   [[nodiscard]] const Simulation& operator[](std::size_t i) const { return *simulations_[i]; }
 
@@ -43,25 +37,16 @@ class SimulationBatch {
   // (n, m) the quantities of each now
   void read(const Quantities& quantities, MatrixRef out);
   // runs work(i) for each i on the pool; throws what the first failing one threw
-  void for_each(const std::function<void(std::size_t)>& work);
+  void for_each(const std::function<void(std::size_t)>& work) { pool_.run(size(), work); }
 
  private:
   // throws Error unless these are arguments of step; takes the commands
   void take(int ticks, const Matrix* commands, const std::vector<bool>* mask);
   void require_room(const Quantities& quantities, const MatrixRef& out) const;
-  void work();
-  void take_jobs();
 
   std::vector<std::unique_ptr<Simulation>> simulations_;
   std::vector<Vector> commands_;  // (n) of (k)
-  std::mutex mutex_;
-  std::condition_variable wake_, done_;
-  const std::function<void(std::size_t)>* job_ = nullptr;
-  std::size_t round_ = 0, busy_ = 0;
-  std::atomic<std::size_t> next_ = 0;
-  std::exception_ptr thrown_;
-  bool ends_ = false;
-  std::vector<std::thread> workers_;
+  ThreadPool pool_;
 };
 
 }  // namespace hurcules
