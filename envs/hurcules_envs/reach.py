@@ -253,6 +253,7 @@ class Reach(Environment):
             controller=controller,
             record=False,
             physics=fidelity != "kinematic",
+            loaded_springs=True,
             fall=hurcules.FallOptions(setup.support, max_tilt=TILT) if setup.support else None,
         )
 

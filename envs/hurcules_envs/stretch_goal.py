@@ -140,6 +140,7 @@ class Stretch(Environment):
             controller=controller,
             record=False,
             physics=fidelity != "kinematic",
+            loaded_springs=True,
             fall=hurcules.FallOptions("pelvis", max_tilt=TILT),
         )
         self._robot, self._posture = robot, robot.configuration

@@ -244,7 +244,7 @@ void bind_options(py::module_& module) {
       .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
                        bool timed, BaseSource base, SensorOptions sensors,
                        const MonitorOptions& monitors, double max_seconds, bool physics,
-                       const FallOptions& fall, bool adds_command) {
+                       const FallOptions& fall, bool adds_command, bool loaded_springs) {
              Options options;
              options.seed = seed;
              options.variation = variation;
@@ -258,6 +258,7 @@ void bind_options(py::module_& module) {
              options.physics = physics;
              options.fall = fall;
              options.adds_command = adds_command;
+             options.loaded_springs = loaded_springs;
              return options;
            }),
            py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
@@ -265,7 +266,8 @@ void bind_options(py::module_& module) {
            "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
            "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors,
            "max_seconds"_a = defaults.max_seconds, "physics"_a = defaults.physics,
-           "fall"_a = defaults.fall, "adds_command"_a = defaults.adds_command)
+           "fall"_a = defaults.fall, "adds_command"_a = defaults.adds_command,
+           "loaded_springs"_a = defaults.loaded_springs)
       .def_readwrite("seed", &Options::seed)
       .def_readwrite("variation", &Options::variation)
       .def_readwrite("method", &Options::method)
@@ -281,7 +283,9 @@ void bind_options(py::module_& module) {
       .def_readwrite("physics", &Options::physics,
                      "false: the robot is where it is commanded to be")
       .def_readwrite("adds_command", &Options::adds_command,
-                     "a command is added to the mission's own");
+                     "a command is added to the mission's own")
+      .def_readwrite("loaded_springs", &Options::loaded_springs,
+                     "springs start where they bear what hangs on them");
 }
 
 void bind_run(py::class_<Simulation>& simulation) {

@@ -54,6 +54,7 @@ Args:
   sensors: SensorOptions; ideal by default.
   monitors: MonitorOptions.
   adds_command: a command is added to what the mission commands, in place of taking its place.
+  loaded_springs: sprung hinges without a motor start where they bear what hangs on them.
 )";
 inline constexpr const char* kSimulation =
     R"(The closed loop in C++, on a model and data that Python owns.

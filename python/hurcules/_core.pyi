@@ -3630,7 +3630,8 @@ class SimulationOptions:
       base: where the planner thinks that the robot stands: BaseSource.Held or BaseSource.Sensed.
       sensors: SensorOptions; ideal by default.
       monitors: MonitorOptions.
-      adds_command: a command is added to what the mission commands, in place of taking its place."""
+      adds_command: a command is added to what the mission commands, in place of taking its place.
+      loaded_springs: sprung hinges without a motor start where they bear what hangs on them."""
 
     base: BaseSource
     method: str
@@ -3654,6 +3655,7 @@ class SimulationOptions:
         physics: bool = True,
         fall: FallOptions = ...,
         adds_command: bool = False,
+        loaded_springs: bool = False,
     ) -> None: ...
     @property
     def adds_command(self) -> bool:
@@ -3667,6 +3669,12 @@ class SimulationOptions:
 
     @fall.setter
     def fall(self, arg0: FallOptions) -> None: ...
+    @property
+    def loaded_springs(self) -> bool:
+        """springs start where they bear what hangs on them"""
+
+    @loaded_springs.setter
+    def loaded_springs(self, arg0: bool) -> None: ...
     @property
     def max_seconds(self) -> float:
         """[s] the run ends when it takes longer"""

@@ -69,6 +69,7 @@ class Simulation(_core.Simulation):
         fall: FallOptions | None = None,
         parameters: Mapping[str, Any] | None = None,
         adds_command: bool = False,
+        loaded_springs: bool = False,
     ) -> None:
         """A mission in its scene, or a controller of your own in any model.
 
@@ -95,6 +96,9 @@ class Simulation(_core.Simulation):
                 for "disposal" those of `hurcules.disposal.Job`.
             adds_command: of a mission: a command is added to what the mission commands, and does
                 not take its place.
+            loaded_springs: sprung hinges without a motor start where they bear what hangs on them;
+                False: where the start says, and what hangs on them sinks first. The plan is the
+                same.
 
         Raises:
             Error: no such mission, method or sensor (the text names those that exist), a bad
@@ -112,6 +116,7 @@ class Simulation(_core.Simulation):
             physics=physics,
             fall=_options("fall", fall, FallOptions),
             adds_command=adds_command,
+            loaded_springs=loaded_springs,
         )
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")

@@ -58,3 +58,23 @@ def test_hands_settle_at_a_moderate_gain_and_swing_at_a_high_one(fidelity):
         env.close()
     assert errors[4.0] < 0.01
     assert errors[12.0] > 0.03
+
+
+@pytest.mark.parametrize("fidelity", ["fast", "exact"])
+def test_hands_stay_where_they_start_while_nothing_is_commanded(fidelity):
+    # springs that started without load let them sink by up to 53 mm; what is left is the suspension
+    env = gym.make_vec("Hurcules/Reach-v0", num_envs=8, fidelity=fidelity)
+    start, _ = env.reset(seed=0)
+    for _ in range(20):
+        seen, *_ = env.step(np.zeros(env.action_space.shape, np.float32))
+        assert np.abs(seen["achieved_goal"] - start["achieved_goal"]).max() < 0.01
+    env.close()
+
+
+@pytest.mark.parametrize(("name", "watched"), [("Stretch-v1", slice(None)), ("Lift-v0", slice(0, 4))])
+def test_the_first_observation_is_measured(name, watched):
+    # margins of monitors and readings of sensors were 0 until the first step
+    env = gym.make(f"Hurcules/{name}", fidelity="fast")
+    first, _ = env.reset(seed=0)
+    then, *_ = env.step(np.zeros(env.action_space.shape, np.float32))
+    np.testing.assert_allclose(first[watched], then[watched], atol=0.01)

@@ -49,18 +49,28 @@ Vector Monitors::thresholds() const {
   return result;
 }
 
-void Monitors::reset() {
-  distance_.reset();
+void Monitors::reset(const mjModel_* m, mjData_* d) {
   windings_.reset();
   value_ = Vector::Zero(kQuantities);
   value_[Distance] = options_.distance.cutoff;
   value_[Temperature] = options_.windings.ambient;
   worst_ = Vector::Constant(kQuantities, std::numeric_limits<double>::quiet_NaN());
+  if (options_.on && d) look_at_stand(m, d);
+  distance_.reset();
+  worst_.setConstant(std::numeric_limits<double>::quiet_NaN());
   alarm_.setZero();
 }
 
 void Monitors::look(const mjModel_* m, mjData_* d, double power) {
   if (!options_.on) return;
+  look_at_stand(m, d);
+  windings_.warm(d);
+  note(Temperature, windings_.temperature().size() > 0 ? windings_.temperature().maxCoeff()
+                                                       : options_.windings.ambient);
+  note(Power, power);
+}
+
+void Monitors::look_at_stand(const mjModel_* m, mjData_* d) {
   note(Distance, distance_.measure(m, d));
   if (const std::optional<Stability> stands = support_.measure(m, d)) {
     note(Margin, stands->margin);
@@ -68,10 +78,6 @@ void Monitors::look(const mjModel_* m, mjData_* d, double power) {
     note(TipAngle, stands->tip_angle);
     note(Energy, stands->energy);
   }
-  windings_.warm(d);
-  note(Temperature, windings_.temperature().size() > 0 ? windings_.temperature().maxCoeff()
-                                                       : options_.windings.ambient);
-  note(Power, power);
 }
 
 void Monitors::note(Index quantity, double value) {

@@ -48,7 +48,8 @@ class Monitors {
   // throws Error for options out of range
   Monitors(const mjModel_* model, int robot_root, const MotorLosses& losses,
            const MonitorOptions& options = {});
-  void reset();
+  // null: nothing is known until the first look
+  void reset(const mjModel_* model = nullptr, mjData_* data = nullptr);
   // power [W] of this tick
   void look(const mjModel_* model, mjData_* data, double power);
 
@@ -66,6 +67,7 @@ class Monitors {
   void restore(StateReader& reader);
 
  private:
+  void look_at_stand(const mjModel_* model, mjData_* data);
   void note(Index quantity, double value);
   [[nodiscard]] Vector thresholds() const;
 

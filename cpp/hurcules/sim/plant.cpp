@@ -41,7 +41,8 @@ Plant::Plant(ModelPtr model, mjData* borrowed)
       brakes_(model_.get()),
       drive_train_(model_.get()),
       actuators_(static_cast<std::size_t>(model_->nu)),
-      state_(Vector::Zero(mj_stateSize(model_.get(), kState))) {
+      state_(Vector::Zero(mj_stateSize(model_.get(), kState))),
+      scratch_(Vector::Zero(model_->nv)) {
   const mjModel* const m = model_.get();
   for (int a = 0; a < m->nu; ++a) {
     const int kind = m->actuator_trntype[a];
@@ -55,6 +56,43 @@ Plant::Plant(ModelPtr model, mjData* borrowed)
 void Plant::place(const Vector& configuration) {
   qpos() = configuration;
   mj_kinematics(model_.get(), data_.get());
+}
+
+void Plant::load_springs() {
+  const mjModel* const m = model_.get();
+  mjData* const d = data_.get();
+  for (int round = 0; round < 3; ++round) {  // the lever of a weight changes a little with the angle
+    mj_comPos(m, d);
+    mj_rne(m, d, 0, scratch_.data());
+    for (int j = 0; j < m->njnt; ++j) {
+      const int dof = m->jnt_dofadr[j], at = m->jnt_qposadr[j];
+      const auto moves = [dof](const Motor& motor) { return motor.dof == dof; };
+      if (m->jnt_type[j] != mjJNT_HINGE || m->jnt_stiffness[j] <= 0.0 ||
+          std::any_of(motors_.begin(), motors_.end(), moves)) {
+        continue;
+      }
+      d->qpos[at] = m->qpos_spring[at] - scratch_[dof] / m->jnt_stiffness[j];
+      const double* const range = m->jnt_range + 2 * j;
+      if (m->jnt_limited[j]) d->qpos[at] = std::clamp(d->qpos[at], range[0], range[1]);
+    }
+    mj_kinematics(m, d);
+  }
+}
+
+void Plant::feel() {
+  const mjModel* const m = model_.get();
+  mjData* const d = data_.get();
+  scratch_ = Eigen::Map<const Vector>(d->qacc_warmstart, m->nv);
+  mj_fwdPosition(m, d);
+  mj_sensorPos(m, d);
+  mj_fwdVelocity(m, d);
+  mj_sensorVel(m, d);
+  std::fill_n(d->qfrc_actuator, m->nv, 0.0);
+  mj_fwdAcceleration(m, d);
+  mj_fwdConstraint(m, d);
+  d->flg_rnepost = 0;
+  mj_sensorAcc(m, d);
+  std::copy(scratch_.begin(), scratch_.end(), d->qacc_warmstart);
 }
 
 void Plant::move(const Vector& configuration, double dt) {

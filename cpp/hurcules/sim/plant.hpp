@@ -28,6 +28,10 @@ class Plant {
   void reset(int keyframe);
   // everything at this configuration (nq); poses of bodies and sites follow
   void place(const Vector& qpos);
+  // turns sprung hinges without a motor to where they bear what hangs on them
+  void load_springs();
+  // contacts and sensors as they are now, all motors off; the next step has the same bits
+  void feel();
   // everything moves to this configuration (nq) within dt [s], whatever the physics would say; poses
   // follow, contacts and forces do not
   void move(const Vector& qpos, double dt);
@@ -77,6 +81,7 @@ class Plant {
   std::vector<ActuatorStatus> actuators_;  // (nu)
   bool sound_ = true;
   mutable Vector state_;  // scratch, mjSTATE_INTEGRATION
+  Vector scratch_;        // (nv)
 };
 
 }  // namespace hurcules

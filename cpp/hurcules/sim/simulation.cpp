@@ -454,7 +454,12 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
   record_.telemetry.charge = battery_.charge();
   place(seed, start);
   limit_monitor_.reset();
-  monitors_.reset();
+  if (options_.physics) {
+    plant_.feel();
+    monitors_.reset(plant_.model(), plant_.data());
+  } else {
+    monitors_.reset();
+  }
   sensors_.reset(plant_.data(), seed);
   finding_ = {};
   held_ticks_ = 0;
@@ -475,7 +480,8 @@ void Simulation::place(std::uint64_t seed, const Vector* where) {
   plant_.reset(-1);
   plant_.place(start);
   controller_->reset(start);
-  world_.set_qpos(start);
+  if (options_.physics && options_.loaded_springs) plant_.load_springs();
+  world_.set_qpos(std::as_const(plant_).qpos());
 }
 
 void Simulation::go(std::size_t phase) {

@@ -42,6 +42,8 @@ struct SimulationOptions {
   bool physics = true;
   // a command is added to what the supervisor commands, in place of taking its place
   bool adds_command = false;
+  // sprung hinges without a motor start where they bear what hangs on them; the plan is the same
+  bool loaded_springs = false;
   Clock clock = nullptr;  // [s] for timings; null: none are taken
   double max_seconds = std::numeric_limits<double>::infinity();
   FallOptions fall;
