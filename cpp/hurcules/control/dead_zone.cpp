@@ -16,6 +16,7 @@ constexpr double kSaddleBegins = 0.025, kSaddle = 0.075;  // d [1/rad]
 constexpr double kLooks = 0.05;   // share that a zone takes from which on a saddle is looked for
 constexpr double kNoPull = 1e-7;  // slope below which the pull has no direction
 constexpr double kWeak = 0.03;    // of S: a row that moves no more may vanish at a saddle
+constexpr double kLever = 1e-3;   // S at least: where all rows of a level vanish, a saddle is looked for
 constexpr double kSlow = 0.3;     // [rad/s] that a row may come nearer: it begins to be held
 constexpr double kNudge = 0.02;   // [rad/s]
 
@@ -31,11 +32,13 @@ void DeadZone::set_stack(const Stack& stack, Index n) {
   shares_.assign(stack.levels().size(), 1.0);
   pressed_ = Eigen::MatrixXi::Zero(static_cast<Index>(shares_.size()), n);
   apart_.clear();
+  tasks_.clear();
   nearness_.clear();
   Index rows = 0;
   for (const StackLevel& level : stack.levels()) {
     apart_.push_back(std::all_of(level.tasks.begin(), level.tasks.end(),
                                  [](const Task* task) { return task->rows_apart(); }));
+    tasks_.emplace_back(level.tasks.begin(), level.tasks.end());
     Index sum = 0;
     std::vector<bool>& nearness = nearness_.emplace_back();
     for (const Task* task : level.tasks) {
@@ -88,7 +91,7 @@ void DeadZone::add_held(Eigen::VectorXi& held) const {
 }
 
 double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const JointLimits* limits) {
-  find_pull(hierarchy[k]);
+  find_pull(hierarchy[k], tasks_[k]);
   remove_known(pull_);
   last_ = rank_;
   if (limits) hold_pressed_joints(k, *limits);
@@ -151,7 +154,7 @@ void DeadZone::add_strong_rows(const Level& level) {
 }
 
 // A'y, |y| and S of the equality rows
-void DeadZone::find_pull(const Level& level) {
+void DeadZone::find_pull(const Level& level, const std::vector<const Task*>& tasks) {
   pull_.setZero();
   direction_.setZero();
   asked_ = 0.0;
@@ -163,7 +166,8 @@ void DeadZone::find_pull(const Level& level) {
     asked_ += y * y;
   }
   asked_ = std::sqrt(asked_);
-  lever_ = std::sqrt(direction_.maxCoeff());
+  lever_ = std::max(kLever, std::sqrt(direction_.maxCoeff()));
+  for (const Task* task : tasks) lever_ = std::max(lever_, task->lever());
 }
 
 // takes from the pull what presses joints against their limits, the more the nearer they are

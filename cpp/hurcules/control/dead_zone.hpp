@@ -11,7 +11,9 @@
 //                                     and away from inequality rows above, likewise: in full where
 //                                     they let it come no nearer, not at all from 0.3 rad/s on
 //   slope = |p| / (|y| S)             S: largest column of A; what a rad wins, as a share of the
-//                                     most that a joint of this level could win; 0 to about 1
+//                                     most that a joint of this level could win; 0 to about 1.
+//                                     A point along some axes alone: the largest of all three, for
+//                                     where such rows end they vanish, and so would S
 //   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)
 // At a saddle (saddle_probe.hpp) there is no zone: with
 //   d = growth of the pull along what p moves weakly, as a share like the slope [1/rad]
@@ -69,7 +71,7 @@ class DeadZone {
   [[nodiscard]] double saddle_along(std::size_t k, const Level& level, double gain,
                                     SaddleProbe& probe);
   void add_strong_rows(const Level& level);
-  void find_pull(const Level& level);
+  void find_pull(const Level& level, const std::vector<const Task*>& tasks);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
   void hold_pressed_rows(const Level& level, const std::vector<bool>& nearness);
   void hold_direction(double held);
@@ -86,7 +88,8 @@ class DeadZone {
   double asked_ = 0.0, lever_ = 0.0;  // |y|, S
   Vector held_;                       // (n): how much of each further row of known_ counts
   std::vector<double> shares_;
-  std::vector<bool> apart_;  // levels whose rows stand apart
+  std::vector<std::vector<const Task*>> tasks_;  // of each level
+  std::vector<bool> apart_;                      // levels whose rows stand apart
   // rows of a level whose limits say how near something is, not how fast velocities may change
   std::vector<std::vector<bool>> nearness_;
   Eigen::MatrixXi pressed_;  // (levels, n)

@@ -1,6 +1,7 @@
 #include "hurcules/tasks/point_task.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "hurcules/base/error.hpp"
 
@@ -28,6 +29,13 @@ Vector3 PointTask::world_target() const {
   const Matrix AAt = axes_ * axes_.transpose();
   const Vector3 way = axes_.transpose() * AAt.ldlt().solve(target_ - value_);
   return reference_.point_in_world(point_.position + way);
+}
+
+double PointTask::lever() const {
+  if (rows() == 3) return 0.0;
+  const double most = point_.jacobian.colwise().squaredNorm().maxCoeff();
+  const Vector lengths = weights().cwiseProduct(axes_.rowwise().norm());
+  return std::sqrt(most) * lengths.maxCoeff();
 }
 
 void PointTask::measure(const Robot& robot) {

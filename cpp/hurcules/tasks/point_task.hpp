@@ -22,6 +22,7 @@ class PointTask : public ValueTask {
   // [m] in W where the point was at the last update, and the nearest one that meets the target
   [[nodiscard]] Vector3 world_position() const;
   [[nodiscard]] Vector3 world_target() const;
+  [[nodiscard]] double lever() const final;
 
  protected:
   PointTask(std::string name, const Robot& robot, PointTaskOptions options);

@@ -63,6 +63,10 @@ class Task {
   // max_speed of a row is this share of the task's: 1 but for tasks of several units
   [[nodiscard]] double speed_share(Index row) const { return speed_shares_[row]; }
 
+  // [unit a rad] what a coordinate moves at most of what is measured, where the rows are a part of it
+  // alone; 0: the rows say it
+  [[nodiscard]] virtual double lever() const { return 0.0; }
+
   // each row is a coordinate's own matter: one that cannot arrive does not slow down the others
   [[nodiscard]] virtual bool rows_apart() const { return false; }
 

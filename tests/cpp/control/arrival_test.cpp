@@ -181,6 +181,28 @@ TEST_P(Arrival, ALevelBelowLeavesItsSaddleAsFarAsTheOneAboveAllows) {
   EXPECT_LT(motion.fastest, 0.01);
 }
 
+// a single row vanishes at the end of its reach, and so does all that it could win there
+TEST_P(Arrival, OneDirectionAloneLeavesTheStraightArmAndRestsAtItsEnd) {
+  PositionTask along("along", robot_, "tip", {.axes = Matrix3::Identity().topRows(1)});
+  const auto to = [&](double target, const Vector& start, const auto& move) {
+    robot_.set_configuration(start);
+    along.update(robot_);
+    along.set_target(Vector::Constant(1, target));
+    const Motion motion = move(limits_ < along < posture_);
+    along.update(robot_);
+    EXPECT_LT(motion.fastest, 0.01);
+    EXPECT_LE(motion.hardest, 1.0 + 1e-9);
+    return std::abs(along.error()[0]);
+  };
+  const auto by_velocity = [&](const Stack& stack) { return run(stack); };
+  const auto by_acceleration = [&](const Stack& stack) { return accelerate(stack); };
+  const Vector straight = Vector::Zero(3), bent = Vector{{0.5, 0.8, 0.9}};
+  EXPECT_LT(to(1.2, straight, by_velocity), 1e-6);
+  EXPECT_LT(to(1.2, straight, by_acceleration), 1e-6);
+  EXPECT_LT(to(1.8, bent, by_velocity), 0.3 + 3e-3);
+  EXPECT_LT(to(1.8, bent, by_acceleration), 0.3 + 3e-3);
+}
+
 TEST_P(Arrival, ByAccelerationsToo) {
   wrist_.set_target(Vector2(0.7, 0.7));
   const Motion near_by = accelerate(limits_ < wrist_ < posture_);
@@ -245,7 +267,8 @@ TEST_F(TaskSpeed, LeavesAnAbsentSideAndASideThatHoldsBackAsTheyAre) {
 
 class Zone : public Arrival {
  protected:
-  Zone() { zone_.set_stack(Stack({tip_, wrist_}), 2); }
+  Zone() { zone_.set_stack(Stack({first_, second_}), 2); }
+  PositionTask first_{"first", robot_, "tip"}, second_{"second", robot_, "wrist"};
   DeadZone zone_;
 };
 
