@@ -165,6 +165,18 @@ const Vector& command_scale(const Simulation& self) {
   return self.controller().scale();
 }
 
+constexpr double kRounding = 1e-6;  // [rad] or [m] beyond a range
+
+void require_in_range(const JointActuator& joint, const ConstVectorRef& position) {
+  for (Index i = 0; i < position.size(); ++i) {
+    const double most = std::max(joint.lower - position[i], position[i] - joint.upper);
+    if (most <= kRounding) continue;
+    throw Error("follow: joint '" + joint.joint + "' goes from " + std::to_string(joint.lower) +
+                " to " + std::to_string(joint.upper) + ", row " + std::to_string(i) + " wants " +
+                std::to_string(position[i]));
+  }
+}
+
 // the reference of joints, row by row: one tick each
 int follow(Simulation& self, const std::vector<std::string>& joints, const Matrix& position,
            const Matrix& velocity) {
@@ -175,6 +187,11 @@ int follow(Simulation& self, const std::vector<std::string>& joints, const Matri
               ") each and finite numbers; (" + std::to_string(position.rows()) + ", " +
               std::to_string(position.cols()) + ") and (" + std::to_string(velocity.rows()) + ", " +
               std::to_string(velocity.cols()) + ") came");
+  const JointServo& servo = self.controller().servo();
+  for (Index k = 0; k < m; ++k) {
+    const Index found = servo.find(joints[static_cast<std::size_t>(k)]);
+    require_in_range(servo.actuator(found), position.col(k));
+  }
   const InUse in_use("Simulation", &self, &self.controller());
   int done = 0;
   for (Index i = 0; i < position.rows() && !self.finished(); ++i) {

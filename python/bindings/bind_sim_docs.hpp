@@ -95,7 +95,7 @@ Returns:
   The ticks done: fewer when the run ends.
 
 Raises:
-  Error: an unknown joint, or arrays that do not fit.
+  Error: an unknown joint, a position beyond its range, or arrays that do not fit.
 )";
 inline constexpr const char* kReset =
     "Back to the start, of a mission varied by this seed; start (nq,): where that is this time.";
