@@ -26,6 +26,7 @@ MODULES = (
     "force_reach",
     "force_casualty",
     "look_and_move",
+    "views",
     "carrying",
     "stretch",
     "driving",
