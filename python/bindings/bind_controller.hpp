@@ -23,7 +23,7 @@ void require_stack(const Controller& controller) {
                     "a controller wants a stack before it computes");
 }
 
-inline constexpr const char* kSetStack = "Takes over another stack; keeps its tasks alive.";
+inline constexpr const char* kSetStack = "Takes over another stack, or what Stack takes; keeps its tasks alive.";
 inline constexpr const char* kDiagnostics =
     R"(What each level fell short of at the last compute, and why.
 
@@ -41,8 +41,10 @@ template <typename Controller>
 void bind_common(pybind11::class_<Controller>& controller, const std::string& result) {
   namespace py = pybind11;
   using namespace pybind11::literals;
-  const auto set_stack = [](Controller& self, const HeldStack& stack) {
-    self.set_stack(stack.stack);
+  const auto set_stack = [](Controller& self, const StackLike& stack) {
+    const py::object held = py::cast(stack_of(stack));
+    self.set_stack(held.cast<const HeldStack&>().stack);
+    py::detail::keep_alive_impl(py::cast(&self), held);
   };
   const auto compute = [](Controller& self, const hurcules::Robot& robot) {
     require_stack(self);
@@ -64,7 +66,7 @@ void bind_common(pybind11::class_<Controller>& controller, const std::string& re
     return diagnostics(self, robot);
   };
   const auto copy = py::return_value_policy::copy;
-  controller.def("set_stack", set_stack, "stack"_a, py::keep_alive<1, 2>(), kSetStack)
+  controller.def("set_stack", set_stack, "stack"_a, kSetStack)
       .def("compute", compute, "robot"_a, compute_doc.c_str())
       .def("diagnostics", diagnostics, "robot"_a, kDiagnostics)
       .def("notes", notes, "robot"_a, "Deprecated name of diagnostics.")

@@ -3,7 +3,6 @@
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
-#include <pybind11/typing.h>
 
 #include <string>
 #include <utility>
@@ -108,11 +107,6 @@ StackLevel level_of(py::handle item, std::vector<py::object>& kept) {
   for (std::size_t i = 1; i < parts.size(); ++i) level = level + parts[i];
   return level;
 }
-
-// what Stack takes
-using Levels = py::typing::Iterable<
-    py::typing::Union<Task, JointLimits, HeldLevel,
-                      py::typing::Iterable<py::typing::Union<Task, JointLimits, HeldLevel>>>>;
 
 HeldStack make_stack(const Levels& levels) {
   std::vector<StackLevel> made;

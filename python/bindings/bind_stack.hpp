@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
 
 #include <vector>
 
@@ -18,7 +19,13 @@ struct HeldStack {
   std::vector<pybind11::object> kept;
 };
 
-// levels as Stack takes them: a HeldStack, or a sequence of tasks, levels, lists of tasks
+// what Stack takes: tasks, levels, lists of tasks
+using Levels = pybind11::typing::Iterable<pybind11::typing::Union<
+    hurcules::Task, hurcules::JointLimits, HeldLevel,
+    pybind11::typing::Iterable<
+        pybind11::typing::Union<hurcules::Task, hurcules::JointLimits, HeldLevel>>>>;
+using StackLike = pybind11::typing::Union<HeldStack, Levels>;
+
 [[nodiscard]] HeldStack stack_of(const pybind11::object& levels);
 
 }  // namespace hurcules_bindings

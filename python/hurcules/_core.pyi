@@ -1769,8 +1769,17 @@ class VelocityController:
     def restore(self, state: collections.abc.Sequence[float]) -> None:
         """Goes on from what state() gave."""
 
-    def set_stack(self, stack: Stack) -> None:
-        """Takes over another stack; keeps its tasks alive."""
+    def set_stack(
+        self,
+        stack: Stack
+        | collections.abc.Iterable[
+            Task
+            | JointLimits
+            | StackLevel
+            | collections.abc.Iterable[Task | JointLimits | StackLevel]
+        ],
+    ) -> None:
+        """Takes over another stack, or what Stack takes; keeps its tasks alive."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -1960,8 +1969,17 @@ class AccelerationController:
     def restore(self, state: collections.abc.Sequence[float]) -> None:
         """Goes on from what state() gave."""
 
-    def set_stack(self, stack: Stack) -> None:
-        """Takes over another stack; keeps its tasks alive."""
+    def set_stack(
+        self,
+        stack: Stack
+        | collections.abc.Iterable[
+            Task
+            | JointLimits
+            | StackLevel
+            | collections.abc.Iterable[Task | JointLimits | StackLevel]
+        ],
+    ) -> None:
+        """Takes over another stack, or what Stack takes; keeps its tasks alive."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -3760,7 +3778,7 @@ class Simulation:
           The ticks done: fewer when the run ends.
 
         Raises:
-          Error: an unknown joint, or arrays that do not fit."""
+          Error: an unknown joint, a position beyond its range, or arrays that do not fit."""
 
     def go(self, phase: str) -> None:
         """Begins a phase of the mission now, out of its order.
