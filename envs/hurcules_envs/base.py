@@ -97,7 +97,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         core_seed = int(self.np_random.integers(2**31)) if seed is None else seed
         self.simulation.reset(core_seed)
         self._start()
-        return self._observe(), self._info(dict.fromkeys(self.terms, 0.0))
+        return self.observe(), self._info(dict.fromkeys(self.terms, 0.0))
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Holds the commanded velocities for 20 ms.
@@ -117,7 +117,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         self.simulation.step(FRAME_SKIP, command)
         terms = self._reward()
         reward = sum(float(terms[name]) for name in self.terms)
-        return self._observe(), reward, bool(self.simulation.finished), False, self._info(terms)
+        return self.observe(), reward, bool(self.simulation.finished), False, self._info(terms)
 
     def operator_action(self) -> Action:
         """The action that the mission's own operator would take now, (k,)."""
@@ -141,6 +141,11 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
             raise hurcules.Error(f"state: wanted shape ({wanted},), got {values.shape}")
         self.simulation.restore(values[len(memory) :])
         self._remember(values[: len(memory)])
+
+    def observe(self) -> Observation:
+        """The observation now, after `set_state` say."""
+        values = np.asarray(self.simulation.observation(), dtype=np.float32)
+        return np.clip(values, self._box.low, self._box.high)
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (368, 640, 3) in render mode "rgb_array", else None.
@@ -193,10 +198,6 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
             bad = int(np.argmin(np.isfinite(values)))
             raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
         return values
-
-    def _observe(self) -> Observation:
-        values = np.asarray(self.simulation.observation(), dtype=np.float32)
-        return np.clip(values, self._box.low, self._box.high)
 
     def _info(self, terms: dict[str, float]) -> dict[str, Any]:
         simulation = self.simulation

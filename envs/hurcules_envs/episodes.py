@@ -99,7 +99,7 @@ class Episodes:
             name: slice(int(stop) - size, int(stop))
             for name, size, stop in zip(names, self._quantities.sizes, stops, strict=True)
         }
-        self._values: Array | None = None  # what a step read, until somebody looks
+        self._values: Array | None = None  # what is read now; None: nobody has
         self._commands = _Commands(environment)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
@@ -131,7 +131,9 @@ class Episodes:
         for i in np.flatnonzero(chosen):
             self._configure(int(i))
         self.batch.reset(seeds, chosen.tolist(), starts)
-        self._values = None
+        before, self._values = self._values, None
+        if before is not None:
+            self._values = np.where(chosen[:, None], self._read(), before)
         self._action[chosen] = 0.0
         self._worst[chosen] = 0.0
 
@@ -185,6 +187,7 @@ class Episodes:
         parts += [self.randomisation.state(self._action.shape[1])]
         parts += [self.memory[name] for name in self.memory]
         parts += [entry[:, None] for entry in self._info.values()]
+        parts += [self._read()]  # forces of contacts are not in the state of a simulation
         return np.concatenate(parts, axis=1)
 
     def restore(self, state: object, mask: NDArray[np.bool_] | None = None) -> None:
@@ -196,11 +199,14 @@ class Episodes:
         drawn = self.randomisation.state(self._action.shape[1]).shape[1]
         rest = self._action.shape[1] + 1 + drawn + len(self._info)
         rest += sum(entry.shape[1] for entry in self.memory.values())
+        seen = self._read().copy()
+        rest += seen.shape[1]
         own = self.batch.state().shape[1]
         values = state_of(state, (self.n, own + rest))
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
         self.batch.restore(values[:, :own], chosen.tolist())
-        self._values = None
+        seen[chosen] = values[chosen, -seen.shape[1] :]
+        self._values = seen
         place = own
         entries = [self._action, self._worst[:, None]]
         for entry in entries:
@@ -266,8 +272,9 @@ class Episodes:
         self.randomisation.vary_model(i, self._models[i])
 
     def _read(self) -> Array:
-        values, self._values = self._values, None
-        return self.batch.read(self._quantities) if values is None else values
+        if self._values is None:
+            self._values = self.batch.read(self._quantities)
+        return self._values
 
     def _numbers(self, values: Array) -> Numbers:
         places = self._places

@@ -2,18 +2,21 @@
 
 Strategy: actions that jump between their ends, where distances and balance rule. The rewards after
 a reset with a seed are those after another episode; after `set_state` those after the state was
-taken.
+taken. Of every environment the observation after `set_state` is the one that there was.
 Not tested: other processes and threads (test_env_core.py).
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 import gymnasium
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-import hurcules_envs  # noqa: F401  registers
+from hurcules_envs import ENVIRONMENTS
+from hurcules_envs.registry import fastest_fidelity
 
 CASES = [
     ("Reach-v0", "kinematic"),
@@ -26,6 +29,7 @@ CASES = [
     ("Dispose-v0", "fast"),
 ]
 STEPS, HOLD = 60, 10
+TOUCHED = 50  # steps after which experts touch what they go for
 
 
 def rewards(env: gymnasium.Env, actions: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -55,3 +59,29 @@ def test_seed_and_actions_decide(name: str, fidelity: str) -> None:
     assert np.array_equal(env.unwrapped.get_state(), state)
     assert np.array_equal(rewards(env, drawn[STEPS // 2 :]), rest)
     env.close()
+
+
+@pytest.mark.parametrize("name", ENVIRONMENTS)
+def test_after_a_state_the_observation_is_the_one_that_was(name: str) -> None:
+    fastest = fastest_fidelity(name)
+    options = {"fidelity": fastest} if fastest else {}
+    env = gymnasium.make(name, disable_env_checker=True, **options).unwrapped
+    env.reset(seed=3)
+    random = np.random.default_rng(0).uniform(-1.0, 1.0, (TOUCHED, env.action_space.shape[0]))
+    guided = fastest and "Joint" not in name and "Precise" not in name
+    for action in random:
+        given = env.environment.expert(env.numbers)[0] if guided else action
+        seen, _, over, _, _ = env.step(given)
+        if over:
+            break
+    state = env.get_state()
+    for action in random[:5]:
+        env.step(action)
+    env.set_state(state)
+    for one, other in zip(*map(parts, (seen, env.observe())), strict=True):
+        assert np.array_equal(one, other)
+    env.close()
+
+
+def parts(observation: Any) -> list[NDArray[np.float32]]:
+    return [*observation.values()] if isinstance(observation, dict) else [observation]

@@ -269,6 +269,7 @@ void Mission::save(StateWriter& writer) const {
        {phase_start_, now_, wait_until_, extra_, elapsed_, progress_, waiting_}) {
     writer.put(value);
   }
+  writer.put(forces_);
   for (const Figure& figure : figures_) writer.put(figure.value);
   gauges_.save(writer);
   for (const PhaseRow& row : rows_) row.save(writer);
@@ -292,6 +293,7 @@ void Mission::restore(StateReader& reader) {
        {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_}) {
     *value = reader.get();
   }
+  reader.get(forces_);
   for (Figure& figure : figures_) figure.value = reader.get_any();
   gauges_.restore(reader);
   for (PhaseRow& row : rows_) row.restore(reader);
