@@ -97,7 +97,7 @@ class Reach(Environment):
             if not (isinstance(value, Real) and 0.0 < value < np.inf):
                 raise hurcules.Error(f"{name}: wanted a number > 0, got {value!r}")
         self.setup = load_robot(robot, frames, joints)
-        self.postures = sample_postures(robot, frames, joints)
+        self.postures = sample_postures(self.setup)
         self.tolerance, self.angle, self.sparse, self.rate = tolerance, angle, sparse, rate
         self._names = [f"hand_{i}" for i in range(len(self.setup.hands))]
         self._build(fidelity, action, tick_of(fidelity, rate), safe)

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +43,7 @@ ROWS = 24
 MAX_ACCELERATION = 5.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RobotSetup:
     """A robot as it is simulated.
 
@@ -91,22 +92,27 @@ class RobotSetup:
                 balance("balance", robot, polygon, STANDS, self.support, height),
                 tip("zero moment", robot, polygon, TIPS, self.support, height),
             ]
-        with warnings.catch_warnings():  # it stands on its tracks
-            warnings.filterwarnings("ignore", "obstacles leaves out what touches now")
-            ground = hurcules.obstacles(robot, margin=self.apart_by, most=self.apart_by + LOOK)
-        return [*levels, [self.apart(robot), ground]]
+        return [*levels, [copy(task) for task in self._distances]]
 
     @property
     def apart_by(self) -> float:
         """[m] that its parts keep from each other and from the ground."""
         return APART.get(self.name, 0.02)
 
-    def apart(self, robot: hurcules.Robot) -> hurcules.DistanceTask:
-        """Parts of the robot keep away from each other; `robot` stands at the keyframe."""
-        margin = self.apart_by
-        return hurcules.self_collision(
-            robot, margin=margin, most=margin + LOOK, rows=ROWS, postures=2000
+    def apart(self) -> hurcules.DistanceTask:
+        """Parts of the robot keep away from each other."""
+        return copy(self._distances[0])
+
+    @cached_property
+    def _distances(self) -> tuple[hurcules.DistanceTask, hurcules.DistanceTask]:
+        """From itself, and from the ground; their pairs are found once."""
+        robot, most = self.robot(), self.apart_by + LOOK
+        apart = hurcules.self_collision(
+            robot, margin=self.apart_by, most=most, rows=ROWS, postures=2000
         )
+        with warnings.catch_warnings():  # it stands on its tracks
+            warnings.filterwarnings("ignore", "obstacles leaves out what touches now")
+            return apart, hurcules.obstacles(robot, margin=self.apart_by, most=most)
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""
@@ -147,11 +153,7 @@ def load_robot(
     if not isinstance(robot, str | Path):
         known = ", ".join(hurcules.models.names())
         raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
-    return _load(str(robot), None if frames is None else tuple(frames), joints and tuple(joints))
-
-
-@lru_cache(maxsize=8)
-def _load(robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | None) -> RobotSetup:
+    robot = str(robot)
     if robot in hurcules.models.names():
         if frames or joints:
             raise hurcules.Error(f"robot '{robot}' has hands and joints of its own")
@@ -169,12 +171,24 @@ def _load(robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | 
         model = load(robot)
     except ValueError as error:
         raise hurcules.Error(f"{robot}: {error}") from error
+    content = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, content)
+    own = None if joints is None else tuple(joints)
+    return _from_file(robot, content.tobytes(), tuple(frames), own)
+
+
+@lru_cache(maxsize=8)  # by what the file holds now, not by its path alone
+def _from_file(
+    robot: str, content: bytes, frames: tuple[str, ...], joints: tuple[str, ...] | None
+) -> RobotSetup:
+    model = mujoco.MjModel.from_binary_path("robot.mjb", {"robot.mjb": content})
     own = hurcules.Robot(model, None if joints is None else list(joints))
     for frame in frames:
         own.position(frame)
     return RobotSetup(robot, model, frames, tuple(own.coordinate_names), "")
 
 
+@lru_cache(maxsize=8)
 def _hurcules(name: str) -> RobotSetup:
     model = hurcules.models.load(name, "flat", bed=name != "rescue", visuals=False)
     robot = hurcules.Robot(model)
@@ -193,37 +207,19 @@ def _hurcules(name: str) -> RobotSetup:
 
 
 @lru_cache(maxsize=8)
-def _pool(
-    robot: str, frames: tuple[str, ...] | None, joints: tuple[str, ...] | None, least: float
-) -> Postures:
-    return _sample(load_robot(robot, frames, joints), least)
-
-
-def sample_postures(
-    robot: str,
-    frames: Sequence[str] | None = None,
-    joints: Sequence[str] | None = None,
-    least_height: float = 0.25,
-) -> Postures:
+def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
     """Postures to start from and to reach, always the same for one robot.
 
     Args:
-        robot: as for `load_robot`.
-        frames: the same.
-        joints: the same.
-        least_height: [m] of a hand over the ground, where there is one.
+        setup: the robot, from `load_robot`.
+        least: [m] of a hand over the ground, where there is one.
 
     Raises:
         hurcules.Error: not enough of them are found.
     """
-    own = None if frames is None else tuple(frames)
-    return _pool(robot, own, joints and tuple(joints), least_height)
-
-
-def _sample(setup: RobotSetup, least: float) -> Postures:
     generator = np.random.default_rng(POOL_SEED)
     robot, data = setup.robot(), mujoco.MjData(setup.model)
-    apart = setup.apart(robot)
+    apart = setup.apart()
     data.qpos[:] = robot.qpos
     ground = (setup.model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any()
     always = _touching(setup, data)  # parts that touch by construction

@@ -310,6 +310,8 @@ void bind_limit_tasks(py::module_& module) {
            "angular_velocity"_a = Vector3::Zero().eval(), kSetObstacle)
       .def("clear_obstacles", &DistanceTask::clear_obstacles,
            "All obstacles where the robot has them, at rest.")
+      .def("__copy__",
+           [](const DistanceTask& self) { return std::make_unique<DistanceTask>(self); })
       .def("pairs", &pair_names, "robot"_a, "Names of the geoms of each pair.")
       .def("near", &near_pairs, "robot"_a,
            "Names of the geoms of the pairs that have a row, and their e [m], as of the last "

@@ -1150,6 +1150,7 @@ class DistanceTask(Task):
       Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
         most <= margin, or margin < 0."""
 
+    def __copy__(self) -> DistanceTask: ...
     def __init__(
         self,
         name: str,

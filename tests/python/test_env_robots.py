@@ -13,6 +13,7 @@ import pytest
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.robots import load_robot
 
 ARM = """
 <body name="{s}_yaw" pos="0 {y} 0.9"><joint name="{s}1" axis="0 0 1" range="-1.6 1.6"/>
@@ -90,6 +91,27 @@ def test_a_path_and_one_hand_will_do(files: tuple[str, str]) -> None:
     )
     assert env.action_space.shape == (3,)
     env.close()
+
+
+def test_a_file_that_was_edited_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "robot.xml"
+    path.write_text(ROBOT)
+    once = load_robot(path, FRAMES)
+    assert load_robot(path, FRAMES) is once  # its pairs and postures are found once
+    path.write_text(ROBOT.replace('mass="4"', 'mass="5"'))
+    env = gym.make("Hurcules/Reach-v0", fidelity="kinematic", robot=path, frames=FRAMES)
+    assert env.unwrapped.environment.simulation.model.body("l_upper").mass == 5.0
+    assert once.model.body("l_upper").mass == 4.0
+
+
+def test_a_second_environment_of_a_robot_has_the_bits_of_the_first(files: tuple[str, str]) -> None:
+    """Its tasks are copies of those that are kept."""
+    rewards = []
+    for _ in range(2):
+        env = gym.make("Hurcules/Reach-v0", fidelity="kinematic", robot=files[0], frames=FRAMES)
+        env.reset(seed=1)
+        rewards.append([env.step(np.full(6, 0.7, np.float32))[1] for _ in range(30)])
+    assert rewards[0] == rewards[1]
 
 
 def test_a_file_that_is_no_model_says_so(tmp_path: Path) -> None:
