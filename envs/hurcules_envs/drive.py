@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.validation import require_known
 from hurcules_envs.drawing import add_arrow
-from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of
+from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.rotations import quaternion
 
 __all__ = ["Drive"]
@@ -26,6 +26,7 @@ STILL = 0.1  # [m/s]
 EFFORT = 0.02
 NEARBY = 1.0  # [m] over which the heading begins to count
 CENTRE = -0.41  # [m] of the point that it turns about, its centre of mass, from the knee axis
+SEEN = ("x", "y", "cos", "sin")  # numbers of a goal
 TILT = 0.9  # [rad] of a robot that fell
 
 
@@ -61,6 +62,9 @@ class Drive(Environment):
     `fall`, -10 once; `effort`, minus 0.02 times the mean square of the action. The first two are
     differences of a potential (Ng, Harada and Russell, ICML 1999), so that no detour pays. Success:
     nearer than 0.3 m and 15 degrees, at less than 0.1 m/s. Both success and a fall end the episode.
+
+    What `compute_reward` wants to know beside the goals stands in `info`: `before_x`, `before_y`,
+    `before_cos` and `before_sin`, the achieved goal of the step before, and `speed` [m/s].
     """
 
     task_description = "Drive to the goal and stand there with the wanted heading."
@@ -123,7 +127,8 @@ class Drive(Environment):
             fall=hurcules.FallOptions("upper_legs", max_tilt=TILT),
         )
         self.goal = 4
-        self.memory = {"goal": 4, "way": 1, "skew": 1, "gained": 1, "aligned": 1, "done": 1}
+        self.memory = {"goal": 4, "before": 4, "now": 4}  # the last two as they are seen
+        self.memory |= dict.fromkeys(("way", "skew", "gained", "aligned", "speed", "done"), 1)
         self.quantities = (
             "position/upper_legs",
             "matrix/upper_legs",
@@ -156,24 +161,23 @@ class Drive(Environment):
         else:
             goal = (x + far, y + generator.uniform(-WIDE, WIDE), 0.0)
         place = [*goal[:2], math.cos(goal[2]), math.sin(goal[2])]
-        way = math.hypot(goal[0] - x, goal[1] - y)
-        error = abs(math.remainder(goal[2] - heading, 2.0 * math.pi))
-        return Start(qpos, {"goal": place, "way": way, "skew": _skew(error, way)})
+        here = _seen(np.array([x, y, math.cos(heading), math.sin(heading)]))
+        way, skew, _ = _errors(here, _seen(np.array(place)))
+        memory = {"goal": place, "before": here, "now": here, "way": way, "skew": skew}
+        return Start(qpos, memory)
 
     def remember(self, numbers: Numbers) -> None:
-        """The way that is left, and whether it is done."""
+        """Where it was and is, what that gained, and whether it is done."""
         achieved, desired = self.goals(numbers)
-        way = np.linalg.norm(achieved[:, :2] - desired[:, :2], axis=1)
         memory = numbers.memory
+        memory["before"][:] = memory["now"]
+        memory["now"][:] = _seen(achieved)
+        way, skew, aligned = _errors(memory["now"], _seen(desired))
         memory["gained"][:, 0] = memory["way"][:, 0] - way
-        memory["way"][:, 0] = way
-        turn = self._turn(achieved, desired)
-        skew = _skew(turn, way)
         memory["aligned"][:, 0] = memory["skew"][:, 0] - skew
-        memory["skew"][:, 0] = skew
-        slow = np.linalg.norm(numbers["velocity/upper_legs"], axis=1) < STILL
-        done = slow & (way < NEAR) & (turn < ALIGNED)
-        memory["done"][done] = 1.0
+        memory["way"][:, 0], memory["skew"][:, 0] = way, skew
+        memory["speed"][:, 0] = np.linalg.norm(numbers["velocity/upper_legs"], axis=1)
+        memory["done"][:, 0] = (way < NEAR) & aligned & (memory["speed"][:, 0] < STILL)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """The goal and the motion, seen from the robot."""
@@ -201,26 +205,41 @@ class Drive(Environment):
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Progress and heading, then what ends the episode."""
         shaped = 0.0 if self.sparse else 1.0
+        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / 3.0
         return {
             "progress": shaped * numbers["gained"][:, 0],
             "heading": shaped * numbers["aligned"][:, 0],
             "success": 10.0 * numbers["done"][:, 0],
             "fall": -10.0 * numbers.finished.astype(np.float64),
-            "effort": -shaped
-            * EFFORT
-            * np.einsum("ni,ni->n", numbers.action, numbers.action)
-            / 3.0,
+            "effort": -shaped * EFFORT * effort,
         }
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
-        """Of other goals, any leading axes: 10 within 0.3 m and 15 degrees, else 0."""
+        """The reward of other goals, any leading axes.
+
+        Args:
+            achieved: (..., 4).
+            desired: (..., 4).
+            info: of a step, of several in a vector, or a sequence of those of single ones. Where it
+                is empty the robot counts as standing where it stood before.
+        """
         one, other = np.asarray(achieved, float), np.asarray(desired, float)
-        near = np.linalg.norm(one[..., :2] - other[..., :2], axis=-1) < NEAR
-        reward = 10.0 * (near & (self._turn(one, other) < ALIGNED))
+        before = np.stack([told(info, f"before_{name}", np.nan) for name in SEEN], axis=-1)
+        way_before, skew_before, _ = _errors(np.where(np.isnan(before), one, before), other)
+        way, skew, aligned = _errors(one, other)
+        shaped = 0.0 if self.sparse else 1.0
+        reward = shaped * (way_before - way) + shaped * (skew_before - skew)
+        reward = reward + 10.0 * ((way < NEAR) & aligned & (told(info, "speed") < STILL))
+        reward = reward + told(info, "reward_fall") + told(info, "reward_effort")
         return float(reward) if np.ndim(reward) == 0 else reward
 
+    def tell(self, numbers: Numbers) -> dict[str, Array]:
+        """What `compute_reward` wants to know."""
+        before = {f"before_{name}": numbers["before"][:, i] for i, name in enumerate(SEEN)}
+        return before | {"speed": numbers["speed"][:, 0]}
+
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
-        """It stood at the goal with the wanted heading."""
+        """It stands at the goal with the wanted heading."""
         return numbers["done"][:, 0] > 0.0
 
     def ended(self, numbers: Numbers) -> NDArray[np.bool_]:
@@ -266,12 +285,6 @@ class Drive(Environment):
         seed = self.terrain_seed
         return hurcules.models.load("rescue", self.terrain, bed=False, visuals=visuals, seed=seed)
 
-    @staticmethod
-    def _turn(one: Array, other: Array) -> Array:
-        """Angle [rad] between headings, (...)."""
-        cosine = np.einsum("...i,...i->...", one[..., 2:], other[..., 2:])
-        return np.arccos(np.clip(cosine, -1.0, 1.0))
-
 
 def _into(forward: Array, vector: Array) -> Array:
     """Planar vectors (n, 2) along a heading (n, 2) and to its left."""
@@ -280,9 +293,18 @@ def _into(forward: Array, vector: Array) -> Array:
     return np.stack([along, left], axis=1)
 
 
-def _skew(turn: Any, way: Any) -> Any:
-    """What a heading's error [rad] counts at a distance [m] of the goal."""
-    return 0.5 * turn * np.exp(-way / NEARBY)
+def _seen(goal: Array) -> Array:
+    """As it is in the observation, so that `compute_reward` gives the same bits."""
+    return goal.astype(np.float32).astype(float)
+
+
+def _errors(now: Array, goal: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Distance [m] of poses, what their angle [rad] counts there, whether it is small; (...)."""
+    between = now[..., :2] - goal[..., :2]
+    way = np.sqrt(np.einsum("...i,...i->...", between, between))
+    cosine = np.einsum("...i,...i->...", now[..., 2:], goal[..., 2:])
+    turn = np.arccos(np.maximum(np.minimum(cosine, 1.0), -1.0))
+    return way, 0.5 * turn * np.exp(-way / NEARBY), turn < ALIGNED
 
 
 def _wrap(angle: Array) -> Array:

@@ -22,7 +22,7 @@ import hurcules
 from hurcules.rendering import overview_camera, pose
 from hurcules.validation import require_known
 
-__all__ = ["Array", "Environment", "Group", "Numbers", "Start", "tick_of"]
+__all__ = ["Array", "Environment", "Group", "Numbers", "Start", "tick_of", "told"]
 
 Array = NDArray[np.float64]
 
@@ -263,3 +263,18 @@ def tick_of(fidelity: str, rate: float, known: tuple[str, ...] = tuple(FIDELITIE
     if not (isinstance(rate, Real) and 10.0 <= rate <= 100.0):
         raise hurcules.Error(f"rate: wanted 10 to 100 Hz, got {rate!r}")
     return 1.0 / rate / np.ceil(1.0 / rate / FIDELITIES[fidelity] - 1e-9)
+
+
+def told(info: Any, name: str, default: float = 0.0) -> Array | float:
+    """A number of `info`.
+
+    Args:
+        info: of a step, of several in a vector, or a sequence of those of single ones; None: empty.
+        name: of the number.
+        default: where it is not there.
+    """
+    if isinstance(info, Mapping):
+        number: Array | float = info.get(name, default)
+        return number
+    infos = () if info is None else info
+    return np.array([one.get(name, default) for one in infos] or default)

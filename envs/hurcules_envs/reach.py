@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from numbers import Real
 from typing import Any
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.commands import channel_of, joint_channel
 from hurcules_envs.drawing import add_ball
-from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of
+from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.robots import MAX_ACCELERATION, load_robot, sample_postures
 from hurcules_envs.rotations import angle_between, quaternion
 from hurcules_envs.springs import softest_spring
@@ -176,12 +176,7 @@ class Reach(Environment):
             info: of a step, of several in a vector, or a sequence of those of single ones.
         """
         terms = self._terms(np.asarray(achieved, float), np.asarray(desired, float))
-        if isinstance(info, Mapping):
-            effort = info.get("reward_effort", 0.0)
-        else:  # one for each, as stable_baselines3 replays them
-            infos = () if info is None else info
-            effort = np.array([one.get("reward_effort", 0.0) for one in infos] or 0.0)
-        reward = sum(terms.values()) + effort
+        reward = sum(terms.values()) + told(info, "reward_effort")
         return float(reward) if np.ndim(reward) == 0 else reward
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:

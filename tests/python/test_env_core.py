@@ -215,19 +215,38 @@ def test_a_goal_environment_passes_stable_baselines3s_checker_too(name, options)
         checker.check_env(gym.make(name, **options).unwrapped, skip_render_check=True)
 
 
-@pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[5]])
-def test_the_reward_of_another_goal_agrees_with_that_of_the_step(name, options):
-    vector = gym.make_vec(name, num_envs=4, **options)
+@pytest.mark.parametrize(("name", "options"), [IDS[0], IDS[5], IDS[6], IDS[8]])
+@pytest.mark.parametrize("sparse", [False, True])
+def test_the_reward_of_a_step_is_that_of_its_goals_and_info(name, options, sparse):
+    """To the bit: of one episode, of several, with one info for all or one for each."""
+    env = gym.make(name, sparse=sparse, **options).unwrapped
+    vector = gym.make_vec(name, num_envs=4, sparse=sparse, **options)
+    env.reset(seed=1)
     vector.reset(seed=1)
-    for _ in range(10):
-        observation, reward, _, _, info = vector.step(vector.action_space.sample())
-    env = vector.environment
-    goals = observation["achieved_goal"], observation["desired_goal"]
-    assert env.compute_reward(*goals, info).tolist() == reward.tolist()
-    single = [{"reward_effort": effort} for effort in info["reward_effort"]]
-    assert env.compute_reward(*goals, single).tolist() == reward.tolist()
-    assert env.compute_reward(goals[0][1], goals[1][1], single[1]) == reward[1]
-    assert reward == pytest.approx(sum(info[f"reward_{term}"] for term in env.terms))
+    env.action_space.seed(0)
+    vector.action_space.seed(0)
+    for _ in range(20):
+        seen, reward, _, _, info = env.step(env.action_space.sample())
+        assert env.compute_reward(seen["achieved_goal"], seen["desired_goal"], info) == reward
+        seen, reward, _, _, info = vector.step(vector.action_space.sample())
+        compute = vector.environment.compute_reward
+        goals = seen["achieved_goal"], seen["desired_goal"]
+        assert compute(*goals, info).tolist() == reward.tolist()
+        each = [{key: info[key][i] for key in info} for i in range(4)]
+        assert compute(*goals, each).tolist() == reward.tolist()
+        others = goals[0], goals[0][::-1].copy()  # where somebody else is
+        rewards = [compute(*row) for row in zip(*others, each, strict=True)]
+        assert compute(*others, np.array(each)).tolist() == rewards
+    assert reward == pytest.approx(sum(info[f"reward_{t}"] for t in vector.environment.terms))
+
+
+def test_the_reward_of_a_drive_counts_the_way_that_it_came():
+    drive = make_environment("hurcules_envs.drive:Drive", FAST)
+    here, goal = np.array([0.0, 0.0, 1.0, 0.0]), np.array([3.0, 4.0, 1.0, 0.0])
+    info = {"before_x": -0.6, "before_y": -0.8, "before_cos": 1.0, "before_sin": 0.0, "speed": 1.0}
+    assert drive.compute_reward(here, goal, info) == pytest.approx(1.0)  # 6 m were left, now 5 m
+    assert drive.compute_reward(goal, goal, {"speed": 0.2}) == 0.0  # still moves
+    assert drive.compute_reward(goal, goal, {}) == 10.0
 
 
 def test_specs_and_environments_can_be_stored():
