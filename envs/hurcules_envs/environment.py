@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from numbers import Real
+from numbers import Integral, Real
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -46,6 +46,11 @@ class Group:
     unit: str
     bound: float
     text: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuses what is no size or no bound."""
+        if not (isinstance(self.size, Integral) and self.size > 0 and self.bound > 0):
+            raise hurcules.Error(f"Group: wanted a size >= 1 and a bound > 0, got {self}")
 
 
 @dataclass
@@ -99,7 +104,12 @@ class Numbers:
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""
         place = self._places.get(name)
-        return self.memory[name] if place is None else self._values[:, place]
+        if place is not None:
+            return self._values[:, place]
+        if name not in self.memory:
+            known = [*self._places, *self.memory]
+            require_known("numbers: quantity or entry of the memory", name, known)
+        return self.memory[name]
 
     def row(self, *names: str) -> Array:
         """Several of them side by side, (n, ...); not to be written to."""

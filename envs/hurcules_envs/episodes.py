@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -14,6 +15,14 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules_envs.checks import (
+    CheckedEnvironment,
+    require_attributes,
+    require_finite,
+    require_flag,
+    require_names,
+    require_numbers,
+)
 from hurcules_envs.environment import Array, Environment, Numbers, Start
 from hurcules_envs.randomisation import Randomisation
 
@@ -83,6 +92,11 @@ class Episodes:
         """
         self.environment = environment
         self.n = n
+        self._name = type(environment).__name__
+        require_attributes(environment, [*_WATCHED, "finished"])
+        self._checked = CheckedEnvironment(environment, n)
+        self._asked: Any = self._checked  # until the first step is done
+        require_flag("flat", flat)
         self._flat = flat and environment.goal > 0
         simulation = environment.simulation
         self.randomisation = Randomisation(environment, n, ranges)
@@ -104,6 +118,8 @@ class Episodes:
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
+        self._terms = set(environment.terms)
+        self._told: set[str] | None = None  # names of `tell`
         self._action = np.zeros((n, len(self.action_scale)))
         self._worst = np.zeros(n)
         self._ticks = round(1.0 / environment.rate / simulation.dt)
@@ -123,7 +139,7 @@ class Episodes:
             generator = self.generators[i]
             seeds[i] = int(generator.integers(2**31))
             self.randomisation.draw(int(i), seeds[i])
-            start = self.environment.start(generator)
+            start = self._checked.start(generator)
             if start.qpos is not None:
                 starts[i] = start.qpos
             self._remember_start(int(i), start)
@@ -163,10 +179,12 @@ class Episodes:
         values = self._read()
         numbers = self._numbers(values)
         self.numbers = numbers
-        environment = self.environment
+        environment = self._asked
         if remember is not None:
             self._remember(numbers, remember)
         terms = environment.reward(numbers)
+        if terms.keys() != self._terms:
+            require_names(f"{self._name}.reward", "term", terms, self.environment.terms)
         success = environment.succeeded(numbers)
         failure = environment.failed(numbers)
         if np.count_nonzero(numbers.finished):
@@ -174,11 +192,14 @@ class Episodes:
             failure = failure | fallen
         step = Step()
         step.observation = self._observe(numbers)
-        step.reward = sum((terms[name] for name in environment.terms), np.zeros(self.n))
+        step.reward = sum((terms[name] for name in self.environment.terms), np.zeros(self.n))
+        if not math.isfinite(np.vdot(step.reward, step.reward)):
+            for name, term in terms.items():
+                require_finite(f"{self._name}.reward: term '{name}'", term)
         step.terminated = failure | environment.ended(numbers)
         step.info = self._describe(values, numbers, terms, success, failure)
-        for name, row in environment.tell(numbers).items():
-            step.info[name] = np.array(row)
+        if remember is not None:
+            self._asked = self.environment
         return step
 
     def state(self) -> Array:
@@ -259,6 +280,8 @@ class Episodes:
     def _remember_start(self, i: int, start: Start) -> None:
         for name, entry in self.memory.items():
             entry[i] = start.memory.get(name, 0.0)
+        if self._info:
+            require_names(f"{self._name}.start", "name in info", start.info, self._info)
         for name, value in start.info.items():
             self._info.setdefault(name, np.zeros(self.n))[i] = value
 
@@ -287,10 +310,10 @@ class Episodes:
     def _remember(self, numbers: Numbers, mask: NDArray[np.bool_]) -> None:
         """A step in the memory of those of a mask."""
         if np.count_nonzero(mask) == self.n:
-            self.environment.remember(numbers)
+            self._asked.remember(numbers)
             return
         kept = {name: values[~mask] for name, values in self.memory.items()}
-        self.environment.remember(numbers)
+        self._asked.remember(numbers)
         for name, values in kept.items():
             self.memory[name][~mask] = values
 
@@ -318,7 +341,7 @@ class Episodes:
             )
 
     def _observe(self, numbers: Numbers) -> dict[str, NDArray[np.float32]]:
-        groups = self.environment.observe(numbers)
+        groups = self._asked.observe(numbers)
         parts = [groups[name] if name in groups else numbers[name] for name in self._groups]
         errors = self.randomisation.errors()
         values = np.concatenate(parts, axis=1, dtype=np.float32)
@@ -326,8 +349,14 @@ class Episodes:
             values += errors[:, : values.shape[1]].astype(np.float32)
         np.minimum(values, self._high, out=values)
         result = {"observation": np.maximum(values, self._low, out=values)}
+        if not math.isfinite(np.vdot(values, values)):
+            for name, part in zip(self._groups, parts, strict=True):
+                require_finite(f"{self._name}.observe: '{name}'", part)
         if self.environment.goal:
-            achieved, desired = self.environment.goals(numbers)
+            achieved, desired = self._asked.goals(numbers)
+            if not math.isfinite(np.vdot(achieved, desired)):
+                require_finite(f"{self._name}.goals: achieved", achieved)
+                require_finite(f"{self._name}.goals: desired", desired)
             if errors is not None:
                 achieved = achieved + errors[:, values.shape[1] :]
             if self._flat:
@@ -349,13 +378,23 @@ class Episodes:
         watched = dict(zip(_WATCHED.values(), columns, strict=True))
         excess = watched["limit_excess"]
         cost = (excess > self._worst + 1e-12) | (watched["self_contacts"] > 0.0)
-        cost |= self.environment.costs(numbers)
+        cost |= self._asked.costs(numbers)
         self._worst[:] = excess
         info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
         info |= {"is_success": success, "failed": failure, "cost": cost.astype(np.float64)}
         info |= watched
-        info |= {name: entry.copy() for name, entry in self._info.items()}
         info |= self.randomisation.info()
+        own = {name: entry.copy() for name, entry in self._info.items()}
+        told = {name: np.array(row) for name, row in self._asked.tell(numbers).items()}
+        if self._told is None:
+            self._told = set(told)
+        elif told.keys() != self._told:
+            require_names(f"{self._name}.tell", "name", told, self._told)
+        for method, more in (("start", own), ("tell", told)):
+            if not info.keys().isdisjoint(more):
+                taken = next(name for name in more if name in info)
+                raise hurcules.Error(f"{self._name}.{method}: '{taken}' is in info already")
+            info |= more
         return info
 
 
@@ -376,14 +415,20 @@ class _Commands:
         self.names: list[str] = []
         scales = []
         for action, most in environment.actions.items():
-            components = environment.components.get(action)
+            components, largest = environment.components.get(action), np.array(np.inf)
             if components is None:
                 hurcules.validation.require_known("channel", action, list(self._channels))
                 components = tuple(names[self._channels[action]])
-                if (np.asarray(most) > scale[self._channels[action]] + 1e-12).any():
-                    raise hurcules.Error(
-                        f"action '{action}': its scale is larger than that of its channel"
-                    )
+                largest = scale[self._channels[action]]
+            if np.shape(most) not in ((), (len(components),)):
+                raise hurcules.Error(
+                    f"{type(environment).__name__}.actions: '{action}' has {len(components)} "
+                    f"numbers, got scales of shape {np.shape(most)}"
+                )
+            if (np.asarray(most) > largest + 1e-12).any():
+                raise hurcules.Error(
+                    f"action '{action}': its scale is larger than that of its channel"
+                )
             self._parts[action] = slice(len(self.names), len(self.names) + len(components))
             self.names += components
             scales.append(np.broadcast_to(most, len(components)))
@@ -404,9 +449,21 @@ class _Commands:
             go(self._environment.phases(parts, read))
             given = self._environment.command(parts, read)
         commands = np.zeros((len(action), self._size))
-        for name, values in given.items():
-            commands[:, self._channels[name]] = values
+        try:
+            for name, values in given.items():
+                commands[:, self._channels[name]] = values
+        except (KeyError, TypeError, ValueError, AttributeError):
+            self._refuse(given, len(action))
+            raise
         return commands
+
+    def _refuse(self, given: Any, n: int) -> None:
+        """Says which command of the environment is none."""
+        where = f"{type(self._environment).__name__}.command"
+        require_names(where, "channel", given, self._channels, complete=False)
+        for name, place in self._channels.items():
+            if name in given:
+                require_numbers(f"{where}: '{name}'", given[name], (n, place.stop - place.start))
 
 
 def numbers_of(what: str, values: object) -> Array:

@@ -36,7 +36,11 @@ def register(name: str, environment: str, max_episode_steps: int, **options: Any
         environment: "module:Class" of an `Environment`.
         max_episode_steps: time limit [steps].
         options: of the environment, by keyword; who makes it may give others.
+
+    Raises:
+        hurcules.Error: `environment` is no text "module:Class".
     """
+    _parts_of(environment)
     gymnasium.register(
         id=name,
         entry_point="hurcules_envs.single:SingleEnv",
@@ -119,8 +123,15 @@ def fastest_fidelity(name: str) -> str | None:
 
 
 def _class_of(path: str) -> type[Environment]:
-    module, _, name = path.partition(":")
+    module, name = _parts_of(path)
     kind = getattr(import_module(module), name, None)
     if not (inspect.isclass(kind) and issubclass(kind, Environment)):
         raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
     return kind
+
+
+def _parts_of(path: str) -> list[str]:
+    parts = path.split(":") if isinstance(path, str) else []
+    if len(parts) != 2 or not all(parts):
+        raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
+    return parts

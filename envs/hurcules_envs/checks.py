@@ -1,0 +1,221 @@
+"""Checks of what an environment's author writes; each error says what was wanted and what came.
+
+Names and shapes are checked until the first step is done, NaN in each step.
+"""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Collection, Mapping
+from numbers import Integral, Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules.validation import require_known
+from hurcules_envs.environment import Array, Environment, Group, Numbers, Start
+
+__all__ = [
+    "CheckedEnvironment",
+    "require_attributes",
+    "require_finite",
+    "require_flag",
+    "require_names",
+    "require_numbers",
+]
+
+
+class CheckedEnvironment:
+    """An environment that checks names and shapes of all that it returns."""
+
+    def __init__(self, environment: Environment, n: int) -> None:
+        self._environment = environment
+        self._name = type(environment).__name__
+        self._n = n
+
+    def start(self, generator: np.random.Generator) -> Start:
+        """As the environment's."""
+        start = self._environment.start(generator)
+        where = f"{self._name}.start"
+        if not isinstance(start, Start):
+            raise hurcules.Error(f"{where}: wanted a Start, got {_came(start)}")
+        if start.qpos is not None:
+            wanted = (self._environment.simulation.model.nq,)
+            require_numbers(f"{where}: qpos", np.asarray(start.qpos), wanted)
+            require_finite(f"{where}: qpos", np.asarray(start.qpos, float))
+        memory = self._environment.memory
+        require_names(where, "entry of the memory", start.memory, memory, complete=False)
+        for name, value in start.memory.items():
+            one, entry = np.asarray(value), f"{where}: memory '{name}'"
+            # a number is right for all of an entry
+            require_numbers(entry, one, one.shape and (memory[name],))
+            require_finite(entry, one)
+        for name, value in start.info.items():
+            require_numbers(f"{where}: info '{name}'", np.asarray(value), ())
+        return start
+
+    def remember(self, numbers: Numbers) -> None:
+        """As the environment's."""
+        self._environment.remember(numbers)
+        memory, where = self._environment.memory, f"{self._name}.remember"
+        require_names(where, "entry of the memory", numbers.memory, memory)
+        for name, values in numbers.memory.items():
+            require_numbers(f"{where}: memory '{name}'", values, (self._n, memory[name]))
+
+    def observe(self, numbers: Numbers) -> Mapping[str, Array]:
+        """As the environment's."""
+        groups = {group.name: group for group in self._environment.observation}
+        seen, where = self._environment.observe(numbers), f"{self._name}.observe"
+        own = getattr(type(self._environment), "observation", ())  # an instance may hide some
+        known = dict.fromkeys([*groups, *(group.name for group in own)])
+        require_names(where, "group of the observation", seen, known, complete=False)
+        for name, group in groups.items():
+            values = seen[name] if name in seen else numbers[name]
+            require_numbers(f"{where}: '{name}'", values, (self._n, group.size))
+        return seen
+
+    def goals(self, numbers: Numbers) -> tuple[Array, Array]:
+        """As the environment's."""
+        goals, where = self._environment.goals(numbers), f"{self._name}.goals"
+        if not (isinstance(goals, tuple) and len(goals) == 2):
+            raise hurcules.Error(f"{where}: wanted (achieved, desired), got {_came(goals)}")
+        for name, values in zip(("achieved", "desired"), goals, strict=True):
+            require_numbers(f"{where}: {name}", values, (self._n, self._environment.goal))
+        return goals
+
+    def reward(self, numbers: Numbers) -> Mapping[str, Array]:
+        """As the environment's."""
+        terms, where = self._environment.reward(numbers), f"{self._name}.reward"
+        require_names(where, "term", terms, self._environment.terms)
+        for name, values in terms.items():
+            require_numbers(f"{where}: term '{name}'", values, (self._n,))
+        return terms
+
+    def tell(self, numbers: Numbers) -> Mapping[str, Array]:
+        """As the environment's."""
+        told, where = self._environment.tell(numbers), f"{self._name}.tell"
+        require_names(where, "name", told, told)
+        for name, values in told.items():
+            require_numbers(f"{where}: '{name}'", np.asarray(values), (self._n,))
+        return told
+
+    def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """As the environment's."""
+        return self._claim("succeeded", numbers)
+
+    def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """As the environment's."""
+        return self._claim("failed", numbers)
+
+    def ended(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """As the environment's."""
+        return self._claim("ended", numbers)
+
+    def costs(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """As the environment's."""
+        return self._claim("costs", numbers)
+
+    def _claim(self, method: str, numbers: Numbers) -> NDArray[np.bool_]:
+        claim: NDArray[np.bool_] = getattr(self._environment, method)(numbers)
+        require_numbers(f"{self._name}.{method}", claim, (self._n,), "bool", "b")
+        return claim
+
+
+def require_attributes(environment: Environment, read: Collection[str]) -> None:
+    """All attributes are there, and are what they should be.
+
+    Args:
+        environment: just built.
+        read: names of all that is read after each step.
+
+    Raises:
+        hurcules.Error: an attribute is missing or of another kind; the text says which.
+    """
+    name = type(environment).__name__
+    for wanted in ("simulation", "actions", "observation", "terms", "task_description"):
+        if not hasattr(environment, wanted):
+            raise hurcules.Error(f"{name}: `{wanted}` is not set, in the class or in __init__")
+    for wanted in ("terms", "quantities", "parameters"):
+        value = getattr(environment, wanted)
+        if isinstance(value, str) or len(set(value)) < len(value):
+            raise hurcules.Error(f"{name}.{wanted}: wanted a tuple of names, got {value!r}")
+    for action, names in environment.components.items():
+        if isinstance(names, str):
+            raise hurcules.Error(f"{name}.components: wanted a tuple for '{action}', got {names!r}")
+    groups: Any = environment.observation
+    if not (isinstance(groups, tuple | list) and all(isinstance(one, Group) for one in groups)):
+        raise hurcules.Error(f"{name}.observation: wanted a tuple of Group, got {_came(groups)}")
+    if not environment.actions:
+        raise hurcules.Error(f"{name}.actions: wanted one at least, got none")
+    most = 1.0 / environment.simulation.dt
+    if not (isinstance(environment.rate, Real) and 0.0 < environment.rate <= most):
+        raise hurcules.Error(f"{name}.rate: wanted up to {most:g} Hz, got {environment.rate!r}")
+    for entry, size in environment.memory.items():
+        if not (isinstance(size, Integral) and size > 0):
+            raise hurcules.Error(f"{name}.memory: '{entry}' wants a whole number, got {size!r}")
+    for entry in environment.parameters:
+        require_known(f"{name}.parameters: entry of the memory", entry, environment.memory)
+    for entry in environment.memory:
+        if entry in read or entry in environment.quantities:
+            raise hurcules.Error(f"{name}.memory: '{entry}' is a quantity: take another name")
+    for method in ("goals", "compute_reward") if environment.goal else ():
+        if getattr(type(environment), method) is getattr(Environment, method):
+            raise hurcules.Error(f"{name} has a goal of {environment.goal}, but no {method}()")
+
+
+def require_names(
+    where: str, noun: str, given: object, known: Collection[str], *, complete: bool = True
+) -> None:
+    """A dictionary of names that are known, and all of them where it is to be complete.
+
+    Raises:
+        hurcules.Error: it is none, one is unknown, or one is missing.
+    """
+    if not isinstance(given, Mapping):
+        raise hurcules.Error(f"{where}: wanted a dictionary, got {_came(given)}")
+    for name in given:
+        require_known(f"{where}: {noun}", name, known)
+    for name in known if complete else ():
+        if name not in given:
+            raise hurcules.Error(f"{where}: {noun} '{name}' is missing")
+
+
+def require_finite(where: str, values: Array) -> None:
+    """Numbers without NaN and infinity.
+
+    Raises:
+        hurcules.Error: there is one; the text says which, and of which episode.
+    """
+    if not np.isfinite(values).all():
+        place = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
+        raise hurcules.Error(f"{where}: wanted finite numbers, got {values[place]} at {place}")
+
+
+def require_flag(name: str, value: object) -> None:
+    """True or False.
+
+    Raises:
+        hurcules.Error: it is something else, "false" say.
+    """
+    if not isinstance(value, bool | np.bool_):
+        raise hurcules.Error(f"{name}: wanted True or False, got {value!r}")
+
+
+def require_numbers(
+    where: str, value: object, shape: tuple[int, ...], noun: str = "numbers", kinds: str = "fiub"
+) -> None:
+    """An array of this shape.
+
+    Raises:
+        hurcules.Error: it is none, or holds something else.
+    """
+    if not isinstance(value, np.ndarray) or value.shape != shape or value.dtype.kind not in kinds:
+        raise hurcules.Error(f"{where}: wanted {noun} of shape {shape}, got {_came(value)}")
+
+
+def _came(value: object) -> str:
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype} of shape {value.shape}"
+    return f"{type(value).__name__} {' '.join(reprlib.repr(value).split())}"

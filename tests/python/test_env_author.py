@@ -1,0 +1,206 @@
+"""What the author of an environment gets wrong is told where it happens, with what was wanted.
+
+Strategy: a cart on a rail, right but for one attribute or method. Not tested: what Python or
+`hurcules.Quantities` say themselves (an abstract method that is missing, an unknown quantity).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+import hurcules_envs
+from hurcules_envs.environment import Environment, Group, Start
+from hurcules_envs.episodes import Episodes
+
+CART = """
+<mujoco>
+  <worldbody>
+    <body name="cart"><joint name="rail" type="slide" axis="1 0 0"/><geom size="0.1"/></body>
+  </worldbody>
+  <actuator><motor name="rail" joint="rail" ctrlrange="-50 50"/></actuator>
+</mujoco>
+"""
+
+
+class Cart(Environment):
+    """Goes to a place."""
+
+    task_description = "Go to the place."
+    terms = ("distance",)
+    quantities = ("position/cart", "velocity/cart")
+    observation = (Group("way", 1, "m", 5.0), Group("velocity/cart", 3, "m/s", 5.0))
+    memory = MappingProxyType({"place": 1})
+
+    def __init__(self) -> None:
+        self.actions = {"hand": 1.0}
+        model = mujoco.MjModel.from_xml_string(CART)
+        robot = hurcules.Robot(model, ["rail"])
+        hand = hurcules.PositionTask("hand", robot, "cart", axes=[[1, 0, 0]])
+        channels = {"hand": hurcules.Twist(hand, 1.0)}
+        controller = hurcules.WholeBodyController(robot, [hand], channels)
+        self.simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+
+    def start(self, generator: np.random.Generator) -> Start:
+        """A place."""
+        place = generator.uniform(0.5, 1.0)
+        return Start(memory={"place": place}, info={"place": place})
+
+    def way(self, numbers: Any) -> Any:
+        """(n, 1) [m] to the place."""
+        return numbers["place"] - numbers["position/cart"][:, :1]
+
+    def observe(self, numbers: Any) -> Mapping[str, Any]:
+        """The way."""
+        return {"way": self.way(numbers)}
+
+    def reward(self, numbers: Any) -> Mapping[str, Any]:
+        """Minus the distance."""
+        return {"distance": -np.abs(self.way(numbers))[:, 0]}
+
+    def succeeded(self, numbers: Any) -> Any:
+        """At the place."""
+        return np.abs(self.way(numbers))[:, 0] < 0.01
+
+
+def run(n: int = 2, **mistake: Any) -> None:
+    """A reset and two steps of a cart with other attributes or methods."""
+    episodes = Episodes(type("Wrong", (Cart,), mistake)(), n, 1)
+    episodes.reset()
+    episodes.look(remember=None)
+    for _ in range(2):
+        episodes.step(np.zeros((n, 1)))
+        episodes.look(remember=np.ones(n, dtype=bool))
+
+
+def with_actions(cart: Cart, actions: Any) -> None:
+    Cart.__init__(cart)
+    cart.actions = actions
+
+
+X = np.zeros(2)
+MISTAKES = {
+    "Wrong: `terms` is not set": {"terms": property(lambda self: self.nothing)},
+    "Wrong.terms: wanted a tuple of names, got 'distance'": {"terms": ("distance")},
+    "Wrong.observation: wanted a tuple of Group, got Group": {"observation": Cart.observation[0]},
+    "Wrong.actions: wanted one at least": {"__init__": lambda self: with_actions(self, {})},
+    "Wrong.actions: 'hand' has 1 numbers, got scales of shape (2,)": {
+        "__init__": lambda self: with_actions(self, {"hand": [0.5, 0.5]})
+    },
+    "Wrong.rate: wanted up to 500 Hz, got 0.0": {"rate": 0.0},
+    "Wrong.memory: 'place' wants a whole number, got (1,)": {"memory": {"place": (1,)}},
+    "Wrong.memory: 'time' is a quantity": {"memory": {"place": 1, "time": 1}},
+    "Wrong.parameters: entry of the memory 'mass' does not exist; there are: place": {
+        "parameters": ("mass",)
+    },
+    "Wrong has a goal of 2, but no goals()": {"goal": 2},
+    "Wrong.start: wanted a Start, got dict {}": {"start": lambda self, g: {}},
+    "Wrong.start: entry of the memory 'plase' does not exist; there are: place": {
+        "start": lambda self, g: Start(memory={"plase": 1.0})
+    },
+    "Wrong.start: memory 'place': wanted numbers of shape (1,), got float64 of shape (3,)": {
+        "start": lambda self, g: Start(memory={"place": np.zeros(3)})
+    },
+    "Wrong.start: memory 'place': wanted finite numbers, got nan at ()": {
+        "start": lambda self, g: Start(memory={"place": np.nan})
+    },
+    "Wrong.start: qpos: wanted numbers of shape (1,), got float64 of shape (3,)": {
+        "start": lambda self, g: Start(np.zeros(3))
+    },
+    "Wrong.start: 'time' is in info already": {"start": lambda self, g: Start(info={"time": 0.0})},
+    "numbers: quantity or entry of the memory 'plase' does not exist; there are: ": {
+        "observe": lambda self, numbers: {"way": numbers["plase"]}
+    },
+    "Wrong.observe: group of the observation 'wai' does not exist; there are: way, velocity": {
+        "observe": lambda self, numbers: {"wai": self.way(numbers)}
+    },
+    "Wrong.observe: 'way': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
+        "observe": lambda self, numbers: {"way": self.way(numbers)[:, 0]}
+    },
+    "Wrong.observe: 'way': wanted finite numbers, got nan at (0, 0)": {
+        "observe": lambda self, numbers: {"way": np.full((2, 1), np.nan)}
+    },
+    "Wrong.reward: term 'bonus' does not exist; there are: distance": {
+        "reward": lambda self, numbers: {"distance": X, "bonus": X}
+    },
+    "Wrong.reward: term 'effort' is missing": {"terms": ("distance", "effort")},
+    "Wrong.reward: term 'distance': wanted numbers of shape (2,), got float64 of shape (2, 1)": {
+        "reward": lambda self, numbers: {"distance": self.way(numbers)}
+    },
+    "Wrong.reward: wanted a dictionary, got float64 of shape (2,)": {
+        "reward": lambda self, numbers: X
+    },
+    "Wrong.reward: term 'distance': wanted numbers of shape (2,), got float -0.01": {
+        "reward": lambda self, numbers: {"distance": -0.01}
+    },
+    "Wrong.reward: term 'distance': wanted finite numbers, got inf at (1,)": {
+        "reward": lambda self, numbers: {"distance": np.array([0.0, np.inf])}
+    },
+    "Wrong.succeeded: wanted bool of shape (2,), got bool of shape (2, 1)": {
+        "succeeded": lambda self, numbers: self.way(numbers) < 0.01
+    },
+    "Wrong.ended: wanted bool of shape (2,), got float64 of shape (2,)": {
+        "ended": lambda self, numbers: X
+    },
+    "Wrong.tell: 'cost' is in info already": {"tell": lambda self, numbers: {"cost": X}},
+    "Wrong.tell: 'way': wanted numbers of shape (2,), got float64 of shape (2, 1)": {
+        "tell": lambda self, numbers: {"way": self.way(numbers)}
+    },
+    "Wrong.remember: entry of the memory 'plase' does not exist; there are: place": {
+        "remember": lambda self, numbers: numbers.memory.update(plase=X)
+    },
+    "Wrong.remember: memory 'place': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
+        "remember": lambda self, numbers: numbers.memory.update(place=X)
+    },
+    "Wrong.command: channel 'hnad' does not exist; there are: hand": {
+        "command": lambda self, action, numbers: {"hnad": action["hand"]}
+    },
+    "Wrong.command: 'hand': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
+        "command": lambda self, action, numbers: {"hand": action["hand"][:, 0]}
+    },
+}
+
+
+def test_an_environment_without_a_mistake_runs() -> None:
+    run()
+    run(tell=lambda self, numbers: {"way": self.way(numbers)[:, 0]})
+
+
+@pytest.mark.parametrize("text", MISTAKES)
+def test_a_mistake_is_told_in_one_sentence(text: str) -> None:
+    with pytest.raises(hurcules.Error, match=re.escape(text)):
+        run(**MISTAKES[text])
+
+
+LATE = {
+    "Wrong.reward: term 'bonus' does not exist": ("reward", {"distance": X, "bonus": X}),
+    "Wrong.reward: term 'distance': wanted finite": ("reward", {"distance": X + np.nan}),
+    "Wrong.observe: 'way': wanted finite": ("observe", {"way": X[:, None] + np.nan}),
+    "Wrong.tell: name 'more' does not exist": ("tell", {"more": X}),
+}
+
+
+@pytest.mark.parametrize("text", LATE)
+def test_what_goes_wrong_steps_later_is_told_too(text: str) -> None:
+    method, wrong = LATE[text]
+    calls = iter(range(9))
+
+    def answer(self: Cart, numbers: Any) -> Any:
+        right = {} if method == "tell" else getattr(Cart, method)(self, numbers)
+        return right if next(calls) < 2 else wrong
+
+    with pytest.raises(hurcules.Error, match=text):
+        run(**{method: answer})
+
+
+def test_an_environment_is_registered_by_a_text() -> None:
+    for wrong in (Cart, "no_class", "module:"):
+        with pytest.raises(hurcules.Error, match="wanted 'module:Class' of an Environment, got"):
+            hurcules_envs.register("Own/Cart-v0", wrong, max_episode_steps=10)  # type: ignore
