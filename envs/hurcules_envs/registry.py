@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import Any
 
 import gymnasium
 import numpy as np
+from gymnasium.envs.registration import EnvSpec
 
 import hurcules
+from hurcules_envs.checks import require_flag
 from hurcules_envs.environment import Environment
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.randomisation import NAMES, split
@@ -21,6 +23,7 @@ __all__ = [
     "make_episodes",
     "native_options",
     "register",
+    "warn_of_rate",
 ]
 
 
@@ -50,25 +53,30 @@ def register(name: str, environment: str, max_episode_steps: int, **options: Any
     )
 
 
-def make_environment(path: str, options: Mapping[str, Any]) -> Environment:
+def make_environment(
+    path: str, options: Mapping[str, Any], beside: Sequence[str] = ("flat",)
+) -> Environment:
     """Builds an environment.
 
     Args:
         path: "module:Class".
         options: of the class, by keyword.
+        beside: options that its caller takes.
 
     Raises:
-        hurcules.Error: no such class, or no such option (`UnknownOption`); the text lists those
-            that exist.
+        hurcules.Error: no such class, no such option (`UnknownOption`; the text lists those that
+            exist), or something else than True and False where one of these is wanted.
     """
     kind = _class_of(path)
-    known = [word for word in inspect.signature(kind).parameters]
-    for option in options:
+    known = inspect.signature(kind).parameters
+    for option, value in options.items():
         if option not in known:
             raise UnknownOption(
                 f"option '{option}' does not exist (unexpected keyword argument '{option}'); "
-                f"there are: {', '.join([*known, *NAMES])}"
+                f"there are: {', '.join([*known, *beside, *NAMES])}"
             )
+        if isinstance(known[option].default, bool):
+            require_flag(option, value)
     return kind(**options)
 
 
@@ -86,7 +94,7 @@ def make_episodes(name: str, n: int, seed: int, threads: int = 0, **options: Any
         hurcules.Error: an environment without native vector, or an unknown option.
     """
     given = native_options(name, options)
-    flat = bool(given.pop("flat", False))
+    flat = given.pop("flat", False)
     ranges, given = split(given)
     environment = make_environment(given.pop("environment"), given)
     episodes = Episodes(environment, n, threads, flat=flat, ranges=ranges)
@@ -120,6 +128,27 @@ def fastest_fidelity(name: str) -> str | None:
     spec = gymnasium.registry.get(name)
     path = spec.kwargs.get("environment") if spec else None
     return _class_of(path).fidelities[-1] if path else None
+
+
+def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
+    """Where episodes of another rate than the registered one have the registered limit in steps.
+
+    Args:
+        spec: of the environment; None: it was not made by its id.
+        rate: that it has [Hz].
+        limit: its own [steps].
+    """
+    known = gymnasium.registry.get(spec.id) if spec else None
+    if known is None or limit != known.max_episode_steps:
+        return
+    of_class = inspect.signature(_class_of(known.kwargs["environment"])).parameters.get("rate")
+    usual = known.kwargs.get("rate", of_class.default if of_class else rate)
+    if rate != usual:
+        gymnasium.logger.warn(
+            f"{known.id}: at rate={rate:g} an episode of {limit:g} steps lasts {limit / rate:g} s, "
+            f"at the usual {usual:g} Hz {limit / usual:g} s: "
+            f"max_episode_steps={round(limit * rate / usual)} keeps these"
+        )
 
 
 def _class_of(path: str) -> type[Environment]:

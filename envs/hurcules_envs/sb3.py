@@ -183,12 +183,12 @@ def make_sb3(
     """
     given = native_options(name, options)
     limit = max_episode_steps or gymnasium.spec(name).max_episode_steps
-    return Sb3VecEnv(
-        NativeVectorEnv(
-            num_envs=num_envs,
-            max_episode_steps=limit,
-            threads=threads,
-            autoreset_mode=AutoresetMode.SAME_STEP,
-            **given,
-        )
+    vector = NativeVectorEnv(
+        num_envs=num_envs,
+        max_episode_steps=limit,
+        threads=threads,
+        autoreset_mode=AutoresetMode.SAME_STEP,
+        **given,
     )
+    vector.spec = gymnasium.spec(name)
+    return Sb3VecEnv(vector)

@@ -17,7 +17,7 @@ from hurcules.view import require_display
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
 from hurcules_envs.randomisation import known_ranges, split
-from hurcules_envs.registry import make_environment
+from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["SingleEnv"]
 
@@ -66,7 +66,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         )
         self.render_mode = render_mode
         ranges, options = split(options)
-        self.environment = make_environment(environment, options)
+        self.environment = make_environment(environment, options, ("flat", "render_mode"))
         self._episodes = Episodes(self.environment, 1, threads=1, flat=flat, ranges=ranges)
         self.metadata = self.metadata | {"render_fps": round(1.0 / self._episodes.period)}
         self.action_names = self._episodes.action_names
@@ -76,6 +76,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward
+        self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
         self._renderer: mujoco.Renderer | None = None
 
@@ -108,6 +109,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             hurcules.Error: an option that does not exist, or a range that is none.
         """
         super().reset(seed=seed)
+        # a limit is Gymnasium's, and is not told: what was cut after so many steps shows it
+        warn_of_rate(self.spec, self.environment.rate, self._steps)
+        self._steps = 0
         self._episodes.randomisation.set_ranges(known_ranges(options or {}))
         self._episodes.generators[0] = self.np_random
         self._episodes.reset()
@@ -132,9 +136,11 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         values = self._episodes.checked(action, self.action_space.shape or ())
         self._episodes.step(values[None])
         step = self._episodes.look(remember=_ALL)
+        terminated = bool(step.terminated[0])
+        self._steps = 0 if terminated else self._steps + 1
         if self.render_mode == "human":
             self.render()
-        return _first(step), float(step.reward[0]), bool(step.terminated[0]), False, _info(step)
+        return _first(step), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
         """(s,) everything that decides how the episode goes on, generator excepted."""

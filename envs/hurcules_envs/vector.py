@@ -18,7 +18,7 @@ import hurcules
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
 from hurcules_envs.randomisation import known_ranges, split
-from hurcules_envs.registry import make_environment
+from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["NativeVectorEnv"]
 
@@ -64,7 +64,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             raise hurcules.Error("render_mode: a vector of environments draws no pictures")
         self.num_envs = num_envs
         ranges, options = split(options)
-        self.environment = make_environment(environment, options)
+        known = ("flat", "threads", "autoreset_mode")
+        self.environment = make_environment(environment, options, known)
         self._episodes = Episodes(self.environment, num_envs, threads, flat=flat, ranges=ranges)
         mode = str(getattr(autoreset_mode, "value", autoreset_mode))
         hurcules.validation.require_known(
@@ -123,6 +124,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             raise hurcules.Error(
                 f"reset_mask: wanted ({self.num_envs},) bool, at least one true, got {mask!r}"
             )
+        if mask is None:
+            warn_of_rate(self.spec, self.environment.rate, self._limit)
         self._episodes.randomisation.set_ranges(ranges)
         for i, one in enumerate(seeds_of(seed, self.num_envs)):
             if one is not None and chosen[i]:

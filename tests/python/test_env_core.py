@@ -7,6 +7,7 @@ import json
 import pickle
 import signal
 import warnings
+from contextlib import nullcontext
 
 import gymnasium as gym
 import numpy as np
@@ -296,6 +297,8 @@ BAD = [
     ({"tolerance": "3 cm"}, "tolerance: wanted a number > 0, got '3 cm'"),
     ({"rate": 1000.0}, "rate: wanted"),
     ({"rate": "20"}, "rate: wanted 10 to 100 Hz, got '20'"),
+    ({"sparse": "false"}, "sparse: wanted True or False, got 'false'"),
+    ({"safe": 0}, "safe: wanted True or False, got 0"),
     ({"colour": "red"}, "option 'colour' does not exist"),
 ]
 
@@ -304,6 +307,32 @@ BAD = [
 def test_a_bad_option_says_what_was_wanted(options, text):
     with pytest.raises(hurcules.Error, match=text):
         make_environment("hurcules_envs.reach:Reach", options)
+
+
+def test_options_beside_those_of_the_class_are_listed_and_checked():
+    with pytest.raises(hurcules.Error, match=r"there are: fidelity, .*, flat, render_mode, fric"):
+        gym.make("Hurcules/Drive-v0", colour="red", **FAST)
+    with pytest.raises(hurcules.Error, match="safe, flat, threads, autoreset_mode, friction"):
+        gym.make_vec("Hurcules/Reach-v0", num_envs=2, colour="red", **FAST)
+    for make in (gym.make, gym.make_vec):
+        with pytest.raises(hurcules.Error, match="flat: wanted True or False, got 'false'"):
+            make("Hurcules/Reach-v0", flat="false", **FAST)
+
+
+def test_another_rate_tells_how_long_episodes_last():
+    text = "at rate=50 an episode of 100 steps lasts 2 s, .* 5 s: max_episode_steps=250"
+    action = np.zeros(6, np.float32)
+    for steps, warns in ((None, pytest.warns(UserWarning, match=text)), (250, nullcontext())):
+        given = {"rate": 50, "max_episode_steps": steps} if steps else {"rate": 50}
+        vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, **given, **FAST)
+        env = gym.make("Hurcules/Reach-v0", **given, **FAST)
+        env.reset(seed=0)
+        while not env.step(action)[3]:
+            pass
+        for one in (env, vector):
+            with warnings.catch_warnings(), warns:
+                warnings.simplefilter("error" if steps else "always")
+                one.reset(seed=0)
 
 
 def test_a_bad_action_says_what_was_wanted():
