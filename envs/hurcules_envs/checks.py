@@ -140,7 +140,7 @@ def require_attributes(environment: Environment, read: Collection[str]) -> None:
     for wanted in ("terms", "quantities", "parameters"):
         value = getattr(environment, wanted)
         if isinstance(value, str) or len(set(value)) < len(value):
-            raise hurcules.Error(f"{name}.{wanted}: wanted a tuple of names, got {value!r}")
+            raise hurcules.Error(f"{name}.{wanted}: wanted names, each once, got {value!r}")
     for action, names in environment.components.items():
         if isinstance(names, str):
             raise hurcules.Error(f"{name}.components: wanted a tuple for '{action}', got {names!r}")

@@ -88,7 +88,7 @@ def with_actions(cart: Cart, actions: Any) -> None:
 X = np.zeros(2)
 MISTAKES = {
     "Wrong: `terms` is not set": {"terms": property(lambda self: self.nothing)},
-    "Wrong.terms: wanted a tuple of names, got 'distance'": {"terms": ("distance")},
+    "Wrong.terms: wanted names, each once, got 'distance'": {"terms": ("distance")},
     "Wrong.observation: wanted a tuple of Group, got Group": {"observation": Cart.observation[0]},
     "Wrong.actions: wanted one at least": {"__init__": lambda self: with_actions(self, {})},
     "Wrong.actions: 'hand' has 1 numbers, got scales of shape (2,)": {
