@@ -13,6 +13,8 @@ constexpr int kMostCleanings = 3;
 constexpr double kEnough = 0.1;
 // what is left is noise altogether (squared)
 constexpr double kNothing = 1e-36;
+// what is left of a row that depends on others is the rounding of its parts (squared)
+constexpr double kRounding = 1e-30;
 
 // v of |v|^2 = norm2 minus its parts along the rows of Q; what is left, squared. Where that is
 // `least` or less no second pass is needed.
@@ -86,7 +88,9 @@ void OrthogonalFactor::take_cleaned(Index i, double norm2, double tolerance, dou
   double *v = rest_.row(i), *l = L_.row(i), *part = part_.data() + padded(columns_);
   // a row that depends on the others is known to rounding after one pass
   const double least = tolerance * tolerance * norm2;
-  const double left = remove_parts(Q_, rank_, v, part, kernels::chosen->dot(stride(), v, v), least);
+  const double before = kernels::chosen->dot(stride(), v, v);
+  if (before <= std::min(least, kRounding * norm2)) return;
+  const double left = remove_parts(Q_, rank_, v, part, before, least);
   for (Index j = 0; j < rank_; ++j) {
     l[j] += part[j];
     if (side) side[i] -= part[j] * side[pivot_[j]];
