@@ -133,21 +133,21 @@ bool UnregularizedActiveSet::contradictory() const {
   return false;
 }
 
-// a limit of the last group that the rows before it leave broken, or inside
+// limits of the last group that the rows before it leave broken, or inside
 bool UnregularizedActiveSet::mend_unmet() {
-  for (Index i = 0; i < static_cast<Index>(group_[kSmallest].size()); ++i) {
+  bool moved = false;
+  for (Index i = static_cast<Index>(group_[kSmallest].size()) - 1; i >= 0; --i) {
     const GroupedRow held = group_[kSmallest][i];
     const double miss = beyond(held);
     if (std::abs(miss) <= allowed(held.row)) continue;
+    moved = true;
     let_go(kSmallest, i);
+    if (miss <= 0.0) continue;
     // it does push against the level, then
-    if (miss > 0.0) {
-      const bool own = (*rows_)[held.row].level == level_->level();
-      hold(own ? kOwn : kLimits, held.row, held.side, true);
-    }
-    return true;
+    const bool own = (*rows_)[held.row].level == level_->level();
+    hold(own ? kOwn : kLimits, held.row, held.side, true);
   }
-  return false;
+  return moved;
 }
 
 // from x towards the target, until a limit is in the way: it is held then
