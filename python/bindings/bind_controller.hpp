@@ -23,7 +23,8 @@ void require_stack(const Controller& controller) {
                     "a controller wants a stack before it computes");
 }
 
-inline constexpr const char* kSetStack = "Takes over another stack, or what Stack takes; keeps its tasks alive.";
+inline constexpr const char* kSetStack =
+    "Takes over another stack, or what Stack takes; keeps its tasks alive.";
 inline constexpr const char* kDiagnostics =
     R"(What each level fell short of at the last compute, and why.
 

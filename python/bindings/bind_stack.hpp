@@ -20,10 +20,10 @@ struct HeldStack {
 };
 
 // what Stack takes: tasks, levels, lists of tasks
-using Levels = pybind11::typing::Iterable<pybind11::typing::Union<
-    hurcules::Task, hurcules::JointLimits, HeldLevel,
-    pybind11::typing::Iterable<
-        pybind11::typing::Union<hurcules::Task, hurcules::JointLimits, HeldLevel>>>>;
+using Levels = pybind11::typing::Iterable<
+    pybind11::typing::Union<hurcules::Task, hurcules::JointLimits, HeldLevel,
+                            pybind11::typing::Iterable<pybind11::typing::Union<
+                                hurcules::Task, hurcules::JointLimits, HeldLevel>>>>;
 using StackLike = pybind11::typing::Union<HeldStack, Levels>;
 
 [[nodiscard]] HeldStack stack_of(const pybind11::object& levels);

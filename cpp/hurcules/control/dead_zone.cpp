@@ -16,7 +16,7 @@ constexpr double kSaddleBegins = 0.025, kSaddle = 0.075;  // d [1/rad]
 constexpr double kLooks = 0.05;   // share that a zone takes from which on a saddle is looked for
 constexpr double kNoPull = 1e-7;  // slope below which the pull has no direction
 constexpr double kWeak = 0.03;    // of S: a row that moves no more may vanish at a saddle
-constexpr double kLever = 1e-3;   // S at least: where all rows of a level vanish, a saddle is looked for
+constexpr double kLever = 1e-3;   // S at least: where all rows vanish, a saddle is looked for
 constexpr double kSlow = 0.3;     // [rad/s] that a row may come nearer: it begins to be held
 constexpr double kNudge = 0.02;   // [rad/s]
 

@@ -61,7 +61,7 @@ void Plant::place(const Vector& configuration) {
 void Plant::load_springs() {
   const mjModel* const m = model_.get();
   mjData* const d = data_.get();
-  for (int round = 0; round < 3; ++round) {  // the lever of a weight changes a little with the angle
+  for (int round = 0; round < 3; ++round) {  // the lever of a weight changes with the angle
     mj_comPos(m, d);
     mj_rne(m, d, 0, scratch_.data());
     for (int j = 0; j < m->njnt; ++j) {

@@ -85,9 +85,7 @@ class ThreadPool::Workers {
 };
 
 ThreadPool::ThreadPool(std::size_t threads)
-    : threads_(threads),
-      workers_(std::make_unique<Workers>(threads - 1)),
-      process_(getpid()) {}
+    : threads_(threads), workers_(std::make_unique<Workers>(threads - 1)), process_(getpid()) {}
 
 // what waits for threads that a child never had would wait for ever: it is left
 ThreadPool::~ThreadPool() {
