@@ -142,6 +142,9 @@ def record(
     fidelity: Annotated[
         str | None, typer.Option(help="exact, fast or kinematic.", show_default="exact")
     ] = None,
+    camera: Annotated[
+        list[str] | None, typer.Option(help="Whose pictures are recorded too; several times.")
+    ] = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
@@ -165,7 +168,8 @@ def record(
         folder = out or Path("out", "data")
         identifier = recording.record(
             name, act, episodes, folder, seed=seed, author=author, source=source,
-            form=form, **_given(fidelity=fidelity or ("exact" if fastest_fidelity(name) else None)),
+            form=form, **_given(fidelity=fidelity or ("exact" if fastest_fidelity(name) else None),
+                                cameras=camera or None),
             progress=lambda done: bar.update(task, completed=done),
         )  # fmt: skip
     Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)

@@ -13,6 +13,7 @@ from typing import Any
 
 import gymnasium
 import numpy as np
+from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs.episode_data import Episode, Recording
@@ -118,8 +119,9 @@ def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out:
             demo.create_dataset("rewards", data=one.rewards)
             demo.create_dataset("dones", data=one.done.astype(int))
             for name, values in one.observations.items():
-                demo.create_dataset(f"obs/{name}", data=values[:-1])
-                demo.create_dataset(f"next_obs/{name}", data=values[1:])
+                packed = "gzip" if _is_picture(values) else None
+                demo.create_dataset(f"obs/{name}", data=values[:-1], compression=packed)
+                demo.create_dataset(f"next_obs/{name}", data=values[1:], compression=packed)
             total += len(one.actions)
         data.attrs["total"] = total
     out.mkdir()
@@ -135,12 +137,20 @@ _LEROBOT_KEYS = {
 }
 
 
+def _lerobot_key(name: str) -> str:
+    return _LEROBOT_KEYS.get(name, f"observation.images.{name}")
+
+
+def _is_picture(values: NDArray[Any]) -> bool:
+    return values.dtype == np.uint8
+
+
 def _lerobot_place(recording: Recording) -> str:
     return f"{recording.name}-{recording.author}-lerobot"
 
 
 def _lerobot(recording: Recording, env: Any, episodes: Iterable[Episode], out: Path) -> None:
-    """State, action and task text, no pictures. meta/hurcules.json says what replays an episode.
+    """State, pictures, action and task text. meta/hurcules.json says what replays an episode.
 
     A frame is what was seen, what was done then, and what came of it (`next.`).
     """
@@ -162,7 +172,7 @@ def _lerobot(recording: Recording, env: Any, episodes: Iterable[Episode], out: P
                 use_videos=False,
             )
         for k in range(len(one.actions)):
-            frame = {_LEROBOT_KEYS[name]: seen[k] for name, seen in one.observations.items()}
+            frame = {_lerobot_key(name): seen[k] for name, seen in one.observations.items()}
             frame["action"] = one.actions[k]
             frame["next.reward"] = one.rewards[k : k + 1].astype(np.float32)
             frame["next.done"] = one.done[k : k + 1]
@@ -185,10 +195,14 @@ def _lerobot(recording: Recording, env: Any, episodes: Iterable[Episode], out: P
 
 def _features(episode: Episode, action_names: list[str]) -> dict[str, dict[str, Any]]:
     """The columns of a data set of LeRobot."""
-    columns: dict[str, dict[str, Any]] = {
-        _LEROBOT_KEYS[name]: {"dtype": "float32", "shape": values.shape[1:], "names": None}
-        for name, values in episode.observations.items()
-    }
+    columns: dict[str, dict[str, Any]] = {}
+    for name, values in episode.observations.items():
+        picture = _is_picture(values)
+        columns[_lerobot_key(name)] = {
+            "dtype": "image" if picture else "float32",
+            "shape": values.shape[1:],
+            "names": ["height", "width", "channels"] if picture else None,
+        }
     shape = episode.actions.shape[1:]
     columns["action"] = {"dtype": "float32", "shape": shape, "names": list(action_names)}
     for name, kind in (("reward", "float32"), ("done", "bool"), ("success", "bool")):

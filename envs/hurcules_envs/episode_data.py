@@ -48,7 +48,8 @@ class Episode:
 
     Attributes:
         seed: reset with it, the actions alone give the same episode, bit for bit.
-        observations: by name (t + 1, m); one that has no name is called "flat".
+        observations: by name (t + 1, m), pictures (t + 1, height, width, 3) of uint8; one that has
+            no name is called "flat".
         actions: (t, k) in [-1, 1].
         rewards: (t,).
         terminated: (t,).
@@ -57,7 +58,7 @@ class Episode:
     """
 
     seed: int
-    observations: dict[str, NDArray[np.float32]]
+    observations: dict[str, NDArray[Any]]
     actions: NDArray[np.float32]
     rewards: NDArray[np.float64]
     terminated: NDArray[np.bool_]

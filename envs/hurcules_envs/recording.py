@@ -22,7 +22,7 @@ from hurcules.validation import require_known
 from hurcules_envs.data_formats import FORMATS
 from hurcules_envs.episode_data import Episode, Recording
 
-__all__ = ["Act", "record"]
+__all__ = ["Act", "record", "record_episode"]
 
 Act = Callable[[Any, Any], Any]  # (environment, observation) -> action (k,)
 
@@ -78,7 +78,7 @@ def record(
         _same(recording, part / "recording.json")
         for i, path in enumerate(_paths(recording, part)):
             if not path.exists():
-                _run(env, act, seed + i).save(path)
+                record_episode(env, act, seed + i).save(path)
             progress(i + 1)
         _remove(part / "whole")
         written.write(recording, env, _read(recording, part), part / "whole")
@@ -121,7 +121,8 @@ def _remove(folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
 
 
-def _run(env: Any, act: Act, seed: int) -> Episode:
+def record_episode(env: Any, act: Act, seed: int) -> Episode:
+    """One episode as a policy acts, reset with this seed."""
     observation, info = env.reset(seed=seed)
     seen, told, steps, over = [_parts(observation)], [info], [], False
     while not over:

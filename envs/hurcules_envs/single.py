@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
 import mujoco
 import numpy as np
+from gymnasium import spaces
 from gymnasium.utils import EzPickle
 from numpy.typing import NDArray
 
@@ -16,15 +18,17 @@ from hurcules.rendering import make_renderer, pose
 from hurcules.view import require_display
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
+from hurcules_envs.pictures import Pictures
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["SingleEnv"]
 
+OWN = ("flat", "render_mode", "cameras", "camera_size")  # keywords beside the environment's
 WIDTH, HEIGHT = 640, 368  # [pixels], multiples of 16 as encoders want them
 
 _ALL = np.ones(1, dtype=bool)
-Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
+Observation = NDArray[np.float32] | dict[str, NDArray[Any]]
 
 
 class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
@@ -46,6 +50,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         environment: str,
         render_mode: str | None = None,
         flat: bool = False,
+        cameras: Sequence[str] = (),
+        camera_size: Sequence[int] = (128, 96),
         **options: Any,
     ) -> None:
         """Builds the environment.
@@ -54,25 +60,35 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             environment: "module:Class" of an `Environment`.
             render_mode: None, "rgb_array", or "human" (a window).
             flat: of a goal environment: one array, the observation and the way to the goal.
+            cameras: of the robot ("head_wide", "head_left", "head_right", "auxiliary") or the
+                scene, whose pictures are observed too: an observation is then a dictionary of
+                "observation", the goals, and the pictures by camera, (height, width, 3) uint8.
+            camera_size: (width, height) of these pictures [pixels].
             options: of the environment, by keyword, and ranges of what differs between episodes:
                 see `randomisation`.
 
         Raises:
             hurcules.Error: an unknown render mode or option, or a bad value.
         """
-        EzPickle.__init__(self, environment, render_mode, flat, **options)
+        EzPickle.__init__(self, environment, render_mode, flat, cameras, camera_size, **options)
         hurcules.validation.require_known(
             "render mode", render_mode or "rgb_array", self.metadata["render_modes"]
         )
         self.render_mode = render_mode
         ranges, options = split(options)
-        self.environment = make_environment(environment, options, ("flat", "render_mode"))
+        self.environment = make_environment(environment, options, OWN)
         self._episodes = Episodes(self.environment, 1, threads=1, flat=flat, ranges=ranges)
         self.metadata = self.metadata | {"render_fps": round(1.0 / self._episodes.period)}
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
         self.action_space = self._episodes.single_action_space
+        self._pictures: Pictures | None = None
         self.observation_space = self._episodes.single_observation_space
+        if cameras:
+            space = self.observation_space
+            parts = dict(space.spaces) if isinstance(space, spaces.Dict) else {"observation": space}
+            self._pictures = Pictures(self.environment, cameras, camera_size, list(parts))
+            self.observation_space = spaces.Dict(parts | self._pictures.spaces)
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward
@@ -116,7 +132,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self._episodes.generators[0] = self.np_random
         self._episodes.reset()
         step = self._episodes.look(remember=None)
-        return _first(step), _info(step)
+        return self._seen(step), _info(step)
 
     def step(
         self, action: NDArray[np.float32]
@@ -140,7 +156,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self._steps = 0 if terminated else self._steps + 1
         if self.render_mode == "human":
             self.render()
-        return _first(step), float(step.reward[0]), terminated, False, _info(step)
+        return self._seen(step), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
         """(s,) everything that decides how the episode goes on, generator excepted."""
@@ -156,7 +172,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
 
     def observe(self) -> Observation:
         """The observation now, after `set_state` say."""
-        return _first(self._episodes.look(remember=None))
+        return self._seen(self._episodes.look(remember=None))
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (368, 640, 3) in render mode "rgb_array"; None in "human", which has a window.
@@ -183,7 +199,16 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             self._renderer.close()
         if self._viewer is not None:
             self._viewer.close()
+        if self._pictures is not None:
+            self._pictures.close()
         self._renderer = self._viewer = None
+
+    def _seen(self, step: Step) -> Observation:
+        """The observation of the one episode, pictures included."""
+        values = {name: rows[0] for name, rows in step.observation.items()}
+        if self._pictures is not None:
+            return values | self._pictures.take(self._episodes, 0)
+        return values["observation"] if len(values) == 1 else values
 
     def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         import mujoco.viewer
@@ -194,12 +219,6 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             self._viewer = mujoco.viewer.launch_passive(model, self._shown)
         pose(model, self._shown, data.qpos)
         self._viewer.sync()
-
-
-def _first(step: Step) -> Observation:
-    if len(step.observation) == 1:
-        return step.observation["observation"][0]
-    return {name: values[0] for name, values in step.observation.items()}
 
 
 def _info(step: Step) -> dict[str, Any]:

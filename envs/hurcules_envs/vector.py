@@ -60,8 +60,15 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         _require_whole("threads", threads, 0)
         if max_episode_steps is not None:
             _require_whole("max_episode_steps", max_episode_steps, 1)
-        if render_mode is not None:
-            raise hurcules.Error("render_mode: a vector of environments draws no pictures")
+        for name, given in (
+            ("render_mode", render_mode),
+            ("cameras", options.pop("cameras", None)),
+        ):
+            if given:
+                raise hurcules.Error(
+                    f"{name}: a native vector draws no pictures; "
+                    "gymnasium.make_vec(..., vectorization_mode='sync') does"
+                )
         self.num_envs = num_envs
         ranges, options = split(options)
         known = ("flat", "threads", "autoreset_mode")

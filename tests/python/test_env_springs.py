@@ -71,7 +71,9 @@ def test_hands_stay_where_they_start_while_nothing_is_commanded(fidelity):
     env.close()
 
 
-@pytest.mark.parametrize(("name", "watched"), [("Stretch-v1", slice(None)), ("Lift-v0", slice(0, 4))])
+@pytest.mark.parametrize(
+    ("name", "watched"), [("Stretch-v1", slice(None)), ("Lift-v0", slice(0, 4))]
+)
 def test_the_first_observation_is_measured(name, watched):
     # margins of monitors and readings of sensors were 0 until the first step
     env = gym.make(f"Hurcules/{name}", fidelity="fast")

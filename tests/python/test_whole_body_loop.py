@@ -122,7 +122,7 @@ def test_joints_follow_a_motion_and_a_stack_takes_over() -> None:
     assert simulation.controller.active == "stack"
     assert simulation.data.qpos[1] == pytest.approx(START[1] + 0.2, abs=1e-3)
     assert np.abs(simulation.controller.joint_error).max() < 1e-3
-    with pytest.raises(hurcules.Error, match="'j2' goes from .* row 499 wants 9"):
+    with pytest.raises(hurcules.Error, match=r"'j2' goes from .* row 499 wants 9"):
         simulation.follow(["j2"], np.append(way[:-1], [[9.0]], axis=0), rate)
 
 

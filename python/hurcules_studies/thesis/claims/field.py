@@ -111,7 +111,9 @@ FIELD = (
         "Fig. 4.29",
         "Camera views at lifting-ready, acquisition and lifting.",
         {
-            "ready": least("share of the head's picture that shows the person, lifting ready", 0.05),
+            "ready": least(
+                "share of the head's picture that shows the person, lifting ready", 0.05
+            ),
             "acquisition": least("the same in acquisition", 0.05),
             "lifting": least("the same as the lifting begins", 0.05),
             "arms": least("share that shows the robot itself in acquisition", 0.05),

@@ -1,0 +1,93 @@
+"""Pictures of the robot's cameras as a part of what is observed, without shadows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from numbers import Integral
+from typing import Any
+
+import mujoco
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+import hurcules
+from hurcules import cameras
+from hurcules.rendering import make_renderer
+from hurcules_envs.environment import Environment
+
+__all__ = ["Pictures"]
+
+MOST = 2048  # [pixels] a side
+
+
+class Pictures:
+    """What cameras of the scene see of an episode.
+
+    Attributes:
+        spaces: by camera, (height, width, 3) uint8.
+    """
+
+    def __init__(
+        self,
+        environment: Environment,
+        names: Sequence[str],
+        size: Sequence[int],
+        taken: Sequence[str],
+    ) -> None:
+        """Finds the cameras.
+
+        Args:
+            environment: whose visual model is drawn.
+            names: of cameras of that model.
+            size: (width, height) [pixels].
+            taken: names that observations have already.
+
+        Raises:
+            hurcules.Error: no sequence of names, each once, no such camera, or no such size.
+        """
+        if isinstance(names, str) or not all(isinstance(name, str) for name in names):
+            raise hurcules.Error(f"cameras: wanted a sequence of names, got {names!r}")
+        if len(set(names)) < len(names) or set(names) & set(taken):
+            known = ", ".join(taken)
+            raise hurcules.Error(
+                f"cameras: wanted names, each once, none of {known}; got {names!r}"
+            )
+        sides = tuple(size) if isinstance(size, Sequence) else ()
+        if len(sides) != 2 or not all(_is_side(side) for side in sides):
+            raise hurcules.Error(
+                f"camera_size: wanted (width, height) of 1 to {MOST} pixels, got {size!r}"
+            )
+        self._environment, self._size = environment, sides
+        model = environment.visual_model()
+        self._cameras = {name: cameras.find(model, name).name for name in names}
+        box = spaces.Box(0, 255, (self._size[1], self._size[0], 3), np.uint8)
+        self.spaces = dict.fromkeys(names, box)
+        self._renderer: mujoco.Renderer | None = None
+
+    def take(self, episodes: Any, i: int) -> dict[str, NDArray[np.uint8]]:
+        """By camera, what it sees of episode i now.
+
+        Raises:
+            hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
+        """
+        model, data = self._environment.pictured(episodes, i)
+        if self._renderer is None:
+            self._renderer = make_renderer(model, *self._size)
+            # they take seven eighths of the time where no GPU draws
+            self._renderer.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
+        seen = {}
+        for name, camera in self._cameras.items():
+            self._renderer.update_scene(data, camera)
+            seen[name] = self._renderer.render()
+        return seen
+
+    def close(self) -> None:
+        """Gives the renderer back."""
+        if self._renderer is not None:
+            self._renderer.close()
+        self._renderer = None
+
+
+def _is_side(side: object) -> bool:
+    return isinstance(side, Integral) and 1 <= int(side) <= MOST

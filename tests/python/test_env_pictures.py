@@ -1,0 +1,80 @@
+"""Pictures of cameras as a part of what is observed.
+
+Strategy: Gymnasium's own checker; what is seen against the renderer asked by hand; the same
+picture after `set_state`; what a recording keeps; and wrong names and sizes.
+"""
+
+from pathlib import Path
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import hurcules
+import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.episode_data import Episode
+from hurcules_envs.recording import record_episode
+
+CAMERAS = ("head_wide", "auxiliary")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(("name", "parts"), [("Reach-v0", 3), ("Valve-v0", 1)])
+def test_pictures_stand_beside_the_observation(name: str, parts: int) -> None:
+    env = gym.make(f"Hurcules/{name}", fidelity="fast", cameras=CAMERAS, camera_size=(64, 48))
+    check_env(env.unwrapped, skip_render_check=True)
+    seen, _ = env.reset(seed=0)
+    plain, _ = gym.make(f"Hurcules/{name}", fidelity="fast").reset(seed=0)
+    assert len(seen) == parts + len(CAMERAS)
+    plain = plain if isinstance(plain, dict) else {"observation": plain}
+    assert all(np.array_equal(seen[part], values) for part, values in plain.items())
+    for camera in CAMERAS:
+        assert seen[camera].shape == (48, 64, 3)
+        assert seen[camera].std() > 5.0  # something is to be seen
+    assert not np.array_equal(seen["head_wide"], seen["auxiliary"])
+    env.close()
+
+
+def test_a_picture_shows_the_episode_as_it_stands() -> None:
+    env = gym.make("Hurcules/Reach-v0", fidelity="kinematic", cameras=("auxiliary",))
+    first, _ = env.reset(seed=0)
+    state = env.unwrapped.get_state()
+    for _ in range(10):
+        later, *_ = env.step(np.ones(6, np.float32))
+    assert not np.array_equal(later["auxiliary"], first["auxiliary"])
+    env.unwrapped.set_state(state)
+    assert np.array_equal(env.unwrapped.observe()["auxiliary"], first["auxiliary"])
+    env.close()
+
+
+def test_a_recording_keeps_them(tmp_path: Path) -> None:
+    env = gym.make(
+        "Hurcules/Reach-v0", fidelity="kinematic", cameras=("auxiliary",), max_episode_steps=3
+    )
+    episode = record_episode(env, lambda env, seen: env.action_space.sample(), 0)
+    episode.save(tmp_path / "one.npz")
+    pictures = Episode.load(tmp_path / "one.npz").observations["auxiliary"]
+    assert pictures.dtype == np.uint8
+    assert pictures.shape == (4, 96, 128, 3)
+    env.close()
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"cameras": "head_wide"}, "cameras: wanted a sequence of names, got 'head_wide'"),
+        ({"cameras": ("nose",)}, "camera 'nose' does not exist; there are: overview"),
+        ({"cameras": ("head_wide",) * 2}, "cameras: wanted names, each once"),
+        ({"cameras": ("head_wide",), "camera_size": 5}, "camera_size: wanted .width, height. of"),
+        ({"cameras": ("head_wide",), "camera_size": (0, 9)}, "camera_size: wanted .width, height."),
+    ],
+)
+def test_what_is_no_camera_is_refused(options: dict, says: str) -> None:
+    with pytest.raises(hurcules.Error, match=says):
+        gym.make("Hurcules/Reach-v0", fidelity="kinematic", **options)
+
+
+def test_a_native_vector_names_the_one_that_draws() -> None:
+    with pytest.raises(hurcules.Error, match=r"cameras: a native vector draws no pictures; .*sync"):
+        gym.make_vec("Hurcules/Reach-v0", num_envs=2, cameras=CAMERAS)
