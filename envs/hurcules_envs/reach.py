@@ -85,7 +85,7 @@ class Reach(Environment):
             joints: of a path: its coordinates.
             tolerance: [m] of each hand.
             angle: [rad] of each hand; None: hands may turn as they like.
-            sparse: reward without the distance.
+            sparse: reward of success alone.
             rate: steps a second [Hz].
             safe: before the hands come distances of the robot from itself and the ground, and its
                 balance; False leaves only the limits.
@@ -161,11 +161,12 @@ class Reach(Environment):
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Distance, nearness, 1 for all hands within the tolerance, effort."""
-        effort = -EFFORT * np.einsum("ni,ni->n", numbers.action, numbers.action)
+        effort = np.einsum("ni,ni->n", numbers.action, numbers.action)
+        effort *= -EFFORT * (not self.sparse) / numbers.action.shape[1]
         # as they are seen, so that `compute_reward` of an observation gives the same bits
         achieved, desired = (goal.astype(np.float32).astype(float) for goal in self.goals(numbers))
         terms = self._terms(achieved, desired)
-        return terms | {"effort": effort / numbers.action.shape[1]}
+        return terms | {"effort": effort}
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
         """The reward of other goals, any leading axes; the effort is that of `info`.
