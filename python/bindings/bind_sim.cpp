@@ -78,7 +78,7 @@ int step_simulation(Simulation& self, int n, const std::optional<Vector>& comman
     const int piece = std::min(n - done, kPiece);
     {
       py::gil_scoped_release release;
-      done += self.step(piece, command ? &*command : nullptr);
+      done += self.step(piece, command ? &*command : nullptr, done == 0);
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   } while (done < n && !self.finished());

@@ -27,6 +27,14 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
 
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    for joint, actuators in _actuated(model).items():
+        # of a ball joint there is one about each axis
+        if len(actuators) > 1 and int(model.jnt_type[joint]) in SINGLE:
+            first, *others = (model.actuator(i).name or f"number {i}" for i in actuators)
+            yield (
+                f"joint '{model.joint(joint).name}' has several actuators: '{first}' moves it, "
+                f"{', '.join(others)} give nothing"
+            )
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
     elif controller.plan.floats:

@@ -155,6 +155,9 @@ bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const 
   if (!hurcules::scale_velocity(bounds, next_)) return false;
   const Vector& most = (limits() ? *limits() : own_limits_).max_velocity();
   next_ = next_.cwiseMax(-most).cwiseMin(most);
+  // what is fed forward counts with the acceleration: at once, each tick would ask for more
+  const double change = options_.max_acceleration * options_.dt;
+  next_ = next_.array().max(velocity.array() - change).min(velocity.array() + change);
   acceleration_ = (next_ - velocity) / options_.dt;
   return true;
 }

@@ -137,7 +137,13 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
   for (std::size_t i = 0; i < actuators.size(); ++i) {
     if (taken[i]) continue;
     add(i, -1, 1.0);
-    motors_.back().idle = follows(robot, actuators[i]);
+    // of several at one joint the first bears it alone: two servos would press against each other
+    const auto same = [&](const Motor& other) {
+      return other.actuator.joint_id == actuators[i].joint_id &&
+             other.actuator.part == actuators[i].part;
+    };
+    const bool second = std::any_of(motors_.begin(), motors_.end() - 1, same);
+    motors_.back().idle = second || follows(robot, actuators[i]);
   }
   pid_ = JointPid(triple_pole(drives, dt));
   for (Motor& motor : motors_) {

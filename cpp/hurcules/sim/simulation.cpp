@@ -154,7 +154,7 @@ std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
   return copy;
 }
 
-int Simulation::step(int n, const Vector* command) {
+int Simulation::step(int n, const Vector* command, bool begins) {
   if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
   if (command && !controller_->takes(*command)) {
     throw Error("a command wants " + std::to_string(controller_->scale().size()) +
@@ -165,7 +165,7 @@ int Simulation::step(int n, const Vector* command) {
   if (options_.clock) record_.timings.reserve(static_cast<std::size_t>(n));
   if (!finished() && !plant_.check()) end(Ending::Diverged, time());
   int done = 0;
-  for (; done < n && !finished(); ++done) tick(command, done == 0);
+  for (; done < n && !finished(); ++done) tick(command, begins && done == 0);
   observe();
   return done;
 }

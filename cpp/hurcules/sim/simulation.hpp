@@ -72,8 +72,9 @@ class Simulation {
   virtual ~Simulation() = default;
 
   // up to n ticks of the controller; fewer when the run ends. command (k) in SI, held to its scale;
-  // null: the supervisor's own operator, and without one all targets hold
-  int step(int n = 1, const Vector* command = nullptr);
+  // null: the supervisor's own operator, and without one all targets hold; begins: a `Delta` of the
+  // command counts, once
+  int step(int n = 1, const Vector* command = nullptr, bool begins = true);
   // back to the start; `start` (nq): where that is this time, whatever a supervisor would draw
   void reset(std::uint64_t seed, const Vector* start = nullptr);
   // The brake of a joint, open after reset. A joint rests behind its shut brake: the plan does not
