@@ -218,6 +218,20 @@ void warn_of_contacts(const Robot& robot, const DistanceTask& task) {
                           ". Make it in a posture away from what the robot shall keep away from");
 }
 
+void warn_of_height_fields(const Robot& robot) {
+  const mjModel& m = *robot.model();
+  std::string names;
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    if (m.geom_type[geom] != mjGEOM_HFIELD) continue;
+    names += (names.empty() ? "" : ", ") + geom_name(robot, geom);
+  }
+  if (names.empty()) return;
+  hurcules_bindings::warn(
+      "obstacles leaves out height fields, whose distance MuJoCo does not measure "
+      "rightly: " +
+      names + ". Boxes or meshes in their place count");
+}
+
 std::vector<NearPair> near_pairs(const DistanceTask& task, const Robot& robot) {
   std::vector<NearPair> near;
   for (Index row = 0; row < task.rows(); ++row) {
@@ -332,6 +346,7 @@ void bind_limit_tasks(py::module_& module) {
         auto task = std::make_unique<DistanceTask>(
             obstacles(robot, bodies, {margin, most, rows, postures, seed}));
         warn_of_contacts(robot, *task);
+        warn_of_height_fields(robot);
         return task;
       },
       "robot"_a, "bodies"_a = std::vector<std::string>(), "margin"_a = usual.margin,

@@ -40,7 +40,7 @@ which joints are held and which constraints are not kept.
 A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
 Args:
-  model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
+  model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF, MJB or URDF file (load_urdf).
   joints: names of the coordinates (joints, or tuples without their prefix), in this order; None: by
     the rule above.
   floating: the free joint at the root is six coordinates more, in front: its position [m] and its
@@ -181,7 +181,10 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const OptionalN
 
 std::unique_ptr<Robot> robot_of_path(const std::filesystem::path& model,
                                      const OptionalNames& joints, bool floating) {
-  return checked(load_model(model.string()), joints, floating);
+  if (model.extension() != ".urdf") return checked(load_model(model.string()), joints, floating);
+  // MuJoCo's own reading leaves out speeds, efforts and the frames of fixed links
+  const auto load = py::module_::import("hurcules.urdf").attr("load_urdf");
+  return checked(held_model(load(model.string())), joints, floating);
 }
 
 std::vector<std::string> followers(const Robot& robot) {

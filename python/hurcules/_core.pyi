@@ -439,7 +439,7 @@ class Robot:
     A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
     Args:
-      model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF or MJB file.
+      model: mujoco.MjModel (kept alive, not copied), or the path of an MJCF, MJB or URDF file (load_urdf).
       joints: names of the coordinates (joints, or tuples without their prefix), in this order; None: by
         the rule above.
       floating: the free joint at the root is six coordinates more, in front: its position [m] and its

@@ -26,6 +26,7 @@ from hurcules._core import (
 from hurcules.mission_table import Mission
 from hurcules.start_checks import warn_of_physics
 from hurcules.table_missions import TABLE_MISSIONS, table_mission
+from hurcules.urdf import load_urdf
 from hurcules.validation import require_known
 
 __all__ = ["Simulation", "SimulationBatch", "missions"]
@@ -335,6 +336,8 @@ def _model(model: mujoco.MjModel | str | Path | None) -> mujoco.MjModel:
         return model
     if not isinstance(model, str | Path):
         raise Error(f"model: wanted a mujoco.MjModel or the path of one, got {model!r}")
+    if Path(model).suffix == ".urdf":
+        return load_urdf(model)
     try:
         return mujoco.MjModel.from_xml_path(str(model))
     except ValueError as error:

@@ -27,14 +27,7 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
 
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
-    for joint, actuators in _actuated(model).items():
-        # of a ball joint there is one about each axis
-        if len(actuators) > 1 and int(model.jnt_type[joint]) in SINGLE:
-            first, *others = (model.actuator(i).name or f"number {i}" for i in actuators)
-            yield (
-                f"joint '{model.joint(joint).name}' has several actuators: '{first}' moves it, "
-                f"{', '.join(others)} give nothing"
-            )
+    yield from _doubled(model)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
     elif controller.plan.floats:
@@ -47,6 +40,17 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         chain = _chain(model, controller)
         yield from _loose_joints(model, controller, chain)
         yield from _weak_motors(model, controller, chain)
+
+
+def _doubled(model: mujoco.MjModel) -> Iterator[str]:
+    doubled = []
+    for joint, actuators in _actuated(model).items():
+        # of a ball joint there is one about each axis
+        if len(actuators) > 1 and int(model.jnt_type[joint]) in SINGLE:
+            first, *others = (model.actuator(i).name or f"number {i}" for i in actuators)
+            doubled.append(f"'{model.joint(joint).name}' by {first}, not by {', '.join(others)}")
+    if doubled:
+        yield f"where a joint has several actuators the first moves it alone: {'; '.join(doubled)}"
 
 
 def _settings(model: mujoco.MjModel) -> Iterator[str]:

@@ -310,7 +310,9 @@ def test_a_bad_option_says_what_was_wanted(options, text):
 
 
 def test_options_beside_those_of_the_class_are_listed_and_checked():
-    with pytest.raises(hurcules.Error, match=r"there are: fidelity, .*, flat, render_mode, cameras, "):
+    with pytest.raises(
+        hurcules.Error, match=r"there are: fidelity, .*, flat, render_mode, cameras, "
+    ):
         gym.make("Hurcules/Drive-v0", colour="red", **FAST)
     with pytest.raises(hurcules.Error, match="safe, flat, threads, autoreset_mode, friction"):
         gym.make_vec("Hurcules/Reach-v0", num_envs=2, colour="red", **FAST)

@@ -50,7 +50,8 @@ Stack ContactForces::completed(const Stack& stack) {
     levels.push_back(level);
   }
   require(size_ > 0 || !floating_,
-          "the root of the robot floats: a stack wants contacts (ContactTask) that carry it");
+          "the root of the robot floats: a stack wants contacts (ContactTask) that carry it, by "
+          "torques; by velocities a Robot that does not float stands on a body (stand_on)");
   lambda_ = Vector::Zero(size_);
   if (size_ == 0) return stack;
   least_.emplace(size_, n_);

@@ -212,6 +212,7 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
     if (!shapes.is_own(shapes.body(a))) continue;
     for (int b = 0; b < m.ngeom; ++b) {
       if (shapes.is_own(shapes.body(b)) || !shapes.may_touch(a, b)) continue;
+      if (m.geom_type[b] == mjGEOM_HFIELD) continue;  // no distance of these is right
       if (is_named(shapes.body(b))) {
         told.push_back({a, b});
       } else if (shapes.stands_still(shapes.body(b))) {

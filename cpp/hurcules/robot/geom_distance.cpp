@@ -94,6 +94,10 @@ GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, doub
       near_(count) {
   require(std::isfinite(most) && most > 0.0, "the largest distance wants a positive number [m]");
   for (const GeomPair& pair : pairs_) {
+    for (const int geom : {pair.first, pair.second}) {
+      require(model_->geom_type[geom] != mjGEOM_HFIELD,
+              "a height field has no distance that MuJoCo measures rightly: boxes or meshes do");
+    }
     Pair entry;
     entry.first = add_geom(pair.first);
     entry.second = add_geom(pair.second);

@@ -1,6 +1,7 @@
 #include "hurcules/tasks/point_task.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
@@ -18,6 +19,9 @@ PointTask::PointTask(std::string name, const Robot& robot, PointTaskOptions opti
   require(axes_.allFinite(), "axes of task '" + name_ + "' want finite values");
   require(axes_.rowwise().squaredNorm().minCoeff() > 0.0,
           "axes of task '" + name_ + "' want a direction in each row, one of length 0 came");
+  axes_.rowwise().normalize();
+  const double volume = (axes_ * axes_.transpose()).determinant();
+  require(volume > 1e-12, "axes of task '" + name_ + "' want directions that differ");
   max_speed_ = 0.5;
 }
 
@@ -34,8 +38,7 @@ Vector3 PointTask::world_target() const {
 double PointTask::lever() const {
   if (rows() == 3) return 0.0;
   const double most = point_.jacobian.colwise().squaredNorm().maxCoeff();
-  const Vector lengths = weights().cwiseProduct(axes_.rowwise().norm());
-  return std::sqrt(most) * lengths.maxCoeff();
+  return std::sqrt(most) * weights().maxCoeff();
 }
 
 void PointTask::measure(const Robot& robot) {

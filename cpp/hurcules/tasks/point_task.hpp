@@ -11,8 +11,9 @@
 namespace hurcules {
 
 struct PointTaskOptions {
-  std::string reference = "";         // frame in which the point is measured, "" = the world
-  Matrix axes = Matrix3::Identity();  // A (m, 3), m = 1 to 3: rows in the axes of the reference
+  std::string reference = "";  // frame in which the point is measured, "" = the world
+  Matrix axes = Matrix3::
+      Identity();  // A (m, 3), m = 1 to 3: rows in the axes of the reference, of any length
 };
 
 class PointTask : public ValueTask {

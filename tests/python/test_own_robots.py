@@ -1,0 +1,127 @@
+"""What users' own robots have and ours have not.
+
+Strategy: each is a robot of one or two joints on which a newcomer met a wrong result in silence;
+what must hold is reckoned by hand or read from the physics.
+"""
+
+import warnings
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+
+ARM = """
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.001"/>
+  <default>
+    <joint axis="0 0 1" damping="0.3" armature="0.05" range="-2.8 2.8" limited="true"/>
+    <geom contype="0" conaffinity="0" density="900" type="capsule" size="0.04"/>
+  </default>
+  <asset><hfield name="hills" nrow="2" ncol="2" size="1 1 0.2 0.1" elevation="0 1 1 0"/></asset>
+  <worldbody>
+    <geom name="ground" type="hfield" hfield="hills" contype="{ground}"/>
+    <body name="upper" pos="0 0 1">
+      <joint name="a"/><geom fromto="0 0 0 0.4 0 0"/>
+      <body name="lower" pos="0.4 0 0">
+        <joint name="b"/><geom name="hand" fromto="0 0 0 0.4 0 0" conaffinity="{ground}"/>
+        <site name="tip" pos="0.4 0 0"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>{actuators}</actuator>
+</mujoco>"""
+MOTORS = '<motor joint="a" ctrlrange="-20 20"/><motor joint="b" ctrlrange="-20 20"/>'
+
+
+def loop(actuators: str = MOTORS, **options) -> tuple[hurcules.Simulation, hurcules.PostureTask]:
+    model = mujoco.MjModel.from_xml_string(ARM.format(actuators=actuators, ground=0))
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.0, 1.2])
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(robot, [posture], **options)
+    return hurcules.Simulation(model=model, controller=controller), posture
+
+
+@pytest.mark.parametrize("control", ["velocity", "acceleration", "torque"])
+def test_one_actuator_bears_a_joint_that_has_several(control: str) -> None:
+    actuators = (
+        '<position joint="a" kp="200" name="place"/><velocity joint="a" kv="20" name="rate"/>'
+        '<motor joint="b"/><motor joint="b" gear="2"/>'
+    )
+    with pytest.warns(UserWarning, match="alone: 'a' by place, not by rate; 'b' by number 2"):
+        simulation, posture = loop(actuators, control=control)
+    posture.set_target([-0.8, 0.9])
+    simulation.step(4000)
+    assert simulation.data.qpos == pytest.approx([-0.8, 0.9], abs=1e-4)
+    assert np.abs(simulation.data.actuator_force).max() < 1.0  # they do not press on each other
+
+
+def test_a_push_beyond_the_motors_leaves_accelerations_within_their_limit() -> None:
+    # what is fed forward asked for more each tick: 7e15 rad/s
+    simulation, _ = loop(control="acceleration")
+    limit = 20.0 * simulation.dt
+    before = simulation.controller.qd_des.copy()
+    for tick in range(2000):
+        simulation.data.xfrc_applied[2, 1] = 200.0 if 300 <= tick < 800 else 0.0
+        simulation.step()
+        now = simulation.controller.qd_des.copy()
+        assert np.abs(now - before).max() <= limit * (1 + 1e-9)
+        before = now
+    simulation.step(4000)
+    assert not simulation.reason
+    assert np.abs(simulation.data.qvel).max() < 1e-6
+
+
+def test_a_delta_counts_once_a_call_however_long() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM.format(actuators=MOTORS, ground=0))
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.0, 1.2])
+    hand = hurcules.PositionTask("hand", robot, "tip")
+    controller = hurcules.WholeBodyController(robot, [hand], {"hand": hurcules.Delta(hand, 0.1)})
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    start = hand.target.copy()
+    simulation.step(2500, {"hand": [0.04, 0.0, 0.0]})
+    assert hand.target - start == pytest.approx([0.04, 0.0, 0.0], abs=1e-3)
+
+
+def test_height_fields_are_left_out_with_a_word() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM.format(actuators=MOTORS, ground=1))
+    robot = hurcules.Robot(model)
+    with pytest.warns(UserWarning, match="leaves out height fields, .*: ground"):
+        task = hurcules.obstacles(robot)
+    assert task.pairs(robot) == []
+    with pytest.raises(hurcules.Error, match="a height field has no distance"):
+        hurcules.DistanceTask("apart", robot, [("hand", "ground")])
+
+
+def test_a_urdf_by_its_path_keeps_speeds_and_fixed_links(tmp_path: Path) -> None:
+    link = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    path = tmp_path / "arm.urdf"
+    path.write_text(
+        f'<robot name="arm"><link name="base"/><link name="arm">{link}</inertial></link>'
+        '<link name="tool"/><joint name="turn" type="revolute"><parent link="base"/>'
+        '<child link="arm"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1" velocity="1.5" effort="50"/></joint>'
+        '<joint name="flange" type="fixed"><parent link="arm"/><child link="tool"/>'
+        '<origin xyz="0.5 0 0"/></joint></robot>'
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        robot = hurcules.Robot(path)
+    (turn,) = robot.coordinates
+    assert (turn.max_velocity, turn.max_effort) == (1.5, 50.0)
+    assert robot.position("tool") == pytest.approx([0.5, 0.0, 0.0])
+
+
+def test_axes_are_directions_of_any_length() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM.format(actuators=MOTORS, ground=0))
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.5, 0.5])
+    along = hurcules.PositionTask("along", robot, "tip", axes=[[3.0, 4.0, 0.0]])
+    assert along.value == pytest.approx(robot.position("tip") @ [0.6, 0.8, 0.0])
+    with pytest.raises(hurcules.Error, match="want directions that differ"):
+        hurcules.PositionTask("twice", robot, "tip", axes=[[0, 0, 1], [0, 0, 2]])
