@@ -28,6 +28,7 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
     yield from _doubled(model)
+    yield from _by_tendons(model, controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
     elif controller.plan.floats:
@@ -51,6 +52,30 @@ def _doubled(model: mujoco.MjModel) -> Iterator[str]:
             doubled.append(f"'{model.joint(joint).name}' by {first}, not by {', '.join(others)}")
     if doubled:
         yield f"where a joint has several actuators the first moves it alone: {'; '.join(doubled)}"
+
+
+def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """Coordinates that only the actuators of tendons move."""
+    pulled = model.actuator_trnid[model.actuator_trntype == mujoco.mjtTrn.mjTRN_TENDON, 0]
+    wrapped = {
+        int(model.wrap_objid[wrap])
+        for tendon in pulled
+        for wrap in range(
+            model.tendon_adr[tendon], model.tendon_adr[tendon] + model.tendon_num[tendon]
+        )
+        if model.wrap_type[wrap] == mujoco.mjtWrap.mjWRAP_JOINT
+    }
+    moved = [
+        coordinate.name
+        for coordinate in controller.plan.coordinates
+        if wrapped & (joints := {int(model.dof_jntid[one.dof]) for one in coordinate.joints})
+        and not joints & set(_actuated(model))
+    ]
+    if moved:
+        yield (
+            f"{', '.join(moved)}: moved by actuators of tendons alone, which no servo commands: the "
+            "plan moves, the robot does not. hurcules.with_motors gives each joint a motor"
+        )
 
 
 def _settings(model: mujoco.MjModel) -> Iterator[str]:
@@ -133,7 +158,7 @@ def _weak_motors(
     for joint, motors in _actuated(model).items():
         if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SINGLE:
             continue
-        most = sum(_most(model, motor) for motor in motors)
+        most = _most(model, motors[0])  # the others give nothing
         if model.jnt_actfrclimited[joint]:
             most = min(most, float(np.abs(model.jnt_actfrcrange[joint]).max()))
         asked = abs(float(weight[model.jnt_dofadr[joint]]))

@@ -46,6 +46,16 @@ def loop(actuators: str = MOTORS, **options) -> tuple[hurcules.Simulation, hurcu
     return hurcules.Simulation(model=model, controller=controller), posture
 
 
+def test_coordinates_that_only_tendons_move_are_named() -> None:
+    text = ARM.format(actuators='<motor joint="a"/><motor tendon="pull"/>', ground=0)
+    tendon = '<tendon><fixed name="pull"><joint joint="b" coef="1"/></fixed></tendon></mujoco>'
+    model = mujoco.MjModel.from_xml_string(text.replace("</mujoco>", tendon))
+    robot = hurcules.Robot(model, ["a", "b"])
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    with pytest.warns(UserWarning, match="^b: moved by actuators of tendons alone"):
+        hurcules.Simulation(model=model, controller=controller)
+
+
 @pytest.mark.parametrize("control", ["velocity", "acceleration", "torque"])
 def test_one_actuator_bears_a_joint_that_has_several(control: str) -> None:
     actuators = (
