@@ -76,7 +76,7 @@ def test_a_point_of_one_axis_is_led_along_it_alone() -> None:
     robot = hurcules.Robot(model)
     height = hurcules.PositionTask("height", robot, "hand", axes=[[0.0, 0.0, 2.0]])
     height.set_target([0.4])
-    np.testing.assert_allclose(height.world_target, [0.7, 0.0, 0.2], atol=1e-12)
+    np.testing.assert_allclose(height.world_target, [0.7, 0.0, 0.4], atol=1e-12)
     bend = hurcules.PositionTask("bend", robot, "hand", reference="upper")
     robot.set_configuration([0.5, 0.5])
     bend.update(robot)

@@ -110,7 +110,8 @@ def test_out_of_reach_it_says_by_how_much(robot: hurcules.Robot) -> None:
     found = hurcules.inverse_kinematics(robot, [hand], starts=4)
     assert not found.reached
     assert found.starts == (4, 0)
-    assert found.error == pytest.approx(0.2, abs=1e-3)
+    # it rests a little before it is straight: (0.02 S)^2 / (2 c), docs/control.md
+    assert 0.2 <= found.error < 0.2 + 2e-3
 
 
 def test_distances_that_come_first_hold(robot: hurcules.Robot) -> None:

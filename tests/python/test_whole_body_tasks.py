@@ -150,14 +150,15 @@ def test_a_snapshot_goes_on_bit_for_bit(model: mujoco.MjModel) -> None:
 
 
 @pytest.mark.parametrize(
-    ("start", "held_by"),
+    ("start", "speed", "held_by"),
     [
-        ([0.05, 0.05], ["shoulder upper limit", "elbow upper limit"]),
-        ([0.0, 0.0], ["a singular posture"]),
+        ([0.05, 0.05], -0.2, ["shoulder upper limit", "elbow upper limit"]),
+        ([0.0, 0.0], -0.2, ["shoulder upper limit", "elbow upper limit"]),  # it bends
+        ([0.0, 0.0], 0.2, ["a singular posture"]),
     ],
 )
 def test_notes_say_what_holds_a_hand(
-    model: mujoco.MjModel, start: list[float], held_by: list[str]
+    model: mujoco.MjModel, start: list[float], speed: float, held_by: list[str]
 ) -> None:
     robot = hurcules.Robot(model)
     robot.set_configuration(start)
@@ -168,7 +169,7 @@ def test_notes_say_what_holds_a_hand(
     controller = hurcules.VelocityController(robot)
     controller.set_stack(hurcules.Stack([limits, hand]))
     for _ in range(3000):
-        hand.advance([-0.2], DT)
+        hand.advance([speed], DT)
         controller.step(robot)
     levels = controller.diagnostics(robot)
     assert [level.level for level in levels] == ["joint", "hand"]
