@@ -243,12 +243,16 @@ class Environment(ABC):
 
     def pictured(self, episodes: Any, i: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """The model that is drawn, and data that stands as episode i does."""
+        model, data = self.drawn()
+        pose(model, data, episodes.batch.qpos[i])
+        return model, data
+
+    def drawn(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """The model that is drawn, made once, and data of it."""
         if self._drawn is None:
             model = self.visual_model()
             self._drawn = model, mujoco.MjData(model)
-        model, data = self._drawn
-        pose(model, data, episodes.batch.qpos[i])
-        return model, data
+        return self._drawn
 
     def visual_model(self) -> mujoco.MjModel:
         """The simulation's model with all that is only seen."""

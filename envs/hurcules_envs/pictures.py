@@ -59,7 +59,7 @@ class Pictures:
                 f"camera_size: wanted (width, height) of 1 to {MOST} pixels, got {size!r}"
             )
         self._environment, self._size = environment, sides
-        model = environment.visual_model()
+        model, _ = environment.drawn()
         self._cameras = {name: cameras.find(model, name).name for name in names}
         box = spaces.Box(0, 255, (self._size[1], self._size[0], 3), np.uint8)
         self.spaces = dict.fromkeys(names, box)

@@ -65,11 +65,12 @@ def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Itera
         )
         if model.wrap_type[wrap] == mujoco.mjtWrap.mjWRAP_JOINT
     }
+    own = set(_actuated(model))
     moved = [
         coordinate.name
         for coordinate in controller.plan.coordinates
         if wrapped & (joints := {int(model.dof_jntid[one.dof]) for one in coordinate.joints})
-        and not joints & set(_actuated(model))
+        and not joints & own
     ]
     if moved:
         yield (

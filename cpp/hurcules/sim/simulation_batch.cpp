@@ -2,28 +2,16 @@
 
 #include <algorithm>
 #include <string>
-#include <thread>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/thread_count.hpp"
 
 namespace hurcules {
 
-namespace {
-
-std::size_t thread_count(int wanted, std::size_t simulations) {
-  require(simulations >= 1, "a batch wants at least one simulation");
-  require(wanted >= 0,
-          "threads must be positive, or 0 for one a processor, got " + std::to_string(wanted));
-  const std::size_t count = wanted > 0 ? static_cast<std::size_t>(wanted)
-                                       : std::max(1u, std::thread::hardware_concurrency());
-  return std::min(count, simulations);
-}
-
-}  // namespace
-
 SimulationBatch::SimulationBatch(const Simulation& original, std::size_t n, int threads,
                                  const std::vector<ModelPtr>& models)
-    : pool_(thread_count(threads, n)) {
+    : pool_(thread_count(threads, std::max<std::size_t>(n, 1))) {
+  require(n >= 1, "a batch wants at least one simulation");
   require(models.empty() || models.size() == n, "a batch wants one model for each of its " +
                                                     std::to_string(n) + " simulations, " +
                                                     std::to_string(models.size()) + " came");

@@ -1,6 +1,5 @@
 #include "hurcules/solver/batch.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/thread_count.hpp"
 
 namespace hurcules {
 
@@ -60,14 +60,6 @@ class Queue {
   std::mutex mutex_;
   std::exception_ptr thrown_;
 };
-
-std::size_t thread_count(int wanted, std::size_t problems) {
-  require(wanted >= 0,
-          "threads must be positive, or 0 for one a processor, got " + std::to_string(wanted));
-  const std::size_t count = wanted > 0 ? static_cast<std::size_t>(wanted)
-                                       : std::max(1u, std::thread::hardware_concurrency());
-  return std::min(count, problems);
-}
 
 }  // namespace
 
