@@ -11,6 +11,7 @@ Run:  python benchmarks/environments.py [--seconds 2] [--rounds 3] [IDS]
 from __future__ import annotations
 
 import argparse
+import os
 import subprocess
 import sys
 import time
@@ -24,6 +25,7 @@ from unittest.mock import patch
 import gymnasium
 import mujoco
 import numpy as np
+from mujoco import rollout
 
 import hurcules
 import hurcules_envs
@@ -239,6 +241,37 @@ def thread_figures(wanted: argparse.Namespace) -> None:
     show("ceiling: two processes, one episode's vector each, against one", np.array(ceiling), "x")
 
 
+def core_figures(wanted: argparse.Namespace) -> None:
+    """64 episodes on 1, 2, 4, ... threads, and MuJoCo's own rollout of the same model beside it."""
+    counts = [1]
+    while 2 * counts[-1] <= len(os.sched_getaffinity(0)):
+        counts.append(2 * counts[-1])
+    for fidelity in ("kinematic", "fast"):
+        make = partial(gymnasium.make_vec, REACH, num_envs=64, fidelity=fidelity)
+        vectors = {n: make(threads=n) for n in counts}
+        simulation = vectors[1].environment.simulation
+        spec = mujoco.mjtState.mjSTATE_FULLPHYSICS
+        start = np.empty((64, mujoco.mj_stateSize(simulation.model, spec)))
+        for row in start:
+            mujoco.mj_getState(simulation.model, simulation.data, row, spec)
+        pools = {n: rollout.Rollout(nthread=n) for n in counts}
+        datas = [mujoco.MjData(simulation.model) for _ in range(max(counts))]
+
+        def physics(n: int, start: Any = start, model: Any = simulation.model,
+                    pools: Any = pools, datas: Any = datas) -> None:  # fmt: skip
+            pools[n].rollout([model] * 64, datas[:n], start, nstep=12)
+
+        steps = {("steps", n): stepper(vector, 0) for n, vector in vectors.items()}
+        steps |= {("rollout", n): partial(physics, n) for n in counts}
+        found = rates(steps, time.perf_counter, wanted)
+        for n in counts:
+            own, peer = found["steps", n], found["rollout", n]
+            show(f"Reach {fidelity}, 64 episodes, {n} threads: steps", 64 * own, "/s", 0)
+            show("    against one thread", own / found["steps", 1], "x")
+            show("    mujoco.rollout of the model alone, against one thread",
+                 peer / found["rollout", 1], "x")  # fmt: skip
+
+
 def workers(command: list[str], count: int) -> float:
     """Steps a second of so many processes at once, together."""
     started = [
@@ -325,6 +358,7 @@ FIGURES: dict[str, Callable[[argparse.Namespace], None]] = {
     "reach": reach_figures,
     "tick": tick_figures,
     "threads": thread_figures,
+    "cores": core_figures,
     "collection": collection_figures,
 }
 

@@ -29,6 +29,8 @@ using ArrayLike = As<"numpy.typing.ArrayLike">;
 using OptionalArrayLike = As<"numpy.typing.ArrayLike | None">;
 using TaskObject = As<"hurcules._core.Task">;
 using ScaleObject = As<"float | numpy.typing.ArrayLike">;
+using CommandObject =
+    As<"collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None">;
 using AnyObject = As<"object">;
 using ModelObject = As<"mujoco.MjModel">;
 using DataObject = As<"mujoco.MjData">;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "annotated.hpp"
+#include "command.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/sim/simulation_batch.hpp"
 #include "in_use.hpp"
@@ -88,16 +89,22 @@ std::unique_ptr<SimulationBatch> make_batch(const Simulation& original, std::siz
   return std::make_unique<SimulationBatch>(original, n, threads, own);
 }
 
-void step_batch(SimulationBatch& self, int ticks, const std::optional<Matrix>& commands,
+std::optional<Matrix> commands_of(SimulationBatch& self, const CommandObject& given) {
+  return commands_of(self[0].controller(), given, static_cast<Index>(self.size()));
+}
+
+void step_batch(SimulationBatch& self, int ticks, const CommandObject& given,
                 const std::optional<std::vector<bool>>& mask) {
+  const std::optional<Matrix> commands = commands_of(self, given);
   const InUse in_use("SimulationBatch", &self);
   const py::gil_scoped_release release;
   self.step(ticks, commands ? &*commands : nullptr, mask ? &*mask : nullptr);
 }
 
 Matrix step_and_read_batch(SimulationBatch& self, int ticks, const Quantities& quantities,
-                           const std::optional<Matrix>& commands,
+                           const CommandObject& given,
                            const std::optional<std::vector<bool>>& mask) {
+  const std::optional<Matrix> commands = commands_of(self, given);
   Matrix values(static_cast<Index>(self.size()), quantities.size());
   const InUse in_use("SimulationBatch", &self);
   const py::gil_scoped_release release;

@@ -13,6 +13,7 @@
 #include "annotated.hpp"
 #include "bind_sensors.hpp"
 #include "bind_sim_docs.hpp"
+#include "command.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/mission/mission_simulation.hpp"
 #include "hurcules/sim/quantities.hpp"
@@ -69,8 +70,9 @@ std::unique_ptr<Simulation> make_own(const ModelObject& model, const DataObject&
 }
 
 // in pieces, so that Ctrl-C is heard
-int step_simulation(Simulation& self, int n, const std::optional<Vector>& command) {
+int step_simulation(Simulation& self, int n, const CommandObject& given) {
   constexpr int kPiece = 1000;
+  const std::optional<Vector> command = command_of(self.controller(), given);
   require(n >= 0, "step wants a number of ticks >= 0, got " + std::to_string(n));
   const InUse in_use("Simulation", &self, &self.controller());
   int done = 0;

@@ -15,8 +15,10 @@
 #include "annotated.hpp"
 #include "arrays.hpp"
 #include "bind_stack.hpp"
+#include "command.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
+#include "in_use.hpp"
 #include "solver_levels.hpp"
 #include "state.hpp"
 
@@ -117,6 +119,37 @@ Args:
 
 Raises:
   Error: no level, an unknown name, a joint that cannot be servoed; the text says which.
+)";
+constexpr const char* kReset =
+    R"(Starts anew at rest: the first stack rules, all targets go to where the robot is.
+
+Args:
+  qpos: (nq,) of the whole model; None: where the plan is.
+
+Raises:
+  Error: another shape, or numbers that are not finite.
+)";
+constexpr const char* kTick =
+    R"(One tick of a loop of your own: a robot on the bench, or a simulator beside this one.
+
+The same bits as in `Simulation`, which does more: tracks, brakes, sensors, monitors.
+
+Args:
+  qpos: (nq,) as sensed; the start, where it is another one than the robot's, goes to `reset`.
+  qvel: (nv,) as sensed.
+  command: SI values by the name of their channel (the others hold), or (k,); each is held to
+    command_scale. None: every target holds.
+  sensors: (nsensordata,) what force tasks read, see sense; None where none does.
+  first: False where the command is that of the last tick, so that what it sets once (Delta, Target,
+    ForceReference) is not set again.
+
+Returns:
+  (nu,) the controls of the model's actuators; 0 for one that moves no joint. q_des, qd_des and torque
+  are what a drive with a servo of its own wants.
+
+Raises:
+  Error: another shape, numbers that are not finite, an unknown channel, no sensors where a force
+    task reads one; in the first tick a robot more than 0.05 rad from where the plan starts.
 )";
 constexpr const char* kUse = R"(Lets another stack rule from the next tick on.
 
@@ -287,6 +320,31 @@ void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source, 
   self.sense(task, m->sensor_adr[sensor] + row, sign);
 }
 
+Vector tick(WholeBodyController& self, const ArrayLike& qpos, const ArrayLike& qvel,
+            const CommandObject& command, const OptionalArrayLike& sensors, bool first) {
+  const std::optional<Vector> given = command_of(self, command);
+  const Vector q = vector_of(qpos, "qpos", "(nq,)"), v = vector_of(qvel, "qvel", "(nv,)");
+  const mjModel* const m = self.plan().model().get();
+  Vector readings;
+  if (!sensors.is_none()) {
+    readings = vector_of(sensors, "sensors", "(nsensordata,)");
+    require(readings.size() == m->nsensordata && readings.allFinite(),
+            "sensors want " + std::to_string(m->nsensordata) + " finite numbers, " +
+                std::to_string(readings.size()) + " came");
+  }
+  Vector ctrl = Vector::Zero(m->nu);
+  const InUse in_use("WholeBodyController", &self);
+  const py::gil_scoped_release release;
+  self.tick(q, v, given ? &*given : nullptr, first, ctrl,
+            sensors.is_none() ? nullptr : readings.data());
+  return ctrl;
+}
+
+void reset(WholeBodyController& self, const OptionalArrayLike& qpos) {
+  const InUse in_use("WholeBodyController", &self);
+  self.reset(qpos.is_none() ? self.plan().qpos() : vector_of(qpos, "qpos", "(nq,)"));
+}
+
 void bind_channels(py::module_& module) {
   py::class_<ChannelSpec>(module, "Channel", "What a command moves; see Twist and the others.")
       .def_property_readonly("scale", [](const ChannelSpec& self) { return self.scale; })
@@ -367,7 +425,11 @@ void bind_whole_body(py::module_& module) {
   const auto demand = [](const WholeBodyController& self) { return self.servo().demand(); };
   const auto error = [](const WholeBodyController& self) { return self.servo().error().position; };
   const auto copy = py::return_value_policy::copy;
-  controller.def("use", &WholeBodyController::use, "stack"_a, kUse)
+  controller
+      .def("tick", &tick, "qpos"_a, "qvel"_a, "command"_a = py::none(), py::kw_only(),
+           "sensors"_a = py::none(), "first"_a = true, kTick)
+      .def("reset", &reset, "qpos"_a = py::none(), kReset)
+      .def("use", &WholeBodyController::use, "stack"_a, kUse)
       .def("move", move_one, "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
       .def("move_all", move_all, "positions"_a, "velocities"_a, kMoveAll)
       .def("move_joints", &WholeBodyController::move_joints,

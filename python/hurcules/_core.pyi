@@ -2697,6 +2697,15 @@ class WholeBodyController:
     def move_joints(self) -> None:
         """No stack rules until `use`: joints stay where they are, JointRates moves them."""
 
+    def reset(self, qpos: ArrayLike | None = None) -> None:
+        """Starts anew at rest: the first stack rules, all targets go to where the robot is.
+
+        Args:
+          qpos: (nq,) of the whole model; None: where the plan is.
+
+        Raises:
+          Error: another shape, or numbers that are not finite."""
+
     def restore(self, state: collections.abc.Sequence[float]) -> None:
         """Goes on from what state() gave."""
 
@@ -2729,6 +2738,36 @@ class WholeBodyController:
 
     def task(self, name: str) -> Task:
         """A task of its stacks, by name. Raises Error with the names that exist."""
+
+    def tick(
+        self,
+        qpos: ArrayLike,
+        qvel: ArrayLike,
+        command: collections.abc.Mapping[str, ArrayLike] | ArrayLike | None = None,
+        *,
+        sensors: ArrayLike | None = None,
+        first: bool = True,
+    ) -> NDArray[np.float64]:
+        """One tick of a loop of your own: a robot on the bench, or a simulator beside this one.
+
+        The same bits as in `Simulation`, which does more: tracks, brakes, sensors, monitors.
+
+        Args:
+          qpos: (nq,) as sensed; the start, where it is another one than the robot's, goes to `reset`.
+          qvel: (nv,) as sensed.
+          command: SI values by the name of their channel (the others hold), or (k,); each is held to
+            command_scale. None: every target holds.
+          sensors: (nsensordata,) what force tasks read, see sense; None where none does.
+          first: False where the command is that of the last tick, so that what it sets once (Delta, Target,
+            ForceReference) is not set again.
+
+        Returns:
+          (nu,) the controls of the model's actuators; 0 for one that moves no joint. q_des, qd_des and torque
+          are what a drive with a servo of its own wants.
+
+        Raises:
+          Error: another shape, numbers that are not finite, an unknown channel, no sensors where a force
+            task reads one; in the first tick a robot more than 0.05 rad from where the plan starts."""
 
     def use(self, stack: str) -> None:
         """Lets another stack rule from the next tick on.
@@ -3846,7 +3885,9 @@ class Simulation:
     def state(self) -> NDArray[np.float64]:
         """All that decides how the run goes on, as one array; the log and the events are not in it."""
 
-    def step(self, n: int = 1, command: ArrayLike | None = None) -> int:
+    def step(
+        self, n: int = 1, command: collections.abc.Mapping[str, ArrayLike] | ArrayLike | None = None
+    ) -> int:
         """Control ticks of dt. Releases the interpreter lock.
 
         Args:
@@ -4011,7 +4052,7 @@ class SimulationBatch:
     def step(
         self,
         ticks: int,
-        commands: ArrayLike | None = None,
+        commands: collections.abc.Mapping[str, ArrayLike] | ArrayLike | None = None,
         mask: collections.abc.Sequence[bool] | None = None,
     ) -> None:
         """Control ticks of all. Releases the interpreter lock.
@@ -4028,7 +4069,7 @@ class SimulationBatch:
         self,
         ticks: int,
         quantities: Quantities,
-        commands: ArrayLike | None = None,
+        commands: collections.abc.Mapping[str, ArrayLike] | ArrayLike | None = None,
         mask: collections.abc.Sequence[bool] | None = None,
     ) -> NDArray[np.float64]:
         """Control ticks of all, and what is read then. Releases the interpreter lock.

@@ -185,7 +185,7 @@ class Simulation(_core.Simulation):
         """
         if not isinstance(n, int | np.integer):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
-        return super().step(n, None if command is None else _flat(self.controller, command))
+        return super().step(n, command)
 
     def picture(
         self,
@@ -267,7 +267,7 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: an unknown channel, a wrong shape, or numbers that are not finite.
         """
-        super().step(ticks, *self._given(commands, mask))
+        super().step(ticks, commands, _mask(mask))
 
     def step_and_read(
         self,
@@ -290,38 +290,11 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: as `step`.
         """
-        return super().step_and_read(ticks, quantities, *self._given(commands, mask))
-
-    def _given(self, commands: Command | None, mask: ArrayLike | None) -> tuple[Any, Any]:
-        flat = None if commands is None else _flat(self._controller, commands, len(self))
-        return flat, None if mask is None else np.asarray(mask, bool).tolist()
+        return super().step_and_read(ticks, quantities, commands, _mask(mask))
 
 
-def _flat(controller: WholeBodyController, command: Command, rows: int | None = None) -> Array:
-    """A command as one array, (k,) or (rows, k)."""
-    if not isinstance(command, Mapping):
-        return _finite("a command", command)
-    known = [name for name, _ in controller.channels]
-    for name in command:
-        require_known("channel", name, known)
-    parts = []
-    for name, size in controller.channels:
-        shape = (size,) if rows is None else (rows, size)
-        if name not in command:
-            parts.append(np.full(shape, np.nan if command else 0.0))  # it holds
-            continue
-        part = _finite(f"channel {name!r}", command[name])
-        if part.shape != shape and part.size != math.prod(shape):
-            raise Error(f"channel {name!r}: wanted shape {shape}, got {part.shape}")
-        parts.append(part.reshape(shape))
-    return np.concatenate(parts, axis=-1)
-
-
-def _finite(what: str, values: ArrayLike) -> Array:
-    numbers = _numbers(what, values)
-    if not np.isfinite(numbers).all():
-        raise Error(f"{what}: wanted {numbers.size} finite numbers, got {numbers!r}")
-    return numbers
+def _mask(mask: ArrayLike | None) -> Any:
+    return None if mask is None else np.asarray(mask, bool).tolist()
 
 
 def _numbers(what: str, values: ArrayLike) -> Array:

@@ -1,7 +1,8 @@
 """A C++ user's view: install, find_package(hurcules), compile, run.
 
 Strategy: installs the C++ part of make's build into a fresh prefix, so that nothing of the checkout
-is seen, and builds a program of 15 lines there. Not tested: a prefix moved to another machine.
+is seen, and builds the programs of README and docs there. Not tested: a prefix moved to
+another machine.
 """
 
 import os
@@ -23,26 +24,12 @@ add_executable(consumer consumer.cpp)
 target_link_libraries(consumer PRIVATE hurcules::hurcules)
 """
 
-# x0 = 1 before x0 + x1 = 3 within |x| <= 1.5
-PROGRAM = """\
-#include <hurcules/robot/robot.hpp>
-#include <hurcules/solver/solver.hpp>
-#include <iostream>
-
-int main() {
-  using namespace hurcules;
-  Level first, second;
-  first.A = Matrix{{1.0, 0.0}};
-  first.lower = first.upper = Vector{{1.0}};
-  second.A = Matrix{{1.0, 1.0}};
-  second.lower = second.upper = Vector{{3.0}};
-  Solver solver(2);
-  const Level box = make_bounds(Vector{{-1.5, -1.5}}, Vector{{1.5, 1.5}});
-  const Solution& solution = solver.solve({box, first, second});
-  const ModelPtr ball = load_model_text("<mujoco><worldbody><geom size='1'/></worldbody></mujoco>");
-  std::cout << solution.x.transpose() << " " << to_string(solution.status) << "\\n";
-}
-"""
+ARM = """<mujoco><worldbody><body pos="0 0 1"><joint name="shoulder" axis="0 1 0"/>
+  <geom type="capsule" size=".04" fromto="0 0 0 .4 0 0" mass="2"/><body pos=".4 0 0">
+  <joint name="elbow" axis="0 1 0" ref="1"/>
+  <geom type="capsule" size=".04" fromto="0 0 0 0 0 -.4" mass="2"/>
+  <site name="tip" pos="0 0 -.4"/></body></body></worldbody>
+  <actuator><motor joint="shoulder"/><motor joint="elbow"/></actuator></mujoco>"""
 
 
 def run(*command: str | Path) -> str:
@@ -70,11 +57,13 @@ def installed(build: Path, folder: Path, program: str) -> Path:
     return source / "build" / "consumer"
 
 
-def test_a_program_builds_and_runs_against_the_installed_library(
-    build: Path, tmp_path: Path
-) -> None:
-    x0, x1, status = run(installed(build, tmp_path, PROGRAM)).split()
-    assert (round(float(x0), 9), round(float(x1), 9), status) == (1.0, 1.5, "solved")
+def test_the_loop_of_the_docs_leads_a_robot(build: Path, root: Path, tmp_path: Path) -> None:
+    text = (root / "docs" / "loop.md").read_text(encoding="utf-8")
+    (tmp_path / "arm.xml").write_text(ARM, encoding="utf-8")
+    program = installed(build, tmp_path, re.findall(r"```cpp\n(.*?)```", text, re.DOTALL)[0])
+    where = np.array(run(program, tmp_path / "arm.xml", "tip").split(), dtype=float)
+    # from (0.4, 0, 0.6) at 0.1 m/s for 500 ticks of 2 ms
+    np.testing.assert_allclose(where, [0.4, 0.0, 0.7], atol=2e-3)
 
 
 def test_the_program_of_the_readme_runs_and_says_what_its_python_says(

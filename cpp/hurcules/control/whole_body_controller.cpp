@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -103,6 +104,20 @@ void set_target(Task& task, const ConstVectorRef& target) {
   dynamic_cast<OrientationTask&>(task).set_target(rotation_exp(Vector3(target)));
 }
 
+void require_size(const char* what, Index size, Index wanted) {
+  if (size == wanted) return;
+  throw Error(std::string(what) + " wants " + std::to_string(wanted) + " numbers, " +
+              std::to_string(size) + " came");
+}
+
+void require_values(const char* what, const Vector& values, Index wanted) {
+  require_size(what, values.size(), wanted);
+  for (Index i = 0; i < wanted; ++i)
+    if (!std::isfinite(values[i]))
+      throw Error(std::string(what) + " wants finite numbers, value " + std::to_string(i) + " is " +
+                  std::to_string(values[i]));
+}
+
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -112,7 +127,8 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
       plan_(robot.model(), robot.coordinate_names()),
       stacks_(std::move(stacks)),
       channels_(std::move(channels)),
-      servo_(robot, options_.servo, options_.dt) {
+      servo_(robot, options_.servo, options_.dt),
+      motors_(static_cast<std::size_t>(robot.nu())) {
   require(!stacks_.empty(), "a controller wants at least one stack");
   plan_.set_qpos(robot.qpos());
   if (!options_.support.empty()) plan_.stand_on(options_.support);
@@ -230,7 +246,7 @@ void WholeBodyController::reset(const Vector& qpos) {
   held_back_.setZero();
   command_.setZero();
   active_ = 0;
-  moves_joints_ = scaled_ = false;
+  moves_joints_ = scaled_ = begun_ = false;
   for (Task* const task : tasks_) {
     task->reset(plan_);
     auto* const force = dynamic_cast<ForceTask*>(task);
@@ -341,6 +357,40 @@ void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
 }
 
 // the reference configuration, on its support
+void WholeBodyController::tick(const Vector& qpos, const Vector& qvel, const Vector* command,
+                               bool first, VectorRef ctrl, const double* sensors) {
+  require_values("qpos", qpos, start_.size());
+  require_values("qvel", qvel, plan_.nv());
+  require_size("ctrl", ctrl.size(), plan_.nu());
+  if (command) require_command(*command);
+  const auto wants = [](const ForceReading& reading) { return !reading.spring; };
+  require(sensors || std::none_of(forces_.begin(), forces_.end(), wants),
+          "a force task reads a sensor of the model, and no sensors came");
+  if (!begun_) require_start(qpos);
+  begun_ = true;
+  for (Index i = 0; i < servo_.size(); ++i) {
+    const JointActuator& one = servo_.actuator(i);
+    motors_[static_cast<std::size_t>(one.actuator)].range = one.limits.at(qvel[one.dof]);
+  }
+  const RobotState state{qpos, qvel, motors_, sensors};
+  kinematics(state);
+  apply(command, first, state);
+  measure();
+  solve(state);
+  actuate(state, ctrl);
+}
+
+// a robot that stands elsewhere than the plan would jump there
+void WholeBodyController::require_start(const Vector& qpos) const {
+  constexpr double kFar = 0.05;  // [rad] or [m]
+  for (Index i = 0; i < servo_.size() && !by_torques(); ++i) {
+    const double there = servo_.actuator(i).position(qpos), here = servo_.position()[i];
+    if (std::abs(there - here) <= kFar) continue;
+    throw Error("joint '" + servo_.actuator(i).joint + "' is at " + std::to_string(there) +
+                ", the plan starts at " + std::to_string(here) + ": reset(qpos) first");
+  }
+}
+
 void WholeBodyController::kinematics(const RobotState& state) {
   if (moves_joints_) {
     ahead_ = state.qpos;  // where a stack will find the robot
@@ -406,6 +456,12 @@ bool WholeBodyController::takes(const ConstVectorRef& command) const {
     row += channel.size();
   }
   return true;
+}
+
+void WholeBodyController::require_command(const Vector& command) const {
+  if (takes(command)) return;
+  throw Error("a command wants " + std::to_string(scale_.size()) + " finite numbers, got " +
+              std::to_string(command.size()) + (command.allFinite() ? "" : ", not all finite"));
 }
 
 void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& command, bool first,
@@ -555,6 +611,7 @@ void WholeBodyController::save(StateWriter& writer) const {
 void WholeBodyController::restore(StateReader& reader) {
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
+  begun_ = true;
   const auto support = static_cast<int>(reader.get_count(kMostBodies));
   for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     reader.get(*vector);

@@ -102,12 +102,21 @@ class WholeBodyController {
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
   void sense(ForceTask& task, int sensor_row, double sign = 1.0);
 
+  // One tick of a loop of one's own: from what is sensed, qpos (nq) and qvel (nv), to the controls
+  // (nu) of the actuators, whose motors give what the model says. Command and `first` as for `apply`;
+  // `sensors` (nsensordata) of the model where force tasks read them, else null. A simulation calls
+  // the stages below instead. Throws Error for other sizes, numbers that are not finite, and in the first
+  // tick for a robot that is not where the plan starts.
+  void tick(const Vector& qpos, const Vector& qvel, const Vector* command, bool first,
+            VectorRef ctrl, const double* sensors = nullptr);
   // One tick in its stages. command (k) or null: every target holds, drives stand; a channel of NaN
   // alone does so. `first`: the command is new, so that what it sets once (Delta, Target, Force) is.
   void kinematics(const RobotState& state);
   void apply(const Vector* command, bool first, const RobotState& state);
   // of its size, each channel finite or all NaN, not all of them
   [[nodiscard]] bool takes(const ConstVectorRef& command) const;
+  // throws Error for what it does not take
+  void require_command(const Vector& command) const;
   void measure();
   void solve(const RobotState& state);
   void actuate(const RobotState& state, VectorRef ctrl);
@@ -163,6 +172,7 @@ class WholeBodyController {
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
   void read_forces(const RobotState& state);
+  void require_start(const Vector& qpos) const;
   void take_over();
   void refer();
   void feed_forward(const RobotState* state);
@@ -182,9 +192,11 @@ class WholeBodyController {
   std::vector<std::string> command_names_;
   std::vector<ForceReading> forces_;
   JointServo servo_;
+  std::vector<ActuatorStatus> motors_;  // (nu) for `tick`
   std::optional<TrackDrive> drive_;
   std::size_t active_ = 0;
   bool moves_joints_ = false, scaled_ = false;
+  bool begun_ = false;  // `tick` was called since the start
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
   Vector start_;                             // (nq) where the plan stands

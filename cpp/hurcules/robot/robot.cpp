@@ -171,6 +171,14 @@ ModelIdentity Robot::identity() const {
   return {model_->signature, size()};
 }
 
+Index Robot::nv() const {
+  return model_->nv;
+}
+
+Index Robot::nu() const {
+  return model_->nu;
+}
+
 void Robot::set_qpos(const ConstVectorRef& qpos) {
   require_values(qpos, model_->nq, "set_qpos");
   qpos_ = qpos;

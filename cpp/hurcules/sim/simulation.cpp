@@ -156,11 +156,7 @@ std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
 
 int Simulation::step(int n, const Vector* command, bool begins) {
   if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
-  if (command && !controller_->takes(*command)) {
-    throw Error("a command wants " + std::to_string(controller_->scale().size()) +
-                " finite numbers, got " + std::to_string(command->size()) +
-                (command->allFinite() ? "" : ", not all finite"));
-  }
+  if (command) controller_->require_command(*command);
   if (options_.record) record_.log.reserve(static_cast<std::size_t>(n));
   if (options_.clock) record_.timings.reserve(static_cast<std::size_t>(n));
   if (!finished() && !plant_.check()) end(Ending::Diverged, time());

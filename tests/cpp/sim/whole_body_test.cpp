@@ -338,6 +338,34 @@ TEST(WholeBody, ATickAllocatesNothing) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
+TEST(WholeBody, TicksOfALoopOfOnesOwnHaveTheBitsOfASimulationAndAllocateNothing) {
+  for (const char* const stack : {"reach", "accelerate"}) {
+    Simulation simulation = simulate();
+    const ModelPtr model = load_model_text(arm(kMotors));
+    const auto controller = make(model);
+    simulation.controller().use(stack);
+    controller->use(stack);
+    const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
+    Vector qpos = controller->plan().qpos(), qvel = Vector::Zero(model->nv);
+    Vector ctrl = Vector::Zero(model->nu);
+    std::copy(qpos.begin(), qpos.end(), data->qpos);
+    const Vector command = Eigen::Vector3d(-0.2, 0.1, 0.02);
+    std::size_t allocated = 0;
+    for (int tick = 0; tick < 200; ++tick) {
+      const NoAllocation guard;
+      controller->tick(qpos, qvel, &command, tick == 0, ctrl);
+      allocated += guard.count();
+      std::copy(ctrl.begin(), ctrl.end(), data->ctrl);
+      mj_step(model.get(), data.get());
+      std::copy_n(data->qpos, qpos.size(), qpos.begin());
+      std::copy_n(data->qvel, qvel.size(), qvel.begin());
+    }
+    simulation.step(200, &command);
+    EXPECT_EQ(qpos, simulation.plant().qpos()) << stack;
+    EXPECT_EQ(allocated, 0U) << stack;
+  }
+}
+
 TEST(WholeBody, RefusesWhatCannotBe) {
   const ModelPtr model = load_model_text(arm(kMotors));
   EXPECT_TRUE(contains(error_text([&] { Simulation(model, make(model, 0.003)); }), "whole number"));

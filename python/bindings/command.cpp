@@ -1,0 +1,87 @@
+#include "command.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules_bindings {
+
+namespace py = pybind11;
+using namespace hurcules;
+
+namespace {
+
+std::string shape_of(const py::array& array) {
+  return std::string(py::str(array.attr("shape")));
+}
+
+Array numbers_of(const std::string& what, const py::handle& values) {
+  const Array numbers = Array::ensure(values);
+  if (!numbers) {
+    PyErr_Clear();
+    throw Error(what + ": wanted numbers, got " + std::string(py::repr(values)));
+  }
+  if (!Eigen::Map<const Vector>(numbers.data(), numbers.size()).allFinite()) {
+    throw Error(what + ": wanted " + std::to_string(numbers.size()) + " finite numbers, got " +
+                std::string(py::repr(numbers)));
+  }
+  return numbers;
+}
+
+// rows of what came, or of the values of all channels side by side; `shape` of n numbers, as a text
+template <class Shape>
+Matrix rows_of(const WholeBodyController& controller, const py::object& command, Index rows,
+               const Shape& shape) {
+  const Index k = controller.scale().size();
+  if (!py::isinstance(command, py::module_::import("collections.abc").attr("Mapping"))) {
+    const Array numbers = numbers_of("a command", command);
+    if (shape_of(numbers) != shape(k))
+      throw Error("a command: wanted shape " + shape(k) + ", got " + shape_of(numbers));
+    return Eigen::Map<const Matrix>(numbers.data(), rows, k);
+  }
+  const auto given = py::dict(command);
+  std::vector<std::string> known;
+  for (const Channel& channel : controller.channels()) known.push_back(channel.name());
+  for (const auto& [name, values] : given) {
+    const std::string text = py::str(name);
+    if (std::find(known.begin(), known.end(), text) == known.end())
+      throw Error(unknown_name("channel", text, known));
+  }
+  const double left = given.empty() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  Matrix all = Matrix::Constant(rows, k, left);
+  Index column = 0;
+  for (const Channel& channel : controller.channels()) {
+    const Index size = channel.size();
+    if (const py::str name(channel.name()); given.contains(name)) {
+      const std::string what = "channel '" + channel.name() + "'";
+      const Array numbers = numbers_of(what, given[name]);
+      if (numbers.size() != rows * size)
+        throw Error(what + ": wanted shape " + shape(size) + ", got " + shape_of(numbers));
+      all.middleCols(column, size) = Eigen::Map<const Matrix>(numbers.data(), rows, size);
+    }
+    column += size;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Vector> command_of(const WholeBodyController& controller, const py::object& command) {
+  if (command.is_none()) return std::nullopt;
+  const auto shape = [](Index n) { return "(" + std::to_string(n) + ",)"; };
+  return rows_of(controller, command, 1, shape).row(0).transpose();
+}
+
+std::optional<Matrix> commands_of(const WholeBodyController& controller, const py::object& commands,
+                                  Index rows) {
+  if (commands.is_none()) return std::nullopt;
+  const auto shape = [rows](Index n) {
+    return "(" + std::to_string(rows) + ", " + std::to_string(n) + ")";
+  };
+  return rows_of(controller, commands, rows, shape);
+}
+
+}  // namespace hurcules_bindings

@@ -1,0 +1,96 @@
+"""A loop of one's own: `WholeBodyController.tick`, without a Simulation.
+
+Strategy: the planar arm of test_whole_body_loop.py, stepped by MuJoCo itself; the same bits as the
+simulation is what says that nothing is left out. Then what is refused.
+"""
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from test_whole_body_loop import ARM, PLANE, START, twist
+
+
+def own_loop(**options: object) -> tuple[hurcules.WholeBodyController, mujoco.MjData]:
+    """The arm at its start and its controller."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=PLANE)
+    posture = hurcules.PostureTask("posture", robot)
+    channels = twist(tip) | {"delta": hurcules.Delta(posture, 0.5)}
+    controller = hurcules.WholeBodyController(robot, [tip, posture], channels, **options)
+    data = mujoco.MjData(model)
+    data.qpos[:] = robot.qpos
+    return controller, data
+
+
+@pytest.mark.parametrize("law", ["velocity", "acceleration", "torque"])
+@pytest.mark.parametrize("base", ["held", "sensed"])
+def test_it_has_the_bits_of_a_simulation(law: str, base: str) -> None:
+    controller, data = own_loop(control=law, base=base)
+    other, start = own_loop(control=law, base=base)
+    simulation = hurcules.Simulation(model=start.model, controller=other)
+    for command in ({"tip": [-0.2, 0.1], "finger": [0.05]}, {"delta": [0.1, 0.0, 0.2]}, None):
+        for tick in range(100):
+            data.ctrl[:] = controller.tick(data.qpos, data.qvel, command, first=tick == 0)
+            mujoco.mj_step(data.model, data)
+        simulation.step(100, command)
+        assert np.array_equal(data.qpos, simulation.data.qpos)
+        assert np.array_equal(data.ctrl, simulation.data.ctrl)
+    assert controller.state() == other.state()
+
+
+def test_it_goes_on_from_a_state_and_starts_anew() -> None:
+    controller, data = own_loop()
+    again, _ = own_loop()
+    controller.tick(data.qpos, data.qvel, {"tip": [0.1, 0.0]})
+    again.restore(controller.state())
+    mujoco.mj_step(data.model, data)
+    one, other = (each.tick(data.qpos, data.qvel) for each in (controller, again))
+    assert np.array_equal(one, other)
+    elsewhere = data.qpos + 0.4
+    controller.reset(elsewhere)
+    assert controller.q_des == pytest.approx(elsewhere[:3])
+    controller.tick(elsewhere, 0.0 * data.qvel)
+
+
+def test_a_force_task_reads_the_sensors_that_it_is_given() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        ARM.replace("<actuator>", "<sensor><force name='push' site='tip'/></sensor><actuator>")
+    )
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    force = hurcules.ForceTask("force", robot, "tip", axis=[1.0, 0.0, 0.0])
+    controller = hurcules.WholeBodyController(robot, [force, hurcules.PostureTask("p", robot)])
+    controller.sense(force, "push", 0)
+    with pytest.raises(hurcules.Error, match="no sensors came"):
+        controller.tick(robot.qpos, np.zeros(4))
+    with pytest.raises(hurcules.Error, match="sensors want 3 finite numbers"):
+        controller.tick(robot.qpos, np.zeros(4), sensors=[1.0])
+    controller.tick(robot.qpos, np.zeros(4), sensors=[12.0, 0.0, 0.0])
+    assert force.force == pytest.approx(12.0)
+
+
+Tick = Callable[[hurcules.WholeBodyController, mujoco.MjData], object]
+REFUSED: dict[str, tuple[Tick, str]] = {
+    "qpos": (lambda c, d: c.tick(d.qpos[:2], d.qvel), "qpos wants 4 numbers, 2 came"),
+    "qvel": (lambda c, d: c.tick(d.qpos, [0.0, np.nan, 0.0, 0.0]), "qvel.*value 1 is nan"),
+    "text": (lambda c, d: c.tick("here", d.qvel), "qpos wants real numbers"),  # type: ignore[arg-type]
+    "channel": (lambda c, d: c.tick(d.qpos, d.qvel, {"hand": [0.0]}), "channel 'hand'"),
+    "command": (lambda c, d: c.tick(d.qpos, d.qvel, [0.0]), r"wanted shape \(6,\), got \(1,\)"),
+    "elsewhere": (lambda c, d: c.tick(d.qpos + 0.1, d.qvel), r"'j1' is at 0.4.*reset\(qpos\)"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_is_refused_and_changes_nothing(case: str) -> None:
+    controller, data = own_loop()
+    before = controller.state()
+    tick, text = REFUSED[case]
+    with pytest.raises(hurcules.Error, match=text):
+        tick(controller, data)
+    assert controller.state() == before
