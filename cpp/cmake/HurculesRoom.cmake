@@ -23,6 +23,8 @@ function(hurcules_room name)
   target_include_directories(hurcules_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
   target_compile_features(hurcules_${name} PUBLIC cxx_std_20)
+  # one layout of Eigen's memory for the library and whoever links it, with AVX or without (base/types.hpp)
+  target_compile_definitions(hurcules_${name} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
   hurcules_warnings(hurcules_${name})
   # eight sources at a time, which share what they instantiate of Eigen: three quarters of the work; two
   # names that clash want another name

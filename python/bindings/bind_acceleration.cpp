@@ -82,7 +82,6 @@ void bind_acceleration_options(py::module_& module) {
 void bind_acceleration(py::module_& module) {
   bind_acceleration_options(module);
   const auto step = [](AccelerationController& self, Robot& robot) {
-    require_stack(self);
     const InUse in_use("controller or Robot", &self, &robot);
     const py::gil_scoped_release release;
     self.compute(robot);
@@ -93,7 +92,6 @@ void bind_acceleration(py::module_& module) {
     return q;
   };
   const auto torque = [](const AccelerationController& self, const Robot& robot) {
-    require_stack(self);
     Vector given(robot.size());
     self.torque(robot, given);
     return given;

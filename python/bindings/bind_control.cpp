@@ -91,7 +91,6 @@ void bind_controller(py::module_& module) {
     return next;
   };
   const auto step = [](VelocityController& self, Robot& robot) {
-    require_stack(self);
     const InUse in_use("controller or Robot", &self, &robot);
     const py::gil_scoped_release release;
     return Vector(self.step(robot));

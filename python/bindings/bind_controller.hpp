@@ -17,12 +17,6 @@
 
 namespace hurcules_bindings {
 
-template <typename Controller>
-void require_stack(const Controller& controller) {
-  hurcules::require(!controller.stack().levels().empty(),
-                    "a controller wants a stack before it computes");
-}
-
 inline constexpr const char* kSetStack =
     "Takes over another stack, or what Stack takes; keeps its tasks alive.";
 inline constexpr const char* kDiagnostics =
@@ -48,7 +42,6 @@ void bind_common(pybind11::class_<Controller>& controller, const std::string& re
     py::detail::keep_alive_impl(py::cast(&self), held);
   };
   const auto compute = [](Controller& self, const hurcules::Robot& robot) {
-    require_stack(self);
     const InUse in_use("controller or Robot", &self, &robot);
     const py::gil_scoped_release release;
     return hurcules::Vector(self.compute(robot));
@@ -59,7 +52,6 @@ void bind_common(pybind11::class_<Controller>& controller, const std::string& re
       "Returns:\n  " +
       result + ". Releases the interpreter lock.\n";
   const auto diagnostics = [](const Controller& self, const hurcules::Robot& robot) {
-    require_stack(self);
     return self.diagnostics(robot);
   };
   const auto notes = [diagnostics](const Controller& self, const hurcules::Robot& robot) {

@@ -52,7 +52,9 @@ def installed(build: Path, folder: Path, program: str) -> Path:
     source.mkdir()
     (source / "CMakeLists.txt").write_text(CMAKE.format(version=hurcules.__version__))
     (source / "consumer.cpp").write_text(program)
-    run(cmake(), "-S", source, "-B", source / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    # with AVX Eigen would lay its memory out otherwise than the library does
+    flags = f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_CXX_FLAGS=-O1 -march=native"
+    run(cmake(), "-S", source, "-B", source / "build", *flags)
     run(cmake(), "--build", source / "build")
     return source / "build" / "consumer"
 

@@ -42,9 +42,10 @@ double StateReader::get() {
 
 Index StateReader::get_count(Index most) {
   const double value = get();
-  require(value >= 0.0 && value <= static_cast<double>(most) && value == std::floor(value),
-          "a snapshot has " + std::to_string(value) + " where a whole number up to " +
-              std::to_string(most) + " is wanted");
+  if (value < 0.0 || value > static_cast<double>(most) || value != std::floor(value)) {
+    throw Error("a snapshot has " + std::to_string(value) + " where a whole number up to " +
+                std::to_string(most) + " is wanted");
+  }
   return static_cast<Index>(value);
 }
 

@@ -3,6 +3,13 @@
 
 #include <Eigen/Core>
 
+// With AVX Eigen aligns to 32 bytes, and what one side allocates the other cannot free.
+#if EIGEN_MAX_ALIGN_BYTES != 16 || !EIGEN_MALLOC_ALREADY_ALIGNED
+// clang-format off
+#error "hurcules wants -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 (hurcules::hurcules sets them)"
+// clang-format on
+#endif
+
 namespace hurcules {
 
 // numpy and MuJoCo are row-major, so every dynamic matrix here is; only the binding wall copies

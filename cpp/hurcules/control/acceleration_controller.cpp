@@ -74,6 +74,7 @@ AccelerationController::AccelerationController(const Robot& robot,
 }
 
 void AccelerationController::set_stack(const Stack& stack) {
+  require_period(stack, options_.dt);
   const Stack completed = contacts_.completed(stack);
   problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, &joint_ranges_,
                      contacts_.size());
@@ -101,6 +102,7 @@ const Vector& AccelerationController::compute(const Robot& robot) {
 }
 
 void AccelerationController::measure(const Robot& robot) {
+  require(!stack().levels().empty(), "a controller wants a stack before it computes");
   speed_ = robot.velocity();
   braked_ = options_.rest * speed_;
   Hierarchy& hierarchy = problem_.hierarchy();
@@ -163,6 +165,8 @@ bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const 
 }
 
 void AccelerationController::torque(const Robot& robot, VectorRef torque) const {
+  require(!stack().levels().empty(), "a controller wants a stack before it computes");
+  require(torque.size() == acceleration_.size(), "torque wants room for one number a coordinate");
   robot.inverse_dynamics(acceleration_, torque);
   for (const StackLevel& level : stack().levels()) {
     for (const Task* task : level.tasks) {
@@ -191,6 +195,8 @@ void AccelerationController::add_friction(const Robot& robot, VectorRef torque) 
 
 void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
   if (floating_) throw Error("integrate: no reference can lead a free root; it wants torques");
+  require(q.size() == acceleration_.size() && velocity.size() == acceleration_.size(),
+          "integrate wants one number for each coordinate");
   const double dt = options_.dt;
   for (Index i = 0; i < q.size(); ++i) {
     const double next = velocity[i] + acceleration_[i] * dt;

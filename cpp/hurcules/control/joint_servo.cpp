@@ -279,6 +279,8 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
 
 // what held its place behind a brake holds where the brake left it
 void JointServo::read_brakes(const RobotState& state) {
+  require(size() == 0 || !state.actuators.empty(),
+          "a robot's state wants the status of its actuators");
   for (Index i = 0; i < size(); ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     const bool shut = state.actuators[static_cast<std::size_t>(motor.actuator.actuator)].braked;

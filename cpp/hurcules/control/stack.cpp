@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/tasks/force_task.hpp"
 
 namespace hurcules {
 
@@ -64,6 +65,18 @@ std::string Stack::text() const {
   std::string text;
   for (const StackLevel& level : levels_) text += (text.empty() ? "" : " < ") + level.name;
   return text;
+}
+
+void require_period(const Stack& stack, double dt) {
+  for (const StackLevel& level : stack.levels()) {
+    for (const Task* const task : level.tasks) {
+      const auto* const force = dynamic_cast<const ForceTask*>(task);
+      require(!force || std::abs(force->options().gains.dt - dt) <= 1e-9 * dt,
+              "task '" + task->name() + "' reckons with a period of " +
+                  (force ? std::to_string(force->options().gains.dt) : "") +
+                  " s, its controller has " + std::to_string(dt) + " s: ForceGains(dt=...)");
+    }
+  }
 }
 
 StackLevel operator+(const StackLevel& a, const StackLevel& b) {

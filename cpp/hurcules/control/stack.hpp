@@ -38,6 +38,9 @@ class Stack {
   std::vector<StackLevel> levels_;
 };
 
+// throws Error for a force task that reckons with another period than the controller's dt [s]
+void require_period(const Stack& stack, double dt);
+
 [[nodiscard]] StackLevel operator+(const StackLevel& a, const StackLevel& b);
 [[nodiscard]] Stack operator<(const StackLevel& first, const StackLevel& second);
 [[nodiscard]] Stack operator<(const Stack& stack, const StackLevel& next);

@@ -81,6 +81,7 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
 }
 
 void VelocityController::set_stack(const Stack& stack) {
+  require_period(stack, options_.dt);
   for (const StackLevel& level : stack.levels()) {
     for (const Task* task : level.tasks) {
       require(!task->commands_acceleration() || task->bounds_acceleration(),
@@ -109,6 +110,7 @@ const Vector& VelocityController::compute(const Robot& robot) {
 }
 
 void VelocityController::measure(const Robot& robot) {
+  require(!stack().levels().empty(), "a controller wants a stack before it computes");
   Hierarchy& hierarchy = problem_.hierarchy();
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     const StackLevel& source = stack().levels()[k];
@@ -178,6 +180,7 @@ bool VelocityController::scale_velocity(const VelocityBounds& window) {
 }
 
 void VelocityController::integrate(VectorRef q) const {
+  require(q.size() == velocity_.size(), "integrate wants one number for each coordinate");
   step_ = velocity_ * options_.dt;
   if (limits())
     limits()->add_held_step(rotations_, step_, q);

@@ -75,10 +75,14 @@ ModelPtr load_model(const std::string& path) {
   const std::filesystem::path suffix = std::filesystem::path(path).extension();
   if (suffix == ".mjb")
     return owned(mj_loadModel(path.c_str(), nullptr), "model '" + path + "'", listener.text());
+  if (suffix == ".urdf") {
+    // MuJoCo's own reading drops limits of speed and effort, motors and fixed links
+    throw Error("model '" + path + "' is a URDF: convert it once, in Python: " +
+                "mujoco.mj_saveModel(hurcules.load_urdf('" + path + "'), 'robot.mjb')");
+  }
   ErrorText error{};
   mjModel* model = mj_loadXML(path.c_str(), nullptr, error.data(), error.size());
-  const std::string remedy = suffix == ".urdf" ? "; hurcules.load_urdf knows packages" : "";
-  return owned(model, "model '" + path + "'", error.data() + remedy);
+  return owned(model, "model '" + path + "'", error.data());
 }
 
 ModelPtr load_model_text(const std::string& mjcf, const std::string& folder) {

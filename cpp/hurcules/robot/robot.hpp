@@ -34,7 +34,8 @@ class Momentum;
 
 using ModelPtr = std::shared_ptr<const mjModel_>;
 
-// Reads an MJCF or MJB file. Throws Error with MuJoCo's text when it cannot be read or compiled.
+// Reads an MJCF or MJB file. Throws Error with MuJoCo's text when it cannot be read or compiled, and
+// for a URDF, which Python's load_urdf converts with its limits and motors.
 [[nodiscard]] ModelPtr load_model(const std::string& path);
 // the same from MJCF text; `folder` is where its files are looked for
 [[nodiscard]] ModelPtr load_model_text(const std::string& mjcf, const std::string& folder = "");

@@ -332,6 +332,25 @@ TEST(ForceTask, AllocatesNothingInATick) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
+TEST(ForceTask, AllocatesNothingWhileAnotherTaskIsOutOfReach) {
+  Press press(first_order(1e-3, 1e4));
+  press.across.set_target(press.across.target() + Eigen::Vector2d(1.5, 0.0));
+  press.run(1100);
+  const NoAllocation guard;
+  for (int i = 0; i < 300; ++i) {
+    press.force.sense(press.robot, press.reading());
+    press.velocity.compute(press.robot);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+TEST(ForceTask, ReckonsWithThePeriodOfItsController) {
+  Press press(first_order(1e-3, 1e4));
+  VelocityController slow(press.robot, {.dt = 5e-3});
+  const std::string text = error_text([&] { slow.set_stack(press.stack()); });
+  EXPECT_TRUE(contains(text, "period of 0.001000 s, its controller has 0.005000 s")) << text;
+}
+
 TEST(ForceTask, ARestoredOneGivesTheSameBits) {
   Press press(first_order(1e-3, 0.0));
   press.run(1150);  // in the middle of the blend

@@ -217,6 +217,13 @@ TEST_F(Controller, GoesOnAtTheVelocityOfTheControllerBefore) {
   EXPECT_LE(change, 20.0 * 1e-3 * (1.0 + 1e-9));
 }
 
+TEST_F(Controller, WantsAStackAndNumbersForAllCoordinates) {
+  VelocityController bare(robot_);
+  EXPECT_TRUE(contains(error_text([&] { bare.compute(robot_); }), "wants a stack"));
+  Vector q = Vector::Zero(2);
+  EXPECT_TRUE(contains(error_text([&] { controller_.integrate(q); }), "each coordinate"));
+}
+
 TEST_F(Controller, AllocatesNothingInATick) {
   RandomMotion random(3);
   const Vector command = random.vector(3, 2.0);
