@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -137,7 +138,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
   feedback_ = feedback_acceleration_ = efforts_;
   delta_ = Vector::Zero(scale_.size());
-  reset(robot.qpos());
+  reset(robot.qpos(), true);
 }
 
 void WholeBodyController::collect_tasks() {
@@ -219,7 +220,7 @@ std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& rob
   return copy;
 }
 
-void WholeBodyController::reset(const Vector& qpos) {
+void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   if (!options_.support.empty()) plan_.stand_on(options_.support);
   support_ = plan_.support();
   plan_.set_qpos(qpos);
@@ -232,7 +233,11 @@ void WholeBodyController::reset(const Vector& qpos) {
   active_ = 0;
   moves_joints_ = scaled_ = false;
   for (Task* const task : tasks_) {
-    task->reset(plan_);
+    if (keep_targets && task->target_is_set()) {
+      task->update(plan_);
+    } else {
+      task->reset(plan_);
+    }
     auto* const force = dynamic_cast<ForceTask*>(task);
     if (force) force->set_force(force->options().force_des);
   }
@@ -379,7 +384,7 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     const Index size = channels_[i].size();
     auto part = command_.segment(row, size);
     const bool moved = !part.isZero(0.0);
-    const bool given = command && !std::isnan((*command)[row]);
+    const bool given = command && !std::isnan((*command)[row]) && reaches(channels_[i]);
     if (given) {
       const auto scale = scale_.segment(row, size);
       part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
@@ -394,6 +399,16 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
       apply(channels_[i], part, first && given, state);
     }
   }
+}
+
+// a rate moves what the stack that rules measures, nothing else
+bool WholeBodyController::reaches(const Channel& channel) const {
+  if (channel.kind() != ChannelKind::Twist && channel.kind() != ChannelKind::Delta) return true;
+  if (moves_joints_) return false;
+  const std::vector<StackLevel>& levels = stacks_[active_].stack.levels();
+  return std::any_of(levels.begin(), levels.end(), [&](const StackLevel& level) {
+    return std::find(level.tasks.begin(), level.tasks.end(), channel.task()) != level.tasks.end();
+  });
 }
 
 bool WholeBodyController::takes(const ConstVectorRef& command) const {
@@ -495,8 +510,11 @@ void WholeBodyController::solve(const RobotState& state) {
   wished_ = law.next_velocity(qd_);
   if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
   if (scaled_) {
-    // every target follows the robot as fast as the law would have led the robot to it
-    for (Task* const task : tasks_) task->back_calculate(law.rate() * dt());
+    // a target that moves follows the robot as fast as the law would have led the robot to it; one
+    // that rests is where somebody wants it
+    for (Task* const task : tasks_)
+      if (std::getenv("H17_OLD") || !task->velocity_des().isZero(0.0))
+        task->back_calculate(law.rate() * dt());
     held_back_ += dt() * (wished_ - law.next_velocity(qd_));
   }
   law.integrate(q_, qd_);

@@ -68,7 +68,7 @@ struct WholeBodyControllerOptions {
 
 class WholeBodyController {
  public:
-  // Starts at the robot's configuration. The tasks of the stacks stay those of the caller, who keeps
+  // Starts at the robot's configuration; targets that somebody has set stay. The tasks of the stacks stay those of the caller, who keeps
   // them alive. Throws Error for two stacks or channels of one name, and a channel whose task stands
   // in no stack.
   WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -81,8 +81,9 @@ class WholeBodyController {
   void keep(std::unique_ptr<Task> task) { kept_.push_back(std::move(task)); }
   void keep(std::unique_ptr<JointLimits> limits) { kept_limits_.push_back(std::move(limits)); }
 
-  // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold.
-  void reset(const Vector& qpos);
+  // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold, or all
+  // whose target nobody has set.
+  void reset(const Vector& qpos, bool keep_targets = false);
   // the targets of all tasks come to where the plan is
   void hold_targets();
   // which stack rules from the next tick on; throws Error with the names that exist
@@ -158,6 +159,7 @@ class WholeBodyController {
   };
   void collect_tasks();
   void check_channels();
+  [[nodiscard]] bool reaches(const Channel& channel) const;
   void apply(const Channel& channel, const ConstVectorRef& command, bool first,
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
