@@ -254,7 +254,7 @@ def test_a_target_whose_acceleration_is_told_is_followed_without_lag(control: st
             tip.set_target(middle + out, way, -(turning**2) * out if told else None)
             simulation.step()
             if tick > 1500:
-                off = max(off, float(np.linalg.norm(at(simulation) - middle - out)))
+                off = max(off, float(np.linalg.norm(tip.error)))  # of the reference
         worst.append(off)
     assert worst[1] < 0.1 * worst[0]
     assert worst[0] > 1e-3

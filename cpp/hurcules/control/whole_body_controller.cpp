@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 
@@ -104,6 +104,28 @@ void set_target(Task& task, const ConstVectorRef& target) {
   dynamic_cast<OrientationTask&>(task).set_target(rotation_exp(Vector3(target)));
 }
 
+// [s] after which a target begins to come back, and after which it does so at its full rate
+constexpr double kWait = 0.5, kReturnTime = 1.0;
+constexpr double kReturnRate = 4.0;    // [1/s]
+constexpr double kLeastReturn = 1e-3;  // [unit/s]
+constexpr double kReturned = 1e-12;    // [unit]
+
+// how many numbers of a target back-calculation moves: of a pose its position
+Index target_size(const Task& task) {
+  if (dynamic_cast<const ValueTask*>(&task)) return task.rows();
+  return dynamic_cast<const PoseTask*>(&task) || dynamic_cast<const GazeTask*>(&task) ? 3 : 0;
+}
+
+void read_target(const Task& task, Vector& numbers) {
+  if (const auto* const value = dynamic_cast<const ValueTask*>(&task)) {
+    numbers = value->target();
+  } else if (const auto* const pose = dynamic_cast<const PoseTask*>(&task)) {
+    numbers = pose->target_position();
+  } else if (const auto* const gaze = dynamic_cast<const GazeTask*>(&task)) {
+    numbers = gaze->target();
+  }
+}
+
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -152,6 +174,10 @@ void WholeBodyController::collect_tasks() {
   }
   require_distinct(tasks_, "tasks");
   twins_.resize(tasks_.size());
+  for (const Task* const task : tasks_) {
+    const Vector numbers = Vector::Zero(target_size(*task));
+    yielded_.push_back({false, numbers, numbers, numbers, Vector::Zero(task->rows())});
+  }
 }
 
 void WholeBodyController::check_channels() {
@@ -229,6 +255,7 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   qd_.setZero();
   plan_.set_velocity(qd_);
   held_back_.setZero();
+  forget_yielded();
   command_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = false;
@@ -248,7 +275,18 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   feed_forward(nullptr);
 }
 
+// targets are where they are wanted
+void WholeBodyController::forget_yielded() {
+  for (Yielded& yielded : yielded_) {
+    yielded.on = false;
+    yielded.wanted.setZero();
+    yielded.left.setZero();
+  }
+  unscaled_ = kReturnTime;
+}
+
 void WholeBodyController::hold_targets() {
+  forget_yielded();
   for (Task* const task : tasks_) task->hold(plan_);
 }
 
@@ -509,15 +547,58 @@ void WholeBodyController::solve(const RobotState& state) {
   law.solve();
   wished_ = law.next_velocity(qd_);
   if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
-  if (scaled_) {
-    // a target that moves follows the robot as fast as the law would have led the robot to it; one
-    // that rests is where somebody wants it
-    for (Task* const task : tasks_)
-      if (std::getenv("H17_OLD") || !task->velocity_des().isZero(0.0))
-        task->back_calculate(law.rate() * dt());
-    held_back_ += dt() * (wished_ - law.next_velocity(qd_));
-  }
+  if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
+  yield_targets();
   law.integrate(q_, qd_);
+}
+
+// While the motion slows down every target follows the robot as fast as the law would have led the
+// robot to it. One that rested comes back afterwards, slowly at first: where the robot is blocked
+// still, it gives way again.
+void WholeBodyController::yield_targets() {
+  unscaled_ = scaled_ ? 0.0 : std::min(unscaled_ + dt(), kReturnTime);
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    Task& task = *tasks_[i];
+    Yielded& yielded = yielded_[i];
+    if (yielded.on) {
+      read_target(task, yielded.now);
+      yielded.on = yielded.now == yielded.left;
+    }
+    if (scaled_) {
+      const bool rests = task.velocity_des().isZero(0.0);
+      if (yielded.on && !rests) stop(task, yielded);
+      if (!yielded.on && rests) {
+        read_target(task, yielded.wanted);
+        yielded.on = yielded.wanted.size() > 0;
+      }
+      task.back_calculate(law().rate() * dt());
+    } else if (yielded.on) {
+      lead_back(task, yielded);
+    }
+    if (yielded.on) read_target(task, yielded.left);
+  }
+}
+
+// a step of the way to where it rested
+void WholeBodyController::lead_back(Task& task, Yielded& yielded) const {
+  const double length = (yielded.wanted - yielded.now).norm();
+  if (length <= kReturned) {
+    yielded.on = false;
+    return stop(task, yielded);
+  }
+  const double ramp = std::max(0.0, unscaled_ - kWait) / (kReturnTime - kWait);
+  const double rate = std::min(kReturnRate * length + kLeastReturn, task.max_speed());
+  const double share = std::min(1.0, ramp * rate * dt() / length);
+  yielded.now = share * (yielded.wanted - yielded.now);
+  if (auto* const gaze = dynamic_cast<GazeTask*>(&task))
+    return gaze->set_target(gaze->target() + yielded.now);
+  yielded.velocity.head(yielded.now.size()) = yielded.now / dt();
+  task.advance(yielded.velocity, dt());
+}
+
+void WholeBodyController::stop(Task& task, Yielded& yielded) const {
+  yielded.velocity.setZero();
+  if (!task.velocity_des().isZero(0.0)) task.advance(yielded.velocity, dt());
 }
 
 void WholeBodyController::hold() {
@@ -564,6 +645,12 @@ void WholeBodyController::save(StateWriter& writer) const {
     writer.put(*vector);
   }
   for (const Task* task : tasks_) task->save(writer);
+  writer.put(unscaled_);
+  for (const Yielded& yielded : yielded_) {
+    writer.put(yielded.on ? 1.0 : 0.0);
+    writer.put(yielded.wanted);
+    writer.put(yielded.left);
+  }
   for (const JointLimits* limits : limits_) limits->save(writer);
   for (const auto& law : laws_) law->save(writer);
   servo_.save(writer);
@@ -578,6 +665,12 @@ void WholeBodyController::restore(StateReader& reader) {
     reader.get(*vector);
   }
   for (Task* task : tasks_) task->restore(reader);
+  unscaled_ = reader.get();
+  for (Yielded& yielded : yielded_) {
+    yielded.on = reader.get_count(1) > 0;
+    reader.get(yielded.wanted);
+    reader.get(yielded.left);
+  }
   for (JointLimits* limits : limits_) limits->restore(reader);
   for (const auto& law : laws_) law->restore(reader);
   servo_.restore(reader);

@@ -157,6 +157,14 @@ class WholeBodyController {
     int row = -1;
     double sign = 1.0;
   };
+  // a target at rest that gives way to what holds the robot
+  struct Yielded {
+    bool on = false;
+    Vector wanted;    // where it rested
+    Vector left;      // where it was left: elsewhere, somebody has moved it
+    Vector now;       // scratch
+    Vector velocity;  // scratch, (rows)
+  };
   void collect_tasks();
   void check_channels();
   [[nodiscard]] bool reaches(const Channel& channel) const;
@@ -164,6 +172,10 @@ class WholeBodyController {
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
+  void yield_targets();
+  void lead_back(Task& task, Yielded& yielded) const;
+  void stop(Task& task, Yielded& yielded) const;
+  void forget_yielded();
   void read_forces(const RobotState& state);
   void take_over();
   void refer();
@@ -189,6 +201,8 @@ class WholeBodyController {
   bool moves_joints_ = false, scaled_ = false;
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
+  std::vector<Yielded> yielded_;             // of the tasks
+  double unscaled_ = 0.0;                    // [s] since the motion slowed down last
   Vector start_;                             // (nq) where the plan stands
   Vector ahead_;                             // (nq) scratch
   Vector wished_;                            // (n) scratch
