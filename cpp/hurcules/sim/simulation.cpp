@@ -10,6 +10,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/control/tasks.hpp"
 
 namespace hurcules {
 

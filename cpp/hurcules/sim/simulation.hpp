@@ -24,9 +24,10 @@
 #include "hurcules/sim/run_record.hpp"
 #include "hurcules/sim/sensors.hpp"
 #include "hurcules/sim/supervisor.hpp"
-#include "hurcules/tasks/distance_task.hpp"
 
 namespace hurcules {
+
+class DistanceTask;
 
 // A run ends where this frame is too low above the controller's support, or the support tilts.
 struct FallOptions {
