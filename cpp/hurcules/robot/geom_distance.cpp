@@ -425,7 +425,7 @@ void GeomDistance::set_motion(int id, const BodyMotion& motion, Source source) {
     body.linear = motion.linear + motion.angular.cross(body.pose.p - motion.pose.p);
     body.angular = motion.angular;
   }
-  require(found, "body " + std::to_string(id) + " is in no pair");
+  if (!found) throw Error("body " + std::to_string(id) + " is in no pair");  // no text in a tick
 }
 
 std::vector<int> GeomDistance::bodies() const {
