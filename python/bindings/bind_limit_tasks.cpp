@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "annotated.hpp"
+#include "arrays.hpp"
 #include "hurcules/robot/sole_points.hpp"
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
@@ -24,6 +26,7 @@
 namespace py = pybind11;
 using namespace pybind11::literals;
 using namespace hurcules;
+using namespace hurcules_bindings;
 
 void bind_limit_tasks(py::module_& module);
 
@@ -149,8 +152,8 @@ constexpr const char* kObstacles =
     R"(The robot keeps away from what stands around it: a DistanceTask for a level above the hands.
 
 Its pairs are found as by self_collision: geoms of the robot with all that stands still (floor,
-walls, tables), and with the bodies of these names, wherever they are: they may move
-(DistanceTask.set_obstacle).
+walls, tables), and with the bodies of these names, wherever they are: they may move. In a
+Simulation the task sees how, elsewhere DistanceTask.set_obstacle says it.
 
 Args:
   robot, margin, most, rows, postures, seed: see self_collision.
@@ -172,7 +175,7 @@ Args:
   robot: the robot of the task.
   body: name of a body of some pair.
   position: (3,) [m] in the world.
-  rotation: (3, 3) in the world, None for none.
+  rotation: (3, 3) or quaternion (4,) w x y z in the world, None for none.
   velocity: (3,) [m/s] of its origin.
   angular_velocity: (3,) [rad/s].
 
@@ -244,11 +247,14 @@ std::vector<NearPair> near_pairs(const DistanceTask& task, const Robot& robot) {
 }
 
 void set_obstacle(DistanceTask& task, const Robot& robot, const std::string& body,
-                  const Vector3& position, const std::optional<Matrix3>& rotation,
+                  const Vector3& position, const OptionalArrayLike& rotation,
                   const Vector3& velocity, const Vector3& angular_velocity) {
   task.set_obstacle(
       robot, body,
-      {{position, rotation.value_or(Matrix3::Identity())}, velocity, angular_velocity});
+      {{position, rotation.is_none() ? Matrix3(Matrix3::Identity())
+                                     : rotation_from(rotation, "rotation of '" + body + "'")},
+       velocity,
+       angular_velocity});
 }
 
 }  // namespace
@@ -323,7 +329,11 @@ void bind_limit_tasks(py::module_& module) {
            "rotation"_a = py::none(), "velocity"_a = Vector3::Zero().eval(),
            "angular_velocity"_a = Vector3::Zero().eval(), kSetObstacle)
       .def("clear_obstacles", &DistanceTask::clear_obstacles,
-           "All obstacles where the robot has them, at rest.")
+           "All obstacles where the robot has them, at rest, or where a Simulation sees them.")
+      .def_property(
+          "sees_obstacles", &DistanceTask::sees_obstacles, &DistanceTask::set_sees_obstacles,
+          "A Simulation says where bodies are that may move, unless set_obstacle has said "
+          "so.")
       .def("__copy__",
            [](const DistanceTask& self) { return std::make_unique<DistanceTask>(self); })
       .def("pairs", &pair_names, "robot"_a, "Names of the geoms of each pair.")

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "annotated.hpp"
 #include "arrays.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/tasks/angle_task.hpp"
@@ -106,7 +107,7 @@ constexpr const char* kSetPose =
 
 Args:
   position: (3,) [m].
-  orientation: (3, 3) rotation; None keeps the one that it has.
+  orientation: (3, 3) rotation or quaternion (4,) w x y z; None keeps the one that it has.
   velocity: (6,) [m/s], [rad/s] at which the target moves, fed forward until the next call that sets
     or moves it; None: at rest.
 )";
@@ -114,7 +115,7 @@ constexpr const char* kSetTurn =
     R"(Sets the target; seen at the next update.
 
 Args:
-  target: (3, 3) rotation.
+  target: (3, 3) rotation or quaternion (4,) w x y z.
   velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
     moves it; None: at rest.
 )";
@@ -136,6 +137,7 @@ Args:
   target: (m,).
   velocity: (m,) [unit/s] at which the target moves, fed forward until the next call that sets or
     moves it; None: at rest. Who leads a target so sets it anew each tick.
+  acceleration: (m,) [unit/s^2] of the target, fed forward so by accelerations and torques; None: 0.
 )";
 constexpr const char* kManipulabilityTask =
     R"(How far a frame is from a singularity: s (1,), the product of the singular values of its Jacobian.
@@ -289,11 +291,14 @@ void bind_task(py::module_& module) {
       .def_property_readonly("target", &ValueTask::target, copy, "s_des (m,)")
       .def(
           "set_target",
-          [](ValueTask& task, const ConstVectorRef& target, const std::optional<Vector>& velocity) {
-            if (!velocity) return task.set_target(target);
-            task.set_reference(target, *velocity, Vector::Zero(task.rows()));
+          [](ValueTask& task, const ConstVectorRef& target, const std::optional<Vector>& velocity,
+             const std::optional<Vector>& acceleration) {
+            if (!velocity && !acceleration) return task.set_target(target);
+            const Vector none = Vector::Zero(task.rows());
+            task.set_reference(target, velocity.value_or(none), acceleration.value_or(none));
           },
-          py::arg("target"), py::arg("velocity") = py::none(), kSetTarget)
+          py::arg("target"), py::arg("velocity") = py::none(), py::arg("acceleration") = py::none(),
+          kSetTarget)
       .def_property("max_lead", &ValueTask::max_lead, &ValueTask::set_max_lead, kMaxLead)
       .def_property(
           "leash",
@@ -334,9 +339,12 @@ void bind_pose_tasks(py::module_& module) {
     return std::make_unique<PoseTask>(std::move(n), r, f, PoseTaskOptions{std::move(ref)});
   };
   const auto set_target = [](PoseTask& task, const Vector3& position,
-                             const std::optional<Matrix3>& orientation,
+                             const OptionalArrayLike& orientation,
                              const std::optional<Vector>& velocity) {
-    task.set_target(position, orientation.value_or(task.target_orientation()));
+    task.set_target(position,
+                    orientation.is_none()
+                        ? task.target_orientation()
+                        : rotation_from(orientation, "orientation of task '" + task.name() + "'"));
     if (velocity) task.advance(*velocity, 0.0);
   };
   py::class_<PoseTask, Task>(module, "PoseTask", kPoseTask)
@@ -400,8 +408,9 @@ void bind_rotation_tasks(py::module_& module) {
       .def_property_readonly("target", &OrientationTask::target, copy, "R_des (3, 3)")
       .def(
           "set_target",
-          [](OrientationTask& task, const Matrix3& target, const std::optional<Vector>& velocity) {
-            task.set_target(target);
+          [](OrientationTask& task, const ArrayLike& target,
+             const std::optional<Vector>& velocity) {
+            task.set_target(rotation_from(target, "target of task '" + task.name() + "'"));
             if (velocity) task.advance(*velocity, 0.0);
           },
           py::arg("target"), py::arg("velocity") = py::none(), kSetTurn);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "command.hpp"
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
+#include "hurcules/robot/trees.hpp"
 #include "in_use.hpp"
 #include "solver_levels.hpp"
 #include "state.hpp"
@@ -90,7 +92,8 @@ constexpr const char* kController =
 Each tick: the command moves the targets; the tasks are measured at the plan, a robot that stands at
 the reference; the hierarchy is solved; the reference follows; the servos follow the reference.
 Position, velocity and acceleration limits of all coordinates come before every level.
-Here, and at each start of a simulation, targets go to where the robot is: set them afterwards.
+Targets that were set before stay, here and when a simulation is made of it; all others go to where
+the robot is. A reset of the simulation puts all of them where it starts.
 
 Args:
   robot: Robot where it starts; any MJCF robot.
@@ -382,6 +385,25 @@ std::vector<std::pair<std::string, Index>> sizes(const WholeBodyController& self
   return all;
 }
 
+// the frames that hold their place in the plan while they move in the world
+std::vector<std::tuple<std::string, std::string, bool>> unseen_references(
+    const WholeBodyController& self) {
+  const Robot& plan = self.plan();
+  const mjModel& m = *plan.model();
+  const bool sees_joints = self.options().base == BaseSource::Sensed || self.by_torques();
+  std::vector<std::tuple<std::string, std::string, bool>> unseen;
+  for (const Task* const task : self.tasks()) {
+    const std::optional<Frame> frame = task->reference_frame();
+    if (!frame || plan.moves(*frame)) continue;
+    const int body = body_of(m, *frame);
+    if (!may_move(m, body) || in_own_tree(plan, body)) continue;
+    const bool mocap = m.body_mocapid[m.body_rootid[body]] >= 0;
+    if (mocap || !sees_joints)
+      unseen.emplace_back(task->name(), mj_id2name(&m, frame->type, frame->id), mocap);
+  }
+  return unseen;
+}
+
 }  // namespace
 
 void bind_whole_body(py::module_& module) {
@@ -435,6 +457,9 @@ void bind_whole_body(py::module_& module) {
       .def("move_joints", &WholeBodyController::move_joints,
            "No stack rules until `use`: joints stay where they are, JointRates moves them.")
       .def("stand_on", &WholeBodyController::stand_on, "body"_a, kStandOn)
+      .def_property_readonly("unseen_references", &unseen_references,
+                             "(task, frame, whether by mocap) where a task is measured in a frame "
+                             "that may move and whose motion the plan does not see")
       .def("hold_targets", &WholeBodyController::hold_targets,
            "The targets of all tasks come to where the plan is.")
       .def("task", &WholeBodyController::task, "name"_a,

@@ -748,13 +748,19 @@ class Task:
 class ValueTask(Task):
     """A task whose value is a list of numbers: e = value - target, angles the short way round."""
 
-    def set_target(self, target: ArrayLike, velocity: ArrayLike | None = None) -> None:
+    def set_target(
+        self,
+        target: ArrayLike,
+        velocity: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+    ) -> None:
         """Sets the target; seen at the next update.
 
         Args:
           target: (m,).
           velocity: (m,) [unit/s] at which the target moves, fed forward until the next call that sets or
-            moves it; None: at rest. Who leads a target so sets it anew each tick."""
+            moves it; None: at rest. Who leads a target so sets it anew each tick.
+          acceleration: (m,) [unit/s^2] of the target, fed forward so by accelerations and torques; None: 0."""
 
     @property
     def leash(self) -> float:
@@ -901,7 +907,7 @@ class PoseTask(Task):
 
         Args:
           position: (3,) [m].
-          orientation: (3, 3) rotation; None keeps the one that it has.
+          orientation: (3, 3) rotation or quaternion (4,) w x y z; None keeps the one that it has.
           velocity: (6,) [m/s], [rad/s] at which the target moves, fed forward until the next call that sets
             or moves it; None: at rest."""
 
@@ -956,7 +962,7 @@ class OrientationTask(Task):
         """Sets the target; seen at the next update.
 
         Args:
-          target: (3, 3) rotation.
+          target: (3, 3) rotation or quaternion (4,) w x y z.
           velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
             moves it; None: at rest."""
 
@@ -1161,7 +1167,7 @@ class DistanceTask(Task):
         rows: int = 16,
     ) -> None: ...
     def clear_obstacles(self) -> None:
-        """All obstacles where the robot has them, at rest."""
+        """All obstacles where the robot has them, at rest, or where a Simulation sees them."""
 
     def near(self, robot: Robot) -> list[tuple[str, str, float]]:
         """Names of the geoms of the pairs that have a row, and their e [m], as of the last update."""
@@ -1186,12 +1192,19 @@ class DistanceTask(Task):
           robot: the robot of the task.
           body: name of a body of some pair.
           position: (3,) [m] in the world.
-          rotation: (3, 3) in the world, None for none.
+          rotation: (3, 3) or quaternion (4,) w x y z in the world, None for none.
           velocity: (3,) [m/s] of its origin.
           angular_velocity: (3,) [rad/s].
 
         Raises:
           Error: a body that is in no pair or part of the robot, a matrix that is no rotation."""
+
+    @property
+    def sees_obstacles(self) -> bool:
+        """A Simulation says where bodies are that may move, unless set_obstacle has said so."""
+
+    @sees_obstacles.setter
+    def sees_obstacles(self, arg1: bool) -> None: ...
 
 class ForceLoop(_Enum):
     """The law of a force loop, see ForceGains."""
@@ -2618,7 +2631,8 @@ class WholeBodyController:
     Each tick: the command moves the targets; the tasks are measured at the plan, a robot that stands at
     the reference; the hierarchy is solved; the reference follows; the servos follow the reference.
     Position, velocity and acceleration limits of all coordinates come before every level.
-    Here, and at each start of a simulation, targets go to where the robot is: set them afterwards.
+    Targets that were set before stay, here and when a simulation is made of it; all others go to where
+    the robot is. A reset of the simulation puts all of them where it starts.
 
     Args:
       robot: Robot where it starts; any MJCF robot.
@@ -2860,6 +2874,10 @@ class WholeBodyController:
     @property
     def torque(self) -> NDArray[np.float64]:
         """(m,) [N m] or [N] of the servos"""
+
+    @property
+    def unseen_references(self) -> list[tuple[str, str, bool]]:
+        """(task, frame, whether by mocap) where a task is measured in a frame that may move and whose motion the plan does not see"""
 
 class Brakes:
     """Magnetic brakes in the drives of the joints: closed they hold without power.
@@ -4299,8 +4317,8 @@ def obstacles(
     """The robot keeps away from what stands around it: a DistanceTask for a level above the hands.
 
     Its pairs are found as by self_collision: geoms of the robot with all that stands still (floor,
-    walls, tables), and with the bodies of these names, wherever they are: they may move
-    (DistanceTask.set_obstacle).
+    walls, tables), and with the bodies of these names, wherever they are: they may move. In a
+    Simulation the task sees how, elsewhere DistanceTask.set_obstacle says it.
 
     Args:
       robot, margin, most, rows, postures, seed: see self_collision.

@@ -212,6 +212,13 @@ class Simulation(_core.Simulation):
     def _repr_html_(self) -> str:
         return drawing.html(self)
 
+    def __reduce__(self) -> str:
+        """Refuses copy and pickle, which would make half an object."""
+        raise Error(
+            "a simulation is neither copied nor pickled: SimulationBatch(simulation, n) has copies "
+            "of it, simulation.state() and restore() carry its state"
+        )
+
     def __repr__(self) -> str:
         """What runs, and how far it is."""
         what = f"mission {self.mission!r}" if self.mission else repr(self.controller)

@@ -28,6 +28,7 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
     yield from _doubled(model)
+    yield from _unseen(controller)
     yield from _by_tendons(model, controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
@@ -52,6 +53,16 @@ def _doubled(model: mujoco.MjModel) -> Iterator[str]:
             doubled.append(f"'{model.joint(joint).name}' by {first}, not by {', '.join(others)}")
     if doubled:
         yield f"where a joint has several actuators the first moves it alone: {'; '.join(doubled)}"
+
+
+def _unseen(controller: WholeBodyController) -> Iterator[str]:
+    """Tasks in a frame that may move and of which the plan does not know."""
+    for task, frame, mocap in controller.unseen_references:
+        if mocap:
+            way = "no plan sees a mocap body move: lead the target of a task in the world"
+        else:
+            way = "the plan holds it where it starts; with base='sensed' it is where it is"
+        yield f"task '{task}' is measured in '{frame}', which may move: {way}"
 
 
 def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
@@ -155,6 +166,7 @@ def _weak_motors(
     data.qpos[:] = controller.plan.qpos
     mujoco.mj_forward(model, data)
     weight: NDArray[np.float64] = data.qfrc_bias - data.qfrc_passive
+    weight -= np.where(model.jnt_actgravcomp[model.dof_jntid], data.qfrc_gravcomp, 0.0)
     weak = []
     for joint, motors in _actuated(model).items():
         if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SINGLE:

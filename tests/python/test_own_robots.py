@@ -4,6 +4,8 @@ Strategy: each is a robot of one or two joints on which a newcomer met a wrong r
 what must hold is reckoned by hand or read from the physics.
 """
 
+import copy
+import pickle
 import warnings
 from pathlib import Path
 
@@ -81,7 +83,7 @@ def test_a_push_beyond_the_motors_leaves_accelerations_within_their_limit() -> N
         now = simulation.controller.qd_des.copy()
         assert np.abs(now - before).max() <= limit * (1 + 1e-9)
         before = now
-    simulation.step(4000)
+    simulation.step(10000)  # it comes back to its posture
     assert not simulation.reason
     assert np.abs(simulation.data.qvel).max() < 1e-6
 
@@ -135,3 +137,62 @@ def test_axes_are_directions_of_any_length() -> None:
     assert along.value == pytest.approx(robot.position("tip") @ [0.6, 0.8, 0.0])
     with pytest.raises(hurcules.Error, match="want directions that differ"):
         hurcules.PositionTask("twice", robot, "tip", axes=[[0, 0, 1], [0, 0, 2]])
+
+
+@pytest.mark.parametrize("control", ["velocity", "acceleration", "torque"])
+def test_gravity_that_actuators_compensate_is_counted_once(control: str) -> None:
+    text = ARM.format(actuators=MOTORS, ground=0)
+    text = text.replace('axis="0 0 1"', 'axis="0 1 0" actuatorgravcomp="true"')
+    model = mujoco.MjModel.from_xml_string(text.replace("<body ", '<body gravcomp="1" '))
+    robot = hurcules.Robot(model)
+    robot.set_configuration([-0.4, 1.2])
+    assert robot.inverse_dynamics([0.0, 0.0]) == pytest.approx([0.0, 0.0], abs=1e-12)
+    hand = hurcules.PositionTask("hand", robot, "tip", axes=[[1, 0, 0], [0, 0, 1]])
+    controller = hurcules.WholeBodyController(robot, [hand], control=control)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulation = hurcules.Simulation(model=model, controller=controller)
+    place = simulation.data.site("tip").xpos.copy()
+    simulation.step(3000)
+    assert simulation.data.site("tip").xpos == pytest.approx(place, abs=1e-5)
+
+
+def test_a_centre_of_mass_is_that_of_one_robot() -> None:
+    text = ARM.format(actuators=MOTORS + '<motor joint="other"/>', ground=0)
+    other = '<body pos="2 0 1"><joint name="other"/><geom fromto="0 0 0 1 0 0"/></body>'
+    model = mujoco.MjModel.from_xml_string(text.replace("</worldbody>", other + "</worldbody>"))
+    both, one = hurcules.Robot(model), hurcules.Robot(model, joints=["a", "b"])
+    square = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+    hurcules.CenterOfMassTask("com", one)
+    for make in (
+        lambda: hurcules.CenterOfMassTask("com", both),
+        lambda: hurcules.BalanceTask("com", both, square),
+        lambda: hurcules.ZeroMomentTask("com", both, square),
+    ):
+        with pytest.raises(hurcules.Error, match="'a' and 'other' move bodies of two trees"):
+            make()
+
+
+def test_a_rotation_is_a_matrix_or_a_quaternion() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM.format(actuators=MOTORS, ground=0))
+    robot = hurcules.Robot(model)
+    turn, quaternion = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]]), [1.0, 0, 0, 1.0]
+    pose = hurcules.PoseTask("pose", robot, "tip")
+    hand = hurcules.OrientationTask("hand", robot, "tip")
+    pose.set_target([0.1, 0.2, 0.3], quaternion)
+    hand.set_target(quaternion)
+    assert pose.target_orientation == pytest.approx(turn)
+    assert hand.target == pytest.approx(turn)
+    for wrong in (np.eye(4), np.zeros(4), np.zeros(3), [1, 0, 0], "up", None):
+        with pytest.raises(hurcules.Error, match=r"^target of task 'hand' wants"):
+            hand.set_target(wrong)
+    said = r"orientation of task 'pose' wants \(3, 3\), or .* \(4, 4\) came"
+    with pytest.raises(hurcules.Error, match=said):
+        pose.set_target([0.1, 0.2, 0.3], np.eye(4))
+
+
+def test_a_simulation_is_not_copied_by_copy() -> None:
+    simulation, _ = loop()
+    for copying in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(hurcules.Error, match="neither copied nor pickled"):
+            copying(simulation)

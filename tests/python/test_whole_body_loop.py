@@ -207,3 +207,54 @@ def test_settings_with_which_tracks_go_wrong_are_warned_of(setting, value, said)
     )
     with pytest.warns(UserWarning, match=said):
         hurcules.Simulation(model=model, controller=controller)
+
+
+@pytest.mark.parametrize("kind", [hurcules.Twist, hurcules.Delta])
+def test_a_rate_moves_what_the_ruling_stack_measures_and_nothing_else(kind: type) -> None:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=PLANE)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(
+        robot, channels={"tip": kind(tip, 0.5)}, stacks={"reach": [tip, posture], "rest": [posture]}
+    )
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    start, target = at(simulation), tip.target
+    simulation.step(250, {"tip": [-0.1, 0.05]})
+    moved = tip.target
+    assert np.abs(moved - target).min() > 0.01
+    controller.use("rest")
+    simulation.step(250, {"tip": [-0.2, 0.1]})
+    assert not controller.command.any()
+    assert np.array_equal(tip.target, moved)
+    controller.use("reach")  # it goes where it was sent, no velocity is left over
+    simulation.step(1500)
+    assert np.array_equal(tip.target, moved)
+    assert at(simulation) == pytest.approx(moved, abs=1e-3)
+    assert start == pytest.approx(target)
+    controller.move_joints()
+    simulation.step(250, {"tip": [-0.2, 0.1]})
+    assert np.array_equal(tip.target, moved)
+
+
+@pytest.mark.parametrize("control", ["acceleration", "torque"])
+def test_a_target_whose_acceleration_is_told_is_followed_without_lag(control: str) -> None:
+    radius, turning = 0.05, 2.0  # [m], [rad/s]: 0.2 m/s^2, over K = 100 1/s^2 it is 2 mm
+    worst = []
+    for told in (False, True):
+        simulation = simulate(lambda tip: {"tip": hurcules.Twist(tip, 0.5)}, control=control)
+        tip = simulation.controller.task("tip")
+        middle = tip.target - [radius, 0.0]
+        off = 0.0
+        for tick in range(3000):
+            angle = turning * tick * simulation.dt
+            out = radius * np.array([np.cos(angle), np.sin(angle)])
+            way = turning * np.array([-out[1], out[0]])
+            tip.set_target(middle + out, way, -(turning**2) * out if told else None)
+            simulation.step()
+            if tick > 1500:
+                off = max(off, float(np.linalg.norm(tip.error)))  # of the reference
+        worst.append(off)
+    assert worst[1] < 0.1 * worst[0]
+    assert worst[0] > 1e-3

@@ -8,6 +8,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/tasks/gaze_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 
@@ -118,6 +119,28 @@ void require_values(const char* what, const Vector& values, Index wanted) {
                   std::to_string(values[i]));
 }
 
+// [s] after which a target begins to come back, and after which it does so at its full rate
+constexpr double kWait = 0.5, kReturnTime = 1.0;
+constexpr double kReturnRate = 4.0;    // [1/s]
+constexpr double kLeastReturn = 1e-3;  // [unit/s]
+constexpr double kReturned = 1e-12;    // [unit]
+
+// how many numbers of a target back-calculation moves: of a pose its position
+Index target_size(const Task& task) {
+  if (dynamic_cast<const ValueTask*>(&task)) return task.rows();
+  return dynamic_cast<const PoseTask*>(&task) || dynamic_cast<const GazeTask*>(&task) ? 3 : 0;
+}
+
+void read_target(const Task& task, Vector& numbers) {
+  if (const auto* const value = dynamic_cast<const ValueTask*>(&task)) {
+    numbers = value->target();
+  } else if (const auto* const pose = dynamic_cast<const PoseTask*>(&task)) {
+    numbers = pose->target_position();
+  } else if (const auto* const gaze = dynamic_cast<const GazeTask*>(&task)) {
+    numbers = gaze->target();
+  }
+}
+
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -153,7 +176,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
   feedback_ = feedback_acceleration_ = efforts_;
   delta_ = Vector::Zero(scale_.size());
-  reset(robot.qpos());
+  reset(robot.qpos(), true);
 }
 
 void WholeBodyController::collect_tasks() {
@@ -167,6 +190,10 @@ void WholeBodyController::collect_tasks() {
   }
   require_distinct(tasks_, "tasks");
   twins_.resize(tasks_.size());
+  for (const Task* const task : tasks_) {
+    const Vector numbers = Vector::Zero(target_size(*task));
+    yielded_.push_back({false, numbers, numbers, numbers, Vector::Zero(task->rows())});
+  }
 }
 
 void WholeBodyController::check_channels() {
@@ -235,7 +262,7 @@ std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& rob
   return copy;
 }
 
-void WholeBodyController::reset(const Vector& qpos) {
+void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   if (!options_.support.empty()) plan_.stand_on(options_.support);
   support_ = plan_.support();
   plan_.set_qpos(qpos);
@@ -244,11 +271,16 @@ void WholeBodyController::reset(const Vector& qpos) {
   qd_.setZero();
   plan_.set_velocity(qd_);
   held_back_.setZero();
+  forget_yielded();
   command_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = begun_ = false;
   for (Task* const task : tasks_) {
-    task->reset(plan_);
+    if (keep_targets && task->target_is_set()) {
+      task->update(plan_);
+    } else {
+      task->reset(plan_);
+    }
     auto* const force = dynamic_cast<ForceTask*>(task);
     if (force) force->set_force(force->options().force_des);
   }
@@ -259,7 +291,18 @@ void WholeBodyController::reset(const Vector& qpos) {
   feed_forward(nullptr);
 }
 
+// targets are where they are wanted
+void WholeBodyController::forget_yielded() {
+  for (Yielded& yielded : yielded_) {
+    yielded.on = false;
+    yielded.wanted.setZero();
+    yielded.left.setZero();
+  }
+  unscaled_ = kReturnTime;
+}
+
 void WholeBodyController::hold_targets() {
+  forget_yielded();
   for (Task* const task : tasks_) task->hold(plan_);
 }
 
@@ -429,7 +472,7 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     const Index size = channels_[i].size();
     auto part = command_.segment(row, size);
     const bool moved = !part.isZero(0.0);
-    const bool given = command && !std::isnan((*command)[row]);
+    const bool given = command && !std::isnan((*command)[row]) && reaches(channels_[i]);
     if (given) {
       const auto scale = scale_.segment(row, size);
       part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
@@ -444,6 +487,16 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
       apply(channels_[i], part, first && given, state);
     }
   }
+}
+
+// a rate moves what the stack that rules measures, nothing else
+bool WholeBodyController::reaches(const Channel& channel) const {
+  if (channel.kind() != ChannelKind::Twist && channel.kind() != ChannelKind::Delta) return true;
+  if (moves_joints_) return false;
+  const std::vector<StackLevel>& levels = stacks_[active_].stack.levels();
+  return std::any_of(levels.begin(), levels.end(), [&](const StackLevel& level) {
+    return std::find(level.tasks.begin(), level.tasks.end(), channel.task()) != level.tasks.end();
+  });
 }
 
 bool WholeBodyController::takes(const ConstVectorRef& command) const {
@@ -550,12 +603,58 @@ void WholeBodyController::solve(const RobotState& state) {
   law.solve();
   wished_ = law.next_velocity(qd_);
   if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
-  if (scaled_) {
-    // every target follows the robot as fast as the law would have led the robot to it
-    for (Task* const task : tasks_) task->back_calculate(law.rate() * dt());
-    held_back_ += dt() * (wished_ - law.next_velocity(qd_));
-  }
+  if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
+  yield_targets();
   law.integrate(q_, qd_);
+}
+
+// While the motion slows down every target follows the robot as fast as the law would have led the
+// robot to it. One that rested comes back afterwards, slowly at first: where the robot is blocked
+// still, it gives way again.
+void WholeBodyController::yield_targets() {
+  unscaled_ = scaled_ ? 0.0 : std::min(unscaled_ + dt(), kReturnTime);
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    Task& task = *tasks_[i];
+    Yielded& yielded = yielded_[i];
+    if (yielded.on) {
+      read_target(task, yielded.now);
+      yielded.on = yielded.now == yielded.left;
+    }
+    if (scaled_) {
+      const bool rests = task.velocity_des().isZero(0.0);
+      if (yielded.on && !rests) stop(task, yielded);
+      if (!yielded.on && rests) {
+        read_target(task, yielded.wanted);
+        yielded.on = yielded.wanted.size() > 0;
+      }
+      task.back_calculate(law().rate() * dt());
+    } else if (yielded.on) {
+      lead_back(task, yielded);
+    }
+    if (yielded.on) read_target(task, yielded.left);
+  }
+}
+
+// a step of the way to where it rested
+void WholeBodyController::lead_back(Task& task, Yielded& yielded) const {
+  const double length = (yielded.wanted - yielded.now).norm();
+  if (length <= kReturned) {
+    yielded.on = false;
+    return stop(task, yielded);
+  }
+  const double ramp = std::max(0.0, unscaled_ - kWait) / (kReturnTime - kWait);
+  const double rate = std::min(kReturnRate * length + kLeastReturn, task.max_speed());
+  const double share = std::min(1.0, ramp * rate * dt() / length);
+  yielded.now = share * (yielded.wanted - yielded.now);
+  if (auto* const gaze = dynamic_cast<GazeTask*>(&task))
+    return gaze->set_target(gaze->target() + yielded.now);
+  yielded.velocity.head(yielded.now.size()) = yielded.now / dt();
+  task.advance(yielded.velocity, dt());
+}
+
+void WholeBodyController::stop(Task& task, Yielded& yielded) const {
+  yielded.velocity.setZero();
+  if (!task.velocity_des().isZero(0.0)) task.advance(yielded.velocity, dt());
 }
 
 void WholeBodyController::hold() {
@@ -602,6 +701,12 @@ void WholeBodyController::save(StateWriter& writer) const {
     writer.put(*vector);
   }
   for (const Task* task : tasks_) task->save(writer);
+  writer.put(unscaled_);
+  for (const Yielded& yielded : yielded_) {
+    writer.put(yielded.on ? 1.0 : 0.0);
+    writer.put(yielded.wanted);
+    writer.put(yielded.left);
+  }
   for (const JointLimits* limits : limits_) limits->save(writer);
   for (const auto& law : laws_) law->save(writer);
   servo_.save(writer);
@@ -617,6 +722,12 @@ void WholeBodyController::restore(StateReader& reader) {
     reader.get(*vector);
   }
   for (Task* task : tasks_) task->restore(reader);
+  unscaled_ = reader.get();
+  for (Yielded& yielded : yielded_) {
+    yielded.on = reader.get_count(1) > 0;
+    reader.get(yielded.wanted);
+    reader.get(yielded.left);
+  }
   for (JointLimits* limits : limits_) limits->restore(reader);
   for (const auto& law : laws_) law->restore(reader);
   servo_.restore(reader);

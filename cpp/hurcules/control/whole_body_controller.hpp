@@ -68,7 +68,7 @@ struct WholeBodyControllerOptions {
 
 class WholeBodyController {
  public:
-  // Starts at the robot's configuration. The tasks of the stacks stay those of the caller, who keeps
+  // Starts at the robot's configuration; targets that somebody has set stay. The tasks of the stacks stay those of the caller, who keeps
   // them alive. Throws Error for two stacks or channels of one name, and a channel whose task stands
   // in no stack.
   WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -81,8 +81,9 @@ class WholeBodyController {
   void keep(std::unique_ptr<Task> task) { kept_.push_back(std::move(task)); }
   void keep(std::unique_ptr<JointLimits> limits) { kept_limits_.push_back(std::move(limits)); }
 
-  // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold.
-  void reset(const Vector& qpos);
+  // Starts anew at a whole configuration (nq) at rest: the first stack rules, all tasks hold, or all
+  // whose target nobody has set.
+  void reset(const Vector& qpos, bool keep_targets = false);
   // the targets of all tasks come to where the plan is
   void hold_targets();
   // which stack rules from the next tick on; throws Error with the names that exist
@@ -165,12 +166,25 @@ class WholeBodyController {
     int row = -1;
     double sign = 1.0;
   };
+  // a target at rest that gives way to what holds the robot
+  struct Yielded {
+    bool on = false;
+    Vector wanted;    // where it rested
+    Vector left;      // where it was left: elsewhere, somebody has moved it
+    Vector now;       // scratch
+    Vector velocity;  // scratch, (rows)
+  };
   void collect_tasks();
   void check_channels();
+  [[nodiscard]] bool reaches(const Channel& channel) const;
   void apply(const Channel& channel, const ConstVectorRef& command, bool first,
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
+  void yield_targets();
+  void lead_back(Task& task, Yielded& yielded) const;
+  void stop(Task& task, Yielded& yielded) const;
+  void forget_yielded();
   void read_forces(const RobotState& state);
   void require_start(const Vector& qpos) const;
   void take_over();
@@ -199,6 +213,8 @@ class WholeBodyController {
   bool begun_ = false;  // `tick` was called since the start
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
+  std::vector<Yielded> yielded_;             // of the tasks
+  double unscaled_ = 0.0;                    // [s] since the motion slowed down last
   Vector start_;                             // (nq) where the plan stands
   Vector ahead_;                             // (nq) scratch
   Vector wished_;                            // (n) scratch

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -18,28 +19,20 @@ constexpr double kAlways = 0.9;  // in contact in so many of the postures: made 
 class Shapes {
  public:
   explicit Shapes(const Robot& robot)
-      : model_(*robot.model()), driven_(static_cast<std::size_t>(model_.nbody), false) {
+      : robot_(robot),
+        model_(*robot.model()),
+        driven_(static_cast<std::size_t>(model_.nbody), false) {
     for (const Coordinate& coordinate : robot.coordinates()) {
-      for (const DrivenJoint& joint : coordinate.joints) {
-        const int body = model_.jnt_bodyid[joint.joint];
-        driven_[static_cast<std::size_t>(body)] = true;
-        trees_.push_back(model_.body_rootid[body]);
-      }
+      for (const DrivenJoint& joint : coordinate.joints)
+        driven_[static_cast<std::size_t>(model_.jnt_bodyid[joint.joint])] = true;
     }
   }
 
   [[nodiscard]] int body(int geom) const { return model_.geom_bodyid[geom]; }
 
   // of a tree that the coordinates move
-  [[nodiscard]] bool is_own(int body) const {
-    return std::find(trees_.begin(), trees_.end(), model_.body_rootid[body]) != trees_.end();
-  }
-
-  [[nodiscard]] bool stands_still(int body) const {
-    for (; body != 0; body = model_.body_parentid[body])
-      if (model_.body_jntnum[body] > 0 || model_.body_mocapid[body] >= 0) return false;
-    return true;
-  }
+  [[nodiscard]] bool is_own(int body) const { return in_own_tree(robot_, body); }
+  [[nodiscard]] bool stands_still(int body) const { return !may_move(model_, body); }
 
   // the model lets them touch
   [[nodiscard]] bool may_touch(int a, int b) const {
@@ -68,9 +61,9 @@ class Shapes {
   }
 
  private:
+  const Robot& robot_;
   const mjModel& model_;
   std::vector<bool> driven_;  // (nbody)
-  std::vector<int> trees_;
 };
 
 class Postures {

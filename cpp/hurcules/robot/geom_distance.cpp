@@ -162,7 +162,7 @@ void GeomDistance::place_bodies(const Robot& robot) {
   ++tick_;
   for (Body& body : bodies_) {
     const Skeleton::Pose before = body.pose;
-    if (!body.own) body.pose = robot.pose({mjOBJ_BODY, body.id});
+    if (!body.own()) body.pose = robot.pose({mjOBJ_BODY, body.id});
     body.moved += travel(before, body.pose, body.radius);
   }
 }
@@ -392,7 +392,7 @@ void GeomDistance::gradient(const Robot& robot, const Near& near,
 
 BodyPoint GeomDistance::moved_point(std::size_t geom, const Vector3& point) const {
   const Body& body = body_of(geom);
-  return {body.own ? 0 : body.id, point};
+  return {body.own() ? 0 : body.id, point};
 }
 
 double GeomDistance::rate(const Near& near) const {
@@ -403,11 +403,11 @@ double GeomDistance::rate(const Near& near) const {
 
 Vector3 GeomDistance::velocity(std::size_t geom, const Vector3& point) const {
   const Body& body = body_of(geom);
-  if (!body.own) return Vector3::Zero();
+  if (!body.own()) return Vector3::Zero();
   return body.linear + body.angular.cross(point - body.pose.p);
 }
 
-void GeomDistance::set_motion(int id, const BodyMotion& motion) {
+void GeomDistance::set_motion(int id, const BodyMotion& motion, Source source) {
   const mjModel& m = *model_;
   bool found = false;
   for (Body& body : bodies_) {
@@ -416,18 +416,32 @@ void GeomDistance::set_motion(int id, const BodyMotion& motion) {
     while (carrier != id && carrier != 0 && m.body_jntnum[carrier] == 0)
       carrier = m.body_parentid[carrier];
     if (carrier != id) continue;
-    found = body.own = true;
+    found = true;
+    if (source == Source::Seen && body.source == Source::Told) continue;
+    body.source = source;
     const Skeleton::Pose before = body.pose;
     body.pose = motion.pose * Skeleton::between(m, id, body.id, m.qpos0);
     body.moved += travel(before, body.pose, body.radius);
     body.linear = motion.linear + motion.angular.cross(body.pose.p - motion.pose.p);
     body.angular = motion.angular;
   }
-  require(found, "body " + std::to_string(id) + " is in no pair");
+  if (!found) throw Error("body " + std::to_string(id) + " is in no pair");  // no text in a tick
+}
+
+std::vector<int> GeomDistance::bodies() const {
+  std::vector<int> ids;
+  for (const Body& body : bodies_) ids.push_back(body.id);
+  return ids;
+}
+
+std::optional<BodyMotion> GeomDistance::motion(int id) const {
+  for (const Body& body : bodies_)
+    if (body.id == id && body.own()) return BodyMotion{body.pose, body.linear, body.angular};
+  return {};
 }
 
 void GeomDistance::clear_motions() {
-  for (Body& body : bodies_) body.own = false;
+  for (Body& body : bodies_) body.source = Source::None;
 }
 
 void GeomDistance::reset() {
@@ -440,10 +454,10 @@ void GeomDistance::reset() {
 
 void GeomDistance::save(StateWriter& writer) const {
   for (const Body& body : bodies_) {
-    writer.put(body.own ? 1.0 : 0.0);
-    put(writer, body.own ? body.pose : Skeleton::Pose{});
-    writer.put(body.own ? body.linear : Vector3::Zero());
-    writer.put(body.own ? body.angular : Vector3::Zero());
+    writer.put(static_cast<double>(body.source));
+    put(writer, body.own() ? body.pose : Skeleton::Pose{});
+    writer.put(body.own() ? body.linear : Vector3::Zero());
+    writer.put(body.own() ? body.angular : Vector3::Zero());
   }
   for (const Seen& seen : seen_) {
     writer.put(static_cast<double>(seen.pair));
@@ -458,10 +472,10 @@ void GeomDistance::save(StateWriter& writer) const {
 
 void GeomDistance::restore(StateReader& reader) {
   for (Body& body : bodies_) {
-    body.own = reader.get_count(1) > 0;
+    body.source = static_cast<Source>(reader.get_count(2));
     Skeleton::Pose pose;
     get(reader, pose);
-    if (body.own) body.pose = pose;
+    if (body.own()) body.pose = pose;
     reader.get(body.linear);
     reader.get(body.angular);
   }

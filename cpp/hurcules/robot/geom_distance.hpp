@@ -14,6 +14,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,9 +71,14 @@ class GeomDistance {
   // [m/s] the part of its change that comes from bodies of set_motion
   [[nodiscard]] double rate(const Near& near) const;
 
+  // whose word a motion is: what is `Told` stays, whatever is `Seen`
+  enum class Source { None, Told, Seen };
   // from now on the body, and what is welded to it, is there, wherever the robot has it; throws
   // Error for a body that is in no pair
-  void set_motion(int body, const BodyMotion& motion);
+  void set_motion(int body, const BodyMotion& motion, Source source = Source::Told);
+  [[nodiscard]] std::vector<int> bodies() const;  // of all pairs, each once
+  // that of a body of some pair; none where the robot has it
+  [[nodiscard]] std::optional<BodyMotion> motion(int body) const;
   void clear_motions();
   // as it was made
   void reset();
@@ -86,7 +92,8 @@ class GeomDistance {
     Skeleton::Pose pose = {}, seen = {};  // now, and when the list was made
     double moved = 0.0;                   // [m] by which no point of it has moved more, since then
     Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
-    bool own = false;  // of set_motion
+    Source source = Source::None;  // of its motion
+    [[nodiscard]] bool own() const { return source != Source::None; }
   };
   struct Geom {
     int id = 0;

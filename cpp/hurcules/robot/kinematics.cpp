@@ -13,30 +13,13 @@
 
 #include "hurcules/robot/each_dof.hpp"
 #include "hurcules/robot/momentum.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 namespace {
 
 Vector3 vector(const double* values) {
   return Eigen::Map<const Vector3>(values);
-}
-
-int body_of(const mjModel& m, Frame frame) {
-  const int i = frame.id;
-  switch (frame.type) {
-    case mjOBJ_SITE:
-      assert(i >= 0 && i < m.nsite);
-      return m.site_bodyid[i];
-    case mjOBJ_CAMERA:
-      assert(i >= 0 && i < m.ncam);
-      return m.cam_bodyid[i];
-    case mjOBJ_GEOM:
-      assert(i >= 0 && i < m.ngeom);
-      return m.geom_bodyid[i];
-    default:
-      assert(frame.type == mjOBJ_BODY && i >= 0 && i < m.nbody);
-      return i;
-  }
 }
 
 // in its body: position (3) [m] and quaternion (4)
@@ -235,8 +218,11 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
   mj_comVel(&m, d);
   mj_rne(&m, d, 1, efforts_.data());
   mj_passive(&m, d);
-  for (int dof = 0; dof < m.nv; ++dof)
+  for (int dof = 0; dof < m.nv; ++dof) {
     efforts_[dof] += m.dof_armature[dof] * d->qacc[dof] - d->qfrc_passive[dof];
+    // what MuJoCo adds to the actuators' forces is no passive force
+    if (m.jnt_actgravcomp[m.dof_jntid[dof]]) efforts_[dof] -= d->qfrc_gravcomp[dof];
+  }
   for (Index i = 0; i < size(); ++i) {
     torque[i] =
         support_ >= 0 ? screws().root_motion().col(i).dot(efforts_.segment<6>(root_dof_)) : 0.0;

@@ -2,12 +2,15 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+#include "hurcules/control/tasks.hpp"
 
 namespace hurcules {
 
@@ -51,6 +54,25 @@ std::string seconds(double time) {
   std::string text(32, '\0');
   text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.3f s", time)));
   return text;
+}
+
+constexpr double kMocapTime = 0.02;  // [s] over which the velocity of a mocap body is taken
+constexpr double kMocapLeap = 0.1;   // [m] or [rad] in a tick: put there, not moved
+
+int mocap_below(const mjModel& m, int body) {
+  while (body > 0 && m.body_mocapid[body] < 0) body = m.body_parentid[body];
+  return body > 0 ? body : -1;
+}
+
+// a pose, and how fast it came there from where it was last seen
+BodyMotion moved_to(const Skeleton::Pose& pose, const std::optional<BodyMotion>& last, double dt) {
+  if (!last) return {pose};
+  const Vector3 step = pose.p - last->pose.p;
+  const Vector3 turn = rotation_log(pose.R * last->pose.R.transpose());
+  if (std::max(step.norm(), turn.norm()) > kMocapLeap) return {pose};
+  const double share = std::min(1.0, dt / kMocapTime);
+  return {pose, last->linear + share * (step / dt - last->linear),
+          last->angular + share * (turn / dt - last->angular)};
 }
 
 int substeps_of(double period, double timestep) {
@@ -122,6 +144,12 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
     measured_tasks_.push_back(measured_.back().get());
     fresh_.push_back(false);
   }
+  for (Task* const task : controller_->tasks()) {
+    auto* const apart = dynamic_cast<DistanceTask*>(task);
+    if (!apart) continue;
+    for (const int body : apart->loose_bodies(world_))
+      obstacles_.push_back({apart, body, mocap_below(*plant_.model(), body)});
+  }
   monitors_.add_log_channels(record_.log);
   sensors_.add_log_channels(record_.log);
   if (!options_.physics) {
@@ -131,7 +159,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
     }
   }
   if (supervisor_) supervisor_->attach(plant_, record_.log);
-  reset(options_.seed);
+  begin(options_.seed, nullptr, !supervisor_);
   std::vector<double> values;
   write(values);
   state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
@@ -208,6 +236,7 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
     command = command ? &summed_ : &own;
   }
   controller.apply(command, first, state);
+  see_obstacles();
   controller.measure();
   timer.done(Stage::Problem);
   controller.solve(state);
@@ -239,6 +268,29 @@ void Simulation::note_base() const {
 
 RobotState Simulation::sensed() {
   return {seen_qpos_, seen_qvel_, plant_.actuators(), plant_.data()->sensordata};
+}
+
+// where the bodies around the robot are, and how they move
+void Simulation::see_obstacles() {
+  const mjModel& m = *plant_.model();
+  for (const Obstacle& obstacle : obstacles_) {
+    DistanceTask& task = *obstacle.task;
+    if (!task.sees_obstacles()) continue;
+    const Frame frame{mjOBJ_BODY, obstacle.body};
+    if (obstacle.mocap < 0) {
+      const Twist twist = world_.twist(frame, true_qvel_);
+      task.see_obstacle(obstacle.body, {world_.pose(frame), twist.linear, twist.angular});
+      continue;
+    }
+    const int id = m.body_mocapid[obstacle.mocap];
+    const double* const p = plant_.data()->mocap_pos + 3 * id;
+    const double* const q = plant_.data()->mocap_quat + 4 * id;
+    const Skeleton::Pose mocap{{p[0], p[1], p[2]},
+                               Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().matrix()};
+    const Skeleton::Pose pose = mocap * Skeleton::between(m, obstacle.mocap, obstacle.body,
+                                                          std::as_const(plant_).qpos().data());
+    task.see_obstacle(obstacle.body, moved_to(pose, task.obstacle(obstacle.body), dt()));
+  }
 }
 
 // an encoder that cannot be believed holds the robot for good: all brakes close, behind which the
@@ -442,13 +494,17 @@ void Simulation::set_brake(const std::string& joint, bool closed) {
 void Simulation::reset(std::uint64_t seed, const Vector* start) {
   require(!start || (start->size() == plant_.model()->nq && start->allFinite()),
           "a start wants qpos of " + std::to_string(plant_.model()->nq) + " finite numbers");
+  begin(seed, start, false);
+}
+
+void Simulation::begin(std::uint64_t seed, const Vector* start, bool keep_targets) {
   options_.seed = seed;
   ticks_ = 0;
   ending_ = Ending::Running;
   record_.reset();
   battery_.reset();
   record_.telemetry.charge = battery_.charge();
-  place(seed, start);
+  place(seed, start, keep_targets);
   limit_monitor_.reset();
   if (options_.physics) {
     plant_.feel();
@@ -468,14 +524,14 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
   observe();
 }
 
-void Simulation::place(std::uint64_t seed, const Vector* where) {
+void Simulation::place(std::uint64_t seed, const Vector* where, bool keep_targets) {
   Vector start = where ? *where : initial_qpos_;
   if (supervisor_ && !where) {
     start = supervisor_->start(plant_, controller_->plan_to_place(), seed);
   }
   plant_.reset(-1);
   plant_.place(start);
-  controller_->reset(start);
+  controller_->reset(start, keep_targets);
   if (options_.physics && options_.loaded_springs) plant_.load_springs();
   world_.set_qpos(std::as_const(plant_).qpos());
 }

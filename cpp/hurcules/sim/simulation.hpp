@@ -27,6 +27,8 @@
 
 namespace hurcules {
 
+class DistanceTask;
+
 // A run ends where this frame is too low above the controller's support, or the support tilts.
 struct FallOptions {
   std::string frame = "";   // "": nothing is watched
@@ -58,7 +60,8 @@ enum class Ending { Running, Completed, Missed, TimeUp, Fell, Diverged, SolverFa
 
 class Simulation {
  public:
-  // Starts where the controller's plan stands, or where the supervisor says. `data` is somebody
+  // Starts where the controller's plan stands, targets that somebody has set stay, or where and as the
+  // supervisor says. `data` is somebody
   // else's, who keeps it alive, or null for data of its own. Throws Error for a controller of
   // another model, or one whose period is no whole number of physics steps.
   Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> controller,
@@ -128,10 +131,17 @@ class Simulation {
   [[nodiscard]] std::vector<Figure> figures() const;
 
  private:
+  // a body that may move, and the distance task that it counts in
+  struct Obstacle {
+    DistanceTask* task = nullptr;
+    int body = 0;
+    int mocap = -1;  // the mocap body that it is or hangs on
+  };
   void tick(const Vector* command, bool first);
   void think(const RobotState& state, const Vector* command, bool first, StageTimer& timer);
   void sense();
   void check_sensors();
+  void see_obstacles();
   void actuate(const RobotState& state);
   void advance_plant();
   void advance_plan();
@@ -139,7 +149,8 @@ class Simulation {
   void judge();
   void stand_on_new_support();
 
-  void place(std::uint64_t seed, const Vector* start);
+  void begin(std::uint64_t seed, const Vector* start, bool keep_targets);
+  void place(std::uint64_t seed, const Vector* start, bool keep_targets);
   void write(std::vector<double>& values) const;
   void read(const std::vector<double>& values);
   [[nodiscard]] RobotState sensed();
@@ -168,6 +179,7 @@ class Simulation {
   mutable std::vector<bool> fresh_;                      // of them: as it stands now
   mutable bool base_fresh_ = false;                      // the same of the support
   std::vector<const Task*> planned_tasks_, measured_tasks_;
+  std::vector<Obstacle> obstacles_;
   mutable std::vector<double> task_state_;  // scratch
   Vector initial_qpos_;                     // (nq)
   Vector seen_qpos_, seen_qvel_;            // (nq), (nv) as sensed

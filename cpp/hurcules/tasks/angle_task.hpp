@@ -30,6 +30,7 @@ class AngleTask : public ValueTask {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<AngleTask>(*this);
   }
+  [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
 
  private:
   void measure(const Robot& robot) override;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -24,6 +25,7 @@ BalanceTask::BalanceTask(std::string name, const Robot& robot, const BalanceTask
           "margin and height of task '" + name_ + "' want finite numbers [m]");
   lower_.setConstant(options.margin);
   upper_.setConstant(std::numeric_limits<double>::infinity());
+  require_one_tree(robot, name_);
   BalanceTask::update(robot);
   const double h = std::max(std::abs(com_.position.z() - options.height), kLeastHeight);
   set_gain(std::max(std::sqrt(robot.gravity().norm() / h), kSlowest));

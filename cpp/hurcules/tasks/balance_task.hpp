@@ -28,6 +28,7 @@ class BalanceTask : public Task {
   }
 
   void update(const Robot& robot) override;
+  [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
   // there is no target: hold and advance change nothing
   void hold(const Robot& robot) override { update(robot); }
   void advance(const ConstVectorRef& velocity, double dt) override;

@@ -6,6 +6,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -69,6 +70,7 @@ void DistanceTask::make_rows(double margin) {
 
 void DistanceTask::reset(const Robot& robot) {
   distances_.reset();
+  target_is_set_ = false;
   update(robot);
 }
 
@@ -103,6 +105,15 @@ void DistanceTask::set_obstacle(const Robot& robot, const std::string& body,
   require(!robot.moves(frame),
           "body '" + body + "' is moved by the coordinates: it is no obstacle");
   distances_.set_motion(frame.id, motion);
+  target_is_set_ = true;
+}
+
+std::vector<int> DistanceTask::loose_bodies(const Robot& robot) const {
+  require_robot(robot);
+  std::vector<int> loose;
+  for (const int body : distances_.bodies())
+    if (may_move(*robot.model(), body) && !in_own_tree(robot, body)) loose.push_back(body);
+  return loose;
 }
 
 void DistanceTask::save(StateWriter& writer) const {

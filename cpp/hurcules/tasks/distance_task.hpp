@@ -9,6 +9,7 @@
 // Left out: the change of J with the velocity (drift).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,8 +63,22 @@ class DistanceTask : public Task {
   // W [m], velocity of its origin [m/s], angular velocity [rad/s]. The distance then counts that it
   // comes. Throws Error for a body that is in no pair, or a motion that is not finite.
   void set_obstacle(const Robot& robot, const std::string& body, const BodyMotion& motion);
-  // all of them where the robot has them, at rest
+  // all of them where the robot has them, at rest, or where a simulation sees them
   void clear_obstacles() { distances_.clear_motions(); }
+
+  // A simulation says each tick where the bodies are that may move (`loose_bodies`), unless
+  // set_obstacle has said so. false: it says nothing.
+  void set_sees_obstacles(bool sees) { sees_obstacles_ = sees; }
+  [[nodiscard]] bool sees_obstacles() const { return sees_obstacles_; }
+  // bodies of its pairs that have joints or a mocap body below them, of no tree of the coordinates
+  [[nodiscard]] std::vector<int> loose_bodies(const Robot& robot) const;
+  void see_obstacle(int body, const BodyMotion& motion) {
+    distances_.set_motion(body, motion, GeomDistance::Source::Seen);
+  }
+  // of a body of its pairs, none where the robot has it
+  [[nodiscard]] std::optional<BodyMotion> obstacle(int body) const {
+    return distances_.motion(body);
+  }
 
   [[nodiscard]] const std::vector<GeomPair>& pairs() const { return distances_.pairs(); }
   // the pair of a row at the last update, -1 for none
@@ -80,6 +95,7 @@ class DistanceTask : public Task {
 
   GeomDistance distances_;
   double most_;
+  bool sees_obstacles_ = true;
   std::vector<double> nearer_;  // [m] of each pair: how much less than the margin it keeps
 };
 

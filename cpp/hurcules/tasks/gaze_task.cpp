@@ -27,6 +27,7 @@ GazeTask::GazeTask(std::string name, const Robot& robot, const std::string& fram
 
 void GazeTask::reset(const Robot& robot) {
   target_ = robot.position(frame_) + robot.view_orientation(frame_).col(0);
+  target_is_set_ = false;
   velocity_des_.setZero();
   GazeTask::update(robot);
   error_.setZero();
@@ -51,6 +52,7 @@ void GazeTask::hold(const Robot& robot) {
   require_robot(robot);
   const double distance = std::max((target_ - robot.position(frame_)).norm(), kShort);
   target_ = robot.position(frame_) + distance * robot.view_orientation(frame_).col(0);
+  target_is_set_ = false;
   velocity_des_.setZero();
   update(robot);
 }
@@ -80,6 +82,7 @@ void GazeTask::turn(double by_yaw, double by_pitch) {
 void GazeTask::set_target(const Vector3& target) {
   require_values(target, "target");
   target_ = target;
+  target_is_set_ = true;
   velocity_des_.setZero();
 }
 

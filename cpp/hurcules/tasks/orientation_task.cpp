@@ -36,6 +36,7 @@ void OrientationTask::hold(const Robot& robot) {
   turn_.setZero();
   update(robot);
   target_ = rotation_.orientation;
+  target_is_set_ = false;
   update(robot);
 }
 
@@ -52,6 +53,7 @@ void OrientationTask::advance(const ConstVectorRef& velocity, double dt) {
 void OrientationTask::set_target(const Matrix3& target) {
   if (!is_rotation(target)) throw Error("target of task '" + name_ + "' wants a rotation matrix");
   target_ = target;
+  target_is_set_ = true;
   turn_.setZero();
   velocity_des_.setZero();
 }

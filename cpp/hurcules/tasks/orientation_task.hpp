@@ -26,6 +26,7 @@ class OrientationTask : public Task {
   }
 
   void update(const Robot& robot) override;
+  [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
   void hold(const Robot& robot) override;
   // turns the target by exp(velocity dt); angular velocity in the axes of R [rad/s], (3)
   void advance(const ConstVectorRef& velocity, double dt) override;

@@ -24,6 +24,7 @@ class PointTask : public ValueTask {
   [[nodiscard]] Vector3 world_position() const;
   [[nodiscard]] Vector3 world_target() const;
   [[nodiscard]] double lever() const final;
+  [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
 
  protected:
   PointTask(std::string name, const Robot& robot, PointTaskOptions options);

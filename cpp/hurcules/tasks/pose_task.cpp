@@ -54,6 +54,7 @@ void PoseTask::hold(const Robot& robot) {
   update(robot);
   p_des_ = point_.position;
   R_des_ = rotation_.orientation;
+  target_is_set_ = false;
   update(robot);
 }
 
@@ -79,6 +80,7 @@ void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
     throw Error("target of task '" + name_ + "' wants a rotation matrix");
   p_des_ = position;
   R_des_ = orientation;
+  target_is_set_ = true;
   turn_.setZero();
   velocity_des_.setZero();
 }

@@ -26,6 +26,7 @@ class PoseTask : public Task {
   }
 
   void update(const Robot& robot) override;
+  [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
   void hold(const Robot& robot) override;
   // moves the target by velocity dt: [m/s] (3), then [rad/s] (3), in the axes of R
   void advance(const ConstVectorRef& velocity, double dt) override;

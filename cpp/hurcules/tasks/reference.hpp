@@ -45,6 +45,7 @@ class Reference {
   // throws Error where no coordinate moves the frame against this one
   void require_moved(const Robot& robot, const std::string& frame, const std::string& task) const;
 
+  [[nodiscard]] const std::optional<Frame>& frame() const { return frame_; }
   void measure(const Robot& robot);
   void express(PointMotion& point) const;
   // position, velocity and drift alone: the Jacobian stays in W

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ class Task {
   // measures at the robot's present configuration: error, jacobian, drift; throws Error when the
   // robot is not of the model that the task was made for
   virtual void update(const Robot& robot) = 0;
-  // makes the present value the target, at rest (error becomes zero), and updates
+  // makes the present value the target, at rest (error becomes zero), and updates; nobody has set it
   virtual void hold(const Robot& robot) = 0;
   // the same without memory of anything before, as it was made
   virtual void reset(const Robot& robot) { hold(robot); }
@@ -38,6 +39,8 @@ class Task {
   // moves the target by this share (0 .. 1) of its way to the value of the last update; the
   // feed-forward stays, the error follows at the next update. Nothing where there is no target.
   virtual void back_calculate(double share);
+  // somebody has set the target since it was made or held last
+  [[nodiscard]] bool target_is_set() const { return target_is_set_; }
   // what must be kept between ticks: the target, the feed-forwards and the interval
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
@@ -82,6 +85,8 @@ class Task {
   // its interval is a limit: controllers brake before its sides as before those of joints
   // (limit_rows.hpp), and a level of such tasks alone is not regularised
   [[nodiscard]] virtual bool is_limit() const { return false; }
+  // the frame in whose axes it is measured; none: the world
+  [[nodiscard]] virtual std::optional<Frame> reference_frame() const { return {}; }
   // what a row is about, for diagnostics
   [[nodiscard]] virtual std::string row_name(const Robot& /*robot*/, Index /*row*/) const {
     return name_;
@@ -108,6 +113,7 @@ class Task {
   std::string name_;
   Vector error_, drift_, velocity_des_, acceleration_des_, lower_, upper_;
   Matrix jacobian_;
+  bool target_is_set_ = false;
   double max_speed_ = 1.5;         // of angles [rad/s]
   Vector weights_, speed_shares_;  // (m)
 

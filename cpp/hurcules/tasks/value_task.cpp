@@ -24,6 +24,7 @@ void ValueTask::hold(const Robot& robot) {
   require_robot(robot);
   measure(robot);
   target_ = value_;
+  target_is_set_ = false;
   error_.setZero();
   velocity_des_.setZero();
   acceleration_des_.setZero();
@@ -52,6 +53,7 @@ void ValueTask::set_max_lead(double max_lead) {
 void ValueTask::set_target(const ConstVectorRef& target) {
   require_rows(target, "target");
   target_ = target;
+  target_is_set_ = true;
   velocity_des_.setZero();
   acceleration_des_.setZero();
 }
@@ -62,6 +64,7 @@ void ValueTask::set_reference(const ConstVectorRef& target, const ConstVectorRef
   require_rows(velocity, "velocity");
   require_rows(acceleration, "acceleration");
   target_ = target;
+  target_is_set_ = true;
   velocity_des_ = velocity;
   acceleration_des_ = acceleration;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -22,6 +23,7 @@ ZeroMomentTask::ZeroMomentTask(std::string name, const Robot& robot,
   if (!options.reference.empty()) reference_ = robot.frame(options.reference);
   lower_.setConstant(options.margin * g);
   upper_.setConstant(std::numeric_limits<double>::infinity());
+  require_one_tree(robot, name_);
   ZeroMomentTask::update(robot);
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "hurcules/sim/simulation_batch.hpp"
+#include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
@@ -366,16 +367,54 @@ TEST(WholeBody, TicksOfALoopOfOnesOwnHaveTheBitsOfASimulationAndAllocateNothing)
   }
 }
 
+TEST(WholeBody, SeesABallComeAndAllocatesNothing) {
+  std::string text = arm(kMotors);
+  text.replace(
+      text.find("</worldbody>"), 0,
+      R"(<body name="held" mocap="true" pos="0.9 0.5 0.6"><geom fromto="0 0 0 0 0 0.1"/></body>
+                  <body name="ball" pos="0.9 -0.9 0.6"><freejoint/>
+                    <geom fromto="0 0 0 0 0 0.1"/></body>)");
+  text.replace(text.find(R"(<option )"), 8, R"(<option gravity="0 0 0" )");
+  const ModelPtr model = load_model_text(text);
+  Robot robot(model, {"j1", "j2", "j3"});
+  robot.set_configuration(Vector3(0.3, 0.8, -0.6));
+  DistanceTask clear = obstacles(robot, {"held", "ball"}, {.most = 0.3});
+  PositionTask tip("tip", robot, "tip", {});
+  const auto controller = std::make_shared<WholeBodyController>(
+      robot, std::vector<NamedStack>{{"reach", Stack({clear, tip})}}, std::vector<Channel>{},
+      WholeBodyControllerOptions{.dt = 0.002});
+  SimulationOptions options;
+  options.record = false;
+  Simulation simulation(model, controller, options);
+  mjData* const data = simulation.plant().data();
+  const int ball = robot.frame("ball").id, held = robot.frame("held").id;
+  const int dof = model->body_dofadr[ball];
+  data->qvel[dof + 1] = 0.2;
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      data->mocap_pos[1] -= 0.2 * 0.002;
+      simulation.step(1);
+    }
+  };
+  run(100);
+  const NoAllocation guard;
+  run(100);
+  EXPECT_EQ(guard.count(), 0U);
+  const BodyMotion free = clear.obstacle(ball).value(), moved = clear.obstacle(held).value();
+  EXPECT_NEAR(free.linear.y(), 0.2, 1e-3);
+  EXPECT_NEAR(free.pose.p.y(), -0.9 + 0.2 * 0.4, 1e-3);
+  EXPECT_NEAR(moved.linear.y(), -0.2, 1e-3);
+  EXPECT_NEAR(moved.pose.p.y(), 0.5 - 0.2 * 0.4, 1e-9);
+}
+
 TEST(WholeBody, RefusesWhatCannotBe) {
   const ModelPtr model = load_model_text(arm(kMotors));
   EXPECT_TRUE(contains(error_text([&] { Simulation(model, make(model, 0.003)); }), "whole number"));
   const auto controller = make(model);
   EXPECT_TRUE(contains(error_text([&] { controller->use("walk"); }), "there are: reach, rest"));
   EXPECT_TRUE(contains(error_text([&] { controller->move("j9", 0.0, 0.0); }), "j9"));
-  EXPECT_TRUE(contains(error_text([&] {
-                         (void)Robot(model, {"j1", "jx"});
-                       }),
-                       "'jx' does not exist"));
+  EXPECT_TRUE(
+      contains(error_text([&] { (void)Robot(model, {"j1", "jx"}); }), "'jx' does not exist"));
   const ModelPtr other = load_model_text("<mujoco/>");
   EXPECT_TRUE(contains(error_text([&] { Simulation(other, controller); }), "another model"));
   Robot robot(model, {"j1", "j2", "j3"});

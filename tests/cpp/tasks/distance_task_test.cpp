@@ -202,6 +202,34 @@ TEST_F(Distances, AnObstacleIsWhereItIsSaidToBeAndComes) {
   EXPECT_TRUE(contains(error_text([&] { task.set_obstacle(robot_, "right", {}); }), "in no pair"));
 }
 
+TEST_F(Distances, WhatIsSaidOfAnObstacleCountsMoreThanWhatIsSeen) {
+  DistanceTask task = obstacles(robot_, {"ball"}, {.most = 0.9});
+  const int ball = robot_.frame("ball").id;
+  EXPECT_EQ(task.loose_bodies(robot_), std::vector<int>{ball});  // neither floor nor arms
+  EXPECT_FALSE(task.obstacle(ball).has_value());
+  const auto at = [](double x) {
+    BodyMotion motion;
+    motion.pose.p = {x, 0.3, 0.8};
+    return motion;
+  };
+  const auto place = [&] { return task.obstacle(ball).value().pose.p.x(); };
+  task.see_obstacle(ball, at(1.5));
+  EXPECT_EQ(place(), 1.5);
+  task.set_obstacle(robot_, "ball", at(1.4));
+  task.see_obstacle(ball, at(1.6));
+  EXPECT_EQ(place(), 1.4);
+  std::vector<double> state;
+  StateWriter writer(state);
+  task.save(writer);
+  task.clear_obstacles();
+  task.see_obstacle(ball, at(1.6));
+  EXPECT_EQ(place(), 1.6);
+  StateReader reader(state);
+  task.restore(reader);
+  task.see_obstacle(ball, at(1.6));
+  EXPECT_EQ(place(), 1.4);
+}
+
 TEST_F(Distances, ATickAllocatesNothingAndASnapshotGoesOnBitForBit) {
   DistanceTask task = self_collision(robot_, {.most = 0.4, .rows = 3});
   RandomMotion random(6);

@@ -1,0 +1,18 @@
+// Which body carries a frame, which belong to the trees that the coordinates move, which others may
+// move.
+#pragma once
+
+#include <string>
+
+#include "hurcules/robot/robot.hpp"
+
+namespace hurcules {
+
+[[nodiscard]] int body_of(const mjModel_& model, Frame frame);  // that carries it
+[[nodiscard]] bool in_own_tree(const Robot& robot, int body);
+// it, or a body below it, has a joint or is moved by mocap
+[[nodiscard]] bool may_move(const mjModel_& model, int body);
+// throws Error where the coordinates are of several trees, of which a task knows the first alone
+void require_one_tree(const Robot& robot, const std::string& task);
+
+}  // namespace hurcules
