@@ -35,12 +35,14 @@ TIPS = 0.08  # [m] of the zero moment point within them
 # [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
 # that give by 0.13 rad where they swing (0.2 at most), which no encoder of a motor sees
 APART = {"rescue": 0.12, "manipulation": 0.03}
-FIRM = {"rescue": 0.02}  # [m] the same of its parts that hang in none
+# [m] the same of its parts that hang in none; less than half of that is left where rows of trunk
+# and legs cannot all be kept at once
+FIRM = {"rescue": 0.06}
 # [m] beyond that, pairs do not count: hands come at 1.6 m/s, firm parts more slowly
 LOOK, FIRM_LOOK = 0.20, 0.10
 # points of pairs that count at a time. Firm parts have their own: a dozen are always near, and
 # among them a hand was seen when it could stop no more
-ROWS, FIRM_ROWS, HANGING_ROWS, GROUND_ROWS = 24, 16, 16, 6
+ROWS, FIRM_ROWS, HANGING_ROWS, GROUND_ROWS = 24, 12, 16, 6
 # [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
 MAX_ACCELERATION = 5.0
 
@@ -123,8 +125,8 @@ class RobotSetup:
             return list(self._distances)
         robot, firm = self.robot(), FIRM[self.name]
         apart, clear = self._distances
-        # firm parts that come near at all
-        few = hurcules.self_collision(robot, margin=firm, most=2 * firm, postures=2000)
+        # firm parts that ever come near
+        few = hurcules.self_collision(robot, margin=0.0, most=firm, postures=2000)
         hang = {i for i in range(self.model.ngeom) if self._hangs(self.model.geom_bodyid[i])}
 
         def task(found: hurcules.DistanceTask, hangs: bool, rows: int) -> hurcules.DistanceTask:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import hurcules_envs  # noqa: F401  registers
-from hurcules_envs.robots import load_robot
+from hurcules_envs.robots import FIRM, load_robot
 from hurcules_envs.springs import Spring, softest_spring
 
 
@@ -92,7 +92,7 @@ def test_lower_arms_keep_more_than_firm_parts_and_have_rows_of_their_own():
         hangs = [any("scoop" in geom for geom in pair) for pair in pairs]
         assert pairs
         assert all(hangs) if "springs" in name else not any(hangs)
-        assert set(task.lower) == {setup.apart_by if "springs" in name else 0.02}
+        assert set(task.lower) == {setup.apart_by if "springs" in name else FIRM["rescue"]}
         assert (task.error >= task.lower).all()  # as it stands, none has to move
     every = [set(pair) for pair in setup.apart().pairs(robot) if "scoop" in "".join(pair)]
     assert len(every) == len(kept["self_collision in springs"].pairs(robot))
