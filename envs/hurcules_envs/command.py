@@ -43,6 +43,9 @@ def train(
     robot: Robot = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
     sparse: Annotated[bool, typer.Option("--sparse", help="No shaped reward.")] = False,
+    rate: Annotated[
+        float | None, typer.Option(help="Of the policy [Hz].", show_default="the environment's")
+    ] = None,
     demonstrations: Annotated[
         int, typer.Option(help="Episodes of the scripted expert; PPO starts as its clone.", min=0)
     ] = 0,
@@ -66,7 +69,7 @@ def train(
         raise hurcules.Error("--steps: wanted 1 or more, or --demonstrations to clone; got 0")
     options = _given(
         fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action,
-        sparse=sparse or None,
+        sparse=sparse or None, rate=rate,
     )  # fmt: skip
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:

@@ -8,12 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
 from hurcules_envs.policy import Policy
-from hurcules_envs.registry import make_episodes
+from hurcules_envs.registry import make_episodes, steps_of_episode
 
 __all__ = ["Evaluation", "evaluate", "wilson"]
 
@@ -72,7 +71,7 @@ def evaluate(
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess = 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
-    for _ in range(gymnasium.spec(environment).max_episode_steps or sys.maxsize):
+    for _ in range(steps_of_episode(environment, options) or sys.maxsize):
         observation = seen.observation
         parts = observation if len(observation) > 1 else observation["observation"]
         batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still

@@ -60,7 +60,7 @@ class Lift(ContactEnvironment):
     | 0-2 | centre | 5 | m | from the middle between the tips to the person's centre |
     | 3 | heading | 4 | rad | of his body, 0: square across the way, head to the left |
     | 4 | raised | 2 | m | his centre above where it lay |
-    | 5 | lying | 2 |  | share of his weight on the ground |
+    | 5 | lying | 2 |  | share of his weight on the ground; 0 at first, he starts 2 mm above it |
     | 6-7 | forces | 2000 | N | that the left and the right arm bear, negative: press down |
     | 8-9 | height | 2 | m | of the left and the right tip above the ground |
     | 10-11 | tilt | 2 | rad | of the left and the right blade, tip up |

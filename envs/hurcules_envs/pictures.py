@@ -1,4 +1,4 @@
-"""Pictures of the robot's cameras as a part of what is observed, without shadows."""
+"""Pictures of episodes: what the robot's cameras see, observed, without shadows; and for people."""
 
 from __future__ import annotations
 
@@ -16,9 +16,37 @@ from hurcules import cameras
 from hurcules.rendering import make_renderer
 from hurcules_envs.environment import Environment
 
-__all__ = ["Pictures"]
+__all__ = ["Pictures", "Views"]
 
 MOST = 2048  # [pixels] a side
+WIDTH, HEIGHT = 640, 368  # [pixels] of a view, multiples of 16 as encoders want them
+
+
+class Views:
+    """Episodes as the environment's own camera sees them, with what it draws."""
+
+    def __init__(self, environment: Environment) -> None:
+        self._environment = environment
+        self._renderer: mujoco.Renderer | None = None
+
+    def take(self, episodes: Any, i: int) -> NDArray[np.uint8]:
+        """(368, 640, 3) of episode i now.
+
+        Raises:
+            hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
+        """
+        model, data = self._environment.pictured(episodes, i)
+        if self._renderer is None:
+            self._renderer = make_renderer(model, WIDTH, HEIGHT)
+        self._renderer.update_scene(data, self._environment.camera())
+        self._environment.draw(episodes, i, self._renderer.scene)
+        return self._renderer.render()
+
+    def close(self) -> None:
+        """Gives the renderer back."""
+        if self._renderer is not None:
+            self._renderer.close()
+        self._renderer = None
 
 
 class Pictures:

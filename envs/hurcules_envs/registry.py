@@ -23,6 +23,7 @@ __all__ = [
     "make_episodes",
     "native_options",
     "register",
+    "steps_of_episode",
     "warn_of_rate",
 ]
 
@@ -130,6 +131,19 @@ def fastest_fidelity(name: str) -> str | None:
     return _class_of(path).fidelities[-1] if path else None
 
 
+def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:
+    """The registered limit of an episode [steps], longer or shorter as its `rate` differs.
+
+    Args:
+        name: its id.
+        options: of the environment, by keyword.
+    """
+    known = gymnasium.spec(name)
+    if known.max_episode_steps is None or "rate" not in options:
+        return known.max_episode_steps
+    return round(known.max_episode_steps * options["rate"] / _usual_rate(known, options["rate"]))
+
+
 def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
     """Where episodes of another rate than the registered one have the registered limit in steps.
 
@@ -141,14 +155,18 @@ def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
     known = gymnasium.registry.get(spec.id) if spec else None
     if known is None or limit != known.max_episode_steps:
         return
-    of_class = inspect.signature(_class_of(known.kwargs["environment"])).parameters.get("rate")
-    usual = known.kwargs.get("rate", of_class.default if of_class else rate)
+    usual = _usual_rate(known, rate)
     if rate != usual:
         gymnasium.logger.warn(
             f"{known.id}: at rate={rate:g} an episode of {limit:g} steps lasts {limit / rate:g} s, "
             f"at the usual {usual:g} Hz {limit / usual:g} s: "
             f"max_episode_steps={round(limit * rate / usual)} keeps these"
         )
+
+
+def _usual_rate(known: EnvSpec, otherwise: float) -> float:
+    of_class = inspect.signature(_class_of(known.kwargs["environment"])).parameters.get("rate")
+    return float(known.kwargs.get("rate", of_class.default if of_class else otherwise))
 
 
 def _class_of(path: str) -> type[Environment]:

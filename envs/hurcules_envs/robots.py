@@ -33,12 +33,16 @@ TRACK = 1  # contype of the tracks' geoms
 STANDS = 0.10  # [m] of the centre of mass within the contacts
 TIPS = 0.08  # [m] of the zero moment point within them
 # [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
-# that give by 0.08 rad, which no encoder of a motor sees
+# that give by 0.13 rad where they swing (0.2 at most), which no encoder of a motor sees
 APART = {"rescue": 0.12, "manipulation": 0.03}
-LOOK = 0.20  # [m] beyond that, pairs do not count: hands come at 1.6 m/s
-# pairs of parts that count at a time: where a dozen are always near, with 16 a hand was seen when
-# it could stop no more
-ROWS = 24
+# [m] the same of its parts that hang in none; less than half of that is left where rows of trunk
+# and legs cannot all be kept at once
+FIRM = {"rescue": 0.06}
+# [m] beyond that, pairs do not count: hands come at 1.6 m/s, firm parts more slowly
+LOOK, FIRM_LOOK = 0.20, 0.10
+# points of pairs that count at a time. Firm parts have their own: a dozen are always near, and
+# among them a hand was seen when it could stop no more
+ROWS, FIRM_ROWS, HANGING_ROWS, GROUND_ROWS = 24, 12, 16, 6
 # [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
 MAX_ACCELERATION = 5.0
 
@@ -92,27 +96,66 @@ class RobotSetup:
                 balance("balance", robot, polygon, STANDS, self.support, height),
                 tip("zero moment", robot, polygon, TIPS, self.support, height),
             ]
-        return [*levels, [copy(task) for task in self._distances]]
+        return [*levels, [copy(task) for task in self._kept]]
 
     @property
     def apart_by(self) -> float:
-        """[m] that its parts keep from each other and from the ground."""
+        """[m] that its parts keep from each other and from the ground; less where FIRM says so."""
         return APART.get(self.name, 0.02)
 
     def apart(self) -> hurcules.DistanceTask:
-        """Parts of the robot keep away from each other."""
+        """Parts of the robot keep away from each other, all by `apart_by`."""
         return copy(self._distances[0])
 
     @cached_property
     def _distances(self) -> tuple[hurcules.DistanceTask, hurcules.DistanceTask]:
         """From itself, and from the ground; their pairs are found once."""
-        robot, most = self.robot(), self.apart_by + LOOK
+        robot, margin = self.robot(), self.apart_by
         apart = hurcules.self_collision(
-            robot, margin=self.apart_by, most=most, rows=ROWS, postures=2000
+            robot, margin=margin, most=margin + LOOK, rows=ROWS, postures=2000
         )
         with warnings.catch_warnings():  # it stands on its tracks
             warnings.filterwarnings("ignore", "obstacles leaves out what touches now")
-            return apart, hurcules.obstacles(robot, margin=self.apart_by, most=most)
+            return apart, hurcules.obstacles(robot, margin=margin, most=margin + LOOK)
+
+    @cached_property
+    def _kept(self) -> list[hurcules.DistanceTask]:
+        """The same; of parts that hang in springs and of firm ones, each with rows of its own."""
+        if self.name not in FIRM:
+            return list(self._distances)
+        robot, firm = self.robot(), FIRM[self.name]
+        apart, clear = self._distances
+        # firm parts that ever come near
+        few = hurcules.self_collision(robot, margin=0.0, most=firm, postures=2000)
+        hang = {i for i in range(self.model.ngeom) if self._hangs(self.model.geom_bodyid[i])}
+
+        def task(found: hurcules.DistanceTask, hangs: bool, rows: int) -> hurcules.DistanceTask:
+            ids = {pair: {self.model.geom(name).id for name in pair} for pair in found.pairs(robot)}
+            pairs = [pair for pair, both in ids.items() if bool(both & hang) == hangs]
+            name = f"{found.name} in springs" if hangs else found.name
+            margin, look = (self.apart_by, LOOK) if hangs else (firm, FIRM_LOOK)
+            return hurcules.DistanceTask(
+                name, robot, pairs, margin, margin + look, rows, as_it_stands=True
+            )
+
+        return [
+            task(few, False, FIRM_ROWS),
+            task(apart, True, HANGING_ROWS),
+            task(clear, False, GROUND_ROWS),
+            task(clear, True, GROUND_ROWS),
+        ]
+
+    def _hangs(self, body: int) -> bool:
+        """A hinge with a spring and no motor turns it, or what it is mounted on."""
+        model, driven = self.model, set(self.model.actuator_trnid[:, 0])
+        while body:
+            for joint in range(model.njnt):
+                hinge = model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE
+                sprung = hinge and model.jnt_stiffness[joint] > 0.0 and joint not in driven
+                if sprung and model.jnt_bodyid[joint] == body:
+                    return True
+            body = model.body_parentid[body]
+        return False
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""

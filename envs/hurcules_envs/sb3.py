@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
-from hurcules_envs.registry import native_options
+from hurcules_envs.registry import native_options, steps_of_episode
 from hurcules_envs.vector import NativeVectorEnv
 
 __all__ = ["GoalFeatures", "Sb3VecEnv", "Standardised", "make_sb3"]
@@ -175,14 +175,14 @@ def make_sb3(
         name: id of an environment of this package, "Hurcules/Reach-v0".
         num_envs: how many episodes side by side.
         threads: 0 for one a processor.
-        max_episode_steps: None: that of the environment.
+        max_episode_steps: None: that of the environment, in proportion to `rate`.
         options: of the environment, by keyword.
 
     Raises:
         hurcules.Error: an environment without native vector, or an unknown option.
     """
     given = native_options(name, options)
-    limit = max_episode_steps or gymnasium.spec(name).max_episode_steps
+    limit = max_episode_steps or steps_of_episode(name, options)
     vector = NativeVectorEnv(
         num_envs=num_envs,
         max_episode_steps=limit,

@@ -14,18 +14,17 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import _core
-from hurcules.rendering import make_renderer, pose
+from hurcules.rendering import pose
 from hurcules.view import require_display
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
-from hurcules_envs.pictures import Pictures
+from hurcules_envs.pictures import Pictures, Views
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["SingleEnv"]
 
 OWN = ("flat", "render_mode", "cameras", "camera_size")  # keywords beside the environment's
-WIDTH, HEIGHT = 640, 368  # [pixels], multiples of 16 as encoders want them
 
 _ALL = np.ones(1, dtype=bool)
 Observation = NDArray[np.float32] | dict[str, NDArray[Any]]
@@ -94,7 +93,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             self.compute_reward = self.environment.compute_reward
         self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
-        self._renderer: mujoco.Renderer | None = None
+        self._views = Views(self.environment)
 
     @property
     def numbers(self) -> Numbers:
@@ -183,25 +182,19 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         if self.render_mode is None:
             gymnasium.logger.warn("render() without a render mode: pass render_mode='rgb_array'")
             return None
-        model, data = self.environment.pictured(self._episodes, 0)
         if self.render_mode == "human":
-            self._show(model, data)
+            self._show(*self.environment.pictured(self._episodes, 0))
             return None
-        if self._renderer is None:
-            self._renderer = make_renderer(model, WIDTH, HEIGHT)
-        self._renderer.update_scene(data, self.environment.camera())
-        self.environment.draw(self._episodes, 0, self._renderer.scene)
-        return self._renderer.render()
+        return self._views.take(self._episodes, 0)
 
     def close(self) -> None:
         """Gives the renderer and the window back."""
-        if self._renderer is not None:
-            self._renderer.close()
+        self._views.close()
         if self._viewer is not None:
             self._viewer.close()
         if self._pictures is not None:
             self._pictures.close()
-        self._renderer = self._viewer = None
+        self._viewer = None
 
     def _seen(self, step: Step) -> Observation:
         """The observation of the one episode, pictures included."""

@@ -75,8 +75,11 @@ SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Drive-": ("observation",),  # in which the goal is, seen from the robot
 }
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
-WANDERS, DRAWN = 1.0, 0.7  # [s], standard deviation of what is added with hindsight
 UPDATES = 0.25  # of SAC, a step of an episode
+# with hindsight; where the entropy falls, commands become hard near the goal, and hands overshoot
+HINDSIGHT = {"tau": 0.02, "ent_coef": 0.06}
+HINDSIGHT_UPDATES = 0.5
+WANDERS, DRAWN = 2.0, 0.5  # [s], standard deviation of what is added to actions
 
 
 @dataclass(frozen=True)
@@ -202,19 +205,22 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
         settings["learning_rate"] = lambda left: rate * max(left, 0.0)  # a batch may pass the end
         return PPO(kind, environment, policy_kwargs=network, **settings, **shared)
     settings = dict(OFF_POLICY)
+    updates, width = UPDATES, 256
     if options.algorithm == "her":
+        settings |= HINDSIGHT
+        updates, width = HINDSIGHT_UPDATES, 128
         settings["replay_buffer_class"] = HerReplayBuffer
         settings["replay_buffer_kwargs"] = {"n_sampled_goal": 4}
         settings["action_noise"] = _wandering(options, environment)
-    network["net_arch"] = [256, 256]
-    settings["gradient_steps"] = math.ceil(UPDATES * options.episodes)
+    network["net_arch"] = [width, width]
+    settings["gradient_steps"] = math.ceil(updates * options.episodes)
     return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
 
 
 def _wandering(options: TrainOptions, environment: Any) -> VectorizedActionNoise:
     """Noise that lasts for WANDERS [s]: hands come far, and what is far is replayed as a goal."""
     size = environment.action_space.shape
-    theta, dt = 1.0 / WANDERS, 0.05
+    theta, dt = 1.0 / WANDERS, 1.0 / environment.environment.environment.rate
     sigma = DRAWN * math.sqrt(2.0 * theta) * np.ones(size)
     noise = OrnsteinUhlenbeckActionNoise(np.zeros(size), sigma, theta, dt)
     return VectorizedActionNoise(noise, options.episodes)

@@ -8,7 +8,7 @@ from numbers import Integral
 from typing import Any
 
 import numpy as np
-from gymnasium import spaces
+from gymnasium import logger, spaces
 from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
@@ -17,10 +17,13 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
+from hurcules_envs.pictures import Views
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["NativeVectorEnv"]
+
+MODES = ("rgb_array",)
 
 
 class NativeVectorEnv(VectorEnv[Any, Any, Any]):
@@ -48,27 +51,25 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             max_episode_steps: after so many an episode is truncated; None: never.
             threads: of the pool; 0 for one a processor.
             autoreset_mode: NextStep (default), SameStep or Disabled, see Gymnasium.
-            render_mode: None; pictures are drawn by the single environment.
+            render_mode: None or "rgb_array".
             flat: of a goal environment: one array, the observation and the way to the goal.
             options: of the environment, by keyword, and ranges of what differs between episodes:
                 see `randomisation`.
 
         Raises:
-            hurcules.Error: an unknown option, or a bad value.
+            hurcules.Error: an unknown option or render mode, a bad value, or cameras, which it does
+                not observe.
         """
+        hurcules.validation.require_known("render mode", render_mode or MODES[0], MODES)
         _require_whole("num_envs", num_envs, 1)
         _require_whole("threads", threads, 0)
         if max_episode_steps is not None:
             _require_whole("max_episode_steps", max_episode_steps, 1)
-        for name, given in (
-            ("render_mode", render_mode),
-            ("cameras", options.pop("cameras", None)),
-        ):
-            if given:
-                raise hurcules.Error(
-                    f"{name}: a native vector draws no pictures; "
-                    "gymnasium.make_vec(..., vectorization_mode='sync') does"
-                )
+        if options.pop("cameras", None):
+            raise hurcules.Error(
+                "cameras: a native vector observes no pictures; "
+                "gymnasium.make_vec(..., vectorization_mode='sync') does"
+            )
         self.num_envs = num_envs
         ranges, options = split(options)
         known = ("flat", "threads", "autoreset_mode")
@@ -81,10 +82,11 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         self.autoreset_mode = AutoresetMode(mode)
         self.metadata = {
             "autoreset_mode": self.autoreset_mode,
-            "render_modes": [],
+            "render_modes": list(MODES),
             "render_fps": round(1.0 / self._episodes.period),
         }
-        self.render_mode = None
+        self.render_mode = render_mode
+        self._views = Views(self.environment)
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
         self.single_action_space = self._episodes.single_action_space
@@ -202,8 +204,20 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         """The observations now, after `set_state` say."""
         return _observation(self._episodes.look(remember=None))
 
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """A picture (368, 640, 3) of each episode in render mode "rgb_array", one after the other.
+
+        Raises:
+            hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
+        """
+        if self.render_mode is None:
+            logger.warn("render() without a render mode: pass render_mode='rgb_array'")
+            return None
+        return tuple(self._views.take(self._episodes, i) for i in range(self.num_envs))
+
     def close_extras(self, **kwargs: Any) -> None:
-        """Nothing is held beyond memory."""
+        """Gives the renderer back."""
+        self._views.close()
 
     def _begin(self, chosen: NDArray[np.bool_]) -> None:
         self._episodes.reset(chosen)

@@ -123,6 +123,7 @@ Args:
   margin: [m].
   most: [m] > margin; pairs farther apart ask for nothing.
   rows: so many points of pairs of geoms count at a time, the nearest.
+  as_it_stands: a pair that is nearer than the margin now keeps half of its present distance.
 
 Raises:
   Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
@@ -318,13 +319,14 @@ void bind_limit_tasks(py::module_& module) {
   const DistanceTaskOptions distance;
   const auto make_distance = [](std::string name, const Robot& robot,
                                 std::vector<std::pair<std::string, std::string>> pairs,
-                                double margin, double most, Index rows) {
-    return std::make_unique<DistanceTask>(
-        std::move(name), robot, DistanceTaskOptions{std::move(pairs), margin, most, rows});
+                                double margin, double most, Index rows, bool as_it_stands) {
+    const DistanceTaskOptions options{std::move(pairs), margin, most, rows, as_it_stands};
+    return std::make_unique<DistanceTask>(std::move(name), robot, options);
   };
   py::class_<DistanceTask, Task>(module, "DistanceTask", kDistanceTask)
       .def(py::init(make_distance), "name"_a, "robot"_a, "pairs"_a, "margin"_a = distance.margin,
-           "most"_a = distance.most, "rows"_a = distance.rows)
+           "most"_a = distance.most, "rows"_a = distance.rows,
+           "as_it_stands"_a = distance.as_it_stands)
       .def("set_obstacle", &set_obstacle, "robot"_a, "body"_a, "position"_a,
            "rotation"_a = py::none(), "velocity"_a = Vector3::Zero().eval(),
            "angular_velocity"_a = Vector3::Zero().eval(), kSetObstacle)

@@ -1151,6 +1151,7 @@ class DistanceTask(Task):
       margin: [m].
       most: [m] > margin; pairs farther apart ask for nothing.
       rows: so many points of pairs of geoms count at a time, the nearest.
+      as_it_stands: a pair that is nearer than the margin now keeps half of its present distance.
 
     Raises:
       Error: a name that does not exist, no pair, two that no coordinate moves against each other, or
@@ -1165,6 +1166,7 @@ class DistanceTask(Task):
         margin: float = 0.03,
         most: float = 0.3,
         rows: int = 16,
+        as_it_stands: bool = False,
     ) -> None: ...
     def clear_obstacles(self) -> None:
         """All obstacles where the robot has them, at rest, or where a Simulation sees them."""

@@ -18,7 +18,8 @@ from gymnasium.vector import AutoresetMode
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
-from hurcules_envs.registry import fastest_fidelity, make_environment
+from hurcules_envs.evaluation import evaluate
+from hurcules_envs.registry import fastest_fidelity, make_environment, steps_of_episode
 
 FAST = {"fidelity": "kinematic"}
 IDS = [
@@ -319,6 +320,13 @@ def test_options_beside_those_of_the_class_are_listed_and_checked():
     for make in (gym.make, gym.make_vec):
         with pytest.raises(hurcules.Error, match="flat: wanted True or False, got 'false'"):
             make("Hurcules/Reach-v0", flat="false", **FAST)
+
+
+def test_judged_and_trained_episodes_last_as_long_at_any_rate():
+    assert steps_of_episode("Hurcules/Reach-v0", {"rate": 10.0}) == 50
+    assert steps_of_episode("Hurcules/Reach-v0", {}) == 100
+    judged = evaluate(lambda seen: np.zeros((2, 6)), "Hurcules/Reach-v0", 2, rate=10.0, **FAST)
+    assert judged.mean_length == 50
 
 
 def test_another_rate_tells_how_long_episodes_last():

@@ -1,7 +1,7 @@
 """Pictures of cameras as a part of what is observed.
 
 Strategy: Gymnasium's own checker; what is seen against the renderer asked by hand; the same
-picture after `set_state`; what a recording keeps; and wrong names and sizes.
+picture after `set_state`; what a recording keeps; vectors; and wrong names and sizes.
 """
 
 from pathlib import Path
@@ -76,5 +76,26 @@ def test_what_is_no_camera_is_refused(options: dict, says: str) -> None:
 
 
 def test_a_native_vector_names_the_one_that_draws() -> None:
-    with pytest.raises(hurcules.Error, match=r"cameras: a native vector draws no pictures; .*sync"):
+    with pytest.raises(
+        hurcules.Error, match=r"cameras: a native vector observes no pictures; .*sync"
+    ):
         gym.make_vec("Hurcules/Reach-v0", num_envs=2, cameras=CAMERAS)
+
+
+def test_a_native_vector_draws_what_the_single_ones_do() -> None:
+    options = {"fidelity": "kinematic", "render_mode": "rgb_array"}
+    vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, **options)
+    vector.reset(seed=3)
+    vector.step(np.ones((2, 6), np.float32))
+    pictures = vector.render()
+    assert len(pictures) == 2
+    for i, picture in enumerate(pictures):
+        single = gym.make("Hurcules/Reach-v0", **options)
+        single.reset(seed=3 + i)
+        single.step(np.ones(6, np.float32))
+        assert np.array_equal(single.render(), picture)
+        single.close()
+    assert not np.array_equal(*pictures)
+    vector.close()
+    with pytest.raises(hurcules.Error, match="render mode 'human' does not exist"):
+        gym.make_vec("Hurcules/Reach-v0", num_envs=2, render_mode="human")

@@ -26,6 +26,17 @@ std::vector<GeomPair> geoms_of(const std::vector<CollisionPair>& pairs) {
   return geoms;
 }
 
+// how far apart they are now, [m] `most` where farther
+std::vector<CollisionPair> standing(const Robot& robot, const std::vector<GeomPair>& geoms,
+                                    double most) {
+  std::vector<CollisionPair> pairs;
+  for (const GeomPair& pair : geoms) pairs.push_back({pair, most});
+  GeomDistance distance(robot, geoms, most, geoms.size());
+  for (const GeomDistance::Near& one : distance.measure(robot))
+    if (one.pair >= 0) pairs[static_cast<std::size_t>(one.pair)].distance = one.distance;
+  return pairs;
+}
+
 CollisionSampling sampling_of(const CollisionOptions& options) {
   return {.near = 2.0 * options.most, .postures = options.postures, .seed = options.seed};
 }
@@ -41,6 +52,7 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot, const DistanceT
       nearer_(pairs().size(), 0.0) {
   require(!pairs().empty(), "task '" + name_ + "' wants at least one pair of bodies");
   make_rows(options.margin);
+  if (options.as_it_stands) keep_half(standing(robot, pairs(), options.most), options.margin);
   DistanceTask::update(robot);
 }
 
@@ -48,13 +60,10 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot,
                            const std::vector<CollisionPair>& pairs, const CollisionOptions& options)
     : Task(std::move(name), rows_for(pairs.size(), options.rows), robot),
       distances_(robot, geoms_of(pairs), options.most, static_cast<std::size_t>(rows()), kPoints),
-      most_(options.most) {
-  // nearer than the margin already: it keeps half of what there is
-  for (const CollisionPair& pair : pairs) {
-    const bool close = pair.distance < options.margin;
-    nearer_.push_back(close ? options.margin - 0.5 * pair.distance : 0.0);
-  }
+      most_(options.most),
+      nearer_(pairs.size(), 0.0) {
   make_rows(options.margin);
+  keep_half(pairs, options.margin);
   DistanceTask::update(robot);
 }
 
@@ -66,6 +75,11 @@ void DistanceTask::make_rows(double margin) {
   lower_.setConstant(margin);
   upper_.setConstant(std::numeric_limits<double>::infinity());
   max_speed_ = 0.5;
+}
+
+void DistanceTask::keep_half(const std::vector<CollisionPair>& pairs, double margin) {
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].distance < margin) nearer_[i] = margin - 0.5 * pairs[i].distance;
 }
 
 void DistanceTask::reset(const Robot& robot) {

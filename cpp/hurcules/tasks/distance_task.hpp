@@ -25,6 +25,8 @@ struct DistanceTaskOptions {
   double margin = 0.03;                                    // [m]
   double most = 0.3;                                       // [m] > margin
   Index rows = 16;  // at most: so many points of pairs of geoms count at a time
+  // a pair that is nearer than the margin now keeps half of its present distance, as if it was found
+  bool as_it_stands = false;
 };
 
 struct CollisionOptions {
@@ -92,6 +94,8 @@ class DistanceTask : public Task {
 
  private:
   void make_rows(double margin);
+  // pairs that are nearer than the margin already keep half of what there is
+  void keep_half(const std::vector<CollisionPair>& pairs, double margin);
 
   GeomDistance distances_;
   double most_;

@@ -134,6 +134,19 @@ TEST_F(Distances, NothingNearIsLostAlongAPath) {
   EXPECT_GT(rows, 500U) << "the path was not near anything";
 }
 
+TEST_F(Distances, NamedPairsKeepHalfOfWhatThereIsAsThoseThatWereFound) {
+  // the left forearm is 0.2 m from the post, and the margin larger
+  const CollisionOptions options{.margin = 0.35, .most = 0.6, .rows = 40};
+  const DistanceTask found = obstacles(robot_, {}, options);
+  const Names names = names_of(found, robot_);
+  DistanceTask task("named", robot_, {names, 0.35, 0.6, 40, true});
+  EXPECT_EQ(task.error(), found.error());
+  EXPECT_EQ(task.jacobian(), found.jacobian());
+  EXPECT_TRUE((task.error().array() >= task.lower().array()).all());
+  const DistanceTask strict("strict", robot_, {names, 0.35, 0.6, 40});
+  EXPECT_LT(strict.error().minCoeff(), 0.35);
+}
+
 TEST_F(Distances, TheNearestHaveARow) {
   DistanceTask few = self_collision(robot_, {.most = 0.4, .rows = 2});
   RandomMotion random(4);
