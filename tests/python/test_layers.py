@@ -40,12 +40,12 @@ PHYSICS = {"robot", "sim"}
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
         "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
-        "opengl", "plugins", "running_gear",
+        "opengl", "plugins", "running_gear", "toml_rows", "validation",
     )},
     {"hurcules.mission_drawing"},
     {"hurcules." + name for name in (
         "_reprs", "_version", "casualties", "ik", "mission_options", "mission_table", "motors",
-        "output", "postures", "rendering", "rhqp", "sensors", "start_checks", "validation",
+        "output", "postures", "rendering", "rhqp", "sensors", "start_checks",
     )},
     {"hurcules." + name for name in (
         "cameras", "drawing", "mjcf", "transfer_bed", "urdf", "video",
