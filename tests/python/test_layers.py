@@ -40,9 +40,9 @@ PHYSICS = {"robot", "sim"}
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
         "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
-        "opengl", "plugins", "running_gear", "toml_rows", "validation",
+        "opengl", "plugins", "running_gear",
     )},
-    {"hurcules.mission_drawing"},
+    {"hurcules.mission_drawing", "hurcules.toml_rows", "hurcules.validation"},
     {"hurcules." + name for name in (
         "_reprs", "_version", "casualties", "ik", "mission_options", "mission_table", "motors",
         "output", "postures", "rendering", "rhqp", "sensors", "start_checks",

@@ -132,7 +132,7 @@ def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureF
     told = capsys.readouterr().err
     assert "scene 'own' does not exist; there are: lift" in told
     assert "scene 'lit' does not exist" in told
-    assert "wanted the name of a mission, got 3" in told
+    assert "[mission], scene: wanted a text, got 3" in told
     assert cli.main(["run", str(tmp_path / "none.toml")]) == 2
     assert "none.toml" in capsys.readouterr().err
 

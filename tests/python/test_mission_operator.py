@@ -5,12 +5,13 @@ Strategy: the small table of test_mission_table.py, asked and interrupted at kno
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 import pytest
 
 import hurcules
 from hurcules import Error
-from test_mission_table import ROWS, loop
+from test_mission_table import ARM, ROWS, loop
 
 ASKS = ROWS.replace("q/j2 >= 2.0", "q/j2 >= 0.1 for 0.05 s")
 
@@ -48,7 +49,7 @@ def test_what_a_mission_asks_is_said_and_answered() -> None:
 
 def test_silence_is_a_no() -> None:
     simulation = asking()
-    simulation.step(4995)
+    simulation.step(round(4.99 / simulation.dt))
     assert simulation.phase == "up"
     simulation.step(10)
     assert simulation.phase == "back"
@@ -57,10 +58,10 @@ def test_silence_is_a_no() -> None:
 def test_a_paused_mission_stands_still_and_goes_on_to_the_same_end() -> None:
     whole, paused = loop(), loop()
     whole.step(9000)
-    paused.step(500)
+    paused.step(250)
     paused.pause()
     assert paused.paused
-    paused.step(6000)  # twice its time-out
+    paused.step(round(6.0 / paused.dt))  # twice its time-out
     assert (paused.phase, paused.finished) == ("up", False)
     assert paused.log()["mission/waiting"][-1] == 1.0
     paused.resume()
@@ -74,9 +75,10 @@ def test_a_paused_mission_stands_still_and_goes_on_to_the_same_end() -> None:
 
 def test_who_took_over_hands_back_where_the_robot_is() -> None:
     simulation = loop()
-    simulation.step(500)
+    simulation.step(250)
+    assert simulation.data.joint("j1").qpos[0] < -0.05
     simulation.pause()
-    simulation.step(4000, {"posture": [0.2, 0.0]})  # against its way, beyond its time-out
+    simulation.step(2000, {"posture": [0.2, 0.0]})  # against its way, beyond its time-out
     here = simulation.data.joint("j1").qpos[0]
     assert here > 0.4
     saved = simulation.state()
@@ -97,8 +99,10 @@ def test_who_took_over_hands_back_where_the_robot_is() -> None:
 
 
 def test_a_simulation_without_a_mission_has_nothing_to_pause() -> None:
-    mission = loop()
-    simulation = hurcules.Simulation(model=mission.model, controller=mission.controller)
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model)
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    simulation = hurcules.Simulation(model=model, controller=controller)
     assert (simulation.paused, simulation.question) == (False, "")
     for act in (simulation.pause, simulation.resume):
         with pytest.raises(Error, match="without a mission"):

@@ -125,9 +125,6 @@ void check_times(const Phase& phase, const std::string& where) {
                                              to_text(phase.within) + " s came");
   require(phase.late.empty() || std::isfinite(phase.within),
           where + ": what is done when it is late wants `within`, after which it is");
-  const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
-  require(phase.seconds > 0.0 || led || !phase.done.empty() || phase.leads.empty(),
-          where + " never ends: it wants seconds, a way, or a condition");
 }
 
 void check_row(const Phase& phase, const MissionTable& table) {
@@ -136,6 +133,9 @@ void check_row(const Phase& phase, const MissionTable& table) {
   check_leads(phase, where);
   check_keys(phase, where);
   check_pose(phase, where);
+  const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
+  require(phase.seconds > 0.0 || led || !phase.done.empty() || phase.leads.empty(),
+          where + " never ends: it wants seconds, a way, or a condition");
   for (const Condition& condition : phase.done) check_condition(condition, where);
   if (std::isfinite(phase.within)) check_reactions(phase.late, table, where + ", late");
   for (const Trouble& trouble : phase.troubles) {
