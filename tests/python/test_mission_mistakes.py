@@ -53,7 +53,7 @@ MONITOR = '[[monitor]]\nwhen = "q/j1 >= 1.5"\ndo = ["abort"]\nphases = ["up"]\n'
         ('name = "back"\nstack', 'name = "up"\nstack', "two phases are called 'up'"),
         ("seconds = 1.0", "secods = 1.0", "no entry 'secods'; is it 'seconds'? there are: name"),
         # times, ways and postures
-        ("within = 3.0", "", "phase 'up': what is done when it is late wants `within`"),
+        ("within = 3.0", "", "phase 'up', late: it wants `within`"),
         ("within = 3.0", "within = 0.5", "'up' is always late: it takes 1 s, within wants as much"),
         ("back to up", "back to top", "phase 'up', late: phase 'top' does not exist; there are"),
         ("rate = [0.5, 0.0]", "rate = [0.0, 0.0]", "never gives its way: its rate is 0"),

@@ -124,7 +124,7 @@ void check_times(const Phase& phase, const std::string& where) {
                                              to_text(phase.seconds) + " s, within wants as much, " +
                                              to_text(phase.within) + " s came");
   require(phase.late.empty() || std::isfinite(phase.within),
-          where + ": what is done when it is late wants `within`, after which it is");
+          where + ", late: it wants `within`, after which that is done");
 }
 
 void check_row(const Phase& phase, const MissionTable& table) {
