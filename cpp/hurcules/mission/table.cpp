@@ -134,7 +134,7 @@ void check_row(const Phase& phase, const MissionTable& table) {
   check_keys(phase, where);
   check_pose(phase, where);
   const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
-  require(phase.seconds > 0.0 || led || !phase.done.empty() || phase.leads.empty(),
+  require(phase.seconds > 0.0 || led || phase.park || !phase.done.empty() || phase.leads.empty(),
           where + " never ends: it wants seconds, a way, or a condition");
   for (const Condition& condition : phase.done) check_condition(condition, where);
   if (std::isfinite(phase.within)) check_reactions(phase.late, table, where + ", late");
