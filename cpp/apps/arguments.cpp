@@ -1,5 +1,6 @@
 #include "arguments.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -36,7 +37,16 @@ std::uint64_t whole_number(const std::string& option, const std::string& word) {
   throw not_wanted(option, word, "a whole number of 0 or more");
 }
 
+void require_option(const std::string& option) {
+  const std::vector<std::string> known = {"--seconds", "--seed", "--variation", "--sensors",
+                                          "--json",    "--csv",  "--model"};
+  if (std::find(known.begin(), known.end(), option) == known.end()) {
+    throw Error(hurcules::unknown_name("option", option, known));
+  }
+}
+
 void set(Arguments& arguments, const std::string& option, const std::string& word) {
+  if (word.empty()) throw not_wanted(option, word, "a value");
   if (option == "--seconds") {
     arguments.seconds = number_in(option, word, "a time of 0.001 s or more", 1e-3, 1e6);
   } else if (option == "--seed") {
@@ -50,10 +60,6 @@ void set(Arguments& arguments, const std::string& option, const std::string& wor
     arguments.csv = word;
   } else if (option == "--model") {
     arguments.model = word;
-  } else {
-    throw Error(hurcules::unknown_name(
-        "option", option,
-        {"--seconds", "--seed", "--variation", "--sensors", "--json", "--csv", "--model"}));
   }
 }
 
@@ -70,7 +76,7 @@ Arguments parse(int count, const char* const* words) {
     } else if (word == "--sensors") {
       arguments.sensors = true;
     } else if (word.starts_with("-")) {
-      if (i + 1 == count) set(arguments, word, "");  // an unknown option is told first
+      require_option(word);
       hurcules::require(i + 1 < count, word + ": wanted a value after it");
       set(arguments, word, words[++i]);
     } else {

@@ -9,7 +9,7 @@ namespace hurcules_sim {
 
 inline constexpr const char* kHelp =
     "usage: hurcules-sim MISSION|FILE.table [--seconds S] [--seed N] [--variation X] [--sensors]"
-    " [--json FILE] [--csv FILE] [--model FILE]\n\n"
+    " [--json FILE] [--csv FILE] [--model FILE] | --help | --version\n\n"
     "--variation: scale of what differs between seeds, 1 unless given. --sensors: with noise, bias,"
     " delay and resolution. --model: another scene for a MISSION.\n"
     "The missions lift, casualty and disposal are tables: hurcules mission NAME --out FILE.table\n";

@@ -179,6 +179,15 @@ Args:
 Raises:
   Error: a name or a note of more than one line.
 )";
+constexpr const char* kCheckRows =
+    R"(Checks what of a table can be told without a controller: phases, reactions, time-outs, ways.
+
+Args:
+  table: MissionTable.
+
+Raises:
+  Error: naming the row, with what was wanted and what came.
+)";
 constexpr const char* kReadTable = R"(What stands in a table file: MissionSetup and MissionTable.
 
 Args:
@@ -319,4 +328,5 @@ void bind_mission(py::module_& module) {
        field("load", &MissionSetup::load), field("container", &MissionSetup::container),
        field("container_stand", &MissionSetup::container_stand)});
   bind_files(module);
+  module.def("check_rows", &check_rows, "table"_a, kCheckRows);
 }

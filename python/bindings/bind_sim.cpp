@@ -159,6 +159,21 @@ void go(Simulation& self, const std::string& phase) {
   self.go(static_cast<std::size_t>(found - names.begin()));
 }
 
+void pause_simulation(Simulation& self) {
+  const InUse in_use("Simulation", &self);
+  self.pause();
+}
+
+void resume_simulation(Simulation& self) {
+  const InUse in_use("Simulation", &self);
+  self.resume();
+}
+
+void answer(Simulation& self, bool yes) {
+  const InUse in_use("Simulation", &self);
+  self.answer(yes);
+}
+
 const std::vector<std::string>& command_names(const Simulation& self) {
   return self.controller().command_names();
 }
@@ -328,6 +343,11 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def("restore", &restore, "state"_a, kRestore)
       .def("operator_command", &Simulation::operator_command, kOperatorCommand)
       .def("go", &go, "phase"_a, kGo)
+      .def("pause", &pause_simulation, kPause)
+      .def("resume", &resume_simulation, kResume)
+      .def("answer", &answer, "yes"_a, kAnswer)
+      .def_property_readonly("paused", &Simulation::paused, "its mission stands still: `pause`")
+      .def_property_readonly("question", &Simulation::question, kQuestion)
       .def_property_readonly("dt", &Simulation::dt, "[s]")
       .def_property_readonly("physics", &Simulation::physics, "False: it moves without forces")
       .def_property_readonly("time", &Simulation::time, "[s] since reset")

@@ -107,6 +107,33 @@ Args:
 Raises:
   Error: no such phase, or no mission.
 )";
+inline constexpr const char* kPause =
+    R"(The mission stands still, its clocks and time-outs too: to take over by hand.
+
+The robot holds, or does what `step` is given. Nobody looks for the mission's troubles meanwhile; falls,
+sensors and `max_seconds` count on.
+
+Raises:
+  Error: no mission.
+)";
+inline constexpr const char* kResume = R"(The mission goes on after `pause`.
+
+Where it was; where a command moved something meanwhile, its phase begins anew from where the robot is,
+as by `go`.
+
+Raises:
+  Error: no mission.
+)";
+inline constexpr const char* kAnswer = R"(Answers what the mission asks: `question`.
+
+Args:
+  yes: the phase goes on, with as much time once more where it was late; False: the next reaction.
+
+Raises:
+  Error: nothing is asked.
+)";
+inline constexpr const char* kQuestion =
+    "What the mission asks (reaction `ask 30 s`) and waits for in `answer`; '' for nothing.";
 inline constexpr const char* kState =
     "All that decides how the run goes on, as one array; the log and the events are not in it.";
 inline constexpr const char* kRestore =

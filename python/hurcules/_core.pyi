@@ -3813,6 +3813,15 @@ class Simulation:
         controller: WholeBodyController,
         options: SimulationOptions = ...,
     ) -> None: ...
+    def answer(self, yes: bool) -> None:
+        """Answers what the mission asks: `question`.
+
+        Args:
+          yes: the phase goes on, with as much time once more where it was late; False: the next reaction.
+
+        Raises:
+          Error: nothing is asked."""
+
     def commanded_level_errors(self) -> NDArray[np.float64]:
         """The same of the commanded motion, at the last tick."""
 
@@ -3873,6 +3882,15 @@ class Simulation:
     def operator_command(self) -> NDArray[np.float64]:
         """What the mission's own operator commands next (k,)."""
 
+    def pause(self) -> None:
+        """The mission stands still, its clocks and time-outs too: to take over by hand.
+
+        The robot holds, or does what `step` is given. Nobody looks for the mission's troubles meanwhile; falls,
+        sensors and `max_seconds` count on.
+
+        Raises:
+          Error: no mission."""
+
     def ray_angles(self) -> NDArray[np.float64]:
         """(rays,) [rad] about z of the scanner's site, 0 along its x; empty without a scanner."""
 
@@ -3889,6 +3907,15 @@ class Simulation:
 
         Raises:
           Error: the state belongs to another model or mission."""
+
+    def resume(self) -> None:
+        """The mission goes on after `pause`.
+
+        Where it was; where a command moved something meanwhile, its phase begins anew from where the robot is,
+        as by `go`.
+
+        Raises:
+          Error: no mission."""
 
     def self_collision_pairs(self) -> list[tuple[str, str]]:
         """(name, name) of the contact shapes whose distance is watched."""
@@ -3960,6 +3987,10 @@ class Simulation:
     @property
     def observation_names(self) -> list[str]: ...
     @property
+    def paused(self) -> bool:
+        """its mission stands still: `pause`"""
+
+    @property
     def phase(self) -> str:
         """of the mission; '' without one"""
 
@@ -3976,6 +4007,10 @@ class Simulation:
     @property
     def plant(self) -> Plant:
         """Plant that it steps"""
+
+    @property
+    def question(self) -> str:
+        """What the mission asks (reaction `ask 30 s`) and waits for in `answer`; '' for nothing."""
 
     @property
     def reason(self) -> str:
@@ -4256,6 +4291,15 @@ def Twist(task: Task, scale: float | ArrayLike) -> Channel:
     Args:
       task: Task with a target.
       scale: full scale, one number or one a row [m/s] or [rad/s]; a command is held to it."""
+
+def check_rows(table: MissionTable) -> None:
+    """Checks what of a table can be told without a controller: phases, reactions, time-outs, ways.
+
+    Args:
+      table: MissionTable.
+
+    Raises:
+      Error: naming the row, with what was wanted and what came."""
 
 def condition(text: str) -> Condition:
     """Reads "QUANTITY >= 0.3 for 2 s".

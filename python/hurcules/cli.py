@@ -278,7 +278,7 @@ def show_mission(
     if out is not None:
         require_known("kind of file", out.suffix, [*texts, ".table"])
         if out.suffix == ".table" and (mission := table_mission(name)):
-            write_table(mission, mission.parameters_of(context.args), out)
+            write_table(name, mission, mission.parameters_of(context.args), out)
             return
     if context.args:
         raise Error(f"{context.args[0]}: for a file .table; other files hold the phases alone")

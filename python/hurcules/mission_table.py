@@ -43,7 +43,7 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from hurcules._core import (
     Error,
@@ -55,14 +55,17 @@ from hurcules._core import (
     Phase,
     PostureKey,
     Trouble,
+    check_rows,
     condition,
     reaction,
 )
 from hurcules.mission_drawing import drawing
+from hurcules.toml_rows import Kind, take, typed
+from hurcules.validation import told_at
 
 __all__ = ["Mission"]
 
-Row = TypeVar("Row")
+Row = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -85,35 +88,37 @@ class Mission:
         """Reads a TOML file.
 
         Raises:
-            Error: no such file, no TOML, an unknown key, a condition or reaction that cannot be
-                read; the text says where. What depends on a controller (stacks, channels,
-                coordinates, quantities) is checked when a simulation is made.
+            Error: no such file, no TOML, an unknown entry, a value of another type, a condition or
+                reaction that cannot be read, phases, reactions, time-outs or ways that do not fit
+                (`docs/loop.md`); the text says file and row. What depends on a controller (stacks,
+                channels, coordinates, quantities) is checked when a simulation is made.
         """
-        try:
-            return cls.read(_toml(path), Path(path).parent)
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise Error(f"mission file {path}: {error}") from error
+        data = _toml(path)
+        with told_at(str(path)):
+            return cls.read(data, Path(path).parent, (Path(path).resolve(),))
 
     @classmethod
-    def read(cls, data: Mapping[str, Any], folder: str | Path = ".") -> Mission:
+    def read(
+        cls, data: Mapping[str, Any], folder: str | Path = ".", files: tuple[Path, ...] = ()
+    ) -> Mission:
         """The same from what a TOML file holds.
 
         Args:
             data: of the file.
             folder: where the files lie whose rows it includes.
+            files: it comes from, which it cannot include.
         """
-        _known(data, ("mission", "phase", "monitor", "lead", "figure"), "mission")
-        head = dict(data.get("mission", {}))
+        given = take(data, _FILE)
+        head = take(given.get("mission", {}), _HEAD, "[mission]", ["name"])
         safety, scene = head.pop("safety", ""), head.pop("scene", "")
-        if not isinstance(scene, str):
-            raise Error(f"scene of [mission]: wanted the name of a mission, got {scene!r}")
-        rows = _included(data.get("phase", []), Path(folder))
-        _watch(rows, data.get("monitor", []))
-        _lead(rows, data.get("lead", []))
-        phases = [_phase(row) for row in rows]
-        measures = [_of(Measure, row, "figure") for row in data.get("figure", [])]
+        rows = _included(given.get("phase", []), Path(folder), files)
+        _watch(rows, given.get("monitor", []))
+        _lead(rows, given.get("lead", []))
+        phases = [_phase(row, where) for where, row in rows]
+        measures = [_measure(row, k) for k, row in enumerate(given.get("figure", []), 1)]
         table = MissionTable(phases=phases, safety=safety, measures=measures)
-        return cls(_of(MissionSetup, head, "[mission]"), table, scene)
+        check_rows(table)
+        return cls(MissionSetup(**head), table, scene)
 
     def table(self) -> str:
         """The phases as text, note, conditions and reactions below each."""
@@ -150,116 +155,193 @@ class Mission:
         return "\n".join(lines) + "\n"
 
 
-_SETUP = (
-    "name", "support", "max_seconds", "min_height", "max_tilt", "casualty", "stand_off", "load",
-    "container", "container_stand",
-)  # fmt: skip
-_MEASURE = ("name", "quantity", "take", "phases", "least", "most")
-_PARK = ("body", "ahead", "left", "heading", "speed", "yaw_rate")
-_PHASE = ("name", "note", "stack", "seconds", "support", "brakes", "posture", "within", "last")
+_SETUP: Mapping[str, Kind] = {
+    "name": str,
+    "support": str,
+    "max_seconds": float,
+    "min_height": float,
+    "max_tilt": float,
+    "casualty": str,
+    "stand_off": float,
+    "load": str,
+    "container": str,
+    "container_stand": float,
+}
+_HEAD = {**_SETUP, "safety": str, "scene": str}
+_MEASURE: Mapping[str, Kind] = {
+    "name": str,
+    "quantity": str,
+    "take": str,
+    "phases": [str],
+    "least": float,
+    "most": float,
+}
+_PARK: Mapping[str, Kind] = {
+    "body": str,
+    "ahead": float,
+    "left": float,
+    "heading": float,
+    "speed": float,
+    "yaw_rate": float,
+}
+_LEAD: Mapping[str, Kind] = {
+    "rate": [float],
+    "way": float,
+    "by": [float],
+    "to": [str],
+    "hold": str,
+    "at": float,
+    "span": float,
+}
+_TROUBLE: Mapping[str, Kind] = {"when": str, "do": [str]}
+_PHASE: Mapping[str, Kind] = {
+    "name": str,
+    "note": str,
+    "stack": str,
+    "seconds": float,
+    "support": str,
+    "brakes": [str],
+    "posture": str,
+    "within": float,
+    "last": bool,
+}
+_ROW = {
+    **_PHASE,
+    "lead": dict,
+    "keys": [dict],
+    "park": dict,
+    "done": [str],
+    "late": [str],
+    "trouble": [dict],
+}
+_FILE: Mapping[str, Kind] = {
+    "mission": dict,
+    "phase": [dict],
+    "monitor": [dict],
+    "lead": [dict],
+    "figure": [dict],
+}
 
 
 def _toml(path: str | Path) -> dict[str, Any]:
-    return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    try:
+        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise Error(f"mission file {path}: {error}") from error
 
 
-def _included(rows: Sequence[Mapping[str, Any]], folder: Path) -> list[dict[str, Any]]:
-    """The rows of the table, those of other files in their place."""
-    found: list[dict[str, Any]] = []
-    for row in rows:
-        if "include" not in row:
-            found.append(dict(row))
+def _included(
+    rows: Sequence[Row], folder: Path, files: tuple[Path, ...], prefix: str = ""
+) -> list[tuple[str, Row]]:
+    """The rows of the table, those of other files in their place; before each where it stands."""
+    found: list[tuple[str, Row]] = []
+    for k, row in enumerate(rows, 1):
+        if "include" in row:
+            found += _of_file(row, f"{prefix}phase {k}", folder, files)
             continue
-        file = row["include"]
-        where = f"include of {file!r}"
-        _known(row, ("include", "rows"), where)
-        there = _included(_toml(folder / file).get("phase", []), folder)
-        names = [one.get("name") for one in there]
-        ends = row.get("rows", [])
-        if len(ends) != 2 or not set(ends) <= set(names):
-            raise Error(f"{where}: rows wants the names of two of its phases, got {ends!r}")
-        first, last = (names.index(name) for name in ends)
-        if first > last:
-            raise Error(f"{where}: '{ends[0]}' comes after '{ends[1]}'")
-        found += there[first : last + 1]
+        if not row.get("name"):
+            raise Error(f"{prefix}phase {k} wants a name")
+        name = typed(row["name"], str, f"{prefix}phase {k}, name")
+        if name in _names(found):
+            raise Error(f"{prefix}two phases are called '{name}'")
+        found.append((f"{prefix}phase '{name}'", dict(row)))
     return found
 
 
-def _watch(rows: Sequence[dict[str, Any]], monitors: Sequence[Mapping[str, Any]]) -> None:
+def _of_file(row: Row, where: str, folder: Path, files: tuple[Path, ...]) -> list[tuple[str, Row]]:
+    given = take(row, {"include": str, "rows": [str]}, where, ["include", "rows"])
+    file, ends = folder / given["include"], given["rows"]
+    where = f"{where}, include of '{given['include']}'"
+    if file.resolve() in files:
+        raise Error(f"{where}: the file includes itself")
+    with told_at(where):
+        data = take(_toml(file), _FILE)
+    files = (*files, file.resolve())
+    there = _included(data.get("phase", []), file.parent, files, f"{given['include']}, ")
+    names = _names(there)
+    if len(ends) != 2 or not set(ends) <= set(names):
+        known = ", ".join(names)
+        raise Error(
+            f"{where}: rows wants the names of two of its phases, got {ends!r}; there are: {known}"
+        )
+    first, last = (names.index(name) for name in ends)
+    if first > last:
+        raise Error(f"{where}: '{ends[0]}' comes after '{ends[1]}'")
+    return there[first : last + 1]
+
+
+def _names(rows: Sequence[tuple[str, Row]]) -> list[str]:
+    return [row["name"] for _, row in rows]
+
+
+def _watch(rows: Sequence[tuple[str, Row]], monitors: Sequence[Row]) -> None:
     """Each monitor becomes a trouble of each of its phases."""
-    for monitor in monitors:
-        where = f"monitor {monitor.get('when', '?')!r}"
-        _known(monitor, ("when", "do", "phases"), where)
-        trouble = {key: value for key, value in monitor.items() if key != "phases"}
-        for row in _named(rows, monitor.get("phases", []), where):
-            row["trouble"] = [*row.get("trouble", []), trouble]
+    for k, monitor in enumerate(monitors, 1):
+        where = f"monitor {monitor.get('when', k)!r}"
+        trouble = take(monitor, {**_TROUBLE, "phases": [str]}, where, ["when", "do", "phases"])
+        for place, row in _named(rows, trouble.pop("phases"), where):
+            own = typed(row.get("trouble", []), [dict], f"{place}, trouble")
+            row["trouble"] = [*own, trouble]
 
 
-def _lead(rows: Sequence[dict[str, Any]], leads: Sequence[Mapping[str, Any]]) -> None:
+def _lead(rows: Sequence[tuple[str, Row]], leads: Sequence[Row]) -> None:
     """Each lead of many phases becomes one of each of them."""
-    for lead in leads:
-        channel = lead.get("channel", "?")
-        where = f"lead of {channel!r}"
-        one = {key: value for key, value in lead.items() if key not in ("channel", "phases")}
-        for row in _named(rows, lead.get("phases", []), where):
-            if channel in row.get("lead", {}):
-                raise Error(f"{where}: phase {row.get('name')!r} leads it already")
-            row["lead"] = {**row.get("lead", {}), channel: one}
+    for k, lead in enumerate(leads, 1):
+        where = f"lead of {lead.get('channel', k)!r}"
+        kinds = {**_LEAD, "channel": str, "phases": [str]}
+        one = take(lead, kinds, where, ["channel", "phases"])
+        channel = one.pop("channel")
+        for place, row in _named(rows, one.pop("phases"), where):
+            own = typed(row.get("lead", {}), dict, f"{place}, lead")
+            if channel in own:
+                raise Error(f"{where}: {place} leads it already")
+            row["lead"] = {**own, channel: one}
 
 
 def _named(
-    rows: Sequence[dict[str, Any]], names: Sequence[str], where: str
-) -> Iterator[dict[str, Any]]:
+    rows: Sequence[tuple[str, Row]], names: Sequence[str], where: str
+) -> Iterator[tuple[str, Row]]:
     """The rows of these names."""
-    known = [row.get("name") for row in rows]
+    known = _names(rows)
     for name in names:
         if name not in known:
-            raise Error(f"{where}: no phase {name!r}; there are: {', '.join(map(str, known))}")
+            raise Error(f"{where}: no phase {name!r}; there are: {', '.join(known)}")
         yield rows[known.index(name)]
 
 
-def _phase(row: Mapping[str, Any]) -> Phase:
-    where = f"phase {row.get('name', '?')!r}"
-    _known(row, (*_PHASE, "lead", "keys", "park", "done", "late", "trouble"), where)
+def _phase(row: Row, where: str) -> Phase:
+    given = take(row, _ROW, where, ["stack"])
     leads = [
-        _of(Lead, {"channel": name, **lead}, where) for name, lead in row.get("lead", {}).items()
+        Lead(channel=name, **take(lead, _LEAD, f"{where}, lead.{name}"))
+        for name, lead in given.pop("lead", {}).items()
     ]
     keys = []
-    for key in row.get("keys", []):
-        angles = [(name, float(angle)) for name, angle in key.items() if name != "share"]
-        keys.append(PostureKey(share=float(key.get("share", 1.0)), angles=angles))
+    for key in given.pop("keys", []):
+        angles = [(name, typed(one, float, f"{where}, keys, {name}")) for name, one in key.items()]
+        share = dict(angles).get("share", 1.0)
+        keys.append(PostureKey(share=share, angles=[one for one in angles if one[0] != "share"]))
     troubles = []
-    for one in row.get("trouble", []):
-        _known(one, ("when", "do"), where)
-        reactions = [reaction(text) for text in one.get("do", [])]
-        troubles.append(Trouble(when=condition(one.get("when", "")), reactions=reactions))
-    values = {name: row[name] for name in _PHASE if name in row}
-    return _of(
-        Phase,
-        {
-            **values,
-            "leads": leads,
-            "keys": keys,
-            "park": _of(Park, row["park"], where) if "park" in row else None,
-            "done": [condition(text) for text in row.get("done", [])],
-            "late": [reaction(text) for text in row.get("late", [])],
-            "troubles": troubles,
-        },
-        where,
+    for trouble in given.pop("trouble", []):
+        place = f"{where}, trouble"
+        one = take(trouble, _TROUBLE, place, ["when", "do"])
+        with told_at(place):
+            reactions = [reaction(text) for text in one["do"]]
+            troubles.append(Trouble(when=condition(one["when"]), reactions=reactions))
+    park = Park(**take(given.pop("park"), _PARK, f"{where}, park")) if "park" in given else None
+    with told_at(f"{where}, done"):
+        done = [condition(text) for text in given.pop("done", [])]
+    with told_at(f"{where}, late"):
+        late = [reaction(text) for text in given.pop("late", [])]
+    return Phase(
+        **given, leads=leads, keys=keys, park=park, done=done, late=late, troubles=troubles
     )
 
 
-def _of(kind: type[Row], values: Mapping[str, Any], where: str) -> Row:
-    try:
-        return kind(**values)
-    except Error as error:
-        raise Error(f"{where}: {error}") from error
-
-
-def _known(row: Mapping[str, Any], names: Sequence[str], where: str) -> None:
-    for key in row:
-        if key not in names:
-            raise Error(f"{where}: no entry '{key}'; there are: {', '.join(names)}")
+def _measure(row: Row, number: int) -> Measure:
+    where = f"figure {row.get('name', number)!r}"
+    given = take(row, _MEASURE, where, ["name", "quantity"])
+    with told_at(where):
+        return Measure(**given)
 
 
 def _phase_lines(phase: Phase) -> list[str]:

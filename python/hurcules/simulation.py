@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -27,7 +28,7 @@ from hurcules.mission_table import Mission
 from hurcules.start_checks import warn_of_physics
 from hurcules.table_missions import TABLE_MISSIONS, table_mission
 from hurcules.urdf import load_urdf
-from hurcules.validation import require_known
+from hurcules.validation import require_known, told_at
 
 __all__ = ["Simulation", "SimulationBatch", "missions"]
 
@@ -145,7 +146,8 @@ class Simulation(_core.Simulation):
                 super().__init__(self.model, self.data, controller, options)
             else:
                 phases, setup = table.rows, table.setup
-                super().__init__(self.model, self.data, controller, phases, setup, options)
+                with told_at(str(mission)) if isinstance(mission, str) else nullcontext():
+                    super().__init__(self.model, self.data, controller, phases, setup, options)
             if physics:
                 warn_of_physics(self.model, controller)
             return

@@ -14,7 +14,7 @@ import numpy as np
 from hurcules import _core, disposal, lift
 from hurcules.mission_table import Mission
 from hurcules.output import writing
-from hurcules.validation import require_known
+from hurcules.validation import require_known, told_at
 
 __all__ = ["TABLE_MISSIONS", "TableMission", "table_mission", "write_table"]
 
@@ -85,19 +85,26 @@ def table_mission(name: str) -> TableMission | None:
     return replace(TABLE_MISSIONS[scene], table=lambda: table)
 
 
-def write_table(mission: TableMission, parameters: Mapping[str, Any], path: Path) -> None:
+def write_table(
+    name: str, mission: TableMission, parameters: Mapping[str, Any], path: Path
+) -> None:
     """Writes what `hurcules-sim` runs a mission from: the table, and beside it the compiled model.
 
     Args:
+        name: of the mission, or of its file, for errors.
         mission: what is run.
         parameters: of its scene, by name.
         path: of the table; the model has its name with the ending `.mjb`.
 
     Raises:
-        Error: a scene that there is not.
+        Error: a scene that there is not, or a table that does not fit it.
         WriteError: a file cannot be written.
     """
     table, model = mission.table(), mission.spec(parameters).compile()
+    controller = _core.table_controller(mission.controller, model)
+    data = mujoco.MjData(model)
+    with told_at(name):  # what does not run is told now
+        _core.Simulation(model, data, controller, table.rows, table.setup)
     compiled = np.empty(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, compiled)
     beside = path.with_suffix(".mjb")

@@ -1,12 +1,13 @@
-"""The answer to a name that does not exist."""
+"""Errors with what was wanted and where: names that do not exist, and the place of others."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from hurcules._core import Error
 
-__all__ = ["require_known"]
+__all__ = ["require_known", "told_at"]
 
 
 def require_known(noun: str, name: str, known: Iterable[str]) -> None:
@@ -23,3 +24,19 @@ def require_known(noun: str, name: str, known: Iterable[str]) -> None:
     known = list(known)
     if name not in known:
         raise Error(f"{noun} '{name}' does not exist; there are: {', '.join(known)}")
+
+
+@contextmanager
+def told_at(where: str) -> Iterator[None]:
+    """Errors begin with their place.
+
+    Args:
+        where: a file, a row of it.
+
+    Raises:
+        Error: as it was raised inside, "WHERE: " before it.
+    """
+    try:
+        yield
+    except Error as error:
+        raise Error(f"{where}: {error}") from error

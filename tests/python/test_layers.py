@@ -42,10 +42,10 @@ FLOORS: tuple[set[str], ...] = (
         "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
         "opengl", "plugins", "running_gear",
     )},
-    {"hurcules.mission_drawing"},
+    {"hurcules.mission_drawing", "hurcules.toml_rows", "hurcules.validation"},
     {"hurcules." + name for name in (
         "_reprs", "_version", "casualties", "ik", "mission_options", "mission_table", "motors",
-        "output", "postures", "rendering", "rhqp", "sensors", "start_checks", "validation",
+        "output", "postures", "rendering", "rhqp", "sensors", "start_checks",
     )},
     {"hurcules." + name for name in (
         "cameras", "drawing", "mjcf", "transfer_bed", "urdf", "video",

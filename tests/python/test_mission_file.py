@@ -132,7 +132,7 @@ def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureF
     told = capsys.readouterr().err
     assert "scene 'own' does not exist; there are: lift" in told
     assert "scene 'lit' does not exist" in told
-    assert "wanted the name of a mission, got 3" in told
+    assert "[mission], scene: wanted a text, got 3" in told
     assert cli.main(["run", str(tmp_path / "none.toml")]) == 2
     assert "none.toml" in capsys.readouterr().err
 
@@ -178,6 +178,18 @@ def test_what_is_no_file_of_a_mission_is_told(
     done = program(str(file), "--model", "other.xml")
     assert (done.returncode, "a table names its own model" in done.stderr) == (2, True)
     assert "cannot be read" in program(str(tmp_path / "none.table")).stderr
+    folder = tmp_path / "folder.table"
+    folder.mkdir()
+    for words, wanted in (
+        ([str(folder)], "cannot be read: it is a folder"),
+        (["stretch", "--model", str(tmp_path)], "wanted a file, it is a folder"),
+        (["stretch", "--json", ""], "--json: wanted a value, got ''"),
+        (["stretch", "--seconds"], "--seconds: wanted a value after it"),
+        (["stretch", "--second"], "option '--second' does not exist"),
+    ):
+        done = program(*words)
+        assert (done.returncode, wanted in done.stderr) == (2, True), done.stderr
+    assert "--version" in program("--help").stdout
     assert "FILE.table" in program("--help").stdout
     assert "there are: stretch, and what hurcules mission NAME" in program("lift").stderr
     for words, wanted in (

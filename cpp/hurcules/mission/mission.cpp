@@ -11,6 +11,23 @@ namespace hurcules {
 
 namespace {
 
+void check_setup(const MissionSetup& setup, const Robot& plan) {
+  const auto want = [](bool right, const char* name, const char* wanted, double came) {
+    require(right, "[mission]: " + std::string(name) + " wants " + wanted + ", " + to_text(came) +
+                       " came");
+  };
+  want(setup.max_seconds > 0.0, "max_seconds", "a time above 0 [s]", setup.max_seconds);
+  want(setup.max_tilt >= 0.0, "max_tilt", "an angle of 0 (nobody looks) or more [rad]",
+       setup.max_tilt);
+  want(std::isfinite(setup.min_height), "min_height", "a finite height [m]", setup.min_height);
+  want(setup.min_height == 0.0 || setup.max_tilt > 0.0, "min_height",
+       "a max_tilt above 0 beside it, or nobody looks", setup.min_height);
+  want(std::isfinite(setup.stand_off), "stand_off", "a finite distance [m]", setup.stand_off);
+  want(std::isfinite(setup.container_stand), "container_stand", "a finite distance [m]",
+       setup.container_stand);
+  check_support(setup.support, plan, "[mission]");
+}
+
 bool contains(const std::vector<int>& all, int one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
@@ -28,6 +45,7 @@ Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyControll
       dt_(controller.dt()),
       operated_(Vector::Zero(controller.scale().size())) {
   require(variation_ >= 0.0 && std::isfinite(variation_), "variation wants a number >= 0");
+  check_setup(setup_, controller.plan());
   check_table(table_, controller);
   figures_ = Gauges::figures_of(table_);
   for (const Task* task : controller.tasks()) {
@@ -110,7 +128,7 @@ void Mission::reset(WholeBodyController& controller, const Robot& world) {
   forces_.setZero();
   verdict_.clear();
   answer_.reset();
-  paused_ = ended_ = false;
+  paused_ = moved_ = ended_ = false;
   scene_.reset();
   begin(controller, world);
   enter(0, controller, 0.0);
@@ -120,7 +138,8 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
   phase_ = phase;
   phase_start_ = now_ = time;
   doing_ = Doing::Leading;
-  elapsed_ = progress_ = waiting_ = extra_ = 0.0;
+  elapsed_ = progress_ = extra_ = 0.0;
+  waiting_ = paused_ ? 1.0 : 0.0;
   const std::string& stack = table_.phases[phase_].stack;
   if (stack == kJoints) {
     controller.move_joints();
@@ -145,6 +164,7 @@ const Vector& Mission::command(double dt) {
 
 void Mission::note_commanded(const WholeBodyController& controller, const TickReport& report) {
   rows_[phase_].note(controller);
+  moved_ = moved_ || (paused_ && (controller.command().array().abs() > 0.0).any());
   Index force = 0;
   for (const Task* task : controller.tasks()) {
     if (const auto* const one = dynamic_cast<const ForceTask*>(task))
@@ -221,7 +241,8 @@ bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& con
 // holds, asks or is paused: the clock of the phase stands
 bool Mission::wait(double time, WholeBodyController& controller) {
   phase_start_ += dt_;
-  if (paused_ || doing_ == Doing::Leading) return true;
+  if (paused_) wait_until_ += dt_;
+  if (paused_) return true;
   const bool silent = time >= wait_until_;
   const bool asks = doing_ == Doing::Asking;
   if (!silent && !(asks && answer_)) return true;
@@ -236,17 +257,39 @@ bool Mission::wait(double time, WholeBodyController& controller) {
   return true;
 }
 
+void Mission::pause() {
+  paused_ = true;
+  moved_ = false;
+  waiting_ = 1.0;
+}
+
+void Mission::resume(WholeBodyController& controller, double time) {
+  paused_ = false;
+  waiting_ = doing_ == Doing::Leading ? 0.0 : 1.0;
+  if (moved_) enter(phase_, controller, time);
+}
+
+std::optional<double> Mission::asks_until() const {
+  if (doing_ != Doing::Asking || paused_) return std::nullopt;
+  return wait_until_;
+}
+
+std::string Mission::question() const {
+  return asks_until() ? words(phase_, cause_) + "; go on?" : "";
+}
+
+std::string Mission::words(std::size_t phase, std::size_t cause) const {
+  const Phase& row = table_.phases[phase];
+  std::string text = "phase '" + row.name + "': ";
+  text += cause == 0 ? std::string("took too long") : to_string(row.troubles[cause - 1].when);
+  return text;
+}
+
 // what is missing, in words: why it was lowered or aborted, else the first figure out of its bounds,
 // and what it went back for
 void Mission::tell() {
   verdict_.clear();
-  std::string cause;
-  if (why_.phase > 0) {
-    const Phase& phase = table_.phases[why_.phase - 1];
-    cause = "phase '" + phase.name + "': ";
-    cause += why_.cause == 0 ? std::string("took too long")
-                             : to_string(phase.troubles[why_.cause - 1].when);
-  }
+  const std::string cause = why_.phase > 0 ? words(why_.phase - 1, why_.cause) : "";
   if (why_.final) verdict_ = cause;
   if (why_.final || !ended_) return;
   verdict_ = out_of_bounds(table_.measures, figures_);
@@ -263,8 +306,9 @@ void Mission::save(StateWriter& writer) const {
   for (const std::size_t number : {phase_, cause_, why_.phase, why_.cause}) {
     writer.put(static_cast<double>(number));
   }
-  for (const bool flag : {paused_, ended_, why_.final}) writer.put(flag ? 1.0 : 0.0);
+  for (const bool flag : {paused_, moved_, ended_, why_.final}) writer.put(flag ? 1.0 : 0.0);
   writer.put(static_cast<double>(static_cast<int>(doing_)));
+  writer.put(answer_ ? (*answer_ ? 2.0 : 1.0) : 0.0);
   for (const double value :
        {phase_start_, now_, wait_until_, extra_, elapsed_, progress_, waiting_}) {
     writer.put(value);
@@ -286,9 +330,12 @@ void Mission::restore(StateReader& reader) {
   const std::size_t most = why_.phase > 0 ? table_.phases[why_.phase - 1].troubles.size() : 0;
   why_.cause = static_cast<std::size_t>(reader.get_count(static_cast<Index>(most)));
   paused_ = reader.get_count(1) > 0;
+  moved_ = reader.get_count(1) > 0;
   ended_ = reader.get_count(1) > 0;
   why_.final = reader.get_count(1) > 0;
   doing_ = static_cast<Doing>(reader.get_count(static_cast<Index>(Doing::Asking)));
+  const Index answered = reader.get_count(2);
+  answer_ = answered > 0 ? std::optional(answered == 2) : std::nullopt;
   for (double* value :
        {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_}) {
     *value = reader.get();
@@ -298,7 +345,6 @@ void Mission::restore(StateReader& reader) {
   gauges_.restore(reader);
   for (PhaseRow& row : rows_) row.restore(reader);
   scene_.restore(reader);
-  answer_.reset();
   tell();
   restore_memory(reader);
 }

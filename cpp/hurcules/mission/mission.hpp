@@ -28,7 +28,8 @@ namespace hurcules {
 
 class Mission : public Supervisor {
  public:
-  // variation: scale of what differs between seeds (variation.hpp); throws Error as check_table
+  // variation: scale of what differs between seeds (variation.hpp); throws Error as check_table, and
+  // for a setup that is out of range or names a support that the robot has not
   Mission(MissionSetup setup, MissionTable table, const WholeBodyController& controller,
           double variation);
   Mission(const Mission&) = delete;
@@ -36,13 +37,6 @@ class Mission : public Supervisor {
 
   [[nodiscard]] const MissionSetup& setup() const { return setup_; }
   [[nodiscard]] const MissionTable& table() const { return table_; }
-  // the phases stand still, the robot holds, until false
-  void pause(bool on) { paused_ = on; }
-  [[nodiscard]] bool paused() const { return paused_; }
-  // it waits for an answer
-  [[nodiscard]] bool asks() const { return doing_ == Doing::Asking; }
-  void answer(bool yes) { answer_ = yes; }
-
   void attach(const Plant& plant, Recorder& log) override;
   Vector start(const Plant& plant, Robot& robot, std::uint64_t seed) override;
   void reset(WholeBodyController& controller, const Robot& world) override;
@@ -54,6 +48,12 @@ class Mission : public Supervisor {
   void go(std::size_t phase, WholeBodyController& controller, double time) override {
     enter(phase, controller, time);
   }
+  void pause() override;
+  void resume(WholeBodyController& controller, double time) override;
+  [[nodiscard]] bool paused() const override { return paused_; }
+  [[nodiscard]] std::optional<double> asks_until() const override;
+  [[nodiscard]] std::string question() const override;
+  void answer(bool yes) override { answer_ = yes; }
   [[nodiscard]] std::vector<std::string> phase_names() const override;
   [[nodiscard]] std::size_t phase() const override { return phase_; }
   [[nodiscard]] const std::vector<Figure>& figures() const override { return figures_; }
@@ -88,6 +88,8 @@ class Mission : public Supervisor {
   bool react(std::optional<std::size_t> trouble, WholeBodyController& controller, double time);
   bool wait(double time, WholeBodyController& controller);
   void tell();
+  // phase and condition that it is in trouble with, in words; cause as in Why
+  [[nodiscard]] std::string words(std::size_t phase, std::size_t cause) const;
   [[nodiscard]] bool needs_log() const;
 
   MissionSetup setup_;
@@ -101,6 +103,7 @@ class Mission : public Supervisor {
   Gauges gauges_;
   SceneMonitors scene_;
   bool attached_ = false, paused_ = false, ended_ = false;
+  bool moved_ = false;  // by somebody else's command while it was paused
   std::optional<bool> answer_;
   std::size_t phase_ = 0;
   double phase_start_ = 0.0, now_ = 0.0, dt_ = 0.0;  // [s]

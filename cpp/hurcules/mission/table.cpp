@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/tasks.hpp"
@@ -18,71 +19,50 @@ std::vector<std::string> names_of(const std::vector<Phase>& phases) {
   return names;
 }
 
+std::string where_of(const Phase& phase) {
+  return "phase '" + phase.name + "'";
+}
+
 bool ends(const Lead& lead) {
   return lead.rate.size() == 0 || std::isfinite(lead.way);
 }
 
-void check_leads(const Phase& phase, const WholeBodyController& controller,
-                 const std::string& where) {
+constexpr double kRounding = 1e-4;  // [rad] or [m] beyond a range: tables have four decimals
+
+// of the smooth way in the seconds of a phase: its largest speed over its mean one
+constexpr double kPeak = 1.875;
+
+void check_lead(const Lead& lead, const Phase& phase, const std::string& where) {
+  const bool led_by_rate = lead.rate.size() > 0;
+  require(led_by_rate == (lead.by.size() == 0), where + " wants a rate or a way, one of them");
+  require((led_by_rate ? lead.rate : lead.by).allFinite(), where + " wants finite numbers");
+  require(lead.to.empty() || lead.to.size() == static_cast<std::size_t>(lead.by.size()),
+          where + " wants a way of as many numbers as it has quantities to go to, " +
+              std::to_string(lead.to.size()) + " came");
+  require(lead.hold.empty() ? lead.span == 0.0
+                            : led_by_rate && lead.span > 0.0 && std::isfinite(lead.at + lead.span),
+          where + " wants a rate, a finite value and a span above 0 to hold a quantity by");
+  require(lead.way > 0.0,
+          where + ": its way wants a number above 0, " + to_text(lead.way) + " came");
+  require(!led_by_rate || !std::isfinite(lead.way) || lead.rate.norm() > 0.0,
+          where + " never gives its way: its rate is 0");
+  require(led_by_rate || phase.seconds > 0.0, where + ": a way that is led wants seconds above 0");
+}
+
+void check_leads(const Phase& phase, const std::string& where) {
+  std::set<std::string> seen;
+  if (!phase.posture.empty()) seen.insert(phase.posture);
   for (const Lead& lead : phase.leads) {
-    const Channel& channel = *find_channel(controller, lead.channel, where).channel;
-    const Index size = channel.size();
-    require(!channel.task() || phase.stack != kJoints,
-            where + ": channel '" + lead.channel + "' moves a task, but no stack rules");
-    require(channel.kind() != ChannelKind::Joints || phase.stack == kJoints,
-            where + ": channel '" + lead.channel + "' moves joints, which wants the stack '" +
-                kJoints + "'");
-    const bool led_by_rate = lead.rate.size() > 0;
-    const Vector& given = led_by_rate ? lead.rate : lead.by;
-    require(led_by_rate == (lead.by.size() == 0),
-            where + ": channel '" + lead.channel + "' wants a rate or a way, one of them");
-    require(given.size() == size && given.allFinite(),
-            where + ": channel '" + lead.channel + "' wants " + std::to_string(size) +
-                " finite numbers, " + std::to_string(given.size()) + " came");
-    require(lead.to.empty() || lead.to.size() == static_cast<std::size_t>(lead.by.size()),
-            where + ": channel '" + lead.channel + "' wants a way of as many numbers as it has " +
-                "quantities to go to, " + std::to_string(lead.to.size()) + " came");
-    require(lead.hold.empty()
-                ? lead.span == 0.0
-                : led_by_rate && lead.span > 0.0 && std::isfinite(lead.at + lead.span),
-            where + ": channel '" + lead.channel +
-                "' wants a rate, a finite value and a span above 0 to hold a quantity by");
-    require(lead.way > 0.0, where + ": the way of channel '" + lead.channel +
-                                "' wants a number above 0, " + to_text(lead.way) + " came");
-    require(led_by_rate || phase.seconds > 0.0,
-            where + ": a way that is led wants seconds above 0");
+    const std::string channel = where + ": channel '" + lead.channel + "'";
+    require(seen.insert(lead.channel).second, channel + " is led twice");
+    check_lead(lead, phase, channel);
   }
 }
 
-// what no stack keeps within the range of its joint
-void check_range(const std::string& name, double place, const std::vector<std::string>& joints,
-                 const JointServo& servo, const std::string& where) {
-  for (const Index at : coordinates_of(name, joints)) {
-    const std::string& joint = joints[static_cast<std::size_t>(at)];
-    const JointActuator& actuator = servo.actuator(servo.find(joint));
-    require(place >= actuator.lower - 1e-6 && place <= actuator.upper + 1e-6,
-            where + ": joint '" + joint + "' goes from " + to_text(actuator.lower) + " to " +
-                to_text(actuator.upper) + ", " + to_text(place) + " came");
-  }
-}
-
-void check_posture(const Phase& phase, const WholeBodyController& controller,
-                   const std::string& where) {
+void check_keys(const Phase& phase, const std::string& where) {
   require(phase.posture.empty() == phase.keys.empty(),
           where + ": a posture wants a channel and keys, both or none");
   if (phase.keys.empty()) return;
-  const Channel& channel = *find_channel(controller, phase.posture, where).channel;
-  const bool of_joints = phase.stack == kJoints;
-  const auto& names = of_joints ? channel.joint_names() : controller.plan().coordinate_names();
-  if (of_joints) {
-    require(channel.kind() == ChannelKind::Joints,
-            where + ": channel '" + phase.posture + "' wants to be one of joints: no stack rules");
-  } else {
-    require(dynamic_cast<const PostureTask*>(channel.task()) &&
-                channel.size() == static_cast<Index>(names.size()),
-            where + ": channel '" + phase.posture +
-                "' wants a PostureTask of all coordinates to lead a posture by");
-  }
   require(phase.seconds > 0.0, where + ": a posture wants seconds above 0");
   double before = 0.0;
   for (const PostureKey& key : phase.keys) {
@@ -90,25 +70,15 @@ void check_posture(const Phase& phase, const WholeBodyController& controller,
             where + ": the shares of a posture want to rise to 1, " + to_text(key.share) + " came");
     before = key.share;
     for (const auto& [name, angle] : key.angles) {
-      if (coordinates_of(name, names).empty()) {
-        throw Error(where + ": " + unknown_name("coordinate", name, names));
-      }
       require(std::isfinite(angle), where + ": the angle of '" + name + "' is no finite number");
-      if (of_joints) check_range(name, angle, names, controller.servo(), where);
     }
   }
   require(before == 1.0, where + ": the last share of a posture wants to be 1");
 }
 
-void check_park(const Phase& phase, const WholeBodyController& controller,
-                const std::string& where) {
+void check_pose(const Phase& phase, const std::string& where) {
   if (!phase.park) return;
   const Park& park = *phase.park;
-  (void)find_tracks(controller, where);
-  for (const Lead& lead : phase.leads) {
-    require(find_channel(controller, lead.channel, where).channel->kind() != ChannelKind::Drive,
-            where + ": it parks, and channel '" + lead.channel + "' drives the tracks elsewhere");
-  }
   require(std::isfinite(park.ahead) && std::isfinite(park.left) && std::isfinite(park.heading),
           where + ": a pose to park at wants finite numbers");
   for (const double most : {park.speed, park.yaw_rate}) {
@@ -145,33 +115,26 @@ void check_condition(const Condition& condition, const std::string& where) {
           where + ": a condition wants a quantity, a finite value and seconds >= 0");
 }
 
-void check_phase(const Phase& phase, const MissionTable& table,
-                 const WholeBodyController& controller) {
-  const std::string where = "phase '" + phase.name + "'";
+void check_times(const Phase& phase, const std::string& where) {
   require(phase.seconds >= 0.0 && std::isfinite(phase.seconds),
           where + ": seconds want a finite number >= 0, " + to_text(phase.seconds) + " came");
   require(phase.within > 0.0,
           where + ": within wants a time above 0, " + to_text(phase.within) + " s came");
-  if (!phase.support.empty()) {
-    const Robot& plan = controller.plan();
-    try {
-      require(plan.is_body(plan.frame(phase.support)),
-              "the robot stands on a body; '" + phase.support + "' is none");
-    } catch (const Error& error) {
-      throw Error(where + ": " + error.what());
-    }
-  }
-  std::vector<std::string> stacks;
-  for (const NamedStack& stack : controller.stacks()) stacks.push_back(stack.name);
-  stacks.emplace_back(kJoints);
-  if (std::find(stacks.begin(), stacks.end(), phase.stack) == stacks.end()) {
-    throw Error(where + ": " + unknown_name("stack", phase.stack, stacks));
-  }
-  check_leads(phase, controller, where);
-  check_posture(phase, controller, where);
-  check_park(phase, controller, where);
+  require(phase.within >= phase.seconds, where + " is always late: it takes " +
+                                             to_text(phase.seconds) + " s, within wants as much, " +
+                                             to_text(phase.within) + " s came");
+  require(phase.late.empty() || std::isfinite(phase.within),
+          where + ", late: it wants `within`, after which that is done");
+}
+
+void check_row(const Phase& phase, const MissionTable& table) {
+  const std::string where = where_of(phase);
+  check_times(phase, where);
+  check_leads(phase, where);
+  check_keys(phase, where);
+  check_pose(phase, where);
   const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
-  require(phase.seconds > 0.0 || led || !phase.done.empty() || phase.leads.empty(),
+  require(phase.seconds > 0.0 || led || phase.park || !phase.done.empty() || phase.leads.empty(),
           where + " never ends: it wants seconds, a way, or a condition");
   for (const Condition& condition : phase.done) check_condition(condition, where);
   if (std::isfinite(phase.within)) check_reactions(phase.late, table, where + ", late");
@@ -179,6 +142,96 @@ void check_phase(const Phase& phase, const MissionTable& table,
     check_condition(trouble.when, where);
     check_reactions(trouble.reactions, table, where + ", " + to_string(trouble.when));
   }
+}
+
+void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController& controller,
+                const std::string& phase_name) {
+  const Channel& channel = *find_channel(controller, lead.channel, phase_name).channel;
+  const std::string where = phase_name + ": channel '" + lead.channel + "'";
+  const Index size = channel.size();
+  require(!channel.task() || phase.stack != kJoints, where + " moves a task, but no stack rules");
+  require(channel.kind() != ChannelKind::Joints || phase.stack == kJoints,
+          where + " moves joints, which wants the stack '" + kJoints + "'");
+  const Vector& given = lead.rate.size() > 0 ? lead.rate : lead.by;
+  require(given.size() == size, where + " wants " + std::to_string(size) + " finite numbers, " +
+                                    std::to_string(given.size()) + " came");
+  if (lead.rate.size() > 0 || !lead.to.empty()) return;
+  for (Index i = 0; i < size; ++i) {
+    const double seconds = kPeak * std::abs(given[i]) / channel.scale()[i];
+    require(phase.seconds >= (1.0 - 1e-9) * seconds,
+            where + " gives at most " + to_text(channel.scale()[i]) + " a second: its way of " +
+                to_text(given[i]) + " wants " + to_text(seconds) + " s, seconds are " +
+                to_text(phase.seconds));
+  }
+}
+
+void require_within(const std::string& what, double place, double lower, double upper,
+                    double rounding, const std::string& where) {
+  require(place >= lower - rounding && place <= upper + rounding,
+          where + ": " + what + " goes from " + to_text(lower) + " to " + to_text(upper) + ", " +
+              to_text(place) + " came (angles are in rad)");
+}
+
+// the keys of a posture are within the ranges of what they name
+void check_posture(const Phase& phase, const WholeBodyController& controller,
+                   const std::string& where) {
+  if (phase.keys.empty()) return;
+  const Channel& channel = *find_channel(controller, phase.posture, where).channel;
+  const bool of_joints = phase.stack == kJoints;
+  const Robot& plan = controller.plan();
+  const auto& names = of_joints ? channel.joint_names() : plan.coordinate_names();
+  if (of_joints) {
+    require(channel.kind() == ChannelKind::Joints,
+            where + ": channel '" + phase.posture + "' wants to be one of joints: no stack rules");
+  } else {
+    require(dynamic_cast<const PostureTask*>(channel.task()) &&
+                channel.size() == static_cast<Index>(names.size()),
+            where + ": channel '" + phase.posture +
+                "' wants a PostureTask of all coordinates to lead a posture by");
+  }
+  const JointServo& servo = controller.servo();
+  for (const PostureKey& key : phase.keys) {
+    for (const auto& [name, angle] : key.angles) {
+      const std::vector<Index> places = coordinates_of(name, names);
+      if (places.empty()) throw Error(where + ": " + unknown_name("coordinate", name, names));
+      for (const Index at : places) {
+        const auto i = static_cast<std::size_t>(at);
+        if (of_joints) {  // what no stack keeps within the range of its joint
+          const JointActuator& joint = servo.actuator(servo.find(names[i]));
+          require_within("joint '" + names[i] + "'", angle, joint.lower, joint.upper, 1e-6, where);
+          continue;
+        }
+        const Coordinate& one = plan.coordinates()[i];
+        if (one.joints.front().part >= 0) continue;  // the range of a ball joint is of its turn
+        require_within("coordinate '" + names[i] + "'", angle, one.lower, one.upper, kRounding,
+                       where);
+      }
+    }
+  }
+}
+
+void check_park(const Phase& phase, const WholeBodyController& controller,
+                const std::string& where) {
+  if (!phase.park) return;
+  (void)find_tracks(controller, where);
+  for (const Lead& lead : phase.leads) {
+    require(find_channel(controller, lead.channel, where).channel->kind() != ChannelKind::Drive,
+            where + ": it parks, and channel '" + lead.channel + "' drives the tracks elsewhere");
+  }
+}
+
+void check_phase(const Phase& phase, const WholeBodyController& controller) {
+  const std::string where = where_of(phase);
+  check_support(phase.support, controller.plan(), where);
+  std::vector<std::string> stacks;
+  for (const NamedStack& stack : controller.stacks()) stacks.push_back(stack.name);
+  stacks.emplace_back(kJoints);
+  if (std::find(stacks.begin(), stacks.end(), phase.stack) == stacks.end()) {
+    throw Error(where + ": " + unknown_name("stack", phase.stack, stacks));
+  }
+  for (const Lead& lead : phase.leads) check_lead(lead, phase, controller, where);
+  check_posture(phase, controller, where);
+  check_park(phase, controller, where);
 }
 
 // appended piece by piece: GCC 12 takes "..." + std::string for an overlap
@@ -268,18 +321,24 @@ Index find_tracks(const WholeBodyController& controller, const std::string& wher
   throw Error(where + ": parking wants a channel that drives the tracks; the controller has none");
 }
 
-void check_table(const MissionTable& table, const WholeBodyController& controller) {
-  require(!table.phases.empty(), "a mission wants at least one phase");
-  for (const NamedStack& stack : controller.stacks()) {
-    require(stack.name != kJoints, std::string("a mission wants no stack called '") + kJoints +
-                                       "': phases in which none rules say so");
+void check_support(const std::string& support, const Robot& plan, const std::string& where) {
+  if (support.empty()) return;
+  try {
+    require(plan.is_body(plan.frame(support)),
+            "the robot stands on a body; '" + support + "' is none");
+  } catch (const Error& error) {
+    throw Error(where + ": " + error.what());
   }
+}
+
+void check_rows(const MissionTable& table) {
+  require(!table.phases.empty(), "a mission wants at least one phase");
   for (std::size_t i = 0; i < table.phases.size(); ++i) {
     const std::string& name = table.phases[i].name;
     require(!name.empty(), "phase " + std::to_string(i + 1) + " wants a name");
     require(find_phase(table.phases, name, "") == i, "two phases are called '" + name + "'");
-    check_phase(table.phases[i], table, controller);
   }
+  for (const Phase& phase : table.phases) check_row(phase, table);
   if (!table.safety.empty()) (void)find_phase(table.phases, table.safety, "safety");
   for (const Measure& measure : table.measures) {
     const std::string where = "figure '" + measure.name + "'";
@@ -287,6 +346,15 @@ void check_table(const MissionTable& table, const WholeBodyController& controlle
     require(measure.least <= measure.most, where + ": least wants to be below most");
     for (const std::string& phase : measure.phases) (void)find_phase(table.phases, phase, where);
   }
+}
+
+void check_table(const MissionTable& table, const WholeBodyController& controller) {
+  check_rows(table);
+  for (const NamedStack& stack : controller.stacks()) {
+    require(stack.name != kJoints, std::string("a mission wants no stack called '") + kJoints +
+                                       "': phases in which none rules say so");
+  }
+  for (const Phase& phase : table.phases) check_phase(phase, controller);
 }
 
 std::string table_text(const MissionTable& table) {

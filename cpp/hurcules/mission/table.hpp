@@ -35,14 +35,24 @@ struct MissionTable {
 [[nodiscard]] std::string to_string(const Condition& condition,
                                     std::string (*number)(double) = to_text);
 
-// Throws Error, naming the row: an unknown phase, stack, channel or coordinate with those that exist;
-// a lead of the wrong size, one of a task where no stack rules, or one that never ends while nothing else ends the phase; a time-out
-// that is not above 0, or without a reaction; parking without tracks, without a time-out, or beside a lead of the tracks; reactions that do not end in safety (Lower or Abort);
-// a jump without a count. Quantities are checked when a simulation brings its log.
+// What can be told without a controller. Throws Error, naming the row: an unknown phase with those
+// that exist; two of a name; two leads of a channel, one without a way or a rate or one that never
+// ends while nothing else ends the phase; a time-out that is not above 0, shorter than the phase or
+// without a reaction, reactions without a time-out; parking without a time-out; reactions that do not
+// end in safety (Lower or Abort); a jump without a count; shares of a posture that do not rise to 1.
+void check_rows(const MissionTable& table);
+// All of it, and what depends on the controller: an unknown stack, channel, coordinate or support
+// with those that exist; a lead of the wrong size, of a task where no stack rules, or by a way that
+// its channel's scale does not reach in time; a posture beyond the range of a coordinate or joint;
+// parking without tracks, or beside a lead of them. Quantities are checked when a simulation brings
+// its log.
 void check_table(const MissionTable& table, const WholeBodyController& controller);
 
 // as text: a line a phase, its note, conditions and reactions below
 [[nodiscard]] std::string table_text(const MissionTable& table);
+
+// throws Error unless it is "" or a body of the robot; `where` for the text
+void check_support(const std::string& support, const Robot& plan, const std::string& where);
 
 // place of a phase; throws Error with the names that exist; `where` for the text
 [[nodiscard]] std::size_t find_phase(const std::vector<Phase>& phases, const std::string& name,

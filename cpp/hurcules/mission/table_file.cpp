@@ -94,6 +94,9 @@ std::string checksum_of(std::string_view bytes) {
 std::string contents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error("file '" + path + "' cannot be read");
+  if (std::filesystem::is_directory(path)) {  // which opens
+    throw Error("file '" + path + "' cannot be read: it is a folder");
+  }
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

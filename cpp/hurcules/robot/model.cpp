@@ -71,6 +71,9 @@ ModelPtr owned(mjModel* model, const std::string& what, const std::string& compl
 ModelPtr load_model(const std::string& path) {
   check_mujoco_version();
   if (!std::filesystem::exists(path)) throw Error("model '" + path + "' does not exist");
+  if (std::filesystem::is_directory(path)) {
+    throw Error("model '" + path + "': wanted a file, it is a folder");
+  }
   const WarningListener listener;
   const std::filesystem::path suffix = std::filesystem::path(path).extension();
   if (suffix == ".mjb")

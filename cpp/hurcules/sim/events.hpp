@@ -8,7 +8,16 @@
 
 namespace hurcules {
 
-enum class EventKind { PhaseStarted, LimitMet, LimitReleased, AlarmRaised, AlarmFell };
+enum class EventKind {
+  PhaseStarted,
+  LimitMet,
+  LimitReleased,
+  AlarmRaised,
+  AlarmFell,
+  Asked,  // in a phase, as the next two
+  Paused,
+  Resumed,
+};
 
 struct Event {
   double time = 0.0;  // [s]

@@ -1,5 +1,7 @@
 #include "hurcules/sim/monitors.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,12 @@
 namespace hurcules {
 
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+bool is_free(const mjModel* m, int body) {
+  return m->body_jntnum[body] > 0 && m->jnt_type[m->body_jntadr[body]] == mjJNT_FREE;
+}
 
 bool is_worse(Index quantity, double value, double than) {
   return Monitors::falls(quantity) ? value < than : value > than;
@@ -29,6 +37,7 @@ const std::vector<std::string>& Monitors::names() {
 Monitors::Monitors(const mjModel_* m, int robot_root, const MotorLosses& losses,
                    const MonitorOptions& options)
     : options_(options),
+      stands_(is_free(m, robot_root)),
       distance_(m, robot_root, options.distance),
       support_(m, robot_root),
       windings_(m, losses, options.windings),
@@ -52,12 +61,13 @@ Vector Monitors::thresholds() const {
 void Monitors::reset(const mjModel_* m, mjData_* d) {
   windings_.reset();
   value_ = Vector::Zero(kQuantities);
+  if (!stands_) value_.segment(Margin, Energy - Margin + 1).setConstant(kNone);
   value_[Distance] = options_.distance.cutoff;
   value_[Temperature] = options_.windings.ambient;
-  worst_ = Vector::Constant(kQuantities, std::numeric_limits<double>::quiet_NaN());
+  worst_ = Vector::Constant(kQuantities, kNone);
   if (options_.on && d) look_at_stand(m, d);
   distance_.reset();
-  worst_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  worst_.setConstant(kNone);
   alarm_.setZero();
 }
 
@@ -72,6 +82,7 @@ void Monitors::look(const mjModel_* m, mjData_* d, double power) {
 
 void Monitors::look_at_stand(const mjModel_* m, mjData_* d) {
   note(Distance, distance_.measure(m, d));
+  if (!stands_) return;
   if (const std::optional<Stability> stands = support_.measure(m, d)) {
     note(Margin, stands->margin);
     note(PressureMargin, stands->pressure_margin);
@@ -109,8 +120,10 @@ void Monitors::save(StateWriter& writer) const {
 void Monitors::restore(StateReader& reader) {
   distance_.restore(reader);
   windings_.restore(reader);
-  reader.get(value_);
-  for (double& value : worst_) value = reader.get_any();  // NaN before the first tick
+  // NaN of a robot that does not stand, and before the first tick
+  for (Vector* values : {&value_, &worst_}) {
+    for (double& value : *values) value = reader.get_any();
+  }
   reader.get(alarm_);
 }
 

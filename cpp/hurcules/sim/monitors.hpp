@@ -2,7 +2,8 @@
 // hot motors, power. It only looks: it commands nothing.
 //
 // Each tick, after the step, of the state at the beginning of the tick. What it stands on:
-// support.hpp. In the air the measures of standing keep their last values.
+// support.hpp. In the air the measures of standing keep their last values; a robot whose root is
+// not free (fixed to the world, on a rail) cannot tip over: they are NaN.
 #pragma once
 
 #include <limits>
@@ -72,6 +73,7 @@ class Monitors {
   [[nodiscard]] Vector thresholds() const;
 
   MonitorOptions options_;
+  bool stands_;  // its root is free
   SelfDistance distance_;
   Support support_;
   MotorThermalModel windings_;

@@ -205,7 +205,11 @@ void RunRecord::note_events(const Monitors& monitors) {
 
 void RunRecord::note_phase(std::size_t phase) {
   telemetry.phase = static_cast<double>(phase);
-  events.add({telemetry.time, EventKind::PhaseStarted, static_cast<Index>(phase), 0});
+  note(EventKind::PhaseStarted, phase);
+}
+
+void RunRecord::note(EventKind kind, std::size_t phase) {
+  events.add({telemetry.time, kind, static_cast<Index>(phase), 0});
 }
 
 std::string RunRecord::text(const Event& event, const Monitors& monitors) const {
@@ -215,8 +219,11 @@ std::string RunRecord::text(const Event& event, const Monitors& monitors) const 
     return (event.kind == EventKind::AlarmRaised ? "alarm: " : "alarm over: ") + quantity + side +
            number(monitors.threshold(event.what));
   }
-  if (event.kind == EventKind::PhaseStarted) {
-    return "phase " + phases_[static_cast<std::size_t>(event.what)];
+  for (const auto& [kind, word] :
+       {std::pair(EventKind::PhaseStarted, ""), std::pair(EventKind::Asked, "asks in "),
+        std::pair(EventKind::Paused, "paused in "), std::pair(EventKind::Resumed, "resumed in ")}) {
+    if (event.kind == kind)
+      return word + ("phase " + phases_[static_cast<std::size_t>(event.what)]);
   }
   const std::string& name = names_.coordinates[static_cast<std::size_t>(event.what)];
   const std::string side = event.side > 0 ? "upper" : "lower";

@@ -387,10 +387,14 @@ void Simulation::judge() {
   }
   if (!supervisor_) return;
   const std::size_t phase = supervisor_->phase();
+  const std::optional<double> asked = supervisor_->asks_until();
   if (!supervisor_->advance(*controller_, time())) {
     return end(supervisor_->verdict().empty() ? Ending::Completed : Ending::Missed, now);
   }
   if (supervisor_->phase() != phase) record_.note_phase(supervisor_->phase());
+  if (const auto asks = supervisor_->asks_until(); asks && asks != asked) {
+    record_.note(EventKind::Asked, supervisor_->phase());
+  }
   stand_on_new_support();
 }
 
@@ -545,6 +549,30 @@ void Simulation::go(std::size_t phase) {
   supervisor_->go(phase, *controller_, time());
   record_.note_phase(phase);
   stand_on_new_support();
+}
+
+void Simulation::pause() {
+  require(supervisor_ != nullptr, "a simulation without a mission has no phases to pause");
+  if (finished() || paused()) return;
+  supervisor_->pause();
+  record_.note(EventKind::Paused, supervisor_->phase());
+}
+
+void Simulation::resume() {
+  require(supervisor_ != nullptr, "a simulation without a mission has no phases to resume");
+  if (finished() || !paused()) return;
+  supervisor_->resume(*controller_, time());
+  record_.note(EventKind::Resumed, supervisor_->phase());
+}
+
+std::string Simulation::question() const {
+  return supervisor_ && !finished() ? supervisor_->question() : "";
+}
+
+void Simulation::answer(bool yes) {
+  require(supervisor_ && !finished() && supervisor_->asks_until(),
+          "answer wants a mission that asks (reaction 'ask 30 s'), nothing is asked now");
+  supervisor_->answer(yes);
 }
 
 std::vector<double> Simulation::state() const {

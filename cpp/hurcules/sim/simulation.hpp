@@ -87,6 +87,17 @@ class Simulation {
   // begins this phase of the supervisor's now, out of its order. Throws Error without a supervisor,
   // and for a phase that it has not.
   void go(std::size_t phase);
+  // To take over by hand: the supervisor's phase, its clock and its time-out stand still, and nobody
+  // looks for its troubles; the robot holds, or does what `step` is given. `resume`: it goes on where
+  // it was, or, where a command moved something meanwhile, begins its phase anew from where the robot
+  // is. `max_seconds` and falls count all the time. Throws Error without a supervisor.
+  void pause();
+  void resume();
+  [[nodiscard]] bool paused() const { return supervisor_ && supervisor_->paused(); }
+  // what the supervisor asks (a mission's reaction `ask`), "" for nothing
+  [[nodiscard]] std::string question() const;
+  // yes: the phase goes on; no: the next reaction. Throws Error where nothing is asked.
+  void answer(bool yes);
 
   [[nodiscard]] double dt() const { return controller_->dt(); }         // [s]
   [[nodiscard]] double time() const { return record_.telemetry.time; }  // [s] since reset

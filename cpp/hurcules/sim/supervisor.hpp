@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,17 @@ class Supervisor {
 
   // begins this phase at this time [s]
   virtual void go(std::size_t phase, WholeBodyController& controller, double time) = 0;
+
+  // Stands still, its clocks too, until it is resumed: where it was, or, where somebody commanded
+  // meanwhile, with its phase begun anew.
+  virtual void pause() {}
+  virtual void resume(WholeBodyController& /*controller*/, double /*time*/) {}
+  [[nodiscard]] virtual bool paused() const { return false; }
+  // [s] until when it waits for an answer, after which silence is a no; none: it does not ask
+  [[nodiscard]] virtual std::optional<double> asks_until() const { return std::nullopt; }
+  // what it asks, in words
+  [[nodiscard]] virtual std::string question() const { return ""; }
+  virtual void answer(bool /*yes*/) {}
 
   [[nodiscard]] virtual std::vector<std::string> phase_names() const = 0;
   [[nodiscard]] virtual std::size_t phase() const = 0;

@@ -234,24 +234,42 @@ TEST_F(MissionTest, AnAnswerGoesOnOrTakesTheNextReaction) {
     tick(*mission);
     load_ = 6.0;
     tick(*mission);
-    EXPECT_TRUE(mission->asks());
+    EXPECT_TRUE(mission->asks_until().has_value());
+    EXPECT_EQ(mission->question(), "phase 'carry': load >= 5; go on?");
     EXPECT_TRUE(tick(*mission));
     load_ = 0.0;
     mission->answer(yes);
     EXPECT_EQ(tick(*mission), yes);
-    EXPECT_FALSE(mission->asks());
+    EXPECT_FALSE(mission->asks_until().has_value());
+    EXPECT_EQ(mission->question(), "");
   }
 }
 
 TEST_F(MissionTest, APauseFreezesTheTable) {
   const auto mission = make(wave_table());
   tick(*mission), tick(*mission);
-  mission->pause(true);
+  mission->pause();
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(tick(*mission));
   EXPECT_EQ(mission->phase(), 0U);
-  mission->pause(false);
+  mission->resume(*controller_, time_);
   tick(*mission), tick(*mission), tick(*mission), tick(*mission);
   EXPECT_EQ(mission->phase(), 2U);
+}
+
+TEST_F(MissionTest, APhaseBeginsAnewWhereSomebodyCommandedInThePause) {
+  MissionTable table = wave_table();
+  table.phases = {table.phases[2]};  // 0.2 m at 0.1 m/s
+  for (const double by_hand : {0.0, 0.05}) {
+    const auto mission = make(table);
+    for (int i = 0; i < 10; ++i) tick(*mission);
+    mission->pause();
+    const Vector hand = by_hand * Vector::Unit(controller_->scale().size(), 1);
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(tick(*mission, &hand));
+    mission->resume(*controller_, time_);
+    int left = 1;
+    while (tick(*mission)) ++left;
+    EXPECT_EQ(left, by_hand > 0.0 ? 20 : 10);
+  }
 }
 
 TEST_F(MissionTest, FiguresMeasureTheirPhasesAndJudgeTheRun) {
@@ -305,6 +323,24 @@ TEST_F(MissionTest, ATableIsCheckedWhenItIsLoaded) {
   row.late = {{ReactionKind::Back, "good", 0.0, 1}};
   expect(row, "a way to safety");
   row = bad;
+  row.within = 0.9;
+  expect(row, "is always late: it takes 1 s, within wants as much, 0.9 s came");
+  row = bad;
+  row.late = {{ReactionKind::Abort}};
+  expect(row, "wants `within`");
+  row = bad;
+  row.support = "feet";
+  expect(row, "frame 'feet' does not exist");
+  row = bad;
+  row.leads = {{"hand", Vector3(0, 0, 0), 1.0}};
+  expect(row, "never gives its way: its rate is 0");
+  row.leads = {{"hand", Vector3(1, 0, 0), 1.0}, {"hand", Vector3(0, 1, 0), 1.0}};
+  expect(row, "channel 'hand' is led twice");
+  row.leads = {{"hand", {}, 1.0, Vector3(0, -0.2, 0)}};  // 0.2 m/s at most
+  expect(row, "gives at most 0.2 a second: its way of -0.2 wants 1.875 s, seconds are 1");
+  row.seconds = 1.875;
+  EXPECT_NO_THROW((void)make(MissionTable{{good, row}, "good"}));
+  row = bad;
   row.seconds = 0.0;
   row.leads = {{"hand", Vector3(1, 0, 0)}};
   expect(row, "never ends");
@@ -316,6 +352,19 @@ TEST_F(MissionTest, ATableIsCheckedWhenItIsLoaded) {
                          (void)make(MissionTable{{good, good}, ""});
                        }),
                        "two phases are called 'good'"));
+}
+
+TEST_F(MissionTest, ASetupOutOfRangeIsTold) {
+  const auto expect = [&](const MissionSetup& setup, const char* wanted) {
+    const std::string text = error_text([&] { Mission(setup, wave_table(), *controller_, 1.0); });
+    EXPECT_TRUE(contains(text, wanted)) << text;
+  };
+  expect({.name = "a", .support = "feet"}, "[mission]: frame 'feet' does not exist");
+  expect({.name = "a", .max_seconds = 0.0}, "max_seconds wants a time above 0 [s], 0 came");
+  expect({.name = "a", .max_seconds = NAN}, "max_seconds wants a time above 0 [s], nan came");
+  expect({.name = "a", .max_tilt = NAN}, "max_tilt wants an angle of 0");
+  expect({.name = "a", .max_tilt = -0.1}, "max_tilt wants an angle of 0");
+  expect({.name = "a", .min_height = 0.1}, "min_height wants a max_tilt above 0 beside it");
 }
 
 TEST_F(MissionTest, TheTableCanBeRead) {

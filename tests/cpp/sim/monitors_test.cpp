@@ -53,6 +53,35 @@ TEST_F(MonitorsTest, TheDrivingRobotStandsWell) {
   for (Index i = 0; i < Monitors::kQuantities; ++i) EXPECT_FALSE(monitors.alarm(i)) << i;
 }
 
+// fixed, or on a rail: nothing tips over, whatever it touches
+TEST(MonitorsOfAFixedRobot, KnowNoMarginsAndRaiseNoAlarm) {
+  for (const char* root : {"", "<joint type='slide' axis='1 0 0'/>"}) {
+    Plant physics(load_model_text(std::string("<mujoco><worldbody><geom type='plane' size='1 1 1'/>"
+                                              "<body name='base' pos='0 0 0.09'>") +
+                                  root +
+                                  "<geom size='0.1' mass='1'/><body pos='0 0 0.3'>"
+                                  "<joint axis='0 1 0'/><geom size='0.05' mass='1'/></body>"
+                                  "</body></worldbody></mujoco>"));
+    const mjModel* const m = physics.model();
+    Monitors monitors(m, mj_name2id(m, mjOBJ_BODY, "base"), MotorLosses{}, {});
+    monitors.reset(m, physics.data());
+    physics.step();
+    monitors.look(m, physics.data(), 0.0);
+    for (const Quantity quantity :
+         {Quantity::Margin, Quantity::PressureMargin, Quantity::TipAngle, Quantity::Energy}) {
+      EXPECT_TRUE(std::isnan(monitors.value(quantity)));
+      EXPECT_TRUE(std::isnan(monitors.worst(quantity)));
+      EXPECT_FALSE(monitors.alarm(quantity));
+    }
+    std::vector<double> state;
+    StateWriter writer(state);
+    monitors.save(writer);
+    StateReader reader(state);
+    monitors.restore(reader);
+    EXPECT_TRUE(std::isnan(monitors.value(Quantity::Margin)));
+  }
+}
+
 // the scene with gravity as on a slope of so many degrees, nose up, and belts that do not roll
 ModelPtr slope_scene(double degrees) {
   mjModel* const m = mj_copyModel(nullptr, stretch_scene().get());
