@@ -68,9 +68,9 @@ struct WholeBodyControllerOptions {
 
 class WholeBodyController {
  public:
-  // Starts at the robot's configuration; targets that somebody has set stay. The tasks of the stacks stay those of the caller, who keeps
-  // them alive. Throws Error for two stacks or channels of one name, and a channel whose task stands
-  // in no stack.
+  // Starts at the robot's configuration; targets that somebody has set stay. The tasks of the stacks
+  // stay those of the caller, who keeps them alive. Throws Error for two stacks or channels of one
+  // name, and a channel whose task stands in no stack.
   WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
                       std::vector<Channel> channels = {}, WholeBodyControllerOptions options = {});
   // the same on tasks of its own, for another simulation; `robot` has the same model or one of the

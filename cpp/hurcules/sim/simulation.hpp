@@ -60,10 +60,10 @@ enum class Ending { Running, Completed, Missed, TimeUp, Fell, Diverged, SolverFa
 
 class Simulation {
  public:
-  // Starts where the controller's plan stands, targets that somebody has set stay, or where and as the
-  // supervisor says. `data` is somebody
-  // else's, who keeps it alive, or null for data of its own. Throws Error for a controller of
-  // another model, or one whose period is no whole number of physics steps.
+  // Starts where the controller's plan stands, targets that somebody has set stay, or where and as
+  // the supervisor says. `data` is somebody else's, who keeps it alive, or null for data of its own.
+  // Throws Error for a controller of another model, or one whose period is no whole number of physics
+  // steps.
   Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> controller,
              SimulationOptions options = {}, std::unique_ptr<Supervisor> supervisor = nullptr,
              mjData_* data = nullptr);
