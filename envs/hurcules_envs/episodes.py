@@ -375,6 +375,7 @@ class Episodes:
         failure: NDArray[np.bool_],
     ) -> dict[str, NDArray[Any]]:
         columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
+        columns[np.isnan(columns)] = 0.0  # the margin of a robot that cannot tip
         watched = dict(zip(_WATCHED.values(), columns, strict=True))
         excess = watched["limit_excess"]
         cost = (excess > self._worst + 1e-12) | (watched["self_contacts"] > 0.0)

@@ -49,9 +49,10 @@ PositionTaskOptions along(Index axes) {
   return options;
 }
 
-ForceTaskOptions press_options() {
+ForceTaskOptions press_options(double dt) {
   ForceTaskOptions options;
   options.gains.compliance = 0.05;
+  options.gains.dt = dt;
   options.contact.f_max = 1e4;
   options.environment = kSpring;
   return options;
@@ -112,8 +113,9 @@ std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model,
   auto& right = tasks.add<PositionTask>("R_hand", robot, "R_tcp");
   auto& left_across = tasks.add<PositionTask>("L_across", robot, "L_tcp", along(2));
   auto& right_across = tasks.add<PositionTask>("R_across", robot, "R_tcp", along(2));
-  auto& left_press = tasks.add<ForceTask>("L_press", robot, "L_tcp", press_options());
-  auto& right_press = tasks.add<ForceTask>("R_press", robot, "R_tcp", press_options());
+  const ForceTaskOptions pressing = press_options(robot.timestep());
+  auto& left_press = tasks.add<ForceTask>("L_press", robot, "L_tcp", pressing);
+  auto& right_press = tasks.add<ForceTask>("R_press", robot, "R_tcp", pressing);
   auto& left_pitch = tasks.add<AngleTask>("L_pitch", robot, "L_tcp");
   auto& right_pitch = tasks.add<AngleTask>("R_pitch", robot, "R_tcp");
   auto& pelvis = tasks.add<PositionTask>("pelvis", robot, "pelvis", along(1));
