@@ -244,9 +244,12 @@ void bind_files(py::module_& module) {
       "table_lines",
       [](const MissionSetup& setup, const MissionTable& table, const std::string& controller,
          const std::string& model, const py::bytes& model_bytes) {
-        return table_lines(
-            {.setup = setup, .controller = controller, .model = model, .table = table},
-            std::string_view(model_bytes));
+        TableFile file;
+        file.setup = setup;
+        file.controller = controller;
+        file.model = model;
+        file.table = table;
+        return table_lines(std::move(file), std::string_view(model_bytes));
       },
       "setup"_a, "table"_a, "controller"_a, "model"_a, "model_bytes"_a, kTableLines);
   module.def(
