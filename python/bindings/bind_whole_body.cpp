@@ -18,6 +18,7 @@
 #include "bind_stack.hpp"
 #include "command.hpp"
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
 #include "hurcules/robot/trees.hpp"
 #include "in_use.hpp"
@@ -331,9 +332,7 @@ Vector tick(WholeBodyController& self, const ArrayLike& qpos, const ArrayLike& q
   Vector readings;
   if (!sensors.is_none()) {
     readings = vector_of(sensors, "sensors", "(nsensordata,)");
-    require(readings.size() == m->nsensordata && readings.allFinite(),
-            "sensors want " + std::to_string(m->nsensordata) + " finite numbers, " +
-                std::to_string(readings.size()) + " came");
+    require_values("sensordata", readings, m->nsensordata);
   }
   Vector ctrl = Vector::Zero(m->nu);
   const InUse in_use("WholeBodyController", &self);

@@ -135,11 +135,10 @@ class Simulation(_core.Simulation):
         if rows is not None:
             table, model = rows.table(), rows.spec(parameters or {}).compile()
             controller = _core.table_controller(rows.controller, model, method)
-        self.mission: str | None
+        self.mission: str | None  # last: nothing asks a simulation that is not made
         if controller is not None:
             if not isinstance(controller, WholeBodyController):
                 raise Error(f"controller: wanted a WholeBodyController, got {controller!r}")
-            self.mission = table.setup.name if table else None
             self.model = _model(model)
             self.data = mujoco.MjData(self.model)
             if table is None:
@@ -148,15 +147,16 @@ class Simulation(_core.Simulation):
                 phases, setup = table.rows, table.setup
                 with told_at(str(mission)) if isinstance(mission, str) else nullcontext():
                     super().__init__(self.model, self.data, controller, phases, setup, options)
+            self.mission = table.setup.name if table else None
             if physics:
                 warn_of_physics(self.model, controller)
             return
         name = str(mission or "stretch")
-        self.mission = name
         require_known("mission", name, missions())
         self.model = models.load(mission=name)
         self.data = mujoco.MjData(self.model)
         super().__init__(self.model, self.data, name, options)
+        self.mission = name
 
     def reset(self, seed: int = 0, start: ArrayLike | None = None) -> None:
         """Back to the start.
@@ -223,6 +223,8 @@ class Simulation(_core.Simulation):
 
     def __repr__(self) -> str:
         """What runs, and how far it is."""
+        if not hasattr(self, "mission"):  # of a traceback: `__init__` has raised
+            return "Simulation(not made)"
         what = f"mission {self.mission!r}" if self.mission else repr(self.controller)
         return f"Simulation({what}, time={self.time:.3f} s{', ' * self.finished}{self.reason})"
 
@@ -260,6 +262,8 @@ class SimulationBatch(_core.SimulationBatch):
 
     def __repr__(self) -> str:
         """How many, of what."""
+        if not hasattr(self, "_controller"):
+            return "SimulationBatch(not made)"
         return f"SimulationBatch({len(self)} of {self._controller!r})"
 
     def step(

@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+import traceback
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -121,6 +123,20 @@ def test_ctrl_c_ends_a_method_at_once(tmp_path: Path, workers: str) -> None:
     assert code == 130, said
     assert "interrupted" in said and "Traceback" not in said
     assert seconds < 5.0  # a second on a quiet machine
+
+
+def test_what_was_not_made_is_shown_by_tracebacks_that_show_variables() -> None:
+    def shown(make: Callable[[], object]) -> str:
+        try:
+            make()
+        except hurcules.Error as error:
+            frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+            return repr(frames[2].f_locals["self"])
+        raise AssertionError("nothing was refused")
+
+    assert shown(lambda: hurcules.Simulation("no mission")) == "Simulation(not made)"
+    simulation = hurcules.Simulation("lift", record=False)
+    assert shown(lambda: hurcules.SimulationBatch(simulation, 0)) == "SimulationBatch(not made)"
 
 
 def test_solutions_and_options_show_what_they_hold() -> None:

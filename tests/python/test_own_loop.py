@@ -70,7 +70,7 @@ def test_a_force_task_reads_the_sensors_that_it_is_given() -> None:
     controller.sense(force, "push", 0)
     with pytest.raises(hurcules.Error, match="no sensors came"):
         controller.tick(robot.qpos, np.zeros(4))
-    with pytest.raises(hurcules.Error, match="sensors want 3 finite numbers"):
+    with pytest.raises(hurcules.Error, match="sensordata wants 3 numbers, 1 came"):
         controller.tick(robot.qpos, np.zeros(4), sensors=[1.0])
     controller.tick(robot.qpos, np.zeros(4), sensors=[12.0, 0.0, 0.0])
     assert force.force == pytest.approx(12.0)
@@ -79,7 +79,7 @@ def test_a_force_task_reads_the_sensors_that_it_is_given() -> None:
 Tick = Callable[[hurcules.WholeBodyController, mujoco.MjData], object]
 REFUSED: dict[str, tuple[Tick, str]] = {
     "qpos": (lambda c, d: c.tick(d.qpos[:2], d.qvel), "qpos wants 4 numbers, 2 came"),
-    "qvel": (lambda c, d: c.tick(d.qpos, [0.0, np.nan, 0.0, 0.0]), "qvel.*value 1 is nan"),
+    "qvel": (lambda c, d: c.tick(d.qpos, [0.0, np.nan, 0.0, 0.0]), "qvel.*number 1 is nan"),
     "text": (lambda c, d: c.tick("here", d.qvel), "qpos wants real numbers"),  # type: ignore[arg-type]
     "channel": (lambda c, d: c.tick(d.qpos, d.qvel, {"hand": [0.0]}), "channel 'hand'"),
     "command": (lambda c, d: c.tick(d.qpos, d.qvel, [0.0]), r"wanted shape \(6,\), got \(1,\)"),

@@ -126,9 +126,9 @@ def test_arrays_are_copies(robot: _core.Robot) -> None:
 def test_wrong_input_says_what_was_wanted(robot: _core.Robot, tmp_path: Path) -> None:
     with pytest.raises(_core.Error, match=r"frame 'tpi' does not exist; there are: tip, world"):
         robot.position("tpi")
-    with pytest.raises(_core.Error, match="set_qpos wants 4 values, 3 came"):
+    with pytest.raises(_core.Error, match="set_qpos wants 4 numbers, 3 came"):
         robot.set_qpos(np.zeros(3))
-    with pytest.raises(_core.Error, match="value 1 is not finite"):
+    with pytest.raises(_core.Error, match="number 1 is nan"):
         robot.set_configuration([0.0, np.nan, 0.0, 0.0])
     with pytest.raises(_core.Error, match="does not exist"):
         _core.Robot(tmp_path / "none.xml")

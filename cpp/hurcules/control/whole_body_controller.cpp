@@ -8,7 +8,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
-#include "hurcules/tasks/gaze_task.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 
@@ -85,8 +85,13 @@ struct Copies {
 };
 
 template <class T>
+bool contains(const std::vector<T*>& all, const T* one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+template <class T>
 void add_once(T* one, std::vector<T*>& all) {
-  if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+  if (!contains(all, one)) all.push_back(one);
 }
 
 // all tasks of a stack, in its order
@@ -103,42 +108,6 @@ void set_target(Task& task, const ConstVectorRef& target) {
   if (auto* const pose = dynamic_cast<PoseTask*>(&task))
     return pose->set_target(target.head<3>(), rotation_exp(Vector3(target.tail<3>())));
   dynamic_cast<OrientationTask&>(task).set_target(rotation_exp(Vector3(target)));
-}
-
-void require_size(const char* what, Index size, Index wanted) {
-  if (size == wanted) return;
-  throw Error(std::string(what) + " wants " + std::to_string(wanted) + " numbers, " +
-              std::to_string(size) + " came");
-}
-
-void require_values(const char* what, const Vector& values, Index wanted) {
-  require_size(what, values.size(), wanted);
-  for (Index i = 0; i < wanted; ++i)
-    if (!std::isfinite(values[i]))
-      throw Error(std::string(what) + " wants finite numbers, value " + std::to_string(i) + " is " +
-                  std::to_string(values[i]));
-}
-
-// [s] after which a target begins to come back, and after which it does so at its full rate
-constexpr double kWait = 0.5, kReturnTime = 1.0;
-constexpr double kReturnRate = 4.0;    // [1/s]
-constexpr double kLeastReturn = 1e-3;  // [unit/s]
-constexpr double kReturned = 1e-12;    // [unit]
-
-// how many numbers of a target back-calculation moves: of a pose its position
-Index target_size(const Task& task) {
-  if (dynamic_cast<const ValueTask*>(&task)) return task.rows();
-  return dynamic_cast<const PoseTask*>(&task) || dynamic_cast<const GazeTask*>(&task) ? 3 : 0;
-}
-
-void read_target(const Task& task, Vector& numbers) {
-  if (const auto* const value = dynamic_cast<const ValueTask*>(&task)) {
-    numbers = value->target();
-  } else if (const auto* const pose = dynamic_cast<const PoseTask*>(&task)) {
-    numbers = pose->target_position();
-  } else if (const auto* const gaze = dynamic_cast<const GazeTask*>(&task)) {
-    numbers = gaze->target();
-  }
 }
 
 }  // namespace
@@ -190,10 +159,7 @@ void WholeBodyController::collect_tasks() {
   }
   require_distinct(tasks_, "tasks");
   twins_.resize(tasks_.size());
-  for (const Task* const task : tasks_) {
-    const Vector numbers = Vector::Zero(target_size(*task));
-    yielded_.push_back({false, numbers, numbers, numbers, Vector::Zero(task->rows())});
-  }
+  yielding_ = YieldingTargets(tasks_);
 }
 
 void WholeBodyController::check_channels() {
@@ -203,6 +169,11 @@ void WholeBodyController::check_channels() {
     if (channel.kind() == ChannelKind::Drive) {
       require(drive_.has_value(), "channel '" + channel.name() +
                                       "' drives: the controller wants options for its tracks");
+    }
+    measured_.emplace_back();
+    for (const NamedStack& stack : stacks_) {
+      const std::vector<Task*> tasks = tasks_of(stack.stack);
+      measured_.back().push_back(contains(tasks, channel.task()));
     }
     moved_.emplace_back();
     for (const std::string& name : channel.joint_names()) {
@@ -271,7 +242,7 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   qd_.setZero();
   plan_.set_velocity(qd_);
   held_back_.setZero();
-  forget_yielded();
+  yielding_.forget();
   command_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = begun_ = false;
@@ -291,18 +262,8 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   feed_forward(nullptr);
 }
 
-// targets are where they are wanted
-void WholeBodyController::forget_yielded() {
-  for (Yielded& yielded : yielded_) {
-    yielded.on = false;
-    yielded.wanted.setZero();
-    yielded.left.setZero();
-  }
-  unscaled_ = kReturnTime;
-}
-
 void WholeBodyController::hold_targets() {
-  forget_yielded();
+  yielding_.forget();
   for (Task* const task : tasks_) task->hold(plan_);
 }
 
@@ -472,7 +433,7 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     const Index size = channels_[i].size();
     auto part = command_.segment(row, size);
     const bool moved = !part.isZero(0.0);
-    const bool given = command && !std::isnan((*command)[row]) && reaches(channels_[i]);
+    const bool given = command && !std::isnan((*command)[row]) && reaches(i);
     if (given) {
       const auto scale = scale_.segment(row, size);
       part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
@@ -490,13 +451,11 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
 }
 
 // a rate moves what the stack that rules measures, nothing else
-bool WholeBodyController::reaches(const Channel& channel) const {
-  if (channel.kind() != ChannelKind::Twist && channel.kind() != ChannelKind::Delta) return true;
+bool WholeBodyController::reaches(std::size_t channel) const {
+  const ChannelKind kind = channels_[channel].kind();
+  if (kind != ChannelKind::Twist && kind != ChannelKind::Delta) return true;
   if (moves_joints_) return false;
-  const std::vector<StackLevel>& levels = stacks_[active_].stack.levels();
-  return std::any_of(levels.begin(), levels.end(), [&](const StackLevel& level) {
-    return std::find(level.tasks.begin(), level.tasks.end(), channel.task()) != level.tasks.end();
-  });
+  return measured_[channel][active_];
 }
 
 bool WholeBodyController::takes(const ConstVectorRef& command) const {
@@ -604,57 +563,8 @@ void WholeBodyController::solve(const RobotState& state) {
   wished_ = law.next_velocity(qd_);
   if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
   if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
-  yield_targets();
+  yielding_.update(scaled_, law.rate(), dt());
   law.integrate(q_, qd_);
-}
-
-// While the motion slows down every target follows the robot as fast as the law would have led the
-// robot to it. One that rested comes back afterwards, slowly at first: where the robot is blocked
-// still, it gives way again.
-void WholeBodyController::yield_targets() {
-  unscaled_ = scaled_ ? 0.0 : std::min(unscaled_ + dt(), kReturnTime);
-  for (std::size_t i = 0; i < tasks_.size(); ++i) {
-    Task& task = *tasks_[i];
-    Yielded& yielded = yielded_[i];
-    if (yielded.on) {
-      read_target(task, yielded.now);
-      yielded.on = yielded.now == yielded.left;
-    }
-    if (scaled_) {
-      const bool rests = task.velocity_des().isZero(0.0);
-      if (yielded.on && !rests) stop(task, yielded);
-      if (!yielded.on && rests) {
-        read_target(task, yielded.wanted);
-        yielded.on = yielded.wanted.size() > 0;
-      }
-      task.back_calculate(law().rate() * dt());
-    } else if (yielded.on) {
-      lead_back(task, yielded);
-    }
-    if (yielded.on) read_target(task, yielded.left);
-  }
-}
-
-// a step of the way to where it rested
-void WholeBodyController::lead_back(Task& task, Yielded& yielded) const {
-  const double length = (yielded.wanted - yielded.now).norm();
-  if (length <= kReturned) {
-    yielded.on = false;
-    return stop(task, yielded);
-  }
-  const double ramp = std::max(0.0, unscaled_ - kWait) / (kReturnTime - kWait);
-  const double rate = std::min(kReturnRate * length + kLeastReturn, task.max_speed());
-  const double share = std::min(1.0, ramp * rate * dt() / length);
-  yielded.now = share * (yielded.wanted - yielded.now);
-  if (auto* const gaze = dynamic_cast<GazeTask*>(&task))
-    return gaze->set_target(gaze->target() + yielded.now);
-  yielded.velocity.head(yielded.now.size()) = yielded.now / dt();
-  task.advance(yielded.velocity, dt());
-}
-
-void WholeBodyController::stop(Task& task, Yielded& yielded) const {
-  yielded.velocity.setZero();
-  if (!task.velocity_des().isZero(0.0)) task.advance(yielded.velocity, dt());
 }
 
 void WholeBodyController::hold() {
@@ -701,12 +611,7 @@ void WholeBodyController::save(StateWriter& writer) const {
     writer.put(*vector);
   }
   for (const Task* task : tasks_) task->save(writer);
-  writer.put(unscaled_);
-  for (const Yielded& yielded : yielded_) {
-    writer.put(yielded.on ? 1.0 : 0.0);
-    writer.put(yielded.wanted);
-    writer.put(yielded.left);
-  }
+  yielding_.save(writer);
   for (const JointLimits* limits : limits_) limits->save(writer);
   for (const auto& law : laws_) law->save(writer);
   servo_.save(writer);
@@ -722,12 +627,7 @@ void WholeBodyController::restore(StateReader& reader) {
     reader.get(*vector);
   }
   for (Task* task : tasks_) task->restore(reader);
-  unscaled_ = reader.get();
-  for (Yielded& yielded : yielded_) {
-    yielded.on = reader.get_count(1) > 0;
-    reader.get(yielded.wanted);
-    reader.get(yielded.left);
-  }
+  yielding_.restore(reader);
   for (JointLimits* limits : limits_) limits->restore(reader);
   for (const auto& law : laws_) law->restore(reader);
   servo_.restore(reader);

@@ -25,6 +25,7 @@
 #include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/motion_law.hpp"
 #include "hurcules/control/track_drive.hpp"
+#include "hurcules/control/yielding_targets.hpp"
 #include "hurcules/robot/spring_force.hpp"
 #include "hurcules/tasks/force_task.hpp"
 
@@ -166,25 +167,13 @@ class WholeBodyController {
     int row = -1;
     double sign = 1.0;
   };
-  // a target at rest that gives way to what holds the robot
-  struct Yielded {
-    bool on = false;
-    Vector wanted;    // where it rested
-    Vector left;      // where it was left: elsewhere, somebody has moved it
-    Vector now;       // scratch
-    Vector velocity;  // scratch, (rows)
-  };
   void collect_tasks();
   void check_channels();
-  [[nodiscard]] bool reaches(const Channel& channel) const;
+  [[nodiscard]] bool reaches(std::size_t channel) const;
   void apply(const Channel& channel, const ConstVectorRef& command, bool first,
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
-  void yield_targets();
-  void lead_back(Task& task, Yielded& yielded) const;
-  void stop(Task& task, Yielded& yielded) const;
-  void forget_yielded();
   void read_forces(const RobotState& state);
   void require_start(const Vector& qpos) const;
   void take_over();
@@ -202,7 +191,8 @@ class WholeBodyController {
   std::vector<JointLimits*> limits_;          // that they name
   std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
   std::vector<Channel> channels_;
-  std::vector<std::vector<Index>> moved_;  // (channels) joints of Joints channels
+  std::vector<std::vector<Index>> moved_;    // (channels) joints of Joints channels
+  std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack
   std::vector<std::string> command_names_;
   std::vector<ForceReading> forces_;
   JointServo servo_;
@@ -213,8 +203,7 @@ class WholeBodyController {
   bool begun_ = false;  // `tick` was called since the start
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
-  std::vector<Yielded> yielded_;             // of the tasks
-  double unscaled_ = 0.0;                    // [s] since the motion slowed down last
+  YieldingTargets yielding_;
   Vector start_;                             // (nq) where the plan stands
   Vector ahead_;                             // (nq) scratch
   Vector wished_;                            // (n) scratch

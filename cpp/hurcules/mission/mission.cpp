@@ -241,8 +241,10 @@ bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& con
 // holds, asks or is paused: the clock of the phase stands
 bool Mission::wait(double time, WholeBodyController& controller) {
   phase_start_ += dt_;
-  if (paused_) wait_until_ += dt_;
-  if (paused_) return true;
+  if (paused_) {
+    wait_until_ += dt_;
+    return true;
+  }
   const bool silent = time >= wait_until_;
   const bool asks = doing_ == Doing::Asking;
   if (!silent && !(asks && answer_)) return true;

@@ -13,6 +13,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 #include "hurcules/robot/momentum.hpp"
@@ -44,15 +45,6 @@ std::vector<std::string> names(const mjModel& m, std::initializer_list<int> type
     for (int i = 0; i < count(m, type); ++i)
       if (const char* name = mj_id2name(&m, type, i); name && *name) found.emplace_back(name);
   return found;
-}
-
-void require_values(const ConstVectorRef& values, Index size, const char* what) {
-  if (values.size() != size)
-    throw Error(std::string(what) + " wants " + std::to_string(size) + " values, " +
-                std::to_string(values.size()) + " came");
-  for (Index i = 0; i < size; ++i)
-    if (!std::isfinite(values[i]))
-      throw Error(std::string(what) + ": value " + std::to_string(i) + " is not finite");
 }
 
 // The struct alone, pointing into the model: MuJoCo's kinematics then leave the geoms out, which
@@ -180,13 +172,13 @@ Index Robot::nu() const {
 }
 
 void Robot::set_qpos(const ConstVectorRef& qpos) {
-  require_values(qpos, model_->nq, "set_qpos");
+  require_values("set_qpos", qpos, model_->nq);
   qpos_ = qpos;
   read_qpos();
 }
 
 void Robot::set_configuration(const ConstVectorRef& q) {
-  require_values(q, size(), "set_configuration");
+  require_values("set_configuration", q, size());
   for (Index i = root_size(); i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)
       if (joint.part < 0) qpos_[joint.qpos] = joint.factor * q[i] + joint.offset;
@@ -207,7 +199,7 @@ void Robot::set_configuration(const ConstVectorRef& q) {
 }
 
 void Robot::set_velocity(const ConstVectorRef& velocity) {
-  require_values(velocity, size(), "set_velocity");
+  require_values("set_velocity", velocity, size());
   v_ = velocity;
   for (Index i = 0; i < size(); ++i)
     for (const DrivenJoint& joint : coordinates_[i].joints)

@@ -79,6 +79,11 @@ void GazeTask::turn(double by_yaw, double by_pitch) {
   target_ = position_ + seen.norm() * (orientation_ * direction(yaw, held));
 }
 
+void GazeTask::lead_target(const ConstVectorRef& step, double /*dt*/) {
+  target_ += step;
+  velocity_des_.setZero();
+}
+
 void GazeTask::set_target(const Vector3& target) {
   require_values(target, "target");
   target_ = target;

@@ -32,6 +32,9 @@ class GazeTask : public Task {
   // seen from it; [rad/s], (2)
   void advance(const ConstVectorRef& velocity, double dt) override;
   void back_calculate(double share) override;
+  [[nodiscard]] ConstVectorRef yielding_target() const override { return target_; }
+  // nothing is fed forward: the target is a point, the rows are angles
+  void lead_target(const ConstVectorRef& step, double dt) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

@@ -74,6 +74,11 @@ void PoseTask::back_calculate(double share) {
   p_des_ += share * error_.head<3>();
 }
 
+void PoseTask::lead_target(const ConstVectorRef& step, double dt) {
+  velocity_des_ << step / dt, Vector3::Zero();
+  advance(velocity_des_, dt);
+}
+
 void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
   require_values(position, "target");
   if (!is_rotation(orientation))

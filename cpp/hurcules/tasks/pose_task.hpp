@@ -32,6 +32,8 @@ class PoseTask : public Task {
   void advance(const ConstVectorRef& velocity, double dt) override;
   // of the way of the position; the target's orientation stays
   void back_calculate(double share) override;
+  [[nodiscard]] ConstVectorRef yielding_target() const override { return p_des_; }
+  void lead_target(const ConstVectorRef& step, double dt) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

@@ -59,6 +59,12 @@ void Task::set_weights(const ConstVectorRef& weights) {
 
 void Task::back_calculate(double /*share*/) {}
 
+ConstVectorRef Task::yielding_target() const {
+  return error_.head(0);
+}
+
+void Task::lead_target(const ConstVectorRef& /*step*/, double /*dt*/) {}
+
 void Task::save(StateWriter& writer) const {
   writer.put(error_);  // a reference that is led counts with that of the tick before
   writer.put(velocity_des_);

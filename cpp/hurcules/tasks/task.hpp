@@ -39,7 +39,11 @@ class Task {
   // moves the target by this share (0 .. 1) of its way to the value of the last update; the
   // feed-forward stays, the error follows at the next update. Nothing where there is no target.
   virtual void back_calculate(double share);
-  // somebody has set the target since it was made or held last
+  // what of the target that moves (k): of a pose the position; none where there is nothing
+  [[nodiscard]] virtual ConstVectorRef yielding_target() const;
+  // moves that by a step (k) in dt [s], whose velocity is fed forward until the next advance or hold
+  virtual void lead_target(const ConstVectorRef& step, double dt);
+  // somebody has set the target (of distances: an obstacle) since it was made or held last
   [[nodiscard]] bool target_is_set() const { return target_is_set_; }
   // what must be kept between ticks: the target, the feed-forwards and the interval
   virtual void save(StateWriter& writer) const = 0;

@@ -45,6 +45,11 @@ void ValueTask::back_calculate(double share) {
   target_ += share * error_;
 }
 
+void ValueTask::lead_target(const ConstVectorRef& step, double dt) {
+  velocity_des_ = step / dt;
+  advance(velocity_des_, dt);
+}
+
 void ValueTask::set_max_lead(double max_lead) {
   require(max_lead > 0.0, "max_lead of '" + name() + "' wants a positive distance, inf for none");
   max_lead_ = max_lead;

@@ -16,6 +16,8 @@ class ValueTask : public Task {
   void hold(const Robot& robot) override;
   void advance(const ConstVectorRef& velocity, double dt) override;
   void back_calculate(double share) override;
+  [[nodiscard]] ConstVectorRef yielding_target() const override { return target_; }
+  void lead_target(const ConstVectorRef& step, double dt) override;
   // Keeps `advance` from leading the target further than this from the value (Euclidean norm, task
   // unit; inf, the default: anywhere). From a fifth of it on the target goes slower, so that a
   // robot at the end of its reach stops; a velocity that leads back is never held.

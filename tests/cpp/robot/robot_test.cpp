@@ -405,14 +405,16 @@ TEST(Robot, UnknownNamesAreAnsweredWithTheNamesThatExist) {
 TEST(Robot, WrongSizesAndNumbersThatAreNoneAreErrors) {
   Robot robot(load_model_text(kArm));
   EXPECT_EQ(error_text([&] { robot.set_configuration(Vector::Zero(6)); }),
-            "set_configuration wants 7 values, 6 came");
+            "set_configuration wants 7 numbers, 6 came");
   Vector bad = Vector::Zero(7);
   bad[2] = std::nan("");
   EXPECT_EQ(error_text([&] { robot.set_configuration(bad); }),
-            "set_configuration: value 2 is not finite");
-  EXPECT_EQ(error_text([&] { robot.set_qpos(bad); }), "set_qpos: value 2 is not finite");
+            "set_configuration wants finite numbers, number 2 is nan");
+  EXPECT_EQ(error_text([&] { robot.set_qpos(bad); }),
+            "set_qpos wants finite numbers, number 2 is nan");
   bad[2] = HUGE_VAL;
-  EXPECT_EQ(error_text([&] { robot.set_velocity(bad); }), "set_velocity: value 2 is not finite");
+  EXPECT_EQ(error_text([&] { robot.set_velocity(bad); }),
+            "set_velocity wants finite numbers, number 2 is inf");
   // nothing changed
   EXPECT_TRUE(near(robot.configuration(), Vector::Zero(7), 0));
 }

@@ -1,0 +1,25 @@
+#include "hurcules/base/values.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "hurcules/base/error.hpp"
+
+namespace hurcules {
+
+void require_size(std::string_view what, Index size, Index wanted) {
+  if (size == wanted) return;
+  throw Error(std::string(what) + " wants " + std::to_string(wanted) + " numbers, " +
+              std::to_string(size) + " came");
+}
+
+void require_values(std::string_view what, const ConstVectorRef& values, Index wanted) {
+  require_size(what, values.size(), wanted);
+  for (Index i = 0; i < wanted; ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw Error(std::string(what) + " wants finite numbers, number " + std::to_string(i) + " is " +
+                std::to_string(values[i]));
+  }
+}
+
+}  // namespace hurcules

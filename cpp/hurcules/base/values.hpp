@@ -1,0 +1,15 @@
+// Checks of vectors that a caller gives; each throws Error with what was wanted and what came.
+#pragma once
+
+#include <string_view>
+
+#include "hurcules/base/types.hpp"
+
+namespace hurcules {
+
+// "qpos wants 7 numbers, 6 came"
+void require_size(std::string_view what, Index size, Index wanted);
+// as many, and finite: "qpos wants finite numbers, number 2 is nan"
+void require_values(std::string_view what, const ConstVectorRef& values, Index wanted);
+
+}  // namespace hurcules
