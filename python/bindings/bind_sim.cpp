@@ -69,6 +69,12 @@ std::unique_ptr<Simulation> make_own(const ModelObject& model, const DataObject&
   return std::make_unique<Simulation>(held_model(model), controller, options, nullptr, scene.data);
 }
 
+// held, so that another simulation may take it; it lives in this one
+std::shared_ptr<WholeBodyController> controller_of(const py::object& self) {
+  auto& simulation = self.cast<Simulation&>();
+  return {&simulation.controller(), [self](WholeBodyController*) {}};
+}
+
 // in pieces, so that Ctrl-C is heard
 int step_simulation(Simulation& self, int n, const CommandObject& given) {
   constexpr int kPiece = 1000;
@@ -360,9 +366,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("command_names", &command_names)
       .def_property_readonly("command_scale", &command_scale, py::return_value_policy::copy,
                              "(k,) SI")
-      .def_property_readonly(
-          "controller", [](Simulation& self) -> WholeBodyController& { return self.controller(); },
-          py::return_value_policy::reference_internal, "WholeBodyController of the loop")
+      .def_property_readonly("controller", &controller_of, "WholeBodyController of the loop")
       .def_property_readonly(
           "plant", [](Simulation& self) -> Plant& { return self.plant(); },
           py::return_value_policy::reference_internal, "Plant that it steps")

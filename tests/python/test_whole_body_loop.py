@@ -162,6 +162,35 @@ def test_models_of_a_batch_may_differ_in_their_numbers() -> None:
     assert not np.array_equal(batch.qpos[0], batch.qpos[1])
 
 
+def test_a_controller_runs_in_one_loop_at_a_time() -> None:
+    first = simulate(twist)
+    first.step(100, {"tip": [-0.2, 0.1]})
+    there, state = at(first), first.state()
+    second = hurcules.Simulation(model=first.model, controller=first.controller)
+    second.step(10)
+    with pytest.raises(hurcules.Error, match="another loop has taken the controller"):
+        first.step(1)
+    assert np.array_equal(at(first), there)
+    first.restore(state)
+    first.step(1)
+    with pytest.raises(hurcules.Error, match="reset it first"):
+        second.step(1)
+    first.controller.reset(first.data.qpos)
+    first.controller.tick(first.data.qpos, first.data.qvel)
+    with pytest.raises(hurcules.Error, match="another loop"):
+        first.step(1)
+    first.reset()
+    assert first.step(1) == 1
+
+
+def test_the_controller_of_a_mission_or_of_a_batch_runs_elsewhere() -> None:
+    batch = hurcules.SimulationBatch(simulate(twist), 2)
+    mission = hurcules.Simulation("stretch", record=False)
+    for one, model in ((batch[1], simulate(twist).model), (mission, mission.model)):
+        other = hurcules.Simulation(model=model, controller=one.controller)
+        assert other.step(2) == 2
+
+
 def test_it_says_what_it_is() -> None:
     simulation = simulate(twist)
     assert "limits < tip < posture; channels: tip finger" in repr(simulation)

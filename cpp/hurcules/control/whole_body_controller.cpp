@@ -372,6 +372,7 @@ void WholeBodyController::tick(const Vector& qpos, const Vector& qvel, const Vec
           "a force task reads a sensor of the model, and no sensors came");
   if (!begun_) require_start(qpos);
   begun_ = true;
+  loop_ = nullptr;
   for (Index i = 0; i < servo_.size(); ++i) {
     const JointActuator& one = servo_.actuator(i);
     motors_[static_cast<std::size_t>(one.actuator)].range = one.limits.at(qvel[one.dof]);

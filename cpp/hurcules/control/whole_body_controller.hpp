@@ -127,6 +127,9 @@ class WholeBodyController {
   void lead(const RobotState& state);
   // the reference stays where it is, the servos hold it
   void hold();
+  // which loop calls the stages, so that it sees when another one has taken the controller since
+  void serve(const void* loop) { loop_ = loop; }
+  [[nodiscard]] bool serves(const void* loop) const { return loop_ == loop; }
 
   [[nodiscard]] double dt() const { return options_.dt; }
   [[nodiscard]] const WholeBodyControllerOptions& options() const { return options_; }
@@ -201,6 +204,7 @@ class WholeBodyController {
   std::size_t active_ = 0;
   bool moves_joints_ = false, scaled_ = false;
   bool begun_ = false;  // `tick` was called since the start
+  const void* loop_ = nullptr;
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
   YieldingTargets yielding_;

@@ -185,6 +185,10 @@ std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
 int Simulation::step(int n, const Vector* command, bool begins) {
   if (n < 0) throw Error("step wants a number of ticks >= 0, got " + std::to_string(n));
   if (command) controller_->require_command(*command);
+  if (!controller_->serves(this))
+    throw Error(
+        "another loop has taken the controller of this simulation: one loop a controller, "
+        "or reset it first");
   if (options_.record) record_.log.reserve(static_cast<std::size_t>(n));
   if (options_.clock) record_.timings.reserve(static_cast<std::size_t>(n));
   if (!finished() && !plant_.check()) end(Ending::Diverged, time());
@@ -502,6 +506,7 @@ void Simulation::reset(std::uint64_t seed, const Vector* start) {
 }
 
 void Simulation::begin(std::uint64_t seed, const Vector* start, bool keep_targets) {
+  controller_->serve(this);
   options_.seed = seed;
   ticks_ = 0;
   ending_ = Ending::Running;
@@ -622,6 +627,7 @@ void Simulation::restore(const std::vector<double>& values) {
     read(before);  // a snapshot that does not fit changes nothing
     throw;
   }
+  controller_->serve(this);
 }
 
 void Simulation::read(const std::vector<double>& values) {
