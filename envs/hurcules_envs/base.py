@@ -12,12 +12,12 @@ import gymnasium
 import mujoco
 import numpy as np
 from gymnasium import spaces
-from gymnasium.utils import EzPickle
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules.rendering import make_renderer, overview_camera, pose
 from hurcules.validation import require_known
+from hurcules_envs.copies import GENERATOR, Copied, generator_numbers, generator_state
 from hurcules_envs.episodes import numbers_of
 from hurcules_envs.observations import observation_space
 
@@ -31,7 +31,7 @@ Action = NDArray[np.float32]
 Observation = NDArray[np.float32]
 
 
-class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
+class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
     """A mission whose task-space commands come from outside.
 
     Attributes:
@@ -60,7 +60,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         """
         for option in options:
             require_known("option", option, ("render_mode", "variation"))
-        EzPickle.__init__(self, render_mode=render_mode, variation=variation)
+        Copied.__init__(self, render_mode=render_mode, variation=variation)
         modes = self.metadata["render_modes"]
         if render_mode is not None and render_mode not in modes:
             known = ", ".join(modes)
@@ -125,8 +125,9 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         return np.asarray(command / self.action_scale, dtype=np.float32)
 
     def get_state(self) -> Array:
-        """Everything that decides how the episode goes on, generator excepted."""
-        return np.concatenate([self._memory(), self.simulation.state()])
+        """Everything that decides how the episode goes on, and how the next ones start."""
+        own = [generator_numbers(self.np_random), self._memory()]
+        return np.concatenate([*own, self.simulation.state()])
 
     def set_state(self, state: Array) -> None:
         """Goes back to a state from `get_state`: the same actions then give the same bits.
@@ -135,12 +136,14 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
             hurcules.Error: it is no state, or belongs to another environment.
         """
         values = numbers_of("state", state)
-        memory = self._memory()
-        if values.ndim != 1 or len(values) <= len(memory):
-            wanted = len(memory) + len(self.simulation.state())
+        own = GENERATOR + len(self._memory())
+        if values.ndim != 1 or len(values) <= own:
+            wanted = own + len(self.simulation.state())
             raise hurcules.Error(f"state: wanted shape ({wanted},), got {values.shape}")
-        self.simulation.restore(values[len(memory) :])
-        self._remember(values[: len(memory)])
+        generator = generator_state(values[:GENERATOR])
+        self.simulation.restore(values[own:])
+        self.np_random.bit_generator.state = generator
+        self._remember(values[GENERATOR:own])
 
     def observe(self) -> Observation:
         """The observation now, after `set_state` say."""
@@ -166,6 +169,12 @@ class HurculesEnv(gymnasium.Env[Observation, Action], EzPickle):
         if self._renderer is not None:
             self._renderer.close()
             self._renderer = None
+
+    def _went_on(self) -> Array:
+        return self.get_state()
+
+    def _go_on(self, state: Array) -> None:
+        self.set_state(state)
 
     @abstractmethod
     def _reward(self) -> dict[str, float]:

@@ -31,6 +31,9 @@ Fidelity = Annotated[
     typer.Option(help="exact, fast or kinematic.", show_default="the fastest that there is"),
 ]
 Robot = Annotated[str | None, typer.Option(help="rescue, manipulation or a path.")]
+Frame = Annotated[
+    list[str] | None, typer.Option(help="Of a hand, where --robot is a path; twice for two.")
+]
 
 
 def train(
@@ -41,6 +44,7 @@ def train(
     seed: Annotated[int, typer.Option(help="Of networks and episodes.", min=0)] = 0,
     fidelity: Fidelity = None,
     robot: Robot = None,
+    frame: Frame = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
     sparse: Annotated[bool, typer.Option("--sparse", help="No shaped reward.")] = False,
     rate: Annotated[
@@ -68,8 +72,8 @@ def train(
     if steps == 0 and not demonstrations:
         raise hurcules.Error("--steps: wanted 1 or more, or --demonstrations to clone; got 0")
     options = _given(
-        fidelity=fidelity or fastest_fidelity(name), robot=robot, action=action,
-        sparse=sparse or None, rate=rate,
+        fidelity=fidelity or fastest_fidelity(name), robot=robot, frames=frame or None,
+        action=action, sparse=sparse or None, rate=rate,
     )  # fmt: skip
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
@@ -95,7 +99,7 @@ def train(
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
             raise
-    _judge(str(folder), None, judge, "exact", None, None, console)
+    _judge(str(folder), None, judge, "exact", None, None, None, console)
 
 
 def _on_cluster(
@@ -122,8 +126,9 @@ def evaluate(
     ] = None,
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
     robot: Robot = None,
+    frame: Frame = None,
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
-    out: Annotated[Path | None, results_in("beside the policy, or out/ENVIRONMENT")] = None,
+    out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
     """Judge a policy: success with its 95 % interval, falls, limits, self-contact.
 
@@ -132,7 +137,7 @@ def evaluate(
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
     `hurcules evaluate Drive-v0`
     """
-    _judge(policy, environment, episodes, fidelity, robot, out, Console())
+    _judge(policy, environment, episodes, fidelity, robot, frame, out, Console())
 
 
 def record(
@@ -203,14 +208,21 @@ def _judge(
     episodes: int,
     fidelity: str,
     robot: str | None,
+    frames: list[str] | None,
     out: Path | None,
     console: Console,
 ) -> None:
     policy = Policy(source)
-    name, options = environment_of(policy, environment, fidelity=fidelity, robot=robot)
+    name, options = environment_of(
+        policy, environment, fidelity=fidelity, robot=robot, frames=frames
+    )
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
-    result = evaluation.evaluate(policy, name, episodes, **options)
+    try:
+        result = evaluation.evaluate(policy, name, episodes, **options)
+    except KeyboardInterrupt:
+        console.print("no figures: episodes run side by side, and not all of them were over")
+        raise
     figures = asdict(result) | {"environment": name, "options": options}
     output.write_json("evaluation.json", figures)
     words = ", ".join(f"{key} {value}" for key, value in options.items())

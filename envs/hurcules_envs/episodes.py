@@ -23,6 +23,7 @@ from hurcules_envs.checks import (
     require_names,
     require_numbers,
 )
+from hurcules_envs.copies import GENERATOR, generator_numbers, generator_state
 from hurcules_envs.environment import Array, Environment, Numbers, Start
 from hurcules_envs.randomisation import Randomisation
 
@@ -203,8 +204,9 @@ class Episodes:
         return step
 
     def state(self) -> Array:
-        """(n, s) everything that decides how the episodes go on, generators excepted."""
+        """(n, s) everything that decides how the episodes go on."""
         parts = [self.batch.state(), self._action, self._worst[:, None]]
+        parts += [np.stack([generator_numbers(one) for one in self.generators])]
         parts += [self.randomisation.state(self._action.shape[1])]
         parts += [self.memory[name] for name in self.memory]
         parts += [entry[:, None] for entry in self._info.values()]
@@ -218,14 +220,21 @@ class Episodes:
             hurcules.Error: it is no state, or belongs to another environment or version.
         """
         drawn = self.randomisation.state(self._action.shape[1]).shape[1]
-        rest = self._action.shape[1] + 1 + drawn + len(self._info)
+        rest = self._action.shape[1] + 1 + GENERATOR + drawn + len(self._info)
         rest += sum(entry.shape[1] for entry in self.memory.values())
         seen = self._read().copy()
         rest += seen.shape[1]
         own = self.batch.state().shape[1]
         values = state_of(state, (self.n, own + rest))
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
+        place = own + self._action.shape[1] + 1
+        generators = {
+            int(i): generator_state(values[i, place : place + GENERATOR])
+            for i in np.flatnonzero(chosen)
+        }
         self.batch.restore(values[:, :own], chosen.tolist())
+        for episode, numbers in generators.items():
+            self.generators[episode].bit_generator.state = numbers
         seen[chosen] = values[chosen, -seen.shape[1] :]
         self._values = seen
         place = own
@@ -233,6 +242,7 @@ class Episodes:
         for entry in entries:
             entry[chosen] = values[chosen, place : place + entry.shape[1]]
             place += entry.shape[1]
+        place += GENERATOR
         self.randomisation.restore(values[:, place : place + drawn], chosen, self._action.shape[1])
         place += drawn
         for entry in self.memory.values():

@@ -122,11 +122,18 @@ class Policy:
         """Actions (n, k) in [-1, 1] for observations (n, ...), an array or a dictionary of them.
 
         Raises:
-            hurcules.Error: the network gave numbers that are not finite.
+            hurcules.Error: observations of another shape, or the network gave numbers that are not
+                finite.
         """
         names = list(self._graph.inputs)
         given = observation if isinstance(observation, Mapping) else {names[0]: observation}
         fed = {name: np.asarray(given[name], dtype=np.float32) for name in names}
+        for name, values in fed.items():
+            if values.ndim != 2:
+                raise hurcules.Error(
+                    f"{self.path}: wanted observations (n, m), got '{name}' of shape "
+                    f"{values.shape}; one() takes a single one"
+                )
         result = self._computed(fed) if self._session is None else self._session.run(None, fed)[0]
         if not np.isfinite(result).all():
             raise hurcules.Error(f"{self.path}: the network gave numbers that are not finite")

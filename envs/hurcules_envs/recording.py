@@ -91,6 +91,8 @@ def record(
         ) from error
     finally:
         env.close()
+        if not any(path.exists() for path in _paths(recording, part)):
+            _remove(part)
     _remove(part)
     return written.identifier(recording, target)
 

@@ -10,6 +10,8 @@ import gymnasium
 import ray
 from ray.rllib.algorithms.ppo import PPOConfig
 
+from hurcules.interrupts import Interrupts
+
 __all__ = ["ppo_config", "train"]
 
 
@@ -56,7 +58,7 @@ def train(
     seed: int = 0,
     progress: Callable[[int, float], None] | None = None,
 ) -> Path:
-    """Trains on a cluster and writes a checkpoint of RLlib.
+    """Trains on a cluster and writes a checkpoint of RLlib, at the end and after Ctrl-C or SIGTERM.
 
     Args:
         environment: id.
@@ -71,19 +73,26 @@ def train(
 
     Returns:
         The folder of the checkpoint.
+
+    Raises:
+        KeyboardInterrupt: after Ctrl-C or SIGTERM; the checkpoint is written.
     """
     ray.init(address=None if address == "local" else address, ignore_reinit_error=True)
     config = ppo_config(environment, runners, episodes, threads=1, **options).debugging(seed=seed)
     algorithm = config.build_algo()
     try:
         done = 0
-        while done < steps:
-            result = algorithm.train()
-            done = int(result["num_env_steps_sampled_lifetime"])
-            if progress is not None:
-                mean = result["env_runners"].get("episode_return_mean")
-                progress(done, float("nan") if mean is None else float(mean))
-        return Path(algorithm.save_to_path(str((out / "rllib").resolve())))
+        with Interrupts() as interrupts:
+            while done < steps and not interrupts.noted:
+                result = algorithm.train()
+                done = int(result["num_env_steps_sampled_lifetime"])
+                if progress is not None:
+                    mean = result["env_runners"].get("episode_return_mean")
+                    progress(done, float("nan") if mean is None else float(mean))
+            written = Path(algorithm.save_to_path(str((out / "rllib").resolve())))
+        if interrupts.noted:
+            raise KeyboardInterrupt
+        return written
     finally:
         algorithm.stop()
         ray.shutdown()

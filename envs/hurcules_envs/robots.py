@@ -204,7 +204,7 @@ def load_robot(
     if not Path(robot).is_file():
         known = ", ".join(hurcules.models.names())
         raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
-    if not frames or not 1 <= len(frames) <= 2:
+    if not frames or not 1 <= len(frames) <= 2 or len(set(frames)) < len(frames):
         raise hurcules.Error(
             f"robot: {robot} wants frames=(...), the names of its one or two hands, got {frames!r}"
         )

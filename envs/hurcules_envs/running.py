@@ -41,7 +41,8 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
     Args:
         policy: what acts.
         given: id that was asked for; None: that of the policy.
-        others: options in place of the policy's, None where none was given.
+        others: options in place of the policy's, none where nothing was given; with another robot
+            go the frames of the policy's.
 
     Raises:
         hurcules.Error: neither says which, the two differ, or there is no such environment.
@@ -56,8 +57,13 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
     if name not in gymnasium.registry:
         known = sorted(one.split("/")[1] for one in gymnasium.registry if "Hurcules/" in one)
         raise hurcules.Error(f"environment '{name}' does not exist; there are: {', '.join(known)}")
-    chosen = {option: value for option, value in others.items() if value is not None}
-    return name, policy.options | chosen
+    chosen = {option: value for option, value in others.items() if value}
+    own = {
+        option: value
+        for option, value in policy.options.items()
+        if "robot" not in chosen or option not in ("frames", "joints")
+    }
+    return name, own | chosen
 
 
 def run_policy(options: PolicyOptions, console: Console) -> int:
@@ -78,8 +84,9 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
     """
     policy = Policy(options.policy)
     name, settings = environment_of(
-        policy, options.environment, fidelity=options.fidelity, robot=options.robot
-    )
+        policy, options.environment, fidelity=options.fidelity, robot=options.robot,
+        frames=options.frames,
+    )  # fmt: skip
     lost = extras.without() if options.video else "not asked for (--no-video)"
     env = gymnasium.make(name, render_mode=None if lost else "rgb_array", **settings)
     policy.check(name, env.observation_space, env.action_space)

@@ -34,7 +34,7 @@ class Sb3VecEnv(VecEnv):
         if environment.autoreset_mode != AutoresetMode.SAME_STEP:
             raise ValueError(f"wanted autoreset mode SAME_STEP, got {environment.autoreset_mode}")
         self.environment = environment
-        self.render_mode = None
+        self.render_mode = environment.render_mode
         self._seeds: list[int] | None = None
         self._returns = np.zeros(environment.num_envs)
         self._lengths = np.zeros(environment.num_envs, dtype=int)
@@ -78,6 +78,10 @@ class Sb3VecEnv(VecEnv):
             }
         self._returns[done], self._lengths[done] = 0.0, 0
         return observation, reward.astype(np.float32), done, infos
+
+    def get_images(self) -> Sequence[NDArray[np.uint8] | None]:
+        """A picture of each episode in render mode "rgb_array"; `render` tiles them."""
+        return self.environment.render() or [None] * self.num_envs
 
     def close(self) -> None:
         """Closes the environment."""

@@ -9,13 +9,14 @@ import gymnasium
 import mujoco
 import numpy as np
 from gymnasium import spaces
-from gymnasium.utils import EzPickle
+from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules import _core
 from hurcules.rendering import pose
 from hurcules.view import require_display
+from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
 from hurcules_envs.pictures import Pictures, Views
@@ -30,7 +31,7 @@ _ALL = np.ones(1, dtype=bool)
 Observation = NDArray[np.float32] | dict[str, NDArray[Any]]
 
 
-class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
+class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
     """An environment with Gymnasium's interface.
 
     Attributes:
@@ -69,7 +70,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         Raises:
             hurcules.Error: an unknown render mode or option, or a bad value.
         """
-        EzPickle.__init__(self, environment, render_mode, flat, cameras, camera_size, **options)
+        Copied.__init__(self, environment, render_mode, flat, cameras, camera_size, **options)
         hurcules.validation.require_known(
             "render mode", render_mode or "rgb_array", self.metadata["render_modes"]
         )
@@ -91,6 +92,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward
+        self._begun = False
         self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
         self._views = Views(self.environment)
@@ -130,6 +132,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         self._episodes.randomisation.set_ranges(known_ranges(options or {}))
         self._episodes.generators[0] = self.np_random
         self._episodes.reset()
+        self._begun = True
         step = self._episodes.look(remember=None)
         return self._seen(step), _info(step)
 
@@ -145,9 +148,11 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
             Observation, reward, terminated, truncated (never; the time limit is Gymnasium's), info.
 
         Raises:
+            gymnasium.error.ResetNeeded: no episode has begun.
             hurcules.Error: the action is no array of numbers, has another shape or holds NaN or
                 infinity.
         """
+        self._require_begun("step")
         values = self._episodes.checked(action, self.action_space.shape or ())
         self._episodes.step(values[None])
         step = self._episodes.look(remember=_ALL)
@@ -158,7 +163,14 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         return self._seen(step), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
-        """(s,) everything that decides how the episode goes on, generator excepted."""
+        """(s,) everything that decides how the episode goes on, and how the next ones start.
+
+        The count of steps of Gymnasium's time limit is not in it.
+
+        Raises:
+            gymnasium.error.ResetNeeded: no episode has begun.
+        """
+        self._require_begun("get_state")
         return self._episodes.state()[0]
 
     def set_state(self, state: NDArray[np.float64]) -> None:
@@ -167,6 +179,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         Raises:
             hurcules.Error: it is no state, or belongs to another environment or version.
         """
+        if not self._begun:
+            self.reset()
         self._episodes.restore(state_of(state, self.get_state().shape)[None])
 
     def observe(self) -> Observation:
@@ -195,6 +209,21 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], EzPickle):
         if self._pictures is not None:
             self._pictures.close()
         self._viewer = None
+
+    def _went_on(self) -> dict[str, Any] | None:
+        if not self._begun:
+            return None
+        ranges = self._episodes.randomisation.ranges
+        return {"state": self.get_state(), "steps": self._steps, "ranges": dict(ranges)}
+
+    def _go_on(self, there: dict[str, Any]) -> None:
+        self.reset(options=there["ranges"])
+        self.set_state(there["state"])
+        self._steps = there["steps"]
+
+    def _require_begun(self, call: str) -> None:
+        if not self._begun:
+            raise ResetNeeded(f"no episode has begun: call reset() before {call}()")
 
     def _seen(self, step: Step) -> Observation:
         """The observation of the one episode, pictures included."""

@@ -113,9 +113,9 @@ class TrainOptions:
 def train(options: TrainOptions, progress: Callable[[int, float], None] | None = None) -> Path:
     """Trains a policy; goes on where an earlier run in the same folder was stopped.
 
-    Writes checkpoint.zip every `checkpoint_every` steps; at the end policy.zip (as
-    Stable-Baselines3 reads it) and policy.onnx (see `hurcules_envs.policy`); settings.json, and the
-    logs of TensorBoard where that is installed.
+    Writes checkpoint.zip every `checkpoint_every` steps; at the end, and after Ctrl-C or SIGTERM,
+    policy.zip (as Stable-Baselines3 reads it) and policy.onnx (see `hurcules_envs.policy`);
+    settings.json, and the logs of TensorBoard where that is installed.
 
     Args:
         options: what, and for how long.
@@ -126,7 +126,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
 
     Raises:
         hurcules.Error: an unknown environment, algorithm or option, or a folder with another run.
-        KeyboardInterrupt: after Ctrl-C; checkpoint.zip is written, and the next call goes on.
+        KeyboardInterrupt: after Ctrl-C or SIGTERM; all is written, and the next call goes on.
     """
     require_known("environment", options.environment, hurcules_envs.ENVIRONMENTS)
     require_known("algorithm", options.algorithm, ALGORITHMS)
@@ -141,7 +141,11 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     written = out / "settings.json"
     if written.exists() and checkpoint.exists():  # else nothing is lost
         earlier = json.loads(written.read_text())
-        differing = [n for n in settings if n != "steps" and earlier.get(n) != settings[n]]
+        differing = [
+            f"{name} (there {earlier.get(name)!r}, now {value!r})"
+            for name, value in settings.items()
+            if name != "steps" and earlier.get(name) != value
+        ]
         if differing:
             raise hurcules.Error(
                 f"{out} holds a run with another {', '.join(differing)}: give another folder"
@@ -153,8 +157,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     elif options.demonstrations:
         _imitate(model, options)
         _save(model, checkpoint)
-    if options.steps > model.num_timesteps:
-        _learn(model, options, checkpoint, progress)
+    done = options.steps <= model.num_timesteps or _learn(model, options, checkpoint, progress)
     model.save(out / "policy.zip")
     about = {
         "environment": options.environment,
@@ -167,6 +170,8 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     }
     export_policy(model, out / "policy.onnx", about)
     environment.close()
+    if not done:
+        raise KeyboardInterrupt
     return out
 
 
@@ -245,8 +250,8 @@ def _learn(
     options: TrainOptions,
     checkpoint: Path,
     progress: Callable[[int, float], None] | None,
-) -> None:
-    """Up to the wanted number of steps, or to Ctrl-C."""
+) -> bool:
+    """Up to the wanted number of steps; false: to Ctrl-C or SIGTERM."""
     with Interrupts() as interrupts:
         watch = _Watch(checkpoint, options.checkpoint_every, progress, interrupts)
         adapts = not options.demonstrations and _standardised(model)
@@ -254,8 +259,7 @@ def _learn(
         left = options.steps - model.num_timesteps
         model.learn(left, callback=callbacks, reset_num_timesteps=False)
         watch.save()
-    if interrupts.noted:
-        raise KeyboardInterrupt
+    return not interrupts.noted
 
 
 def _tensorboard(out: Path) -> str | None:
@@ -291,7 +295,7 @@ class _Standardise(BaseCallback):
 
 
 class _Watch(BaseCallback):
-    """Saves checkpoints, tells how far it is, and stops after Ctrl-C."""
+    """Saves checkpoints, tells how far it is, and stops after Ctrl-C or SIGTERM."""
 
     def __init__(
         self,

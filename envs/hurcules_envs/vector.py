@@ -15,6 +15,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
 from hurcules_envs.pictures import Views
@@ -26,11 +27,13 @@ __all__ = ["NativeVectorEnv"]
 MODES = ("rgb_array",)
 
 
-class NativeVectorEnv(VectorEnv[Any, Any, Any]):
+class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
     """Episodes side by side, stepped in one call on a pool of threads.
 
     The bits of each episode are those that it has alone.
     """
+
+    _views: Views | None = None  # Gymnasium closes what could not be made, too
 
     def __init__(
         self,
@@ -60,6 +63,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             hurcules.Error: an unknown option or render mode, a bad value, or cameras, which it does
                 not observe.
         """
+        Copied.__init__(
+            self, environment, num_envs, max_episode_steps, threads, autoreset_mode, render_mode,
+            flat, **options,
+        )  # fmt: skip
         hurcules.validation.require_known("render mode", render_mode or MODES[0], MODES)
         _require_whole("num_envs", num_envs, 1)
         _require_whole("threads", threads, 0)
@@ -154,9 +161,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
             gymnasium.error.ResetNeeded: some episode has not begun.
             hurcules.Error: no array of numbers, another shape, NaN or infinity.
         """
-        if not self._begun:
-            waiting = np.flatnonzero(self._steps < 0).tolist()
-            raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before step()")
+        self._require_begun("step")
         episodes = self._episodes
         values = episodes.checked(actions, self.action_space.shape or ())
         over = self._over
@@ -184,7 +189,12 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         return observation, reward, terminated, truncated, info
 
     def get_state(self) -> NDArray[np.float64]:
-        """(num_envs, s) everything that decides how the episodes go on, generators excepted."""
+        """(num_envs, s) everything that decides how the episodes go on, and how new ones start.
+
+        Raises:
+            gymnasium.error.ResetNeeded: some episode has not begun.
+        """
+        self._require_begun("get_state")
         counters = np.stack([self._steps, self._over], axis=1).astype(np.float64)
         return np.concatenate([self._episodes.state(), counters], axis=1)
 
@@ -194,6 +204,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         Raises:
             hurcules.Error: they are no states, or belong to another environment or version.
         """
+        if not self._begun:
+            self.reset()
         values = state_of(state, self.get_state().shape)
         self._episodes.restore(values[:, :-2])
         self._steps = values[:, -2].astype(np.int64)
@@ -213,11 +225,28 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any]):
         if self.render_mode is None:
             logger.warn("render() without a render mode: pass render_mode='rgb_array'")
             return None
+        assert self._views is not None
         return tuple(self._views.take(self._episodes, i) for i in range(self.num_envs))
 
     def close_extras(self, **kwargs: Any) -> None:
         """Gives the renderer back."""
-        self._views.close()
+        if self._views is not None:
+            self._views.close()
+
+    def _went_on(self) -> dict[str, Any] | None:
+        if not self._begun:
+            return None
+        ranges = self._episodes.randomisation.ranges
+        return {"state": self.get_state(), "ranges": dict(ranges)}
+
+    def _go_on(self, there: dict[str, Any]) -> None:
+        self.reset(options=there["ranges"])
+        self.set_state(there["state"])
+
+    def _require_begun(self, call: str) -> None:
+        if not self._begun:
+            waiting = np.flatnonzero(self._steps < 0).tolist()
+            raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before {call}()")
 
     def _begin(self, chosen: NDArray[np.bool_]) -> None:
         self._episodes.reset(chosen)

@@ -116,6 +116,12 @@ def run_mission(
         str,
         typer.Option(help="Of a policy: exact, fast or kinematic.", rich_help_panel=_POLICIES),
     ] = "exact",
+    frame: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Of a hand, where --robot is a file; twice for two.", rich_help_panel=_POLICIES
+        ),
+    ] = None,
 ) -> None:
     """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.
 
@@ -156,10 +162,11 @@ def run_mission(
         other = robot if _was_given(context, "robot") else None
         raise typer.Exit(
             _policy_runner()(
-                PolicyOptions(policy, environment, fidelity, other, seed, out, video), Console()
+                PolicyOptions(policy, environment, fidelity, other, frame or (), seed, out, video),
+                Console(),
             )
         )
-    _refuse(context, ("fidelity",), "for policies")
+    _refuse(context, ("fidelity", "frame"), "for policies")
     folder = out or Path("out", Path(mission).stem)
     if methods := _methods(mission):
         _refuse(context, _MISSION_OPTIONS, f"for missions; '{mission}' is a test method")

@@ -1,6 +1,7 @@
-"""Ctrl-C that is noted instead of raised, so that it never cuts a file short.
+"""Ctrl-C and SIGTERM that are noted instead of raised, so that they never cut a file short.
 
-It is answered at once; a second one ends the program where it is.
+They are answered at once; a second one ends the program where it is. SIGTERM is what queues of
+clusters send before they kill.
 """
 
 from __future__ import annotations
@@ -15,30 +16,31 @@ __all__ = ["Interrupts"]
 
 
 class Interrupts:
-    """While this is entered, Ctrl-C only sets `noted`; who can stop early looks there.
+    """While this is entered, both only set `noted`; who can stop early looks there.
 
-    Outside the main thread, and where Ctrl-C is ignored already, everything stays as it is.
+    Outside the main thread, and where a signal is ignored already, everything stays as it is.
 
     Attributes:
-        noted: whether Ctrl-C came.
+        noted: whether one came.
     """
 
     def __init__(self) -> None:
         self.noted = False
-        self._before: Any = None  # the handler to put back
+        self._before: dict[signal.Signals, Any] = {}  # the handlers to put back
 
     def __enter__(self) -> Interrupts:
         if threading.current_thread() is threading.main_thread():
-            before = signal.getsignal(signal.SIGINT)
-            if before not in (None, signal.SIG_IGN):
-                self._before = before
-                signal.signal(signal.SIGINT, self._note)
+            for number in (signal.SIGINT, signal.SIGTERM):
+                before = signal.getsignal(number)
+                if before not in (None, signal.SIG_IGN):
+                    self._before[number] = before
+                    signal.signal(number, self._note)
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._before is not None:
-            signal.signal(signal.SIGINT, self._before)
-            self._before = None
+        for number, before in self._before.items():
+            signal.signal(number, before)
+        self._before.clear()
 
     def _note(self, _number: int, _frame: FrameType | None) -> None:
         if self.noted:

@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -48,6 +48,7 @@ class PolicyOptions:
     environment: str | None = None  # that of the policy
     fidelity: str = "exact"
     robot: str | None = None  # that of the policy
+    frames: Sequence[str] = ()  # of its hands, where it is a file
     seed: int = 0
     out: Path | None = None
     video: bool = True

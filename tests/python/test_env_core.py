@@ -3,6 +3,7 @@
 What Gymnasium's checker wants, sameness of bits alone and side by side, resets, states, bad input.
 """
 
+import copy
 import json
 import pickle
 import signal
@@ -100,6 +101,69 @@ def test_a_state_goes_on_with_the_same_bits_in_another_instance(name, options):
         env.set_state(env.get_state()[:-1])
     with pytest.raises(hurcules.Error, match="wanted shape"):
         gym.make("Hurcules/ReachJoint-v0", **FAST).unwrapped.set_state(env.get_state())
+
+
+def copied(env):
+    return pickle.loads(pickle.dumps(env))
+
+
+@pytest.mark.parametrize("how", [copy.deepcopy, copied])
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("Hurcules/Reach-v0", {**FAST, "action_delay": (0, 2)}),
+        ("Hurcules/Press-v0", {"fidelity": "fast"}),
+        ("Hurcules/Rescue-v0", {}),
+    ],
+)
+def test_a_copy_goes_on_and_begins_the_next_episode_alike(name, options, how):
+    env = gym.make(name, **options)
+    env.reset(seed=1, options={"observation_noise": 0.01} if options else None)
+    actions = 0.3 * np.random.default_rng(3).uniform(-1, 1, (6, *env.action_space.shape))
+    for action in actions[:3].astype(np.float32):
+        env.step(action)
+    other = how(env)
+    assert other.spec.id == env.spec.id
+    assert repr(other.unwrapped.observe()) == repr(env.unwrapped.observe())
+    for action in actions[3:].astype(np.float32):
+        assert repr(other.step(action)) == repr(env.step(action))
+    assert repr(other.reset()) == repr(env.reset())
+
+
+@pytest.mark.parametrize("how", [copy.deepcopy, copied])
+def test_a_copy_of_a_vector_goes_on_and_begins_the_next_episodes_alike(how):
+    vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, max_episode_steps=6, **FAST)
+    vector.reset(seed=1, options={"action_delay": (0, 2)})
+    actions = np.random.default_rng(3).uniform(-1, 1, (12, *vector.action_space.shape))
+    for action in actions[:3].astype(np.float32):
+        vector.step(action)
+    other = how(vector)
+    for action in actions[3:].astype(np.float32):
+        assert repr(other.step(action)) == repr(vector.step(action))
+
+
+def test_a_state_begins_the_next_episodes_alike_and_an_instance_that_has_not_begun():
+    env = gym.make("Hurcules/Press-v0", fidelity="fast").unwrapped
+    with pytest.raises(ResetNeeded, match=r"call reset\(\) before step\(\)"):
+        env.step(np.zeros(env.action_space.shape, np.float32))
+    with pytest.raises(ResetNeeded, match=r"call reset\(\) before get_state\(\)"):
+        env.get_state()
+    env.reset(seed=4)
+    state = env.get_state()
+    fresh = gym.make("Hurcules/Press-v0", fidelity="fast").unwrapped
+    fresh.set_state(state)  # begins it too
+    assert same(fresh.observe(), env.observe())
+    assert repr(fresh.reset()) == repr(env.reset())
+    assert repr(fresh.reset()) == repr(env.reset())
+    env.set_state(state)
+    fresh.set_state(state)
+    assert repr(fresh.reset()) == repr(env.reset())
+    env.np_random = np.random.Generator(np.random.MT19937(1))
+    env.reset()
+    with pytest.raises(hurcules.Error, match=r"np_random: wanted a .* of MT19937"):
+        env.get_state()
+    with pytest.raises(hurcules.Error, match="a generator of random numbers"):
+        fresh.set_state(np.where(state == state, state + 0.5, state))
 
 
 def test_an_observation_is_never_written_again():

@@ -19,6 +19,7 @@ import pytest
 
 import hurcules
 from hurcules import cli, extras, legend, rhqp
+from hurcules.interrupts import Interrupts
 
 COMMAND = [sys.executable, "-m", "hurcules"]
 
@@ -123,6 +124,18 @@ def test_ctrl_c_ends_a_method_at_once(tmp_path: Path, workers: str) -> None:
     assert code == 130, said
     assert "interrupted" in said and "Traceback" not in said
     assert seconds < 5.0  # a second on a quiet machine
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_is_noted_a_second_one_ends(number: signal.Signals) -> None:
+    before = signal.getsignal(number)
+    with Interrupts() as interrupts:
+        assert not interrupts.noted
+        signal.raise_signal(number)
+        assert interrupts.noted
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(number)
+    assert signal.getsignal(number) == before
 
 
 def test_what_was_not_made_is_shown_by_tracebacks_that_show_variables() -> None:
