@@ -191,6 +191,34 @@ def test_the_controller_of_a_mission_or_of_a_batch_runs_elsewhere() -> None:
         assert other.step(2) == 2
 
 
+def test_a_limit_that_many_levels_hold_has_room_in_a_state() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    limits = hurcules.JointLimits("limits", robot)
+    levels = [limits]
+    for joint, angle in zip(robot.coordinate_names, START, strict=True):
+        limits.set_range(joint, angle - 0.1, angle + 0.1)
+    for i in range(8):  # each pulls elsewhere, beyond what the joints reach
+        tip = hurcules.PositionTask(f"tip {i}", robot, "tip", axes=PLANE[1:])
+        tip.set_target([tip.value[0] + 0.5 + 0.1 * i])
+        tip.set_interval([-0.01], [0.01])
+        levels.append(tip)
+    controller = hurcules.WholeBodyController(robot, levels)
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    sizes = set()
+    for _ in range(100):
+        simulation.step(10)
+        sizes.add(len(simulation.state()))
+    state = simulation.state()
+    simulation.step(20)
+    there = simulation.state()
+    simulation.restore(state)
+    simulation.step(20)
+    assert np.array_equal(simulation.state(), there)
+    assert len(sizes) == 1
+
+
 def test_it_says_what_it_is() -> None:
     simulation = simulate(twist)
     assert "limits < tip < posture; channels: tip finger" in repr(simulation)

@@ -20,7 +20,7 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 
 // A snapshot begins with its version, its length, what it is of, and the number of values in use;
 // what is left of its room is zero.
-constexpr double kStateVersion = 2.0;
+constexpr double kStateVersion = 3.0;
 constexpr std::size_t kStateHeader = 4;
 
 // of all names along the vectors of a controller's simulation (FNV-1a), 32 bits
@@ -39,13 +39,15 @@ double hash_of(const TelemetryNames& names) {
 
 // numbers at most that the working sets of all solvers take in a snapshot
 std::size_t room_of_working_sets(const WholeBodyController& controller) {
-  constexpr std::size_t kPerRow = 6, kPerSolver = 3;
+  constexpr std::size_t kPerSolver = 3;  // counts
   std::size_t room = 0;
   for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
-    room += kPerSolver;
+    std::size_t rows = 0;  // of this level and those above, each of which it may hold
     for (const Level& level : controller.law(i).hierarchy()) {
-      room += kPerRow * static_cast<std::size_t>(level.rows());
+      rows += static_cast<std::size_t>(level.rows());
+      room += rows;
     }
+    room += rows + kPerSolver;  // what kind each row is
   }
   return room;
 }

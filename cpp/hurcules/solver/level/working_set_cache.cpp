@@ -8,6 +8,21 @@ namespace {
 
 // more rows than a solver of kMostUnknowns can hold are no snapshot of one
 constexpr Index kMostKept = 1'000'000;
+constexpr Index kSides = 2, kRoles = 3;
+
+// a row as one whole number
+double packed(const KeptRow& kept) {
+  const Index place = kept.held_by * kMostKept + kept.row;
+  const Index side = kept.side == Side::Upper ? 1 : 0;
+  return static_cast<double>((place * kSides + side) * kRoles + static_cast<Index>(kept.role));
+}
+
+KeptRow unpacked(Index number) {
+  const Index role = number % kRoles, side = number / kRoles % kSides;
+  const Index place = number / (kRoles * kSides);
+  return {static_cast<int>(place / kMostKept), static_cast<int>(place % kMostKept),
+          side == 1 ? Side::Upper : Side::Lower, static_cast<Role>(role)};
+}
 
 }  // namespace
 
@@ -103,21 +118,13 @@ KeptRow* WorkingSetCache::keep_roles(const LevelRecord& record, const std::vecto
 
 void WorkingSetCache::save(StateWriter& writer) const {
   writer.put(static_cast<double>(kept_.size()));
-  for (const KeptRow& kept : kept_) {
-    writer.put(kept.held_by);
-    writer.put(kept.row);
-    writer.put(static_cast<double>(kept.side));
-    writer.put(static_cast<double>(kept.role));
-  }
+  for (const KeptRow& kept : kept_) writer.put(packed(kept));
 }
 
 void WorkingSetCache::restore(StateReader& reader) {
   kept_.resize(static_cast<std::size_t>(reader.get_count(kMostKept)));
   for (KeptRow& kept : kept_) {
-    kept.held_by = static_cast<int>(reader.get_count(kMostKept));
-    kept.row = static_cast<int>(reader.get_count(kMostKept));
-    kept.side = reader.get() < 0.0 ? Side::Lower : Side::Upper;
-    kept.role = static_cast<Role>(reader.get_count(static_cast<Index>(Role::Idle)));
+    kept = unpacked(reader.get_count(kMostKept * kMostKept * kSides * kRoles - 1));
   }
   restored_ = true;
 }
