@@ -52,6 +52,13 @@ def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any])
             Node("Mul", ("away", "scale"), ("way",)),
             Node("Concat", features.parts, ("seen",), {"axis": 1}),
         ]
+        if features.factors is not None:
+            weights["factors"] = features.factors.numpy()
+            counted = tuple("counted" if part == "observation" else part for part in features.parts)
+            nodes[2:] = [
+                Node("Mul", ("observation", "factors"), ("counted",)),
+                Node("Concat", counted, ("seen",), {"axis": 1}),
+            ]
         if "way" not in features.parts:
             del nodes[:2], weights["scale"]
         used = {name for node in nodes for name in node.inputs}

@@ -46,12 +46,13 @@ class Reach(Environment):
     | "pose"  | 2.0   | reference in the world [m]                            |
     | "joint" |       | velocity of each coordinate's reference [rad/s], (n,) |
 
-    Observation: Dict. `observation` of shape (3 h,), and `achieved_goal`, `desired_goal` (3 h,).
-    For the action "joint" the observation goes on with the n coordinates [rad].
+    Observation: Dict. `observation` of shape (6 h,), and `achieved_goal`, `desired_goal` (3 h,).
+    For the action "joint" the n coordinates [rad] stand in place of the velocities, (3 h + n,).
 
     | group    | size | unit | bound | what it is               |
     |----------|------|------|-------|--------------------------|
     | hand     | 3 h  | m    | 5     | hands in the world       |
+    | velocity | 3 h  | m/s  | 5     | of the hands             |
 
     Reward: `distance`, minus the mean distance d of the hands [m]; `nearness`, the mean of
     1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance; `effort`, minus
@@ -111,14 +112,17 @@ class Reach(Environment):
         self.quantities = tuple(
             [f"value/{name}" for name in self._names]
             + [f"rotation/{frame}" for frame in self.setup.hands]
+            + [f"velocity/{frame}" for frame in self.setup.hands]
         )
-        self._values = self.quantities[:h]
+        self._values, self._velocities = self.quantities[:h], self.quantities[2 * h :]
         self.observation = (Group("hand", 3 * h, "m", 5.0, "hands in the world"),)
         self._joints = action == "joint"  # who commands them wants to see them
         if self._joints:
             self.quantities += ("q",)
             n = len(self.setup.joints)
             self.observation += (Group("joint", n, "rad", 10.0, "coordinates"),)
+        else:
+            self.observation += (Group("velocity", 3 * h, "m/s", 5.0, "of the hands"),)
 
     def start(self, generator: np.random.Generator) -> Start:
         """A posture to start from, another one whose hands are the goals."""
@@ -145,9 +149,14 @@ class Reach(Environment):
         numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
-        """The hands; the goals stand beside them."""
+        """The hands, and how they move; the goals stand beside them."""
         seen = {"hand": self._hands(numbers)}
-        return seen | {"joint": numbers["q"]} if self._joints else seen
+        if self._joints:
+            return seen | {"joint": numbers["q"]}
+        velocity = numbers.row(*self._velocities)
+        return seen | {
+            "velocity": velocity if self._swings is None else velocity + numbers["sway_rate"]
+        }
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""

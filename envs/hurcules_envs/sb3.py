@@ -123,20 +123,28 @@ class GoalFeatures(BaseFeaturesExtractor):
         observation_space: of the environment.
         parts: "observation", "way" or both. Without the observation, what is learnt holds at other
             places, and for other robots; without the way where the observation has the goal.
+        factors: (m,) of the numbers of the observation, 0 for what is not seen; None: all as it is.
     """
 
     def __init__(
-        self, observation_space: gymnasium.spaces.Dict, parts: Sequence[str] = PARTS
+        self,
+        observation_space: gymnasium.spaces.Dict,
+        parts: Sequence[str] = PARTS,
+        factors: Sequence[float] | None = None,
     ) -> None:
         sizes = {name: (space.shape or (0,))[0] for name, space in observation_space.items()}
         widths = {"observation": sizes["observation"], "way": sizes["achieved_goal"]}
         super().__init__(observation_space, sum(widths[part] for part in parts))
         self.parts = tuple(parts)
+        self.factors = None if factors is None else torch.tensor(factors, dtype=torch.float32)
 
     def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
         """(n, features)."""
         way = SCALE * (observations["desired_goal"] - observations["achieved_goal"])
-        seen = {"observation": observations["observation"], "way": way}
+        observation = observations["observation"]
+        if self.factors is not None:
+            observation = self.factors * observation
+        seen = {"observation": observation, "way": way}
         return torch.cat([seen[part] for part in self.parts], dim=1)
 
 

@@ -24,7 +24,7 @@ from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
 from hurcules_envs.imitation import demonstrate
-from hurcules_envs.sb3 import PARTS, GoalFeatures, Standardised, make_sb3
+from hurcules_envs.sb3 import PARTS, SCALE, GoalFeatures, Standardised, make_sb3
 
 __all__ = ["TrainOptions", "make_model", "train"]
 
@@ -74,10 +74,12 @@ SEEN: Mapping[str, Sequence[str]] = {
     "Hurcules/Reach-": ("way",),  # where the hands are stands in the achieved goal already
     "Hurcules/Drive-": ("observation",),  # in which the goal is, seen from the robot
 }
+# the same with hindsight: groups of the observation, and the way. What a hand does next depends on
+# how it moves; where that is not seen, the best of many values is one that no action has
+SEEN_IN_HINDSIGHT: Mapping[str, Sequence[str]] = {"Hurcules/Reach-": ("velocity", "way")}
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
 UPDATES = 0.25  # of SAC, a step of an episode
-# with hindsight; where the entropy falls, commands become hard near the goal, and hands overshoot
-HINDSIGHT = {"tau": 0.02, "ent_coef": 0.06}
+HINDSIGHT = {"tau": 0.02, "ent_coef": 0.02}
 HINDSIGHT_UPDATES = 0.5
 WANDERS, DRAWN = 2.0, 0.5  # [s], standard deviation of what is added to actions
 
@@ -194,8 +196,7 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     network: dict[str, Any] = {"net_arch": [64, 64]}
     if goal:
         network["features_extractor_class"] = GoalFeatures
-        parts = next((p for n, p in SEEN.items() if options.environment.startswith(n)), PARTS)
-        network["features_extractor_kwargs"] = {"parts": parts}
+        network["features_extractor_kwargs"] = _seen(options, environment)
     shared = {"seed": options.seed, "device": "cpu", "tensorboard_log": _tensorboard(options.out)}
     if options.algorithm == "ppo":
         recipe = next((r for n, r in RECIPES.items() if options.environment.startswith(n)), {})
@@ -220,6 +221,19 @@ def make_model(options: TrainOptions, environment: Any) -> BaseAlgorithm:
     network["net_arch"] = [width, width]
     settings["gradient_steps"] = math.ceil(updates * options.episodes)
     return SAC(kind, environment, policy_kwargs=network, train_freq=1, **settings, **shared)
+
+
+def _seen(options: TrainOptions, environment: Any) -> dict[str, Any]:
+    """What a network sees of a goal environment, for `GoalFeatures`."""
+    known = SEEN_IN_HINDSIGHT if options.algorithm == "her" else {}
+    parts = next((p for n, p in known.items() if options.environment.startswith(n)), None)
+    if parts is None or options.options.get("action") == "joint":
+        return {
+            "parts": next((p for n, p in SEEN.items() if options.environment.startswith(n)), PARTS)
+        }
+    groups = environment.environment.environment.observation
+    factors = [SCALE * (group.name in parts) for group in groups for _ in range(group.size)]
+    return {"parts": PARTS, "factors": factors}
 
 
 def _wandering(options: TrainOptions, environment: Any) -> VectorizedActionNoise:
