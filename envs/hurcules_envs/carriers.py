@@ -12,7 +12,6 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from numbers import Real
 from pathlib import Path
 
 import mujoco
@@ -28,6 +27,7 @@ from hurcules_envs.robots import MAX_ACCELERATION, RobotSetup, load_robot
 __all__ = ["FEELS", "HANDS", "Carrier", "Wanted", "load_carrier"]
 
 Array = NDArray[np.float64]
+Place = tuple[float, float, float]
 
 # by the axis of a frame that looks out of the palm: the rotation (w, x, y, z) of its x to there
 PALMS: Mapping[str, tuple[float, float, float, float]] = {
@@ -45,11 +45,12 @@ BOARD = 0.02  # [m] half of the table's board
 SEED, SAMPLES = 20261126, 20000  # of the postures that tell where the hands come to
 GRID, ABOUT = 0.1, 0.2  # [m] between places that are tried, and about a hand where samples count
 FACING = 0.6  # cosine of a palm's direction and that to the middle
-PLACES, STARTS = 48, 6  # places that are tried, and postures in each
-USED = 0.6  # of the motors' efforts: a squeeze of full scale is a third more than `Wanted` says
+PLACES, STARTS = 24, 8  # places that are tried, and postures in each
+ENDS, LEVER, FREE = 0.15, 0.3, 0.2  # [rad] of the limits, [m], and of the Jacobian's least value
+USED = 0.4  # of what motors give beside the arms' weight: motion and knocks want the rest
 LEAST = 0.003  # of the loads of the manipulation robot: below, nothing is carried
 MISS, TURN = 5e-3, 0.03  # [m], [rad] of a hand at a corner
-PUSH, PUSHED = 20.0, 0.4  # [N] by which the arm's stiffness is measured, [s] for which
+PUSH, PUSHED = 100.0, 0.2  # [N] by which the arm's stiffness is measured, [s] for which
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +90,7 @@ class Carrier:
     setup: RobotSetup
     palm: str
     pads: bool
-    place: tuple[float, float, float]
+    place: Place
     share: float
     configuration: Array
 
@@ -106,16 +107,18 @@ class Carrier:
         return robot
 
     def stiffness(self, simulation: hurcules.Simulation) -> float:
-        """[N/m] of the right hand across, in the loop: measured by a push of it."""
+        """[N/m] of the right hand across, in the loop: by a push, before servos undo it."""
         batch = hurcules.SimulationBatch(simulation, 1, 1)
-        ticks = round(PUSHED / simulation.dt)
         reading = hurcules.Quantities(simulation, [f"position/{HANDS[1]}"])
-        before = batch.read(reading)[0, 1]
-        site = simulation.model.site(HANDS[1])
+        rest = np.zeros((1, len(simulation.command_names)))
+        before, yields = batch.read(reading)[0, 1], 1e-6
         force = PUSH * self.share
-        batch.push(int(site.bodyid[0]), [[0.0, -force, 0.0]])
-        batch.step(ticks, np.zeros((1, len(simulation.command_names))))
-        return force / max(before - batch.read(reading)[0, 1], 1e-6)
+        body = int(simulation.model.site(HANDS[1]).bodyid[0])
+        batch.push(body, [[0.0, -force, 0.0]])
+        for _ in range(round(PUSHED / simulation.dt)):
+            batch.step(1, rest)
+            yields = max(yields, before - batch.read(reading)[0, 1])
+        return force / yields
 
 
 def load_carrier(
@@ -154,12 +157,15 @@ def load_carrier(
             f"robot {setup.name}: wanted an MJCF file, to which table and box can be added, got "
             "MuJoCo's binary"
         )
-    at = None
+    at: Place | None = None
     if place is not None:
-        numbers = np.asarray(place, dtype=object).ravel()
-        if not (len(numbers) == 3 and all(isinstance(n, Real) and np.isfinite(n) for n in numbers)):
+        try:
+            x, y, z = np.asarray(place, dtype=np.float64).tolist()
+        except (TypeError, ValueError):
+            x = y = z = np.nan
+        if not np.isfinite([x, y, z]).all():
             raise hurcules.Error(f"place: wanted x, y, z [m] of the table's top, got {place!r}")
-        at = tuple(float(n) for n in numbers)
+        at = (x, y, z)
     return _best(setup, palm, pads, at, wanted)
 
 
@@ -310,16 +316,14 @@ def _cannot(setup: RobotSetup, why: str) -> hurcules.Error:
 
 
 @lru_cache(maxsize=8)  # setups are kept by what their files hold
-def _best(
-    setup: RobotSetup, palm: str, pads: bool, at: tuple[float, ...] | None, wanted: Wanted
-) -> Carrier:
+def _best(setup: RobotSetup, palm: str, pads: bool, at: Place | None, wanted: Wanted) -> Carrier:
     """The place and posture in which the motors bear the most.
 
     Raises:
         hurcules.Error: none reaches all corners, or the motors hold nothing.
     """
     best: Carrier | None = None
-    most = 0  # corners that were reached
+    most, worth = 0, 0.0  # poses that were reached; what the best is worth
     spec = mjcf.without_visuals(_with_palms(setup, palm, pads))
     bare = mjcf.compile(spec)
     _add_things(spec, (0.0, 0.0, 0.0))
@@ -331,15 +335,19 @@ def _best(
     model.bvh_aabb[model.body_bvhadr[int(box.bodyid[0])], 3:] = box.size
     samples = _Samples(setup, bare)
     for place in _places(setup, samples, wanted) if at is None else np.array([at]):
+        x, y, z = (float(value) for value in place)
         model.body("table").pos[:] = place
         for start in samples.together(place, wanted):
             q = _posture(setup, bare, place, wanted, start)
             if q is None:
                 continue
-            reached, share = _tour(setup, model, q, place, wanted)
+            reached, share, room = _tour(setup, model, q, place, wanted)
             most = max(most, reached)
-            if reached == len(wanted.corners) + 1 and (best is None or share > best.share):
-                best = Carrier(setup, palm, pads, tuple(map(float, place)), share, q)
+            if reached <= len(wanted.corners):
+                continue
+            if best is None or room * min(share, 1.0) > worth:
+                worth = room * min(share, 1.0)
+                best = Carrier(setup, palm, pads, (x, y, z), share, q)
     if best is None:
         raise _cannot(
             setup,
@@ -371,15 +379,15 @@ def _posture(
         look.set_target(place + np.array([0.0, -side * 100.0, height]))
         tasks += [reach, look]
     posture = hurcules.inverse_kinematics(
-        robot, [setup.limits(robot), tasks], starts=1, tolerance=1e-3
+        robot, [_limits(setup, robot), tasks], starts=1, tolerance=1e-3
     )
     return posture.configuration if posture.reached else None
 
 
 def _tour(
     setup: RobotSetup, model: mujoco.MjModel, q: Array, place: Array, wanted: Wanted
-) -> tuple[int, float]:
-    """How many poses are reached in turn, and the least share of the loads borne there."""
+) -> tuple[int, float, float]:
+    """How many poses are reached in turn, the least share of the loads borne there, the `_room`."""
     plan = hurcules.Robot(model, list(setup.joints))
     plan.set_configuration(q)
     places = [hurcules.PositionTask(hand, plan, hand) for hand in HANDS]
@@ -387,7 +395,7 @@ def _tour(
     first = [plan.orientation(hand) for hand in HANDS]
     channels = {task.name: hurcules.Target(task) for task in [*places, *turns]}
     controller = hurcules.WholeBodyController(
-        plan, [setup.limits(plan), [*places, *turns], hurcules.PostureTask("posture", plan)],
+        plan, [_limits(setup, plan), [*places, *turns], hurcules.PostureTask("posture", plan)],
         channels, dt=0.02, torque_scaling=False,
         velocity=hurcules.VelocityControllerOptions(max_acceleration=MAX_ACCELERATION),
     )  # fmt: skip
@@ -398,7 +406,7 @@ def _tour(
     table, box = model.geom("table").id, model.geom("box").id
     adr = model.joint("box").qposadr[0]
     always, efforts = _touching(setup), _efforts(model, robot)
-    share, apart = np.inf, wanted.half
+    share, room, apart = np.inf, 1.0, wanted.half
     start = np.array([[0.0, 0.0, wanted.apart[1], 0.0]])
     for i, (x, y, z, yaw) in enumerate(np.concatenate([start, wanted.corners])):
         c, s = np.cos(yaw), np.sin(yaw)
@@ -416,13 +424,13 @@ def _tour(
             missed = np.linalg.norm(robot.position(hand) - goals[hand])
             turned = _rotation_vector(R @ at @ robot.orientation(hand).T)
             if missed > MISS or np.linalg.norm(turned) > TURN:
-                return i, 0.0
+                return i, 0.0, 0.0
         data.qpos[adr : adr + 7] = [*middle, np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)]
         mujoco.mj_forward(model, data)
         if _contacts(model, data, table, box) - always:
-            return i, 0.0
-        share = min(share, _bears(robot, efforts, wanted))
-    return len(wanted.corners) + 1, float(share)
+            return i, 0.0, 0.0
+        share, room = min(share, _bears(robot, efforts, wanted)), min(room, _room(robot))
+    return len(wanted.corners) + 1, float(share), room
 
 
 def _contacts(
@@ -451,6 +459,16 @@ def _touching(setup: RobotSetup) -> set[tuple[int, int]]:
     return _contacts(setup.model, data)
 
 
+def _limits(setup: RobotSetup, robot: hurcules.Robot) -> hurcules.JointLimits:
+    """Limits that leave some room to the robot's own."""
+    limits = setup.limits(robot)
+    for one in robot.coordinates:
+        room = min(ENDS, 0.1 * (one.upper - one.lower))
+        if np.isfinite(room):
+            limits.set_range(one.name, one.lower + room, one.upper - room)
+    return limits
+
+
 def _bears(robot: hurcules.Robot, efforts: Array, wanted: Wanted) -> float:
     """The share of the loads that the motors bear beside the arms' weight, in this posture."""
     weight = robot.inverse_dynamics(np.zeros(robot.size))
@@ -460,10 +478,21 @@ def _bears(robot: hurcules.Robot, efforts: Array, wanted: Wanted) -> float:
     for hand, out in zip(HANDS, (across, -across), strict=True):
         force = wanted.squeeze * out - np.array([0.0, 0.0, 0.5 * wanted.weight])
         load -= robot.position_jacobian(hand).T @ force  # what the motors hold against it
-    most = USED * efforts
-    room = np.where(load > 0.0, most - weight, most + weight)
-    shares = np.maximum(room, 0.0)[load != 0.0] / np.abs(load[load != 0.0])
+    room = np.where(load > 0.0, efforts - weight, efforts + weight)
+    shares = USED * np.maximum(room, 0.0)[load != 0.0] / np.abs(load[load != 0.0])
     return float(shares.min(initial=np.inf))
+
+
+def _room(robot: hurcules.Robot) -> float:
+    """How freely both hands move in this posture, 0 to 1: far from singular ones."""
+    least = min(
+        np.linalg.svd(
+            np.vstack([robot.position_jacobian(hand), LEVER * robot.rotation_jacobian(hand)]),
+            compute_uv=False,
+        )[5]
+        for hand in HANDS
+    )
+    return float(min(1.0, least / LEVER / FREE))
 
 
 def _efforts(model: mujoco.MjModel, robot: hurcules.Robot) -> Array:
