@@ -45,7 +45,8 @@ BOARD = 0.02  # [m] half of the table's board
 SEED, SAMPLES = 20261126, 20000  # of the postures that tell where the hands come to
 GRID, ABOUT = 0.1, 0.2  # [m] between places that are tried, and about a hand where samples count
 FACING = 0.6  # cosine of a palm's direction and that to the middle
-PLACES, STARTS = 24, 8  # places that are tried, and postures in each
+PLACES, STARTS = 48, 8  # places that are tried, and postures in each
+ENOUGH = 24  # postures that reach everything, among which the best is taken
 ENDS, LEVER, FREE = 0.15, 0.3, 0.2  # [rad] of the limits, [m], and of the Jacobian's least value
 USED = 0.4  # of what motors give beside the arms' weight: motion and knocks want the rest
 LEAST = 0.003  # of the loads of the manipulation robot: below, nothing is carried
@@ -323,7 +324,7 @@ def _best(setup: RobotSetup, palm: str, pads: bool, at: Place | None, wanted: Wa
         hurcules.Error: none reaches all corners, or the motors hold nothing.
     """
     best: Carrier | None = None
-    most, worth = 0, 0.0  # poses that were reached; what the best is worth
+    found, most, worth = 0, 0, 0.0  # postures; poses that were reached; what the best is worth
     spec = mjcf.without_visuals(_with_palms(setup, palm, pads))
     bare = mjcf.compile(spec)
     _add_things(spec, (0.0, 0.0, 0.0))
@@ -345,9 +346,12 @@ def _best(setup: RobotSetup, palm: str, pads: bool, at: Place | None, wanted: Wa
             most = max(most, reached)
             if reached <= len(wanted.corners):
                 continue
+            found += 1
             if best is None or room * min(share, 1.0) > worth:
                 worth = room * min(share, 1.0)
                 best = Carrier(setup, palm, pads, (x, y, z), share, q)
+        if found >= ENOUGH:
+            break
     if best is None:
         raise _cannot(
             setup,

@@ -47,7 +47,7 @@ YAW = 0.2  # [rad] of the goal to either side
 
 
 class Carry(ContactEnvironment):
-    """Both hands of the manipulation robot squeeze a box, lift it and bring it to a goal.
+    """Both hands of the manipulation robot, or of any other, squeeze a box and bring it to a goal.
 
     A command moves the box, not the hands: they follow its twist as if they were part of it. The
     right hand keeps the squeeze as a force across; both close until they feel the box where a
@@ -55,6 +55,14 @@ class Carry(ContactEnvironment):
     1) and place of the box and the goal differ between episodes, the robot does not. An episode
     ends with success when the box was within 30 mm and 5 degrees of its goal for 0.5 s, and fails
     when it is dropped (50 mm below where it stood, or tilted by 60 degrees).
+
+    A robot of another file (`robot=`, with the frames of its left and its right hand) is read as
+    MjSpec, so that table, box, sensors and, before its frames, flat pads can be added. Its base is
+    fixed. Table and goals come where both hands reach the box all the way without touching
+    anything else; `place=` says where instead. Masses and squeezes are those below times the share
+    that its motors bear there, at most 1: `action_scale` and `mass` in `info` have it. Forces are
+    observed over that share, so that one policy acts on all; sizes and ways are the same. The
+    compliance of the squeeze follows from how far a push moves the hand.
 
     Actions, in [-1, 1]; zero holds the hands, and asks for no squeeze:
 

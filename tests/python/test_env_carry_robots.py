@@ -146,6 +146,17 @@ def test_the_palms_are_where_the_observation_says(options: dict[str, Any]) -> No
     assert info["half_y"] < 0.28
 
 
+def test_both_arms_are_the_robot_whose_masses_are_drawn(options: dict[str, Any]) -> None:
+    """They are two trees; the box is no part of them."""
+    env = gym.make("Hurcules/Carry-v0", mass=2.0, **options).unwrapped
+    assert isinstance(env, SingleEnv)
+    env.reset(seed=0)
+    nominal, drawn = env.environment.simulation.model, env._episodes._models[0]
+    for name in ("l_upper", "r_upper"):
+        assert drawn.body(name).mass == 2.0 * nominal.body(name).mass
+    assert drawn.body("box").mass == env._episodes.memory["mass"][0, 0]
+
+
 def test_what_cannot_carry_is_refused(options: dict[str, Any], tmp_path: Path) -> None:
     def refused(match: str, **given: Any) -> None:
         with pytest.raises(hurcules.Error, match=match):
@@ -160,7 +171,7 @@ def test_what_cannot_carry_is_refused(options: dict[str, Any], tmp_path: Path) -
     refused("come to both sides of a box", place=(5.0, 0.0, 1.0))
     refused("come to both sides of a box", frames=("r_hand", "l_hand"), place=(0.4, 0.0, 0.9))
     refused("wanted an MJCF file", robot=_binary(options["robot"], tmp_path))
-    refused("wanted motors that hold", robot=written(tmp_path, two_arms(0.05)))
+    refused("wanted motors that hold", robot=written(tmp_path, two_arms(0.01)))
     refused("scoops", robot="rescue", frames=None)
     refused("frames: robot 'manipulation' has its own", robot="manipulation")
     refused("path of an MJCF file", robot="no_such_robot.xml")
