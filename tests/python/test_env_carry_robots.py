@@ -171,7 +171,8 @@ def test_what_cannot_carry_is_refused(options: dict[str, Any], tmp_path: Path) -
     refused("come to both sides of a box", place=(5.0, 0.0, 1.0))
     refused("come to both sides of a box", frames=("r_hand", "l_hand"), place=(0.4, 0.0, 0.9))
     refused("wanted an MJCF file", robot=_binary(options["robot"], tmp_path))
-    refused("wanted motors that hold", robot=written(tmp_path, two_arms(0.01)))
+    place = environment_of(options)._place  # type: ignore[attr-defined]
+    refused("wanted motors that hold", robot=written(tmp_path, two_arms(0.01)), place=place)
     refused("scoops", robot="rescue", frames=None)
     refused("frames: robot 'manipulation' has its own", robot="manipulation")
     refused("path of an MJCF file", robot="no_such_robot.xml")
