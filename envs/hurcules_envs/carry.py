@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
+from hurcules_envs.carriers import FEELS, HANDS, Carrier, Wanted, load_carrier
 from hurcules_envs.contact import (
     ContactEnvironment,
     add_force_sensor,
@@ -20,6 +22,7 @@ from hurcules_envs.contact import (
     view,
 )
 from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.robots import MAX_ACCELERATION
 from hurcules_envs.standing import SUPPORT, place_hands, settle
 
 __all__ = ["Carry"]
@@ -31,14 +34,20 @@ APART, HEIGHT = 0.34, 0.97  # [m] of the tcps from the middle, above the ground,
 CLOSED = 0.05  # [m] of the fingers
 MOST = 600.0  # [N] full scale of the squeeze
 CLOSING = 0.1  # [m/s] at which the hands close until they feel the box
-FEELS = 5.0  # [N]
+FELT = 5.0  # [N]
 NEAR, TURNED, HOLD = 0.03, math.radians(5.0), 0.5  # [m], [rad], [s] of the goal
 DROPPED = 0.05  # [m] below its start
 COMPLIANCE, STIFFEST = 2e-4, 3e4  # [m/s/N] of the squeeze, [N/m] of the arms
+RATE = 12.0  # [1/s] at which the squeeze of another robot comes to what is wanted
+MASS = (5.0, 60.0)  # [kg] of the box
+HALF = np.array([[0.05, 0.19, 0.09], [0.06, 0.25, 0.14]])  # [m] half sizes of the box
+ASIDE = 0.02  # [m] of the box from the table's middle
+GOAL = np.array([[0.0, -0.06, 0.08], [0.10, 0.06, 0.25]])  # [m] from where the box stands
+YAW = 0.2  # [rad] of the goal to either side
 
 
 class Carry(ContactEnvironment):
-    """Both hands of the manipulation robot squeeze a box, lift it and bring it to a goal.
+    """Both hands of the manipulation robot, or of any other, squeeze a box and bring it to a goal.
 
     A command moves the box, not the hands: they follow its twist as if they were part of it. The
     right hand keeps the squeeze as a force across; both close until they feel the box where a
@@ -46,6 +55,14 @@ class Carry(ContactEnvironment):
     1) and place of the box and the goal differ between episodes, the robot does not. An episode
     ends with success when the box was within 30 mm and 5 degrees of its goal for 0.5 s, and fails
     when it is dropped (50 mm below where it stood, or tilted by 60 degrees).
+
+    A robot of another file (`robot=`, with the frames of its left and its right hand) is read as
+    MjSpec, so that table, box, sensors and, before its frames, flat pads can be added. Its base is
+    fixed. Table and goals come where both hands reach the box all the way without touching
+    anything else; `place=` says where instead. Masses and squeezes are those below times the share
+    that its motors bear there, at most 1: `action_scale` and `mass` in `info` have it. Forces are
+    observed over that share, so that one policy acts on all; sizes and ways are the same. The
+    compliance of the squeeze follows from how far a push moves the hand.
 
     Actions, in [-1, 1]; zero holds the hands, and asks for no squeeze:
 
@@ -106,14 +123,78 @@ class Carry(ContactEnvironment):
             "squeeze": ("squeeze",),
         }
     )
-    quantities = (
-        "position/L_tcp", "position/R_tcp", "matrix/L_tcp", "matrix/R_tcp", "velocity/L_tcp",
-        "velocity/R_tcp", "target/left", "position/box", "matrix/box", "sensor/L_feel",
-        "sensor/R_feel",
-    )  # fmt: skip
+
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+        robot: str | Path = "manipulation",
+        frames: Sequence[str] | None = None,
+        joints: Sequence[str] | None = None,
+        palm: str = "z",
+        pads: bool = True,
+        place: Sequence[float] | None = None,
+    ) -> None:
+        """Builds scene, controller and loop.
+
+        Args:
+            fidelity: "exact" or "fast".
+            sparse: no shaped reward: success and the time at the goal alone.
+            rate: steps a second [Hz].
+            action: "twist" (what the class says), or "joint" for comparison.
+            robot: "manipulation", or the path of an MJCF file.
+            frames: of a path: its left and its right hand, bodies or sites.
+            joints: of a path: its coordinates.
+            palm: of a path: the axis of the frames that looks out of the palms, "x", "-z", ...
+            pads: of a path: flat pads 40 mm thick stand before the frames; False: the frames lie in
+                the palms' own surfaces.
+            place: of a path: x, y, z [m] of the middle of the table's top; None: it is looked for.
+
+        Raises:
+            hurcules.Error: a value that does not exist or is out of range, or a robot that cannot
+                carry: the text says why.
+        """
+        self._own: Carrier | None = None
+        if robot == "manipulation":
+            given = {"frames": frames, "joints": joints, "place": place}
+            for name, value in given.items():
+                if value is not None:
+                    raise hurcules.Error(
+                        f"{name}: robot 'manipulation' has its own; wanted none, got {value!r}"
+                    )
+            self._hands, self._feels, self._back = ("L_tcp", "R_tcp"), ("L_feel", "R_feel"), PALM
+            self._place, self._share = (TABLE[0], 0.0, TABLE[1]), 1.0
+        else:
+            if robot == "rescue":
+                raise hurcules.Error(
+                    "robot 'rescue': wanted palms that come to both sides of a box; its lower arms "
+                    "are scoops: 'manipulation' or the path of an MJCF file carries"
+                )
+            own = load_carrier(robot, frames, joints, palm, pads, place, WANTED)
+            self._own, self._hands, self._feels, self._back = own, HANDS, FEELS, HALF_HAND
+            self._place, self._share = own.place, own.share
+        self._compliance, self._stiffness = COMPLIANCE, STIFFEST
+        left, right = self._hands
+        self.quantities = (
+            f"position/{left}", f"position/{right}", f"matrix/{left}", f"matrix/{right}",
+            f"velocity/{left}", f"velocity/{right}", "target/left", "position/box", "matrix/box",
+            *(f"sensor/{feel}" for feel in self._feels),
+        )  # fmt: skip
+        super().__init__(fidelity, sparse, rate, action)
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
-        self.actions = {"box": np.array([0.15] * 3 + [0.3] * 3), "squeeze": MOST}
+        most = MOST * self._share
+        self.actions = {"box": np.array([0.15] * 3 + [0.3] * 3), "squeeze": most}
+        self._box = model.joint("box").qposadr[0]
+        self._scratch = mujoco.MjData(model)
+        if self._own is not None:
+            loop = self._loop(model, self._own.plan(model), tick)
+            self._stiffness = self._own.stiffness(loop)
+            self._compliance = RATE / self._stiffness
+            self.simulation = self._loop(model, self._own.plan(model), tick)
+            return
         places = {
             side: np.array([TABLE[0] + PALM, y, HEIGHT])
             for side, y in (("L", APART), ("R", -APART))
@@ -121,11 +202,11 @@ class Carry(ContactEnvironment):
         closed = {f"{side}_grip_{i}": CLOSED for side in "LR" for i in "12"}
         plan = place_hands(model, places, closed)
         self.simulation = self._loop(model, settle(self._loop(model, plan, tick)), tick)
-        self._box = model.joint("box").qposadr[0]
-        self._scratch = mujoco.MjData(model)
 
     def scene(self) -> mujoco.MjSpec:
         """The robot stands behind a table with a box on it."""
+        if self._own is not None:
+            return self._own.scene()
         spec = models.parse([models.path("manipulation"), models.path("flat")], "carry")
         spec.worldbody.add_geom(
             spec.find_default("terrain"), name="table", type=mujoco.mjtGeom.mjGEOM_BOX,
@@ -142,35 +223,48 @@ class Carry(ContactEnvironment):
         return spec
 
     def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
-        left = hurcules.PositionTask("left", plan, "L_tcp")
-        right = hurcules.PositionTask("right", plan, "R_tcp", axes=[[1, 0, 0], [0, 0, 1]])
+        own, share, compliance = self._own, self._share, self._compliance
+        most = 1500.0 if own is None else MOST * share + 0.3 / compliance  # [N] of the channel
+        left = hurcules.PositionTask("left", plan, self._hands[0])
+        right = hurcules.PositionTask("right", plan, self._hands[1], axes=[[1, 0, 0], [0, 0, 1]])
         squeeze = hurcules.ForceTask(
-            "squeeze", plan, "R_tcp", axis=[0.0, 1.0, 0.0], force_des=0.0, environment=STIFFEST,
-            gains=hurcules.ForceGains(compliance=COMPLIANCE, dt=tick),
-            contact=hurcules.ContactOptions(f_min=FEELS, f_max=2000.0),
+            "squeeze", plan, self._hands[1], axis=[0.0, 1.0, 0.0], force_des=0.0,
+            environment=self._stiffness,
+            gains=hurcules.ForceGains(compliance=compliance, dt=tick),
+            contact=hurcules.ContactOptions(f_min=FELT * share, f_max=most + 500.0),
         )  # fmt: skip
         turns = {
-            side: hurcules.OrientationTask(f"{side} turn", plan, f"{side}_tcp") for side in "LR"
+            side: hurcules.OrientationTask(f"{side} turn", plan, hand)
+            for side, hand in zip("LR", self._hands, strict=True)
         }
         for task in (left, right, squeeze):
             task.max_lead = 0.1
+        levels: list[Any] = [
+            [left, right, squeeze, *turns.values()], hurcules.PostureTask("posture", plan),
+        ]  # fmt: skip
+        options: dict[str, Any] = {
+            "support": SUPPORT, "servo": hurcules.servo_table("manipulation"),
+        }  # fmt: skip
+        if own is not None:
+            levels.insert(0, own.setup.limits(plan))
+            slow = hurcules.VelocityControllerOptions(max_acceleration=MAX_ACCELERATION)
+            options = {"velocity": slow}
         controller = self.controller(
             plan,
-            [[left, right, squeeze, *turns.values()], hurcules.PostureTask("posture", plan)],
+            levels,
             {
                 "left": hurcules.Twist(left, 0.3),
                 "right": hurcules.Twist(right, 0.3),
                 "across": hurcules.Twist(squeeze, 0.3),
-                "squeeze": hurcules.ForceReference(squeeze, 1500.0),
+                "squeeze": hurcules.ForceReference(squeeze, most),
                 "left_turn": hurcules.Twist(turns["L"], 0.6),
                 "right_turn": hurcules.Twist(turns["R"], 0.6),
             },
             dt=tick,
-            support=SUPPORT,
-            servo=hurcules.servo_table("manipulation"),
+            **options,
         )
         simulation = hurcules.Simulation(model=model, controller=controller, record=False)
-        controller.sense(squeeze, "R_feel", row=2)
+        controller.sense(squeeze, self._feels[1], row=2)
         return simulation
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
@@ -191,32 +285,35 @@ class Carry(ContactEnvironment):
         if self.action == "joint":
             return action
         v, w, squeeze = action["box"][:, :3], action["box"][:, 3:], action["squeeze"]
-        lever = 0.5 * (self._palm(numbers, "L") - self._palm(numbers, "R"))
+        squeeze = squeeze / self._share
+        lever = 0.5 * (self._palm(numbers, 0) - self._palm(numbers, 1))
         left, right = v + np.cross(w, lever), v - np.cross(w, lever)
         closing = CLOSING * np.clip(squeeze[:, 0] / 100.0, -1.0, 1.0)
         forces = self._forces(numbers)
-        left[:, 1] -= np.where((closing < 0.0) | (forces[:, 0] < FEELS), closing, 0.0)
+        left[:, 1] -= np.where((closing < 0.0) | (forces[:, 0] < FELT), closing, 0.0)
         across = right[:, 1:2] + closing[:, None]  # not where it feels the box: there force rules
         return {
             "left": left,
             "right": right[:, [0, 2]],
             "across": across,
             # a first-order force law moves by C (f_des - f): what the box's motion takes is added
-            "squeeze": np.maximum(squeeze, 0.0) + right[:, 1:2] / COMPLIANCE,
+            "squeeze": np.maximum(squeeze, 0.0) * self._share + right[:, 1:2] / self._compliance,
             "left_turn": w,
             "right_turn": w,
         }
 
     def start(self, generator: np.random.Generator) -> Start:
         """A box on the table, and where it is wanted."""
-        size = generator.uniform([0.05, 0.19, 0.09], [0.06, 0.25, 0.14])
-        x, y = TABLE[0] + generator.uniform(-0.02, 0.02), generator.uniform(-0.02, 0.02)
-        place = np.array([x, y, TABLE[1] + size[2]])
+        size = generator.uniform(*HALF)
+        x, y, top = self._place
+        x, y = x + generator.uniform(-ASIDE, ASIDE), y + generator.uniform(-ASIDE, ASIDE)
+        place = np.array([x, y, top + size[2]])
         qpos = np.array(self.simulation.data.qpos)
         qpos[self._box : self._box + 7] = [*place, 1.0, 0.0, 0.0, 0.0]
-        drawn = {"mass": generator.uniform(5.0, 60.0), "friction": generator.uniform(0.8, 1.0)}
-        goal = place + generator.uniform([0.0, -0.06, 0.08], [0.10, 0.06, 0.25])
-        yaw = generator.uniform(-0.2, 0.2)
+        mass = self._share * generator.uniform(*MASS)
+        drawn = {"mass": mass, "friction": generator.uniform(0.8, 1.0)}
+        goal = place + generator.uniform(*GOAL)
+        yaw = generator.uniform(-YAW, YAW)
         memory = {"size": size, "stood": place[2], "goal": goal, "yaw": yaw}
         sizes = dict(zip(("half_x", "half_y", "half_z"), map(float, size), strict=True))
         return Start(qpos, memory | drawn, drawn | sizes)
@@ -232,13 +329,13 @@ class Carry(ContactEnvironment):
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""
-        box = numbers["position/box"]
+        box, (left, right) = numbers["position/box"], self._hands
         return {
-            "left": self._palm(numbers, "L") - box,
-            "right": self._palm(numbers, "R") - box,
+            "left": self._palm(numbers, 0) - box,
+            "right": self._palm(numbers, 1) - box,
             "way": numbers["goal"] - box,
             "turn": self._turn(numbers),
-            "velocity": 0.5 * (numbers["velocity/L_tcp"] + numbers["velocity/R_tcp"]),
+            "velocity": 0.5 * (numbers[f"velocity/{left}"] + numbers[f"velocity/{right}"]),
             "forces": self._forces(numbers),
             "raised": box[:, 2:] - numbers["stood"],
             "size": numbers["size"],
@@ -288,6 +385,9 @@ class Carry(ContactEnvironment):
 
     def camera(self) -> mujoco.MjvCamera:
         """From the front on the left."""
+        if self._own is not None:
+            x, y, top = self._place
+            return view((x, y, top + 0.15), 2.6, 215.0, -15.0)
         return view((0.65, 0.0, 1.0), 2.6, 215.0, -15.0)
 
     def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:
@@ -295,14 +395,16 @@ class Carry(ContactEnvironment):
         memory = {name: values[i] for name, values in episodes.memory.items()}
         box_mark(scene, memory["goal"], memory["size"], _yawed(memory["yaw"])[0], GREEN)
 
-    def _palm(self, numbers: Numbers, side: str) -> Array:
-        """(n, 3) [m] middle of a palm in the world."""
-        ahead = numbers[f"matrix/{side}_tcp"].reshape(-1, 3, 3)[:, :, 0]
-        return numbers[f"position/{side}_tcp"] - PALM * ahead
+    def _palm(self, numbers: Numbers, side: int) -> Array:
+        """(n, 3) [m] middle of a palm in the world, of the left (0) or the right hand (1)."""
+        hand = self._hands[side]
+        ahead = numbers[f"matrix/{hand}"].reshape(-1, 3, 3)[:, :, 0]
+        return numbers[f"position/{hand}"] - self._back * ahead
 
     def _forces(self, numbers: Numbers) -> Array:
-        """(n, 2) [N] of the left and the right hand, across, towards the box."""
-        return np.stack([-numbers["sensor/L_feel"][:, 2], numbers["sensor/R_feel"][:, 2]], axis=1)
+        """(n, 2) [N] / share of the left and the right hand, across, towards the box."""
+        left, right = (numbers[f"sensor/{feel}"][:, 2] for feel in self._feels)
+        return np.stack([-left, right], axis=1) / self._share
 
     def _turn(self, numbers: Numbers) -> Array:
         """(n, 3) [rad] rotation vector, in the world, that brings the box to its goal."""
@@ -335,3 +437,23 @@ def _rotation_vectors(R: Array) -> Array:
     angle = np.arctan2(sine, 0.5 * (np.trace(R, axis1=1, axis2=2) - 1.0))
     share = np.where(sine > 1e-9, angle / np.maximum(2.0 * sine, 1e-9), 0.5)
     return share[:, None] * axis
+
+
+def _wanted() -> Wanted:
+    """What hands have to do to carry any of the boxes to any of its goals."""
+    low, high = HALF[0, 2] + GOAL[0, 2], HALF[1, 2] + GOAL[1, 2]
+    heights = (HALF[0, 2], 0.5 * (low + high), high)
+    x, y = (GOAL[0, 0] - ASIDE, GOAL[1, 0] + ASIDE), GOAL[1, 1] + ASIDE
+    sides = ((x[0], -y, -YAW), (x[1], -y, YAW), (x[1], y, -YAW), (x[0], y, YAW))
+    corners = [(*side[:2], z, side[2]) for side in sides for z in heights]
+    return Wanted(
+        apart=(APART - HALF_HAND, HEIGHT - TABLE[1]),
+        half=HALF[1, 1],
+        corners=np.array([(0.0, 0.0, heights[0], 0.0), *corners]),
+        squeeze=SQUEEZE,
+        weight=9.81 * MASS[1],
+        box=(HALF[1, 0], HALF[1, 1] - 0.005, HALF[1, 2]),
+    )
+
+
+WANTED = _wanted()

@@ -138,8 +138,7 @@ class Randomisation:
         self.set_ranges(given)
         self._seed, self._count = np.zeros(n), np.zeros(n)
         self._past = np.zeros((n, 0, 0))
-        root = self._root(model)
-        self._robot = np.flatnonzero(model.body_rootid == root)
+        self._robot = np.flatnonzero(np.isin(model.body_rootid, self._roots()))
         # of several as heavy the first
         self.pushed = int(self._robot[np.argmax(model.body_mass[self._robot])])
         groups = environment.observation
@@ -273,10 +272,11 @@ class Randomisation:
             self._past = np.zeros((len(self._seed), DELAY, actions))
         return self._past
 
-    def _root(self, model: mujoco.MjModel) -> int:
-        """The root body of the robot: that of its first driven joint."""
-        joint = int(model.actuator_trnid[0, 0])
-        return int(model.body_rootid[model.jnt_bodyid[joint]])
+    def _roots(self) -> list[int]:
+        """The root bodies of the robot: those of its coordinates' joints, two of two arms."""
+        model = self._simulation.model
+        joints = self._simulation.controller.joints
+        return sorted({int(model.body_rootid[model.joint(joint).bodyid[0]]) for joint in joints})
 
 
 _STATISTICS = ("meaninertia", "meanmass", "meansize", "extent")
