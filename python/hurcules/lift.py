@@ -1,8 +1,8 @@
-"""The missions `lift` and `casualty`: the rescue robot lifts a person.
+"""The missions `lift`, `casualty` and `crossing`: the rescue robot lifts a person.
 
-In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off.
-The phases stand in models/missions/lift.toml and casualty.toml, the controller that they command in
-cpp/hurcules/mission/table_controllers.cpp; here is the person.
+In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off,
+in `crossing` a terrain lies on the way there and home. The phases stand in models/missions, the
+controller that they command in cpp/hurcules/mission/table_controllers.cpp; here is the person.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def model(person: Person) -> mujoco.MjModel:
     """The robot, and the person across its way, the head to its left.
 
     Raises:
-        Error: a person that there is not.
+        Error: a person, or a terrain, that there is not.
     """
     return spec(person).compile()
 

@@ -18,8 +18,8 @@
     trouble = [{ when = "monitor/static_margin_m <= 0.03", do = ["lower"] }]
 
 Rows of another table are taken by `[[phase]]` with `include = "lift.toml"` and `rows = ["settle",
-"raise"]`: from the first to the second of these, with the monitors that watch them there. The same
-trouble in many phases is said once:
+"raise"]`: from the first to the second of these, with what watches them there. The same trouble in
+many phases is said once:
 
     [[monitor]]
     when = "monitor/static_margin_m <= 0.02 for 0.2 s"
@@ -34,8 +34,8 @@ mass 2 m behind that body, with its heading; without a body counted from where t
 
 A posture is `posture = "CHANNEL"` with `keys = [{ share = 1.0, HIP = 0.3, SP = 1.2 }]`. Quantities
 are columns of the log (`simulation.channels`). A `[[figure]]` is a quantity over some phases, with
-the bounds that make a run a success. `include = "casualty.toml"` with `names` takes those of another
-table.
+the bounds that make a run a success; `include = "casualty.toml"` with `names` takes those of
+another table.
 """
 
 from __future__ import annotations
