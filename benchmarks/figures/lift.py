@@ -1,8 +1,8 @@
 """docs/lift.jpg, casualty.jpg, crossing.jpg, disposal.jpg: phases of these missions, each one run.
 
 `python benchmarks/figures/lift.py [lift|casualty|crossing|disposal]`, all without a name; needs
-an OpenGL without a window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four pictures of
-the film that `hurcules run casualty` has written to out/casualty.
+an OpenGL without a window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four
+pictures of the film that `hurcules run casualty` has written to out/casualty.
 """
 
 from __future__ import annotations
