@@ -1,13 +1,14 @@
 """Lifts many persons: masses, places, headings, frictions; one line of JSON a run.
 
     python benchmarks/lift_sweep.py OUT.jsonl [--mission casualty] [--cells nominal,place,mass]
-                                    [--seeds 1] [--workers 2]
+                                    [--seeds 1] [--first 1000] [--workers 2]
 
-Each run is the mission `lift`, or `casualty`, in the physics, friction alone. A seed moves the
-person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad. With
-`--cells drawn` it draws who lies where too: within 0.3 m and 0.3 rad, friction 0.4 to 0.9. Runs
-that OUT.jsonl already holds are left out, so that an interrupted sweep goes on. `--show` prints the
-success map of a file, and what went wrong how often.
+Each run is the mission `lift`, `casualty` or `crossing` in the physics, friction alone. A seed
+moves the person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad; in
+`crossing`, where `--terrain road --way 5 --rise 0.1` say what lies on the way, it draws the road
+too. With `--cells drawn` it draws who lies where too: within 0.3 m and 0.3 rad, friction 0.4 to
+0.9. Runs that OUT.jsonl already holds are left out, so that an interrupted sweep goes on. `--show`
+prints the success map of a file, and what went wrong how often.
 """
 
 from __future__ import annotations
@@ -83,12 +84,14 @@ def drawn(seed: int) -> Cell:
     }
 
 
-def settings(kind: str, seeds: int) -> Iterator[tuple[Cell, int]]:
+def settings(kind: str, seeds: int, first: int | None) -> Iterator[tuple[Cell, int]]:
     """The settings of a part of the sweep, each with its seeds."""
     if kind == "drawn":
-        yield from ((drawn(seed), seed) for seed in range(FIRST_DRAWN, FIRST_DRAWN + seeds))
+        begin = FIRST_DRAWN if first is None else first
+        yield from ((drawn(seed), seed) for seed in range(begin, begin + seeds))
     else:
-        yield from ((cell, FIRST_SEED + seed) for cell in cells(kind) for seed in range(seeds))
+        begin = FIRST_SEED if first is None else first
+        yield from ((cell, begin + seed) for cell in cells(kind) for seed in range(seeds))
 
 
 def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
@@ -126,7 +129,11 @@ def key(run: dict[str, Any]) -> tuple[Any, ...]:
 
 
 def _place(run: dict[str, Any]) -> tuple[Any, ...]:
-    return (run["mass"], *run["offset"], run["yaw"], run["friction"], run["pose"])
+    return (run["mass"], *run["offset"], run["yaw"], run["friction"], run["pose"], _terrain(run))
+
+
+def _terrain(run: dict[str, Any]) -> str:
+    return " ".join(str(run[name]) for name in ("terrain", "way", "rise") if name in run)
 
 
 def _slid(figures: dict[str, float]) -> float:
@@ -143,7 +150,7 @@ def show(path: Path) -> None:
         table[_place(run)].append(run)
     print("mass  ahead  left   yaw    mu    pose   success  push  slid   torque  failures")
     for place, found in table.items():
-        mass, dx, dy, yaw, mu, pose = place
+        mass, dx, dy, yaw, mu, pose, terrain = place
         good = sum(run["success"] for run in found)
         push = max(run["figures"]["push_N"] for run in found)
         drift = max(_slid(run["figures"]) for run in found)
@@ -151,7 +158,7 @@ def show(path: Path) -> None:
         why = "; ".join(run["reason"] for run in found if not run["success"])
         print(
             f"{mass:4} {dx:+6.2f} {dy:+6.2f} {yaw:+6.2f} {mu:5.2f} {pose:>6} "
-            f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f}   {why}"
+            f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f}   {terrain} {why}"
         )
     good = sum(run["success"] for run in runs)
     print(f"{good} of {len(runs)}")
@@ -174,16 +181,23 @@ def main() -> None:
     parser.add_argument("--mission", default="lift", choices=hurcules.lift.MISSIONS)
     parser.add_argument("--cells", default="nominal")
     parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--first", type=int)
+    parser.add_argument("--terrain", default="road")
+    parser.add_argument("--way", type=float, default=5.0)
+    parser.add_argument("--rise", type=float, default=0.1)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--show", action="store_true")
     arguments = parser.parse_args()
     if arguments.show:
         return show(arguments.out)
     done = {key(run) for run in held(arguments.out)}
+    ground = {name: getattr(arguments, name) for name in ("terrain", "way", "rise")}
+    over = arguments.mission == "crossing"
     tasks = [
         (arguments.mission, cell, seed)
         for kind in arguments.cells.split(",")
-        for cell, seed in settings(kind, arguments.seeds)
+        for cell, seed in settings(kind, arguments.seeds, arguments.first)
+        for cell in [cell | {**ground, "ground": seed} if over else cell]
         if key(cell | {"mission": arguments.mission, "seed": seed}) not in done
     ]
     append(

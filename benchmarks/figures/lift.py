@@ -1,8 +1,8 @@
-"""docs/lift.jpg, casualty.jpg, disposal.jpg: the phases of these missions, each one run.
+"""docs/lift.jpg, casualty.jpg, crossing.jpg, disposal.jpg: phases of these missions, each one run.
 
-`python benchmarks/figures/lift.py [lift|casualty|disposal]`, all without a name; needs an OpenGL
-without a window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four pictures of
-the film that `hurcules run casualty` has written to out/casualty.
+`python benchmarks/figures/lift.py [lift|casualty|crossing|disposal]`, all without a name; needs
+an OpenGL without a window. `python benchmarks/figures/lift.py film` draws docs/rescue.jpg, four
+pictures of the film that `hurcules run casualty` has written to out/casualty.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FILM_SIZE = (640, 360)  # [pixels] of each picture
 
 @dataclass(frozen=True)
 class Sheet:
-    """What is shown of a mission: the end of each of these phases.
+    """What is shown of a mission: the end of each of these phases, or what is half way of it.
 
     What is fetched lies turned by `yaw` [rad]; the camera goes with the body `follows`, if any.
     """
@@ -50,6 +50,10 @@ SHEETS = {
         ("stand", "under", "lift", "raise", "sit down", "fold the right leg", "fold the left leg",
          "slide the bed out", "lay down", "arms out", "arms free", "hand over"),
         follows="casualty_pelvis",
+    ),
+    "crossing": Sheet(
+        ("half way: cross", "arms down", "carry", "arms free", "half way: home", "hand over"),
+        follows="upper_legs",
     ),
     "disposal": Sheet(
         ("approach", "turn the waist", "swing both lower legs", "stand up", "over the bars",
@@ -72,7 +76,7 @@ def camera(model: mujoco.MjModel, follows: str) -> mujoco.MjvCamera:
 
 
 def moments(mission: str) -> tuple[mujoco.MjModel, dict[str, np.ndarray]]:
-    """The model, and qpos at the end of each phase."""
+    """The model, and qpos at the end of each phase and half way of it."""
     simulation = hurcules.Simulation(
         mission,
         SEED,
@@ -80,11 +84,12 @@ def moments(mission: str) -> tuple[mujoco.MjModel, dict[str, np.ndarray]]:
         record=False,
         parameters={"yaw": SHEETS[mission].yaw},
     )
-    ends: dict[str, np.ndarray] = {}
+    passed: dict[str, list[np.ndarray]] = {}
     while not simulation.finished:
         simulation.step(20)
-        ends[simulation.phase] = simulation.data.qpos.copy()
-    return simulation.model, ends
+        passed.setdefault(simulation.phase, []).append(simulation.data.qpos.copy())
+    halves = {f"half way: {phase}": places[len(places) // 2] for phase, places in passed.items()}
+    return simulation.model, halves | {phase: places[-1] for phase, places in passed.items()}
 
 
 def sheet(model: mujoco.MjModel, ends: dict[str, np.ndarray], what: Sheet) -> Image.Image:

@@ -141,6 +141,8 @@ def run_mission(
 
     - `hurcules run casualty --mass 120`
 
+    - `hurcules run crossing --terrain road --rise 0.1 --ground 7`
+
     - `hurcules run lift --mass 90 --offset 0.05,-0.1 --yaw 0.2 --friction 0.6 --pose back`
 
     - `hurcules run disposal --mass 20 --offset 0.05,-0.1 --yaw 0.2 --friction 0.8`

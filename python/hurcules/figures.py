@@ -57,6 +57,7 @@ FIGURES = {
     "left_arm_share": Figure("share of the weight on the left arm in the end"),
     "right_arm_share": Figure("share of the weight on the right arm in the end"),
     "way_home_m": Figure("came back by, seen along the way it came"),
+    "home_x_m": Figure("in the end this far ahead of where it began"),
     "slid_ahead_m": Figure("slid along the robot on the way home by"),
     "slid_aside_m": Figure("slid across the robot on the way home by"),
     "carried_on_ground_share": Figure("share of the weight on the ground once carried, largest"),

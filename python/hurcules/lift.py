@@ -1,8 +1,8 @@
-"""The missions `lift` and `casualty`: the rescue robot lifts a person.
+"""The missions `lift`, `casualty` and `crossing`: the rescue robot lifts a person.
 
-In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off.
-The phases stand in models/missions/lift.toml and casualty.toml, the controller that they command in
-cpp/hurcules/mission/table_controllers.cpp; here is the person.
+In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off,
+in `crossing` a terrain lies on the way there and home. The phases stand in models/missions, the
+controller that they command in cpp/hurcules/mission/table_controllers.cpp; here is the person.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from hurcules.mission_table import Mission
 
 __all__ = [
     "MISSIONS",
+    "Away",
     "Person",
     "controller",
     "mission",
@@ -29,11 +30,12 @@ __all__ = [
     "spec",
 ]
 
-MISSIONS = ("lift", "casualty")
+MISSIONS = ("lift", "casualty", "crossing")
 CONTROLLER = "lift"
 SUPPORT = "lower_leg_L"
 START = _core.lift_start()
 DISTANCE = 3.30  # [m] of the person's middle from the knee axis: 1 m for the approach
+NEAR, BEYOND = 1.5, 0.5  # [m] of the knee axis: before the terrain, and behind it
 
 
 @dataclass(frozen=True)
@@ -55,32 +57,63 @@ class Person:
     pose: str = "back"
 
 
-def person(parameters: Mapping[str, Any]) -> Person:
+@dataclass(frozen=True)
+class Away(Person):
+    """Who lies beyond a terrain, and what it is.
+
+    Attributes:
+        terrain: a "road", rough like those of ISO 8608, or "ramps" that cross each other's way.
+        way: [m] across it.
+        rise: [m] from its lowest to its highest point.
+        ground: a whole number >= 0, draws the road.
+    """
+
+    terrain: str = "road"
+    way: float = 5.0
+    rise: float = 0.10
+    ground: int = 0
+
+
+def person(parameters: Mapping[str, Any], name: str = "lift") -> Person:
     """A person from parameters by name; the others keep their defaults.
+
+    Args:
+        parameters: of `Person`, in the mission "crossing" those of `Away` too.
+        name: of the mission.
 
     Raises:
         Error: no such parameter, or an offset that is not two numbers.
     """
-    made = record(Person, "person", parameters)
+    made = record(Away if name == "crossing" else Person, "person", parameters)
     require_offset("person", made.offset)
     return made
 
 
-def parameters_of(words: Sequence[str]) -> dict[str, Any]:
+def parameters_of(words: Sequence[str], name: str = "lift") -> dict[str, Any]:
     """What a command line says of the person: `--mass 90 --offset 0.05,-0.1 --yaw 0.2`.
+
+    Args:
+        words: of the command line.
+        name: of the mission.
 
     Raises:
         Error: another option, or a value that is none.
     """
-    return read_options(words, _OPTIONS)
+    return read_options(words, _OPTIONS | _OF_THE_WAY if name == "crossing" else _OPTIONS)
 
 
-_OPTIONS: Mapping[str, Callable[[str], Any]] = {
+_OPTIONS: dict[str, Callable[[str], Any]] = {
     "--mass": int,
     "--offset": pair,
     "--yaw": float,
     "--friction": float,
     "--pose": str,
+}
+_OF_THE_WAY: dict[str, Callable[[str], Any]] = {
+    "--terrain": str,
+    "--way": float,
+    "--rise": float,
+    "--ground": int,
 }
 
 
@@ -88,7 +121,7 @@ def model(person: Person) -> mujoco.MjModel:
     """The robot, and the person across its way, the head to its left.
 
     Raises:
-        Error: a person that there is not.
+        Error: a person, or a terrain, that there is not.
     """
     return spec(person).compile()
 
@@ -96,10 +129,17 @@ def model(person: Person) -> mujoco.MjModel:
 def spec(person: Person) -> mujoco.MjSpec:
     """The same, not compiled yet."""
     dx, dy = person.offset
-    with in_words_of({"lying": "pose", "heading": "yaw", "cloth": "friction"}):
+    terrain, seed = {}, 0
+    if isinstance(person, Away):
+        terrain = {"terrain": person.terrain, "way": person.way, "rise": person.rise, "near": NEAR}
+        dx, seed = dx + NEAR + person.way + BEYOND, person.ground
+    words = {"lying": "pose", "heading": "yaw", "cloth": "friction", "seed": "ground"}
+    with in_words_of(words):
         return scenes.make(
             "casualty",
             robot="rescue",
+            seed=seed,
+            **terrain,
             mass=person.mass,
             lying=person.pose,
             distance=DISTANCE + dx,

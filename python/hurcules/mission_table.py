@@ -18,7 +18,8 @@
     trouble = [{ when = "monitor/static_margin_m <= 0.03", do = ["lower"] }]
 
 Rows of another table are taken by `[[phase]]` with `include = "lift.toml"` and `rows = ["settle",
-"raise"]`: from the first to the second of these. The same trouble in many phases is said once:
+"raise"]`: from the first to the second of these, with what watches them there. The same trouble in
+many phases is said once:
 
     [[monitor]]
     when = "monitor/static_margin_m <= 0.02 for 0.2 s"
@@ -33,7 +34,8 @@ mass 2 m behind that body, with its heading; without a body counted from where t
 
 A posture is `posture = "CHANNEL"` with `keys = [{ share = 1.0, HIP = 0.3, SP = 1.2 }]`. Quantities
 are columns of the log (`simulation.channels`). A `[[figure]]` is a quantity over some phases, with
-the bounds that make a run a success.
+the bounds that make a run a success; `include = "casualty.toml"` with `names` takes those of
+another table.
 """
 
 from __future__ import annotations
@@ -61,7 +63,7 @@ from hurcules._core import (
 )
 from hurcules.mission_drawing import drawing
 from hurcules.toml_rows import Kind, take, typed
-from hurcules.validation import told_at
+from hurcules.validation import require_known, told_at
 
 __all__ = ["Mission"]
 
@@ -115,7 +117,8 @@ class Mission:
         _watch(rows, given.get("monitor", []))
         _lead(rows, given.get("lead", []))
         phases = [_phase(row, where) for where, row in rows]
-        measures = [_measure(row, k) for k, row in enumerate(given.get("figure", []), 1)]
+        figures = _figures(given.get("figure", []), Path(folder))
+        measures = [_measure(row, k) for k, row in enumerate(figures, 1)]
         table = MissionTable(phases=phases, safety=safety, measures=measures)
         check_rows(table)
         return cls(MissionSetup(**head), table, scene)
@@ -258,6 +261,9 @@ def _of_file(row: Row, where: str, folder: Path, files: tuple[Path, ...]) -> lis
         data = take(_toml(file), _FILE)
     files = (*files, file.resolve())
     there = _included(data.get("phase", []), file.parent, files, f"{given['include']}, ")
+    with told_at(where):
+        _watch(there, data.get("monitor", []))
+        _lead(there, data.get("lead", []))
     names = _names(there)
     if len(ends) != 2 or not set(ends) <= set(names):
         known = ", ".join(names)
@@ -335,6 +341,25 @@ def _phase(row: Row, where: str) -> Phase:
     return Phase(
         **given, leads=leads, keys=keys, park=park, done=done, late=late, troubles=troubles
     )
+
+
+def _figures(rows: Sequence[Row], folder: Path) -> list[Row]:
+    """The figures of the table, those of other files in their place."""
+    found: list[Row] = []
+    for k, row in enumerate(rows, 1):
+        if "include" not in row:
+            found.append(row)
+            continue
+        where = f"figure {k}"
+        given = take(row, {"include": str, "names": [str]}, where, ["include", "names"])
+        where = f"{where}, include of '{given['include']}'"
+        with told_at(where):
+            there = take(_toml(folder / given["include"]), _FILE).get("figure", [])
+        named = {one["name"]: one for one in there if "name" in one}
+        for name in given["names"]:
+            require_known(f"{where}: figure", name, named)
+            found.append(named[name])
+    return found
 
 
 def _measure(row: Row, number: int) -> Measure:

@@ -95,7 +95,8 @@ class Simulation(_core.Simulation):
                 touches; nothing else moves and no force acts.
             fall: when a robot without a mission counts as fallen; None: never.
             parameters: of the mission: for "lift" and "casualty" those of `hurcules.lift.Person`,
-                for "disposal" those of `hurcules.disposal.Job`.
+                for "crossing" those of `hurcules.lift.Away`, for "disposal" those of
+                `hurcules.disposal.Job`.
             adds_command: of a mission: a command is added to what the mission commands, and does
                 not take its place.
             loaded_springs: sprung hinges without a motor start where they bear what hangs on them;

@@ -43,9 +43,9 @@ class TableMission:
 def _lifted(name: str) -> TableMission:
     return TableMission(
         partial(lift.mission, name),
-        lambda parameters: lift.spec(lift.person(parameters)),
+        lambda parameters: lift.spec(lift.person(parameters, name)),
         lift.CONTROLLER,
-        lift.parameters_of,
+        partial(lift.parameters_of, name=name),
         ("casualty_pelvis", 3.8),
         ("casualty_pelvis", "from his head's side"),
     )

@@ -25,6 +25,7 @@ SEED, SECONDS = 11, 5.0
 ASKED = {
     "lift": ["--mass", "90", "--offset", "0.05,-0.1", "--yaw", "0.2"],
     "casualty": ["--mass", "120", "--friction=0.6", "--pose", "back"],
+    "crossing": ["--terrain", "ramps", "--way", "3", "--rise", "0.15"],
     "disposal": ["--mass", "20.5", "--yaw", "-0.1"],
 }
 

@@ -212,7 +212,7 @@ def test_the_table_is_drawn() -> None:
     assert sorted(junctions.values()) == [1, 1, 1]  # and the end
 
 
-@pytest.mark.parametrize("name", ["lift", "casualty", "disposal"])
+@pytest.mark.parametrize("name", ["lift", "casualty", "crossing", "disposal"])
 def test_a_drawing_has_every_phase_once_and_nothing_beside_the_page(name: str) -> None:
     mission = Mission.load(mjcf.folder() / "missions" / f"{name}.toml")
     page = ElementTree.fromstring(mission.drawing())
@@ -372,3 +372,41 @@ def test_a_file_that_is_none_is_told(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_text("[mission")
     with pytest.raises(Error, match=r"bad\.toml"):
         Mission.load(tmp_path / "bad.toml")
+
+
+def test_included_rows_bring_their_monitors_and_figures_are_included_by_name(
+    tmp_path: Path,
+) -> None:
+    watched = """
+[[monitor]]
+when = "q/j1 >= 1.5"
+do = ["abort"]
+phases = ["up", "back"]
+
+[[figure]]
+name = "j1"
+quantity = "q/j1"
+most = 2.0
+"""
+    (tmp_path / "wave.toml").write_text(ROWS + watched)
+    own = """
+[mission]
+name = "again"
+safety = "back"
+
+[[phase]]
+include = "wave.toml"
+rows = ["up", "back"]
+
+[[figure]]
+include = "wave.toml"
+names = ["NAME"]
+"""
+    (tmp_path / "again.toml").write_text(own.replace("NAME", "j1"))
+    mission, whole = Mission.load(tmp_path / "again.toml"), Mission.load(tmp_path / "wave.toml")
+    assert mission.rows.phases == whole.rows.phases[:2]
+    assert [row.troubles[-1].when.quantity for row in mission.rows.phases] == ["q/j1", "q/j1"]
+    assert [(one.name, one.most) for one in mission.rows.measures] == [("j1", 2.0)]
+    (tmp_path / "again.toml").write_text(own.replace("NAME", "j2"))
+    with pytest.raises(Error, match=r"figure 1, include of 'wave.toml': figure 'j2' does not .*j1"):
+        Mission.load(tmp_path / "again.toml")

@@ -12,13 +12,18 @@ from numpy.typing import NDArray
 from hurcules import mjcf
 from hurcules.scenes.ground import Ground, turn
 from hurcules.scenes.parameters import choice, number
+from hurcules.scenes.ramps import Ramps
 from hurcules.scenes.scene import Scene
+from hurcules.scenes.surfaces import road
 
 __all__ = ["Casualty"]
 
 # from upright (x to the front, z up) to lying with the head along +y
 BACK = np.array([0.5, -0.5, -0.5, -0.5])
 ROLL = {"back": 0.0, "left": math.pi / 2, "front": math.pi, "right": -math.pi / 2}
+WIDTH = 6.0  # [m] of the terrain, about
+CELL, FADE = 0.1, 0.8  # [m] between heights of a road, and from the level ground to its roughness
+RAMP = 1.2  # [m] of one at the most, up or down
 
 
 @dataclass(frozen=True)
@@ -31,9 +36,21 @@ class Casualty(Scene):
     lateral: float = number(0.0, -5.0, 5.0, "m", "the person's middle to the left of the way")
     heading: float = number(0.0, -math.pi, math.pi, "rad", "turned by this; 0: head to the left")
     cloth: float = number(0.45, 0.1, 1.5, "", "friction of the clothes on the ground")
+    terrain: str = choice("flat", ("flat", "road", "ramps"), "on the way to the person")
+    near: float = number(1.5, 1.2, 20.0, "m", "from the start to the terrain")
+    way: float = number(5.0, 2.0, 20.0, "m", "across the terrain")
+    rise: float = number(0.1, 0.07, 0.5, "m", "from its lowest to its highest point")
 
     def build(self, ground: Ground) -> None:
-        """Lays the person down just above the ground."""
+        """Lays the person down just above the ground, which is level there."""
+        if self.terrain == "road":
+            self._road(ground)
+        elif self.terrain == "ramps":
+            rows = 2 * math.ceil(self.way / (2 * RAMP))
+            side = self.way / rows
+            angle, columns = math.atan(self.rise / side), round(WIDTH / side)
+            field = Ramps(self.friction, "continuous", angle, side, rows, columns, 0.0, self.near)
+            field.build(ground)
         quat = _product(turn("z", self.heading), _product(turn("y", ROLL[self.lying]), BACK))
         low, middle = _extent(self.mass, quat)
         pos = (self.distance - middle[0], self.lateral - middle[1], -low)
@@ -41,6 +58,17 @@ class Casualty(Scene):
         for geom in ground.spec.geoms:
             if geom.name.startswith("casualty_") and geom.contype:
                 geom.friction[0] = self.cloth
+
+    def _road(self, ground: Ground) -> None:
+        """The spectrum of ISO 8608, scaled to the rise, level at both ends of the way."""
+        shape = (round(WIDTH / CELL) + 1, round(self.way / CELL) + 1)
+        heights = road(ground.rng, shape, CELL, 1.0)
+        heights -= heights.min()
+        along = np.arange(shape[1]) * CELL
+        u = np.clip(np.minimum(along, self.way - along) / FADE, 0.0, 1.0)
+        heights *= u**2 * (3 - 2 * u)
+        heights *= self.rise / heights.max()
+        ground.field("terrain", heights, (self.near, -WIDTH / 2), CELL, material="earth")
 
 
 def _extent(mass: int, quat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
