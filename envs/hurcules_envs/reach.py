@@ -46,13 +46,14 @@ class Reach(Environment):
     | "pose"  | 2.0   | reference in the world [m]                            |
     | "joint" |       | velocity of each coordinate's reference [rad/s], (n,) |
 
-    Observation: Dict. `observation` of shape (6 h,), and `achieved_goal`, `desired_goal` (3 h,).
-    For the action "joint" the n coordinates [rad] stand in place of the velocities, (3 h + n,).
+    Observation: Dict. `observation` of shape (9 h,), and `achieved_goal`, `desired_goal` (3 h,).
+    For the action "joint" the n coordinates [rad] stand in place of velocity and lead, (3 h + n,).
 
     | group    | size | unit | bound | what it is               |
     |----------|------|------|-------|--------------------------|
     | hand     | 3 h  | m    | 5     | hands in the world       |
     | velocity | 3 h  | m/s  | 5     | of the hands             |
+    | lead     | 3 h  | m    | 5     | from hand to reference   |
 
     Reward: `distance`, minus the mean distance d of the hands [m]; `nearness`, the mean of
     1 - tanh(d / 0.1 m); `success`, 1 while all hands are within the tolerance; `effort`, minus
@@ -113,8 +114,10 @@ class Reach(Environment):
             [f"value/{name}" for name in self._names]
             + [f"rotation/{frame}" for frame in self.setup.hands]
             + [f"velocity/{frame}" for frame in self.setup.hands]
+            + [f"target/{name}" for name in self._names]
         )
-        self._values, self._velocities = self.quantities[:h], self.quantities[2 * h :]
+        self._values, self._velocities = self.quantities[:h], self.quantities[2 * h : 3 * h]
+        self._targets = self.quantities[3 * h :]
         self.observation = (Group("hand", 3 * h, "m", 5.0, "hands in the world"),)
         self._joints = action == "joint"  # who commands them wants to see them
         if self._joints:
@@ -122,7 +125,10 @@ class Reach(Environment):
             n = len(self.setup.joints)
             self.observation += (Group("joint", n, "rad", 10.0, "coordinates"),)
         else:
-            self.observation += (Group("velocity", 3 * h, "m/s", 5.0, "of the hands"),)
+            self.observation += (
+                Group("velocity", 3 * h, "m/s", 5.0, "of the hands"),
+                Group("lead", 3 * h, "m", 5.0, "from hand to reference"),
+            )
 
     def start(self, generator: np.random.Generator) -> Start:
         """A posture to start from, another one whose hands are the goals."""
@@ -150,13 +156,13 @@ class Reach(Environment):
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """The hands, and how they move; the goals stand beside them."""
-        seen = {"hand": self._hands(numbers)}
+        hands = self._hands(numbers)
         if self._joints:
-            return seen | {"joint": numbers["q"]}
+            return {"hand": hands, "joint": numbers["q"]}
         velocity = numbers.row(*self._velocities)
-        return seen | {
-            "velocity": velocity if self._swings is None else velocity + numbers["sway_rate"]
-        }
+        if self._swings is not None:
+            velocity = velocity + numbers["sway_rate"]
+        return {"hand": hands, "velocity": velocity, "lead": numbers.row(*self._targets) - hands}
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""

@@ -76,7 +76,7 @@ SEEN: Mapping[str, Sequence[str]] = {
 }
 # the same with hindsight: groups of the observation, and the way. What a hand does next depends on
 # how it moves; where that is not seen, the best of many values is one that no action has
-SEEN_IN_HINDSIGHT: Mapping[str, Sequence[str]] = {"Hurcules/Reach-": ("velocity", "way")}
+SEEN_IN_HINDSIGHT: Mapping[str, Sequence[str]] = {"Hurcules/Reach-": ("velocity", "lead", "way")}
 OFF_POLICY = {"learning_rate": 1e-3, "batch_size": 256, "gamma": 0.95, "learning_starts": 2000}
 UPDATES = 0.25  # of SAC, a step of an episode
 HINDSIGHT = {"tau": 0.02, "ent_coef": 0.02}
