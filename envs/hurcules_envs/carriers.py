@@ -409,7 +409,7 @@ def _tour(
     data, robot = mujoco.MjData(model), hurcules.Robot(model, list(setup.joints))
     table, box = model.geom("table").id, model.geom("box").id
     adr = model.joint("box").qposadr[0]
-    always, efforts = _touching(setup), _efforts(model, robot)
+    always, efforts = _touching(setup), np.array([one.max_effort for one in robot.coordinates])
     share, room, apart = np.inf, 1.0, wanted.half
     start = np.array([[0.0, 0.0, wanted.apart[1], 0.0]])
     for i, (x, y, z, yaw) in enumerate(np.concatenate([start, wanted.corners])):
@@ -497,23 +497,6 @@ def _room(robot: hurcules.Robot) -> float:
         for hand in HANDS
     )
     return float(min(1.0, least / LEVER / FREE))
-
-
-def _efforts(model: mujoco.MjModel, robot: hurcules.Robot) -> Array:
-    """(n,) [N m] that the coordinates' motors give at most, by ranges of force or of control."""
-    efforts = np.array([one.max_effort for one in robot.coordinates])
-    for i, one in enumerate(robot.coordinates):
-        ranged = 0.0
-        for joint in one.joints:
-            if joint.actuator < 0:
-                continue
-            motor = model.actuator(joint.actuator)
-            if not motor.ctrllimited[0] or motor.biastype[0] != mujoco.mjtBias.mjBIAS_NONE:
-                ranged = np.inf  # a servo's control is no effort
-                break
-            ranged += abs(float(motor.ctrlrange[1] * motor.gainprm[0] * motor.gear[0]))
-        efforts[i] = min(efforts[i], ranged or np.inf)
-    return efforts
 
 
 def _rotation_vector(R: Array) -> Array:

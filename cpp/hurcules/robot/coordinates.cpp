@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/motor.hpp"
 
 namespace hurcules {
 namespace {
@@ -284,10 +285,7 @@ double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
 double effort_limit(const mjModel& m, int joint, int part) {
   double sum = 0;
   for (int a = 0; a < m.nu; ++a) {
-    if (!drives(m, a, joint, part)) continue;
-    if (!m.actuator_forcelimited[a]) sum = kInfinity;
-    const double* range = m.actuator_forcerange + 2 * a;
-    sum += std::min(-range[0], range[1]) * std::abs(gear_of(m, a));
+    if (drives(m, a, joint, part)) sum += peak_effort(&m, a);
   }
   if (!m.jnt_actfrclimited[joint]) return sum;
   const double* range = m.jnt_actfrcrange + 2 * joint;

@@ -38,7 +38,9 @@ double smaller_side(const mjtNum* range) {
   return std::min(-range[0], range[1]);
 }
 
-double find_peak(const mjModel* m, int actuator) {
+}  // namespace
+
+double peak_effort(const mjModel* m, int actuator) {
   double force = kNone;
   if (m->actuator_forcelimited[actuator])
     force = smaller_side(m->actuator_forcerange + 2 * actuator);
@@ -53,8 +55,6 @@ double find_peak(const mjModel* m, int actuator) {
   if (!m->jnt_actfrclimited[joint]) return peak;
   return std::min(peak, smaller_side(m->jnt_actfrcrange + 2 * joint));
 }
-
-}  // namespace
 
 EffortRange MotorLimits::at(double velocity) const {
   const double v = std::abs(velocity);
@@ -84,7 +84,7 @@ MotorLimits read_motor_limits(const mjModel* m, int actuator) {
   const char* const name = mj_id2name(m, mjOBJ_JOINT, m->actuator_trnid[2 * actuator]);
   const std::string joint = name ? name : "";
   MotorLimits limits;
-  limits.peak = find_peak(m, actuator);
+  limits.peak = peak_effort(m, actuator);
   limits.speed = find_limit(m, "velocity_limit_", joint);
   require(limits.peak > 0.0, "the motor of joint '" + joint +
                                  "' wants a forcerange that spans 0, it can give no torque");

@@ -41,9 +41,13 @@ struct MotorLosses {
 [[nodiscard]] int find_numeric(const mjModel_* model, const std::string& marker,
                                const std::string& joint);
 
-// The limits of the actuator's joint, which may have no others: peak from its forcerange (and, of a
-// plain motor, from its ctrlrange), speed and power from the model's numerics velocity_limit_JOINT and power_limit_JOINT. Without the latter
-// the power is that of peak and speed together. Throws Error for numbers that are not above 0.
+// [N m] or [N] that the actuator can give at its joint both ways: from its forcerange, the joint's
+// actuatorfrcrange and, of a plain motor, from its ctrlrange; inf for none
+[[nodiscard]] double peak_effort(const mjModel_* model, int actuator);
+
+// The limits of the actuator's joint, which may have no others: peak_effort, speed and power from the
+// model's numerics velocity_limit_JOINT and power_limit_JOINT. Without the latter the power is that of
+// peak and speed together. Throws Error for numbers that are not above 0.
 [[nodiscard]] MotorLimits read_motor_limits(const mjModel_* model, int actuator);
 
 class MotorPower {

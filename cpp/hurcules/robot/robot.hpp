@@ -62,8 +62,9 @@ struct Coordinate {
   double lower = 0.0;  // [rad] or [m], -inf when unlimited; of a ball joint the range of all of it
   double upper = 0.0;  // [rad] or [m]
   double max_velocity = 0.0;  // [rad/s] or [m/s], from numeric velocity_limit_JOINT, else inf
-  double max_effort =
-      0.0;  // [N m] or [N], sum over its actuators; inf without force ranges, 0 of a root
+  // [N m] or [N], sum over its actuators by their ranges of force or, of plain motors, of control; inf
+  // without any, 0 of a root
+  double max_effort = 0.0;
 };
 
 // Three coordinates that are the rotation vector of a ball joint or a free root; their velocities are about

@@ -76,6 +76,15 @@ TEST(Coordinates, WhatTheModelDoesNotLimitIsInfinite) {
   EXPECT_EQ(Robot(load_model_text(kArm)).coordinates()[0].max_effort, 50.0);
 }
 
+TEST(Coordinates, AControlRangeLimitsAPlainMotorAndNoServo) {
+  const Robot robot(load_model_text(R"(<mujoco><worldbody><body><joint name="a"/><geom size="0.1"/>
+    <body pos="0 0 1"><joint name="b"/><geom size="0.1"/></body></body></worldbody>
+    <actuator><motor joint="a" ctrlrange="-2 3" gear="10"/>
+      <position joint="b" kp="100" ctrlrange="-1 1"/></actuator></mujoco>)"));
+  EXPECT_EQ(robot.coordinates()[0].max_effort, 20.0);
+  EXPECT_EQ(robot.coordinates()[1].max_effort, kInfinity);
+}
+
 TEST(Coordinates, CoupledJointsMoveTogether) {
   Robot robot(load_model_text(kTwin));
   Vector q = Vector::Zero(13);
