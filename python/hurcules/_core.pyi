@@ -408,7 +408,7 @@ class Coordinate:
 
     @property
     def max_effort(self) -> float:
-        """[N m] or [N], sum over its actuators, inf without force ranges"""
+        """[N m] or [N], sum over its actuators by their ranges of force or, of plain motors, of control; inf without any"""
 
     @property
     def max_velocity(self) -> float:
