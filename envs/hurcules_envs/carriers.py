@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import mjcf
 from hurcules.validation import require_known
-from hurcules_envs.contact import add_force_sensor
+from hurcules_envs.contact import add_force_sensor, resize_box
 from hurcules_envs.robots import MAX_ACCELERATION, RobotSetup, load_robot
+from hurcules_envs.rotations import rotation_vector
 
 __all__ = ["FEELS", "HANDS", "Carrier", "Wanted", "load_carrier"]
 
@@ -148,7 +149,7 @@ def load_carrier(
     """
     require_known("palm", palm, list(PALMS))
     setup = load_robot(robot, frames, joints)
-    if len(setup.hands) != 2 or setup.hands[0] == setup.hands[1]:
+    if len(setup.hands) != 2:
         raise hurcules.Error(
             f"robot {setup.name}: a box is carried between two hands: wanted frames=(left, right), "
             f"got {frames!r}"
@@ -330,10 +331,7 @@ def _best(setup: RobotSetup, palm: str, pads: bool, at: Place | None, wanted: Wa
     _add_things(spec, (0.0, 0.0, 0.0))
     model = mjcf.compile(spec)
     model.opt.timestep = 0.02
-    box = model.geom("box")
-    box.size[:] = wanted.box
-    model.geom_rbound[box.id], model.geom_aabb[box.id, 3:] = np.linalg.norm(box.size), box.size
-    model.bvh_aabb[model.body_bvhadr[int(box.bodyid[0])], 3:] = box.size
+    resize_box(model, "box", wanted.box)
     samples = _Samples(setup, bare)
     for place in _places(setup, samples, wanted) if at is None else np.array([at]):
         x, y, z = (float(value) for value in place)
@@ -419,14 +417,14 @@ def _tour(
         goals: dict[str, Array] = {}
         for side, reach, turn, at in zip((1.0, -1.0), places, turns, first, strict=True):
             goals[reach.name] = middle + R @ np.array([0.0, side * apart, 0.0])
-            goals[turn.name] = _rotation_vector(R @ at)
+            goals[turn.name] = rotation_vector(R @ at)
         simulation.step(150, goals)
         data.qpos[:] = simulation.data.qpos
         robot.set_qpos(data.qpos)
         for reach, at in zip(places, first, strict=True):
             hand = reach.name
             missed = np.linalg.norm(robot.position(hand) - goals[hand])
-            turned = _rotation_vector(R @ at @ robot.orientation(hand).T)
+            turned = rotation_vector(R @ at @ robot.orientation(hand).T)
             if missed > MISS or np.linalg.norm(turned) > TURN:
                 return i, 0.0, 0.0
         data.qpos[adr : adr + 7] = [*middle, np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)]
@@ -497,10 +495,3 @@ def _room(robot: hurcules.Robot) -> float:
         for hand in HANDS
     )
     return float(min(1.0, least / LEVER / FREE))
-
-
-def _rotation_vector(R: Array) -> Array:
-    quaternion, vector = np.zeros(4), np.zeros(3)
-    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(R).reshape(9))
-    mujoco.mju_quat2Vel(vector, quaternion, 1.0)
-    return vector

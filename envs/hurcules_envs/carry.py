@@ -19,6 +19,7 @@ from hurcules_envs.contact import (
     ContactEnvironment,
     add_force_sensor,
     box_mark,
+    resize_box,
     view,
 )
 from hurcules_envs.environment import Array, Group, Numbers, Start
@@ -271,9 +272,7 @@ class Carry(ContactEnvironment):
         """Half sizes, mass and friction of the box."""
         size, mass = values["size"], values["mass"][0]
         geom, body = model.geom("box"), model.body("box")
-        geom.size[:] = size
-        model.geom_rbound[geom.id], model.geom_aabb[geom.id, 3:] = np.linalg.norm(size), size
-        model.bvh_aabb[model.body_bvhadr[body.id], 3:] = size
+        resize_box(model, "box", size)
         geom.friction[0] = values["friction"][0]
         body.mass[0] = mass
         squares = size**2

@@ -23,6 +23,7 @@ __all__ = [
     "box_mark",
     "contact_tick",
     "euler_quat",
+    "resize_box",
     "view",
 ]
 
@@ -188,6 +189,14 @@ def view(
     camera.lookat[:] = lookat
     camera.distance, camera.azimuth, camera.elevation = distance, azimuth, elevation
     return camera
+
+
+def resize_box(model: mujoco.MjModel, name: str, half: Sequence[float] | Array) -> None:
+    """Gives a box, alone on its body, other half sizes (3) [m], and MuJoCo's bounds with them."""
+    geom = model.geom(name)
+    geom.size[:] = half
+    model.geom_rbound[geom.id], model.geom_aabb[geom.id, 3:] = np.linalg.norm(half), half
+    model.bvh_aabb[model.body_bvhadr[int(geom.bodyid[0])], 3:] = half
 
 
 def box_mark(

@@ -46,21 +46,18 @@ def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any])
         layers = [*actor.actor.latent_pi, actor.actor.mu]
     if isinstance(features, GoalFeatures):
         inputs = {name: box.shape[0] for name, box in space.items()}
-        weights["scale"] = np.float32(SCALE)
-        nodes += [
-            Node("Sub", ("desired_goal", "achieved_goal"), ("away",)),
-            Node("Mul", ("away", "scale"), ("way",)),
-            Node("Concat", features.parts, ("seen",), {"axis": 1}),
-        ]
+        parts = features.parts
+        if "way" in parts:
+            weights["scale"] = np.float32(SCALE)
+            nodes += [
+                Node("Sub", ("desired_goal", "achieved_goal"), ("away",)),
+                Node("Mul", ("away", "scale"), ("way",)),
+            ]
         if features.factors is not None:
             weights["factors"] = features.factors.numpy()
-            counted = tuple("counted" if part == "observation" else part for part in features.parts)
-            nodes[2:] = [
-                Node("Mul", ("observation", "factors"), ("counted",)),
-                Node("Concat", counted, ("seen",), {"axis": 1}),
-            ]
-        if "way" not in features.parts:
-            del nodes[:2], weights["scale"]
+            nodes.append(Node("Mul", ("observation", "factors"), ("counted",)))
+            parts = tuple("counted" if part == "observation" else part for part in parts)
+        nodes.append(Node("Concat", parts, ("seen",), {"axis": 1}))
         used = {name for node in nodes for name in node.inputs}
         inputs = {name: size for name, size in inputs.items() if name in used}
         last = "seen"

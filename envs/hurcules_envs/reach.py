@@ -113,11 +113,8 @@ class Reach(Environment):
         self.quantities = tuple(
             [f"value/{name}" for name in self._names]
             + [f"rotation/{frame}" for frame in self.setup.hands]
-            + [f"velocity/{frame}" for frame in self.setup.hands]
-            + [f"target/{name}" for name in self._names]
         )
-        self._values, self._velocities = self.quantities[:h], self.quantities[2 * h : 3 * h]
-        self._targets = self.quantities[3 * h :]
+        self._values = self.quantities[:h]
         self.observation = (Group("hand", 3 * h, "m", 5.0, "hands in the world"),)
         self._joints = action == "joint"  # who commands them wants to see them
         if self._joints:
@@ -125,6 +122,9 @@ class Reach(Environment):
             n = len(self.setup.joints)
             self.observation += (Group("joint", n, "rad", 10.0, "coordinates"),)
         else:
+            self._velocities = tuple(f"velocity/{frame}" for frame in self.setup.hands)
+            self._targets = tuple(f"target/{name}" for name in self._names)
+            self.quantities += self._velocities + self._targets
             self.observation += (
                 Group("velocity", 3 * h, "m/s", 5.0, "of the hands"),
                 Group("lead", 3 * h, "m", 5.0, "from hand to reference"),

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules_envs.rotations import rotation_vector
 
 __all__ = ["MAX_ACCELERATION", "Postures", "RobotSetup", "load_robot", "sample_postures"]
 
@@ -282,7 +283,7 @@ def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
             continue
         qpos.append(robot.qpos.copy())
         hands.append(places)
-        turns.append([_rotation_vector(robot.orientation(frame)) for frame in setup.hands])
+        turns.append([rotation_vector(robot.orientation(frame)) for frame in setup.hands])
         if len(qpos) == POOL:
             return Postures(np.array(qpos), np.array(hands), np.array(turns))
     raise hurcules.Error(
@@ -355,10 +356,3 @@ def _stands(setup: RobotSetup, data: mujoco.MjData, robot: hurcules.Robot) -> bo
 
 def _is_track(setup: RobotSetup, geom: int) -> bool:
     return setup.drives and bool(setup.model.geom_contype[geom] == TRACK)
-
-
-def _rotation_vector(R: Array) -> Array:
-    quaternion, vector = np.zeros(4), np.zeros(3)
-    mujoco.mju_mat2Quat(quaternion, R.reshape(9))
-    mujoco.mju_quat2Vel(vector, quaternion, 1.0)
-    return vector
