@@ -55,7 +55,7 @@ constexpr const char* kTargetChannel = R"(A channel that sets the target of a ta
 It acts once a call of `step`. An orientation is given as a rotation vector.
 
 Args:
-  task: Task whose target is a list of numbers, or OrientationTask.
+  task: Task whose target numbers say; of a GazeTask they are the point.
   scale: largest magnitude [m] or [rad].
 )";
 constexpr const char* kForceChannel = R"(A channel that sets the force that a ForceTask keeps.
@@ -488,8 +488,10 @@ void bind_whole_body(py::module_& module) {
       .def_property_readonly("command_names", &WholeBodyController::command_names, copy,
                              "(k,) of all values of all channels")
       .def_property_readonly("command_scale", &WholeBodyController::scale, copy, "(k,) SI")
-      .def_property_readonly("command", &WholeBodyController::command, copy,
-                             "(k,) the last one, as held to scale")
+      .def_property_readonly(
+          "command", &WholeBodyController::command, copy,
+          "(k,) what it did in the last tick, as held to scale: 0 for nothing, of Target "
+          "and ForceReference NaN; given again tick by tick it gives the same bits")
       .def_property_readonly("stacks", names, "names of the stacks")
       .def_property_readonly("active", active, "the stack that rules; None while joints are moved")
       .def_property_readonly("tasks", tasks, py::return_value_policy::reference_internal,

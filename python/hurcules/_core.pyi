@@ -2811,7 +2811,7 @@ class WholeBodyController:
 
     @property
     def command(self) -> NDArray[np.float64]:
-        """(k,) the last one, as held to scale"""
+        """(k,) what it did in the last tick, as held to scale: 0 for nothing, of Target and ForceReference NaN; given again tick by tick it gives the same bits"""
 
     @property
     def command_names(self) -> list[str]:
@@ -4282,7 +4282,7 @@ def Target(task: Task, scale: float | ArrayLike = ...) -> Channel:
     It acts once a call of `step`. An orientation is given as a rotation vector.
 
     Args:
-      task: Task whose target is a list of numbers, or OrientationTask.
+      task: Task whose target numbers say; of a GazeTask they are the point.
       scale: largest magnitude [m] or [rad]."""
 
 def Twist(task: Task, scale: float | ArrayLike) -> Channel:

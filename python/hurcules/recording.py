@@ -27,7 +27,7 @@ CHANNELS = (
     ("torque/J, joint_error/J", "[N m] of the motor of joint J, [rad] reference minus measured"),
     ("error/L, measured_error/L", "[m] or [rad] norm of the task errors of level L"),
     ("active_rows/L", "rows that hold level L back"),
-    ("command/K", "[m/s] or [rad/s] task-space command K"),
+    ("command/K", "[m/s], [rad/s], [m], [N] what command K did; NaN: no target or force set"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("base_velocity/x", "[m/s] of the support as the sensors say, along the world's axes"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),

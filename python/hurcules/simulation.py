@@ -190,6 +190,32 @@ class Simulation(_core.Simulation):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
         return super().step(n, command)
 
+    def replay(self, log: Mapping[str, Array]) -> int:
+        """Takes the ticks of a log with the commands that they had: same start, same bits.
+
+        What was done beside commands (`controller.use`, pushes, targets of tasks) is not in it.
+
+        Args:
+            log: of a simulation with these channels, `log()` or the file of a run.
+
+        Returns:
+            The ticks done: fewer when the run ends.
+
+        Raises:
+            Error: a channel is not in the log.
+        """
+        names = [f"command/{name}" for name in self.command_names]
+        if missing := [name for name in names if name not in log]:
+            raise Error(f"the log has no '{missing[0]}': it is of other channels")
+        rows = np.reshape([log[name] for name in names], (len(names), len(log["time"]))).T
+        channels = dict(self.controller.channels)
+        ends = np.cumsum(list(channels.values()))[:-1]
+        done = 0
+        for row in rows:
+            parts = zip(channels, np.split(row, ends), strict=False)
+            done += self.step(1, {name: part for name, part in parts if not np.isnan(part).any()})
+        return done
+
     def picture(
         self,
         width: int = 640,

@@ -46,6 +46,17 @@ def twist(tip: hurcules.PositionTask) -> dict[str, object]:
     return {"tip": hurcules.Twist(tip, 0.5), "finger": hurcules.JointRate("finger", 0.1)}
 
 
+def looks(channel: Callable[[hurcules.GazeTask], object]) -> hurcules.Simulation:
+    """The arm with the point that its tip looks at as a channel."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    gaze = hurcules.GazeTask("gaze", robot, "tip")
+    levels = [gaze, hurcules.PostureTask("posture", robot)]
+    controller = hurcules.WholeBodyController(robot, levels, {"gaze": channel(gaze)})
+    return hurcules.Simulation(model=model, controller=controller)
+
+
 def at(simulation: hurcules.Simulation) -> np.ndarray:
     return simulation.data.site("tip").xpos[[0, 2]].copy()
 
@@ -97,6 +108,47 @@ def test_a_channel_that_a_command_does_not_name_holds() -> None:
         simulation.step(1, {"tip": [np.nan, np.nan]})
     with pytest.raises(hurcules.Error, match="finite"):
         simulation.step(1, [np.nan, np.nan, 0.0])
+
+
+def test_what_an_operator_did_is_in_the_log_and_gives_the_same_bits() -> None:
+    # a target that was left alone was 0 in the log, a delta stood in each tick of its step
+    def session() -> hurcules.Simulation:
+        return simulate(
+            lambda tip: {
+                "tip": hurcules.Target(tip),
+                "by": hurcules.Delta(tip, 0.2),
+                "finger": hurcules.JointRate("finger", 0.1),
+            }
+        )
+
+    first, again = session(), session()
+    where = at(first) + np.array([-0.1, 0.1])
+    first.step(40, {"tip": where})
+    first.step(40, {"finger": [0.01]})
+    first.step(40, {"by": [0.05, 0.0]})
+    first.step(40)
+    log = first.log()
+    rows = np.column_stack([log[f"command/{name}"] for name in first.command_names])
+    assert rows[0, :2] == pytest.approx(where)
+    assert np.isnan(rows[1:, :2]).all()
+    assert np.flatnonzero(rows[:, 2]).tolist() == [80]
+    assert again.replay(log) == 160
+    assert np.array_equal(first.data.qpos, again.data.qpos)
+    assert np.array_equal(first.state(), again.state())
+    with pytest.raises(hurcules.Error, match="no 'command/tip_0'"):
+        again.replay(simulate(lambda tip: {}).log())
+
+
+def test_the_point_that_a_gaze_looks_at_is_set() -> None:
+    # a Target wanted as many numbers as rows, a gaze has two
+    still = hurcules.Robot(mujoco.MjModel.from_xml_string(ARM), joints=["j1", "j2", "j3"])
+    simulation = looks(hurcules.Target)
+    simulation.step(1500, {"gaze": [1.0, 0.0, 0.9]})
+    assert simulation.level_errors()[0] < 1e-3
+    with pytest.raises(hurcules.Error, match="wants 1 or 3 numbers"):
+        looks(lambda gaze: hurcules.Target(gaze, [1.0, 1.0]))
+    with pytest.raises(hurcules.Error, match="'still' does not take"):
+        looks(lambda gaze: hurcules.Target(hurcules.DampingTask("still", still)))
 
 
 @pytest.mark.parametrize("channels", [twist, lambda tip: {}], ids=["twist", "no channel"])

@@ -4,9 +4,6 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/tasks/force_task.hpp"
-#include "hurcules/tasks/orientation_task.hpp"
-#include "hurcules/tasks/pose_task.hpp"
-#include "hurcules/tasks/value_task.hpp"
 
 namespace hurcules {
 
@@ -24,16 +21,18 @@ Vector spread_over(Vector scale, Index rows) {
   return scale.size() == 1 && rows != 1 ? Vector(Vector::Constant(rows, scale[0])) : scale;
 }
 
+Index numbers_of(ChannelKind kind, const Task& task) {
+  return kind == ChannelKind::Target ? task.target_size() : task.rows();
+}
+
 void require_target(const std::string& name, ChannelKind kind, const Task& task) {
   if (kind == ChannelKind::Force) {
     require(dynamic_cast<const ForceTask*>(&task),
             "channel '" + name + "' wants a ForceTask, '" + task.name() + "' is none");
   }
   if (kind == ChannelKind::Target) {
-    require(dynamic_cast<const ValueTask*>(&task) || dynamic_cast<const OrientationTask*>(&task) ||
-                dynamic_cast<const PoseTask*>(&task),
-            "channel '" + name + "' sets a target as numbers, which '" + task.name() +
-                "' does not take: a Twist moves it");
+    require(task.target_size() > 0, "channel '" + name + "' sets a target as numbers, which '" +
+                                        task.name() + "' does not take: a Twist moves it");
   }
 }
 
@@ -57,13 +56,14 @@ Channel::Channel(std::string name, ChannelKind kind, Vector scale,
 
 Channel::Channel(std::string name, ChannelKind kind, Task& task, Vector scale,
                  std::vector<std::string> components)
-    : Channel(std::move(name), kind, spread_over(std::move(scale), task.rows()),
+    : Channel(std::move(name), kind, spread_over(std::move(scale), numbers_of(kind, task)),
               std::move(components)) {
   task_ = &task;
-  require(size() == task.rows(), "the scale of channel '" + name_ + "' wants 1 or " +
-                                     std::to_string(task.rows()) + " numbers, " +
-                                     std::to_string(size()) + " came");
   require_target(name_, kind_, task);
+  const Index numbers = numbers_of(kind_, task);
+  require(size() == numbers, "the scale of channel '" + name_ + "' wants 1 or " +
+                                 std::to_string(numbers) + " numbers, " + std::to_string(size()) +
+                                 " came");
 }
 
 Channel Channel::drive(std::string name, double speed, double yaw_rate) {

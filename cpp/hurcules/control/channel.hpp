@@ -2,7 +2,8 @@
 //
 //   Twist   the target of a task, as a velocity [m/s] or [rad/s]; zero holds it
 //   Delta   the target of a task, from the measured value [m] or [rad]; zero leaves the target
-//   Target  the target of a task itself [m] or [rad]; an orientation as a rotation vector
+//   Target  the target of a task itself [m] or [rad]; an orientation as a rotation vector, of a gaze
+//           the point [m]
 //   Force   the reference of a force task [N]
 //   Drive   speed [m/s] and yaw rate [rad/s] of the tracks
 //   Joint   the place of a joint that no coordinate moves (gripper, bed), as a velocity
@@ -20,7 +21,7 @@ enum class ChannelKind { Twist, Delta, Target, Force, Drive, Joint, Joints };
 
 class Channel {
  public:
-  // `scale`: the largest magnitude, one number or one a row; a command is held to it, inf for none.
+  // `scale`: the largest magnitude, one number or one a component; a command is held to it, inf for none.
   // Throws Error for a task that has no such target, or a scale that is not above 0.
   Channel(std::string name, ChannelKind kind, Task& task, Vector scale,
           std::vector<std::string> components = {});

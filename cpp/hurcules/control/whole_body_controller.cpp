@@ -3,14 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/base/values.hpp"
-#include "hurcules/tasks/orientation_task.hpp"
-#include "hurcules/tasks/pose_task.hpp"
 
 namespace hurcules {
 
@@ -103,11 +102,14 @@ std::vector<Task*> tasks_of(const Stack& stack) {
   return all;
 }
 
-void set_target(Task& task, const ConstVectorRef& target) {
-  if (auto* const value = dynamic_cast<ValueTask*>(&task)) return value->set_target(target);
-  if (auto* const pose = dynamic_cast<PoseTask*>(&task))
-    return pose->set_target(target.head<3>(), rotation_exp(Vector3(target.tail<3>())));
-  dynamic_cast<OrientationTask&>(task).set_target(rotation_exp(Vector3(target)));
+// zero would be a value of its own
+bool sets(ChannelKind kind) {
+  return kind == ChannelKind::Target || kind == ChannelKind::Force;
+}
+
+// in the first tick of a command alone
+bool acts_once(ChannelKind kind) {
+  return sets(kind) || kind == ChannelKind::Delta;
 }
 
 }  // namespace
@@ -432,21 +434,23 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
   Index row = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Index size = channels_[i].size();
+    const ChannelKind kind = channels_[i].kind();
     auto part = command_.segment(row, size);
     const bool moved = !part.isZero(0.0);
-    const bool given = command && !std::isnan((*command)[row]) && reaches(i);
+    const bool given =
+        command && !std::isnan((*command)[row]) && reaches(i) && (first || !acts_once(kind));
     if (given) {
       const auto scale = scale_.segment(row, size);
       part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
     } else {
-      part.setZero();
+      part.setConstant(sets(kind) ? std::numeric_limits<double>::quiet_NaN() : 0.0);
     }
     row += size;
-    if (channels_[i].kind() == ChannelKind::Joints) {
+    if (kind == ChannelKind::Joints) {
       if (moves_joints_) lead_joints(moved_[i], part);
-    } else if (channels_[i].kind() != ChannelKind::Twist || moved || !part.isZero(0.0)) {
+    } else if (kind != ChannelKind::Twist || moved || !part.isZero(0.0)) {
       // a twist that rests leaves a target that somebody else moves alone
-      apply(channels_[i], part, first && given, state);
+      apply(channels_[i], part, given, state);
     }
   }
 }
@@ -477,19 +481,19 @@ void WholeBodyController::require_command(const Vector& command) const {
               std::to_string(command.size()) + (command.allFinite() ? "" : ", not all finite"));
 }
 
-void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& command, bool first,
+void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& command, bool given,
                                 const RobotState& state) {
   switch (channel.kind()) {
     case ChannelKind::Twist:
       return channel.task()->advance(command, dt());
     case ChannelKind::Delta:
-      if (first && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
+      if (given && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
       return;
     case ChannelKind::Target:
-      if (first) set_target(*channel.task(), command);
+      if (given) channel.task()->assign_target(command);
       return;
     case ChannelKind::Force:
-      if (first) static_cast<ForceTask*>(channel.task())->set_force(command[0]);
+      if (given) static_cast<ForceTask*>(channel.task())->set_force(command[0]);
       return;
     case ChannelKind::Drive:
       return drive_->controller().drive({command[0], command[1]});
@@ -608,9 +612,8 @@ void WholeBodyController::save(StateWriter& writer) const {
   writer.put(static_cast<double>(support_.id));
   // joints that follow the coordinates go on from where they are
   writer.put(plan_.closures() ? plan_.qpos() : start_);
-  for (const Vector* vector : {&ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
-    writer.put(*vector);
-  }
+  for (const Vector* vector : {&ahead_, &q_, &qd_, &last_qd_, &held_back_}) writer.put(*vector);
+  writer.put(Vector(command_.array().isNaN().select(0.0, command_)));
   for (const Task* task : tasks_) task->save(writer);
   yielding_.save(writer);
   for (const JointLimits* limits : limits_) limits->save(writer);

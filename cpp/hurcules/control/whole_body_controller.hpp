@@ -138,7 +138,8 @@ class WholeBodyController {
   [[nodiscard]] Robot& plan_to_place() { return plan_; }
   [[nodiscard]] const Vector& q_des() const { return q_; }    // [rad] (n)
   [[nodiscard]] const Vector& qd_des() const { return qd_; }  // [rad/s] (n)
-  // (k) the last, as held to scale
+  // (k) what it did in the last tick, as held to scale: 0 for nothing, of Target and Force NaN.
+  // Given again tick by tick it gives the same bits.
   [[nodiscard]] const Vector& command() const { return command_; }
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (k)
   [[nodiscard]] const std::vector<std::string>& command_names() const { return command_names_; }
@@ -173,7 +174,7 @@ class WholeBodyController {
   void collect_tasks();
   void check_channels();
   [[nodiscard]] bool reaches(std::size_t channel) const;
-  void apply(const Channel& channel, const ConstVectorRef& command, bool first,
+  void apply(const Channel& channel, const ConstVectorRef& command, bool given,
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);

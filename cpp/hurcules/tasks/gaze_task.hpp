@@ -35,6 +35,8 @@ class GazeTask : public Task {
   [[nodiscard]] ConstVectorRef yielding_target() const override { return target_; }
   // nothing is fed forward: the target is a point, the rows are angles
   void lead_target(const ConstVectorRef& step, double dt) override;
+  [[nodiscard]] Index target_size() const override { return 3; }
+  void assign_target(const ConstVectorRef& target) override { set_target(Vector3(target)); }
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

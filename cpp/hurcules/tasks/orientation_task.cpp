@@ -58,6 +58,10 @@ void OrientationTask::set_target(const Matrix3& target) {
   velocity_des_.setZero();
 }
 
+void OrientationTask::assign_target(const ConstVectorRef& target) {
+  set_target(rotation_exp(Vector3(target)));
+}
+
 void OrientationTask::save(StateWriter& writer) const {
   Task::save(writer);
   for (Index i = 0; i < 9; ++i) writer.put(target_(i));

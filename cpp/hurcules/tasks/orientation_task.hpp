@@ -30,6 +30,8 @@ class OrientationTask : public Task {
   void hold(const Robot& robot) override;
   // turns the target by exp(velocity dt); angular velocity in the axes of R [rad/s], (3)
   void advance(const ConstVectorRef& velocity, double dt) override;
+  [[nodiscard]] Index target_size() const override { return 3; }
+  void assign_target(const ConstVectorRef& target) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

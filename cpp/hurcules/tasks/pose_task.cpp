@@ -90,6 +90,10 @@ void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
   velocity_des_.setZero();
 }
 
+void PoseTask::assign_target(const ConstVectorRef& target) {
+  set_target(target.head<3>(), rotation_exp(Vector3(target.tail<3>())));
+}
+
 void PoseTask::save(StateWriter& writer) const {
   Task::save(writer);
   writer.put(p_des_);

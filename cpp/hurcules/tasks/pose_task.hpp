@@ -34,6 +34,8 @@ class PoseTask : public Task {
   void back_calculate(double share) override;
   [[nodiscard]] ConstVectorRef yielding_target() const override { return p_des_; }
   void lead_target(const ConstVectorRef& step, double dt) override;
+  [[nodiscard]] Index target_size() const override { return 6; }
+  void assign_target(const ConstVectorRef& target) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

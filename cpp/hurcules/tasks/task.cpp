@@ -59,6 +59,10 @@ void Task::set_weights(const ConstVectorRef& weights) {
 
 void Task::back_calculate(double /*share*/) {}
 
+void Task::assign_target(const ConstVectorRef& /*target*/) {
+  throw Error("task '" + name_ + "' has no target that numbers say");
+}
+
 ConstVectorRef Task::yielding_target() const {
   return error_.head(0);
 }

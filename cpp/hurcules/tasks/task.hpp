@@ -43,6 +43,10 @@ class Task {
   [[nodiscard]] virtual ConstVectorRef yielding_target() const;
   // moves that by a step (k) in dt [s], whose velocity is fed forward until the next advance or hold
   virtual void lead_target(const ConstVectorRef& step, double dt);
+  // how many numbers say the whole target, a rotation as a rotation vector; 0: numbers do not
+  [[nodiscard]] virtual Index target_size() const { return 0; }
+  // sets it so, at rest; seen at the next update
+  virtual void assign_target(const ConstVectorRef& target);
   // somebody has set the target (of distances: an obstacle) since it was made or held last
   [[nodiscard]] bool target_is_set() const { return target_is_set_; }
   // what must be kept between ticks: the target, the feed-forwards and the interval

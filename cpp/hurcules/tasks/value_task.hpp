@@ -18,6 +18,8 @@ class ValueTask : public Task {
   void back_calculate(double share) override;
   [[nodiscard]] ConstVectorRef yielding_target() const override { return target_; }
   void lead_target(const ConstVectorRef& step, double dt) override;
+  [[nodiscard]] Index target_size() const override { return rows(); }
+  void assign_target(const ConstVectorRef& target) override { set_target(target); }
   // Keeps `advance` from leading the target further than this from the value (Euclidean norm, task
   // unit; inf, the default: anywhere). From a fifth of it on the target goes slower, so that a
   // robot at the end of its reach stops; a velocity that leads back is never held.
