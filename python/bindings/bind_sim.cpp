@@ -80,7 +80,7 @@ int step_simulation(Simulation& self, int n, const CommandObject& given) {
   constexpr int kPiece = 1000;
   const std::optional<Vector> command = command_of(self.controller(), given);
   require(n >= 0, "step wants a number of ticks >= 0, got " + std::to_string(n));
-  const InUse in_use("Simulation", &self, &self.controller());
+  InUse in_use("Simulation", &self, &self.controller());
   int done = 0;
   do {
     const int piece = std::min(n - done, kPiece);
@@ -88,9 +88,19 @@ int step_simulation(Simulation& self, int n, const CommandObject& given) {
       py::gil_scoped_release release;
       done += self.step(piece, command ? &*command : nullptr, done == 0);
     }
+    in_use.let_read();
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   } while (done < n && !self.finished());
   return done;
+}
+
+// what reads a simulation, between the ticks of another thread
+template <class Read>
+auto at_rest(const Read& read) {
+  return [read](const Simulation& self) {
+    InUse::wait(&self);
+    return read(self);
+  };
 }
 
 py::dict series(const Recorder& recorder) {
@@ -340,12 +350,13 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def(
           "read",
           [](const Simulation& self, const Quantities& quantities) {
+            InUse::wait(&self);
             Vector values(quantities.size());
             quantities.read(self, values);
             return values;
           },
           "quantities"_a, "(m,) their present values.")
-      .def("state", &state, kState)
+      .def("state", at_rest(state), kState)
       .def("restore", &restore, "state"_a, kRestore)
       .def("operator_command", &Simulation::operator_command, kOperatorCommand)
       .def("go", &go, "phase"_a, kGo)
@@ -378,30 +389,28 @@ void bind_run(py::class_<Simulation>& simulation) {
 
 void bind_results(py::class_<Simulation>& simulation) {
   simulation
-      .def(
-          "observation", [](const Simulation& self) { return self.observation().snapshot(); },
-          kObservation)
+      .def("observation",
+           at_rest([](const Simulation& self) { return self.observation().snapshot(); }),
+           kObservation)
       .def_property_readonly("observation_names",
                              [](const Simulation& self) { return self.observation().channels(); })
       .def_property_readonly("levels", &Simulation::levels, "decreasing priority")
-      .def(
-          "level_errors",
-          [](const Simulation& self) { return self.telemetry().level_error_measured; },
-          kLevelErrors)
-      .def(
-          "commanded_level_errors",
-          [](const Simulation& self) { return self.telemetry().level_error; }, kCommandedErrors)
-      .def("solver", &solver, kSolver)
+      .def("level_errors",
+           at_rest([](const Simulation& self) { return self.telemetry().level_error_measured; }),
+           kLevelErrors)
+      .def("commanded_level_errors",
+           at_rest([](const Simulation& self) { return self.telemetry().level_error; }),
+           kCommandedErrors)
+      .def("solver", at_rest(solver), kSolver)
       .def_property_readonly("channels",
                              [](const Simulation& self) { return self.log().channels(); })
-      .def(
-          "log", [](const Simulation& self) { return series(self.log()); }, kLog)
-      .def(
-          "timings", [](const Simulation& self) { return series(self.timings()); }, kTimings)
-      .def("figures", &figures, kFigures)
-      .def("thesis_figures", &thesis_figures, kThesisFigures)
-      .def("events", &events, kEvents)
-      .def("limit_violation", &limit_violation, kViolation);
+      .def("log", at_rest([](const Simulation& self) { return series(self.log()); }), kLog)
+      .def("timings", at_rest([](const Simulation& self) { return series(self.timings()); }),
+           kTimings)
+      .def("figures", at_rest(figures), kFigures)
+      .def("thesis_figures", at_rest(thesis_figures), kThesisFigures)
+      .def("events", at_rest(events), kEvents)
+      .def("limit_violation", at_rest(limit_violation), kViolation);
 }
 
 }  // namespace

@@ -166,9 +166,9 @@ inline constexpr const char* kEvents = "(time [s], text) of phases, and of limit
 inline constexpr const char* kFall = R"(When a run ends because the robot fell.
 
 Args:
-  frame: whose height is watched; "": nothing is.
-  min_height: of the frame above the controller's support [m].
-  max_tilt: of the support against its start [rad].
+  frame: whose height is watched; "": none is.
+  min_height: of the frame above the controller's support, of a robot that floats above z = 0 [m].
+  max_tilt: of the support (of a robot that floats: its root) against its start [rad].
 )";
 inline constexpr const char* kQuantities =
     R"(Named numbers of a simulation, found once and read together.

@@ -126,7 +126,8 @@ void bind_level(py::module_& module) {
       .def_property_readonly("rows", [](const ArrayLevel& self) { return self.lower.size(); })
       .def("__repr__", [](const ArrayLevel& self) {
         return (self.bounds ? "Bounds(n=" : "Level(m=") + std::to_string(self.lower.size()) +
-               (self.bounds ? ")" : ", rho=" + std::to_string(self.rho) + ")");
+               (self.bounds ? ")"
+                            : ", rho=" + py::repr(py::float_(self.rho)).cast<std::string>() + ")");
       });
   module.def("Bounds", &make_bounds_level, "lower"_a, "upper"_a, kBoundsDoc);
 }

@@ -470,7 +470,10 @@ void bind_whole_body(py::module_& module) {
       .def("restore", &restore<WholeBodyController>, "state"_a, kRestore)
       .def(
           "diagnostics",
-          [](const WholeBodyController& self) { return self.law().diagnostics(self.plan()); },
+          [](const WholeBodyController& self) {
+            InUse::wait(&self);
+            return self.law().diagnostics(self.plan());
+          },
           "What each level falls short of and why: list of LevelDiagnostics, decreasing priority.")
       .def(
           "contact_force",

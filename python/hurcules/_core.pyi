@@ -3676,9 +3676,9 @@ class FallOptions:
     """When a run ends because the robot fell.
 
     Args:
-      frame: whose height is watched; "": nothing is.
-      min_height: of the frame above the controller's support [m].
-      max_tilt: of the support against its start [rad]."""
+      frame: whose height is watched; "": none is.
+      min_height: of the frame above the controller's support, of a robot that floats above z = 0 [m].
+      max_tilt: of the support (of a robot that floats: its root) against its start [rad]."""
 
     frame: str
 

@@ -288,3 +288,10 @@ def test_pairs_that_are_far_are_no_rows() -> None:
     apart = hurcules.self_collision(robot, margin=0.01, most=0.028)
     assert len(apart.pairs(robot)) > 100
     assert apart.near(robot) == []
+
+
+def test_a_geom_without_a_name_is_told_by_its_body() -> None:
+    # of a URDF no geom has one: "geom 20, geom 31"
+    robot = hurcules.Robot(hurcules.models.folder() / "examples" / "quadruped.xml")
+    pairs = hurcules.self_collision(robot).pairs(robot)
+    assert ("geom 1 of trunk", "geom 4 of FL_shank") in pairs

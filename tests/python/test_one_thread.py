@@ -1,4 +1,4 @@
-"""What works without the interpreter's lock is refused to a second thread, and never crashes."""
+"""What works without the interpreter's lock is refused to a second thread, which may read it."""
 
 import threading
 from collections.abc import Callable
@@ -37,6 +37,24 @@ def test_two_threads_do_not_step_one_simulation() -> None:
     }
     assert round(simulation.time / simulation.dt) == 20 * (60 - len(told))
     simulation.step(1)
+
+
+def test_a_display_reads_what_another_thread_steps() -> None:
+    # log() read rows that were being added: the process crashed
+    simulation = hurcules.Simulation("stretch")
+    done: list[int] = []
+    loop = threading.Thread(target=lambda: done.append(simulation.step(4000)))
+    loop.start()
+    lengths = []
+    while loop.is_alive():
+        log = simulation.log()
+        assert len({len(values) for values in log.values()}) == 1
+        lengths.append(len(log["time"]))
+        simulation.state(), simulation.level_errors(), simulation.controller.diagnostics()
+    loop.join()
+    assert done == [4000]
+    assert lengths == sorted(lengths)
+    assert any(0 < length < 4000 for length in lengths)  # it rests for readers on the way
 
 
 def test_nor_one_batch_nor_one_mjdata() -> None:

@@ -15,6 +15,7 @@ URDF = f"""<robot name="hinge">{LINK.format(name="foot")}{LINK.format(name="top"
   <joint name="knee" type="revolute"><parent link="foot"/><child link="top"/><origin xyz="0 0 0.1"/>
     <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="30" velocity="3"/></joint></robot>"""
 QUADRUPED = hurcules.models.folder() / "examples" / "quadruped.xml"
+LEGS = ("FL", "FR", "HL", "HR")
 
 
 @pytest.fixture
@@ -138,3 +139,59 @@ def test_a_fallen_robot_asks_for_no_torque_beyond_its_limits_and_says_what_yield
         data.ctrl[motors] = torque
         mujoco.mj_step(model, data)
     assert told & {"FL", "FR", "HL", "HR"}
+
+
+def test_velocities_lead_a_robot_that_floats_where_no_physics_holds_it() -> None:
+    # whole-body kinematics of a legged robot were refused: "no velocity can be given to a free root"
+    spec = mujoco.MjSpec.from_file(str(QUADRUPED))
+    for leg in LEGS:
+        spec.body(f"{leg}_shank").add_site(name=f"{leg}_foot", pos=[0.0, 0.0, -0.2])
+    robot = hurcules.Robot(spec.compile(), floating=True)
+    robot.set_keyframe("stand")
+    feet = [hurcules.PositionTask(leg, robot, f"{leg}_foot") for leg in LEGS]
+    com = hurcules.CenterOfMassTask("com", robot, axes=np.eye(3)[:2])
+    trunk = hurcules.OrientationTask("trunk", robot, "trunk")
+    hand = hurcules.PositionTask("hand", robot, "hand")
+    com.set_target(robot.com[:2] + [0.03, 0.02])
+    hand.set_target(robot.position("hand") + [0.05, 0.0, 0.05])
+    levels = [feet, [com, trunk], hand]
+    assert hurcules.inverse_kinematics(robot, levels).reached
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([*levels, hurcules.PostureTask("posture", robot)]))
+    stood = robot.configuration[:3].copy()
+    slid = 0.0
+    for _ in range(3000):
+        controller.step(robot)
+        slid = max(slid, *(np.abs(foot.error).max() for foot in feet))
+    for task in (com, trunk, hand):
+        task.update(robot)
+        assert np.abs(task.error).max() < 1e-6
+    assert slid < 1e-3
+    assert np.linalg.norm(robot.configuration[:3] - stood) > 0.02  # the root went along
+    with pytest.raises(hurcules.Error, match="no reference can lead the free root"):
+        hurcules.WholeBodyController(robot, levels)
+
+
+def test_a_robot_that_floats_falls_by_its_height_over_the_ground_and_by_its_tilt() -> None:
+    # the height over the support, which is its root, is 0 from the first tick on; without a frame
+    # nobody looked at the tilt
+    def limp(**limits: object) -> hurcules.Simulation:
+        robot = quadruped()
+        posture = hurcules.PostureTask("posture", robot)
+        feet = [hurcules.ContactTask(leg, robot, f"{leg}_shank") for leg in LEGS]
+        controller = hurcules.WholeBodyController(robot, [feet, posture], control="torque")
+        fall = hurcules.FallOptions(**limits)
+        return hurcules.Simulation(model=QUADRUPED, controller=controller, fall=fall)
+
+    stands = limp(frame="trunk", min_height=0.25)
+    stands.step(500)
+    assert not stands.finished
+    stands.data.qpos[2] = 0.2
+    stands.step(2)
+    assert stands.finished and "fell" in stands.reason
+    tips = limp(max_tilt=0.5)
+    tips.data.qpos[3:7] = [np.cos(0.3), np.sin(0.3), 0.0, 0.0]
+    tips.step(2)
+    assert tips.finished and "fell" in tips.reason
+    with pytest.raises(hurcules.Error, match="min_height wants a frame"):
+        limp(min_height=0.3)

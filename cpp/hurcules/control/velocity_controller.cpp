@@ -71,9 +71,6 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
       reachable_(robot.size()),
       solver_(robot.size(), options_.solver) {
   check(options_);
-  require(!robot.floating(),
-          "no velocity can be given to a free root: a robot that floats wants a stack by torques, "
-          "with contacts; without floating it stands on a body (stand_on), whose place it keeps");
   if (options_.law == Law::Arrive) probe_.emplace(robot);
   velocity_ = next_ = step_ = offset_ = Vector::Zero(robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());

@@ -125,7 +125,9 @@ int free_joint_of(const mjModel& m, const std::vector<Coordinate>& coordinates) 
   const int joint = m.body_jntnum[root] > 0 ? m.body_jntadr[root] : -1;
   require(joint >= 0 && m.jnt_type[joint] == mjJNT_FREE,
           "a robot that floats wants a free joint at its root; body '" +
-              name_of(m, mjOBJ_BODY, root) + "' has none");
+              name_of(m, mjOBJ_BODY, root) +
+              "' has none: MJCF gives it one by <freejoint/>, hurcules.load_urdf(path, "
+              "floating=True) to a URDF");
   return joint;
 }
 

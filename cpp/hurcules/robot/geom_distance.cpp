@@ -80,8 +80,11 @@ std::vector<GeomPair> named_geom_pairs(
 }
 
 std::string geom_name(const Robot& robot, int geom) {
-  const char* const name = mj_id2name(robot.model().get(), mjOBJ_GEOM, geom);
-  return name && *name ? name : "geom " + std::to_string(geom);
+  const mjModel& m = *robot.model();
+  const char* const name = mj_id2name(&m, mjOBJ_GEOM, geom);
+  if (name && *name) return name;
+  const char* const body = mj_id2name(&m, mjOBJ_BODY, m.geom_bodyid[geom]);
+  return "geom " + std::to_string(geom) + (body && *body ? " of " + std::string(body) : "");
 }
 
 GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most,

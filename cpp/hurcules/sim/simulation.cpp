@@ -133,7 +133,9 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       summed_(Vector::Zero(controller_->scale().size())),
       wished_(Vector::Zero(world_.size())),
       support_(controller_->plan().support()) {
-  if (!options_.fall.frame.empty()) fall_frame_ = world_.frame(options_.fall.frame);
+  const FallOptions& fall = options_.fall;
+  if (!fall.frame.empty()) fall_frame_ = world_.frame(fall.frame);
+  require(fall_frame_ || !std::isfinite(fall.min_height), "fall: min_height wants a frame");
   if (mj_name2id(plant_.model(), mjOBJ_SITE, "casualty_chest") >= 0) {
     target_ = world_.frame("casualty_chest");
   }
@@ -372,6 +374,13 @@ void Simulation::record() {
   if (options_.record) record_.log.record();
 }
 
+// [m] of the frame that falls
+double Simulation::height() const {
+  if (!fall_frame_) return std::numeric_limits<double>::infinity();
+  const double ground = controller_->plan().floating() ? 0.0 : world_.position(support_).z();
+  return world_.position(*fall_frame_).z() - ground;
+}
+
 // what the tick means for the run; the clock goes on
 void Simulation::judge() {
   const double now = time();
@@ -380,10 +389,7 @@ void Simulation::judge() {
   if (controller_->law().solution().status == SolverStatus::InvalidInput) {
     return end(Ending::SolverFailed, now);
   }
-  if (fall_frame_) {
-    const double height = world_.position(*fall_frame_).z() - world_.position(support_).z();
-    if (fall_monitor_.fell(world_.orientation(support_), height)) return end(Ending::Fell, now);
-  }
+  if (fall_monitor_.fell(world_.orientation(support_), height())) return end(Ending::Fell, now);
   if (time() >= options_.max_seconds) return end(Ending::TimeUp, now);
   if (held()) {
     ++held_ticks_;

@@ -29,11 +29,13 @@ namespace hurcules {
 
 class DistanceTask;
 
-// A run ends where this frame is too low above the controller's support, or the support tilts.
+// A run ends where this frame is too low above the controller's support, or the support tilts. The
+// support of a robot that floats is its root: there the height is that above z = 0 of the world.
 struct FallOptions {
-  std::string frame = "";   // "": nothing is watched
-  double min_height = 0.0;  // [m] of the frame above the support
-  double max_tilt = 0.0;    // [rad] of the support against its start
+  std::string frame = "";                                        // "": no height is watched
+  double min_height = -std::numeric_limits<double>::infinity();  // [m] of the frame
+  double max_tilt =
+      std::numeric_limits<double>::infinity();  // [rad] of the support against its start
 };
 
 struct SimulationOptions {
@@ -157,6 +159,7 @@ class Simulation {
   void advance_plant();
   void advance_plan();
   void record();
+  [[nodiscard]] double height() const;
   void judge();
   void stand_on_new_support();
 

@@ -4,7 +4,6 @@
 #include <mujoco/mujoco.h>
 
 #include "hurcules/control/acceleration_controller.hpp"
-#include "hurcules/control/velocity_controller.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
@@ -138,7 +137,6 @@ TEST_F(Contacts, RefuseStacksThatCannotBe) {
   EXPECT_TRUE(contains(refused(Stack({com_})), "the root of the robot floats"));
   EXPECT_TRUE(contains(refused(*feet_[0] < com_ < *feet_[1]), "on one level"));
   EXPECT_TRUE(contains(refused(*feet_[0] + com_ < posture_), "is no contact"));
-  EXPECT_TRUE(contains(error_text([&] { VelocityController velocities(robot_); }), "free root"));
   AccelerationController bare(robot_, {.enforce_limits = false});
   EXPECT_TRUE(contains(error_text([&] { bare.set_stack(contacts() < com_); }), "enforce_limits"));
   controller_.set_stack(contacts() < com_);
