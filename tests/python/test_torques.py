@@ -142,7 +142,7 @@ def test_a_fallen_robot_asks_for_no_torque_beyond_its_limits_and_says_what_yield
 
 
 def test_velocities_lead_a_robot_that_floats_where_no_physics_holds_it() -> None:
-    # whole-body kinematics of a legged robot were refused: "no velocity can be given to a free root"
+    # whole-body kinematics were refused: "no velocity can be given to a free root"
     spec = mujoco.MjSpec.from_file(str(QUADRUPED))
     for leg in LEGS:
         spec.body(f"{leg}_shank").add_site(name=f"{leg}_foot", pos=[0.0, 0.0, -0.2])
@@ -152,8 +152,8 @@ def test_velocities_lead_a_robot_that_floats_where_no_physics_holds_it() -> None
     com = hurcules.CenterOfMassTask("com", robot, axes=np.eye(3)[:2])
     trunk = hurcules.OrientationTask("trunk", robot, "trunk")
     hand = hurcules.PositionTask("hand", robot, "hand")
-    com.set_target(robot.com[:2] + [0.03, 0.02])
-    hand.set_target(robot.position("hand") + [0.05, 0.0, 0.05])
+    com.set_target(robot.com[:2] + np.array([0.03, 0.02]))
+    hand.set_target(robot.position("hand") + np.array([0.05, 0.0, 0.05]))
     levels = [feet, [com, trunk], hand]
     assert hurcules.inverse_kinematics(robot, levels).reached
     controller = hurcules.VelocityController(robot)
