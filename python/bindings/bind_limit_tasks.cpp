@@ -91,6 +91,15 @@ Args:
 Raises:
   Error: fewer than three corners, or corners that are not convex.
 )";
+constexpr const char* kSetPolygon =
+    R"(Another polygon from the next tick on, after a step say.
+
+Args:
+  polygon: (j, 2) [m] corners as for the task, no more of them than it was made with.
+
+Raises:
+  Error: more corners, fewer than three, or corners that are not convex.
+)";
 constexpr const char* kZeroMomentTask =
     R"(The zero moment point stays in a polygon: no motion tips the robot over.
 
@@ -304,7 +313,8 @@ void bind_limit_tasks(py::module_& module) {
   };
   py::class_<BalanceTask, Task>(module, "BalanceTask", kBalanceTask)
       .def(py::init(make_balance), "name"_a, "robot"_a, "polygon"_a, "margin"_a = balance.margin,
-           "reference"_a = balance.reference, "height"_a = balance.height);
+           "reference"_a = balance.reference, "height"_a = balance.height)
+      .def("set_polygon", &BalanceTask::set_polygon, "polygon"_a, kSetPolygon);
   const ZeroMomentTaskOptions zero_moment;
   const auto make_zero_moment = [](std::string name, const Robot& robot, Matrix polygon,
                                    double margin, std::string reference, double height) {

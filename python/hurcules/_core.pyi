@@ -1108,6 +1108,14 @@ class BalanceTask(Task):
         reference: str = "",
         height: float = 0.0,
     ) -> None: ...
+    def set_polygon(self, polygon: ArrayLike) -> None:
+        """Another polygon from the next tick on, after a step say.
+
+        Args:
+          polygon: (j, 2) [m] corners as for the task, no more of them than it was made with.
+
+        Raises:
+          Error: more corners, fewer than three, or corners that are not convex."""
 
 class ZeroMomentTask(Task):
     """The zero moment point stays in a polygon: no motion tips the robot over.

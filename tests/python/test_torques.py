@@ -195,3 +195,34 @@ def test_a_robot_that_floats_falls_by_its_height_over_the_ground_and_by_its_tilt
     assert tips.finished and "fell" in tips.reason
     with pytest.raises(hurcules.Error, match="min_height wants a frame"):
         limp(min_height=0.3)
+
+
+def test_a_balance_task_follows_the_feet_that_stand() -> None:
+    robot = quadruped()
+    four = np.array([[0.2, 0.15], [-0.2, 0.15], [-0.2, -0.15], [0.2, -0.15]])
+    balance = hurcules.BalanceTask("balance", robot, four, margin=0.02)
+    com = hurcules.CenterOfMassTask("com", robot, axes=np.eye(3)[:2])
+    posture = hurcules.PostureTask("posture", robot)
+    feet = [hurcules.ContactTask(leg, robot, f"{leg}_shank") for leg in LEGS]
+    levels = [feet, balance, com, posture]
+    channels = {"com": hurcules.Twist(com, 0.3)}
+    controller = hurcules.WholeBodyController(robot, levels, channels, control="torque")
+    simulation = hurcules.Simulation(model=QUADRUPED, controller=controller)
+    balance.set_polygon(four[:3])  # the diagonal is a side now, 3.75 x + 5 y = 0
+    simulation.step(1000, {"com": [0.0, -0.05]})
+    simulation.step(500)
+    inward = np.array([-3.75, 5.0]) / np.hypot(3.75, 5.0)  # of the side from corner 3 to corner 1
+    com_at = simulation.data.subtree_com[1][:2]
+    assert (com_at - four[0]) @ inward == pytest.approx(0.02, abs=2e-3)
+    state = simulation.state()
+    balance.set_polygon(four)
+    simulation.restore(state)  # the polygon is a part of it
+    simulation.step(500)
+    assert (simulation.data.subtree_com[1][:2] - four[0]) @ inward > 0.018
+    balance.set_polygon(four)
+    simulation.step(1000)
+    assert (simulation.data.subtree_com[1][:2] - four[0]) @ inward < 0.0
+    with pytest.raises(hurcules.Error, match="of up to 4 corners, 5 came"):
+        balance.set_polygon([*four, [0.25, 0.0]])
+    with pytest.raises(hurcules.Error, match="convex"):
+        balance.set_polygon(four[[0, 2, 1, 3]])

@@ -7,7 +7,6 @@
 // margin as well, and what stops the robot keeps its zero moment point there (zero_moment_task.hpp).
 #pragma once
 
-#include "hurcules/tasks/convex_polygon.hpp"
 #include "hurcules/tasks/reference.hpp"
 #include "hurcules/tasks/task.hpp"
 
@@ -29,16 +28,21 @@ class BalanceTask : public Task {
 
   void update(const Robot& robot) override;
   [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
+  // another polygon from the next update on, after a step say: (k', 2), k' <= k; the rows that are
+  // left over ask for nothing
+  void set_polygon(const Matrix& corners);
+  [[nodiscard]] Index sides() const { return sides_; }  // k'
   // there is no target: hold and advance change nothing
   void hold(const Robot& robot) override { update(robot); }
   void advance(const ConstVectorRef& velocity, double dt) override;
-  void save(StateWriter& writer) const override { Task::save(writer); }
-  void restore(StateReader& reader) override { Task::restore(reader); }
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
   [[nodiscard]] bool rows_apart() const override { return true; }
   [[nodiscard]] bool is_limit() const override { return true; }
 
  private:
-  ConvexPolygon polygon_;
+  Index sides_ = 0;
+  Matrix corners_, normals_;  // (k, 2), 0 beyond the sides
   Reference reference_;
   PointMotion com_;
 };
