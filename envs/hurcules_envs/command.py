@@ -150,6 +150,8 @@ def record(
     fidelity: Annotated[
         str | None, typer.Option(help="exact, fast or kinematic.", show_default="exact")
     ] = None,
+    robot: Robot = None,
+    frame: Frame = None,
     camera: Annotated[
         list[str] | None, typer.Option(help="Whose pictures are recorded too; several times.")
     ] = None,
@@ -165,6 +167,10 @@ def record(
     from hurcules_envs import recording
 
     name, author, source = _known(environment), "expert", ""
+    options = _given(
+        fidelity=fidelity or ("exact" if fastest_fidelity(name) else None), cameras=camera or None,
+        robot=robot, frames=frame or None,
+    )  # fmt: skip
     act: Any = _expert
     if policy != "expert":
         network, author = Policy(policy), "policy"
@@ -174,12 +180,14 @@ def record(
     with Progress() as bar:
         task = bar.add_task(f"{author} in {name}", total=episodes)
         folder = out or Path("out", "data")
-        identifier = recording.record(
-            name, act, episodes, folder, seed=seed, author=author, source=source,
-            form=form, **_given(fidelity=fidelity or ("exact" if fastest_fidelity(name) else None),
-                                cameras=camera or None),
-            progress=lambda done: bar.update(task, completed=done),
-        )  # fmt: skip
+        try:
+            identifier = recording.record(
+                name, act, episodes, folder, seed=seed, author=author, source=source,
+                form=form, **options, progress=lambda done: bar.update(task, completed=done),
+            )  # fmt: skip
+        except KeyboardInterrupt as stopped:
+            bar.console.print(*getattr(stopped, "__notes__", ()))
+            raise
     Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)
 
 

@@ -8,6 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+import gymnasium
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
@@ -173,9 +174,9 @@ def shipped() -> dict[str, Path]:
 
 
 def full_id(name: str) -> str:
-    """The id of an environment of this package: Reach-v0 is Hurcules/Reach-v0."""
+    """The id of an environment: Reach-v0 is Hurcules/Reach-v0, where no other has that name."""
     name = name.removeprefix("hurcules_envs:")
-    return name if "/" in name else f"Hurcules/{name}"
+    return name if "/" in name or name in gymnasium.registry else f"Hurcules/{name}"
 
 
 def _file(source: str) -> Path:

@@ -8,6 +8,7 @@ Not tested: what is learnt from them (docs/environments.md).
 import json
 import resource
 import warnings
+from itertools import count
 from pathlib import Path
 
 import gymnasium as gym
@@ -17,6 +18,7 @@ import pytest
 import hurcules
 from hurcules.cli import main
 from hurcules_envs import recording
+from hurcules_envs.data_formats import Format
 
 NAME = "Hurcules/Drive-v0"
 FAST = {"fidelity": "kinematic"}
@@ -24,6 +26,21 @@ FAST = {"fidelity": "kinematic"}
 
 def expert(env, _):
     return env.environment.expert(env.numbers)[0]
+
+
+@pytest.fixture
+def plain(monkeypatch):
+    """A format that wants no package, and the episodes that it was given last."""
+    given = []
+
+    def write(_recording, _env, episodes, out):
+        given[:] = episodes
+        out.mkdir()
+        (out / "data").write_text("")
+
+    form = Format(("json", ""), lambda one: "data", write)
+    monkeypatch.setitem(recording.FORMATS, "plain", form)
+    return given
 
 
 def words(form: str, out: Path, *more: str) -> list[str]:
@@ -167,13 +184,115 @@ def test_a_full_disk_keeps_what_was_finished(tmp_path):
 
     size = Path(tried("whole")).stat().st_size
     usual = resource.getrlimit(resource.RLIMIT_FSIZE)
-    for limit, kept in ((size - 1, 4), (2000, 0)):
+    for limit, said, left in (
+        (size - 1, r"4 of 4 episodes are kept in .*\.part", [".part"]),
+        (2000, r"could not be written: .*large\.$", []),
+    ):
         out = f"limit {limit}"
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, usual[1]))
         try:
-            with pytest.raises(hurcules.Error, match=rf"{kept} of 4 episodes are kept in .*\.part"):
+            with pytest.raises(hurcules.Error, match=said):
                 tried(out)
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, usual)
-        assert [one.suffix for one in (tmp_path / out).iterdir()] == [".part"]
+        assert [one.suffix for one in (tmp_path / out).iterdir()] == left
         assert Path(tried(out)).stat().st_size == size
+
+
+def test_what_is_recorded_is_what_was_done(tmp_path, plain):
+    recording.record(NAME, lambda *_: [3.0, -3.0, 0.0], 1, tmp_path, form="plain", **FAST)
+    (one,) = plain
+    assert (one.actions == np.float32([1.0, -1.0, 0.0])).all()
+    env = gym.make(NAME, **FAST)
+    env.reset(seed=0)
+    assert [env.step(action)[1] for action in one.actions] == one.rewards.tolist()
+
+
+def test_who_acts_ends_an_episode_or_begins_it_anew(tmp_path, plain):
+    """The first attempt at the first episode does not count, the second one is cut."""
+    steps = count(1)
+
+    def person(env, seen):
+        step = next(steps)
+        if step == 5:
+            raise recording.Again
+        return None if step == 12 else expert(env, seen)
+
+    recording.record("Drive-v0", person, 2, str(tmp_path), form="plain", **FAST)
+    first, second = plain
+    assert (first.seed, len(first.actions), first.success) == (0, 6, False)
+    assert first.truncated.tolist() == [False] * 5 + [True] and not first.terminated.any()
+    assert (second.seed, second.success, bool(second.terminated[-1])) == (1, True, True)
+    assert np.array_equal(
+        first.actions[0], recording.record_episode(gym.make(NAME, **FAST), expert, 0).actions[0]
+    )
+    with pytest.raises(hurcules.Error, match="before its first step"):
+        recording.record(NAME, lambda *_: None, 1, tmp_path / "none", form="plain", **FAST)
+    assert not list((tmp_path / "none").iterdir())
+
+
+def test_mistakes_are_told_before_anything_is_recorded(tmp_path, plain):
+    for given, said in (
+        ({"author": "J. Doe / 3"}, "author: wanted letters"),
+        ({"episodes": 0}, "episodes: wanted a whole number from 1 on, got 0"),
+        ({"environment": gym.make(NAME, **FAST)}, "environment: wanted an id"),
+    ):
+        wanted = {"environment": NAME, "act": expert, "episodes": 1, "out": tmp_path} | given
+        with pytest.raises(hurcules.Error, match=said):
+            recording.record(**wanted, form="plain", **FAST)
+    assert not list(tmp_path.iterdir())
+
+
+def test_options_are_paths_and_arrays_too(tmp_path, plain):
+    arm = Path(gym.__file__).parent / "envs/mujoco/assets/pusher_v5.xml"
+    given = {"robot": arm, "frames": ("tips_arm",), "observation_noise": np.array([0.0, 0.01])}
+    recording.record("Reach-v0", lambda *_: np.zeros(3), 1, tmp_path, form="plain", **FAST, **given)
+    assert len(plain) == 1
+
+
+def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
+    begun = count()
+
+    def unplugged(env, seen):
+        if env.simulation.time == 0.0 and next(begun) == 2:
+            raise OSError("no such device")
+        return expert(env, seen)
+
+    def tried(episodes, act=expert):
+        return recording.record(NAME, act, episodes, tmp_path, form="plain", **FAST)
+
+    with pytest.raises(OSError, match=r"^no such device\n2 of 3 episodes are kept in"):
+        tried(3, unplugged)
+    with pytest.raises(hurcules.Error, match="holds 2 episodes that are finished, 1 were wanted"):
+        tried(1)
+    tried(2, unplugged)
+    assert [one.seed for one in plain] == [0, 1]
+
+
+def test_a_stop_says_what_is_kept(tmp_path, plain, monkeypatch, capsys):
+    begun = count()
+
+    def stops(env, seen):
+        if env.simulation.time == 0.0 and next(begun) == 1:
+            raise KeyboardInterrupt
+        return expert(env, seen)
+
+    monkeypatch.setattr("hurcules_envs.command._expert", stops)
+    assert (
+        main(
+            [
+                "record",
+                "Drive-v0",
+                "--fidelity",
+                "kinematic",
+                "--format",
+                "plain",
+                "--episodes",
+                "3",
+                "--out",
+                str(tmp_path),
+            ]
+        )
+        == 130
+    )
+    assert "1 of 3 episodes are kept in" in capsys.readouterr().out
