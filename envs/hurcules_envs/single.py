@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import ExitStack
 from typing import Any
 
 import gymnasium
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import _core
 from hurcules.rendering import pose
-from hurcules.view import require_display
+from hurcules.view import opened
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
@@ -95,6 +96,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._begun = False
         self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
+        self._window = ExitStack()  # waits for the viewer's thread
         self._views = Views(self.environment)
 
     @property
@@ -204,8 +206,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
     def close(self) -> None:
         """Gives the renderer and the window back."""
         self._views.close()
-        if self._viewer is not None:
-            self._viewer.close()
+        self._window.close()
         if self._pictures is not None:
             self._pictures.close()
         self._viewer = None
@@ -233,12 +234,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         return values["observation"] if len(values) == 1 else values
 
     def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        import mujoco.viewer
-
         if self._viewer is None:
-            require_display()
             self._shown = mujoco.MjData(model)
-            self._viewer = mujoco.viewer.launch_passive(model, self._shown)
+            self._viewer = self._window.enter_context(opened(model, self._shown))
         pose(model, self._shown, data.qpos)
         self._viewer.sync()
 

@@ -157,26 +157,50 @@ def test_a_notebook_shows_levels_limits_and_a_picture(monkeypatch: pytest.Monkey
     assert "no usable renderer &lt;here&gt;" in simulation._repr_html_()
 
 
-def test_the_viewer_watches_a_simulation_of_any_robot(tmp_path: Path) -> None:
+def in_a_window(tmp_path: Path, program: str) -> subprocess.CompletedProcess[str]:
+    """How a program ends that shows `loop()` on a virtual display."""
     if not shutil.which("xvfb-run"):
         pytest.skip("no virtual display here; remedy: apt-get install xvfb xauth")
-    program = tmp_path / "watch.py"
-    program.write_text(
+    path = tmp_path / "watch.py"
+    path.write_text(
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "import hurcules, test_drawing\n"
-        "simulation = test_drawing.loop()\n"
+        "simulation = test_drawing.loop()\n" + program
+    )
+    return subprocess.run(
+        ["xvfb-run", "-a", sys.executable, str(path)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+def test_the_viewer_watches_a_simulation_of_any_robot(tmp_path: Path) -> None:
+    done = in_a_window(
+        tmp_path,
         "begun, asked = simulation.time, []\n"
         "def command(simulation):\n"
         "    asked.append(simulation.time)\n"
         "    return {'hand': [0.6, 0.0, 0.1]}\n"
         "hurcules.watch(simulation, command, seconds=2.0)\n"
-        "assert simulation.time > begun and asked, (simulation.time, asked)\n"
+        "assert simulation.time > begun and asked, (simulation.time, asked)\n",
     )
-    done = subprocess.run(
-        ["xvfb-run", "-a", sys.executable, str(program)],
-        capture_output=True,
-        text=True,
-        timeout=300,
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_mistake_while_a_window_is_open_ends_with_its_error(tmp_path: Path) -> None:
+    """It ended the process, or never ended: the window still drew."""
+    program = "hurcules.watch(hurcules.Simulation('stretch'), {'hnad': [0.0, 0.0, 0.0]})\n"
+    done = in_a_window(tmp_path, program)
+    assert (done.returncode, "channel 'hnad' does not exist" in done.stderr) == (1, True), done
+
+
+def test_a_window_that_is_still_open_does_not_crash_the_end(tmp_path: Path) -> None:
+    done = in_a_window(
+        tmp_path,
+        "from hurcules.view import opened\n"
+        "window = opened(simulation.model, simulation.data)\n"
+        "window.__enter__().sync()\n",
     )
     assert done.returncode == 0, done.stderr
 
@@ -186,3 +210,5 @@ def test_without_a_display_watch_says_what_is_missing(monkeypatch: pytest.Monkey
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(hurcules.Error, match="the viewer needs a display"):
         hurcules.watch(loop())
+    with pytest.raises(hurcules.Error, match="watch: wanted a hurcules.Simulation, got 'stretch'"):
+        hurcules.watch("stretch")
