@@ -99,7 +99,7 @@ def train(
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
             raise
-    _judge(str(folder), None, judge, "exact", None, None, None, console)
+    _judge(str(folder), None, judge, {"fidelity": "exact"}, None, console)
 
 
 def _on_cluster(
@@ -127,6 +127,9 @@ def evaluate(
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
     robot: Robot = None,
     frame: Frame = None,
+    camera: Annotated[
+        list[str] | None, typer.Option(help="Whose pictures the policy sees; several times.")
+    ] = None,
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
@@ -137,7 +140,8 @@ def evaluate(
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
     `hurcules evaluate Drive-v0`
     """
-    _judge(policy, environment, episodes, fidelity, robot, frame, out, Console())
+    chosen = _given(fidelity=fidelity, robot=robot, frames=frame, cameras=camera)
+    _judge(policy, environment, episodes, chosen, out, Console())
 
 
 def record(
@@ -214,16 +218,12 @@ def _judge(
     source: str,
     environment: str | None,
     episodes: int,
-    fidelity: str,
-    robot: str | None,
-    frames: list[str] | None,
+    chosen: dict[str, Any],
     out: Path | None,
     console: Console,
 ) -> None:
     policy = Policy(source)
-    name, options = environment_of(
-        policy, environment, fidelity=fidelity, robot=robot, frames=frames
-    )
+    name, options = environment_of(policy, environment, **chosen)
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
     try:

@@ -9,7 +9,6 @@ from typing import Any
 import gymnasium
 import mujoco
 import numpy as np
-from gymnasium import spaces
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
@@ -20,7 +19,7 @@ from hurcules.view import opened
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
-from hurcules_envs.pictures import Pictures, Views
+from hurcules_envs.pictures import SIZE, Pictures, Views
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
@@ -52,7 +51,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         render_mode: str | None = None,
         flat: bool = False,
         cameras: Sequence[str] = (),
-        camera_size: Sequence[int] = (128, 96),
+        camera_size: Sequence[int] = SIZE,
         **options: Any,
     ) -> None:
         """Builds the environment.
@@ -87,9 +86,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self.observation_space = self._episodes.single_observation_space
         if cameras:
             space = self.observation_space
-            parts = dict(space.spaces) if isinstance(space, spaces.Dict) else {"observation": space}
-            self._pictures = Pictures(self.environment, cameras, camera_size, list(parts))
-            self.observation_space = spaces.Dict(parts | self._pictures.spaces)
+            self._pictures = Pictures(self.environment, cameras, camera_size, space)
+            self.observation_space = self._pictures.observation_space
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward

@@ -210,5 +210,5 @@ def test_without_a_display_watch_says_what_is_missing(monkeypatch: pytest.Monkey
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(hurcules.Error, match="the viewer needs a display"):
         hurcules.watch(loop())
-    with pytest.raises(hurcules.Error, match="watch: wanted a hurcules.Simulation, got 'stretch'"):
+    with pytest.raises(hurcules.Error, match=r"watch: wanted .* got 'stretch'"):
         hurcules.watch("stretch")

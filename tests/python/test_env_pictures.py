@@ -14,6 +14,9 @@ from gymnasium.utils.env_checker import check_env
 import hurcules
 import hurcules_envs  # noqa: F401  registers
 from hurcules_envs.episode_data import Episode
+from hurcules_envs.evaluation import evaluate
+from hurcules_envs.onnx_file import Graph, write
+from hurcules_envs.policy import Policy
 from hurcules_envs.recording import record_episode
 
 CAMERAS = ("head_wide", "auxiliary")
@@ -58,6 +61,39 @@ def test_a_recording_keeps_them(tmp_path: Path) -> None:
     assert pictures.dtype == np.uint8
     assert pictures.shape == (4, 96, 128, 3)
     env.close()
+
+
+def test_who_acts_on_them_is_judged() -> None:
+    """The episodes side by side show what each shows alone, its last picture after its end too."""
+    shown = []
+
+    def act(seen):
+        shown.append({name: values.copy() for name, values in seen.items()})
+        return np.ones((2, 6))
+
+    options = {"fidelity": "kinematic", "cameras": ("auxiliary",), "camera_size": (64, 48)}
+    result = evaluate(act, "Reach-v0", 2, seed=5, **options)
+    assert (result.episodes, len(shown)) == (2, 100)
+    env = gym.make("Hurcules/Reach-v0", **options)
+    for i in range(2):
+        alone, _ = env.reset(seed=5 + i)
+        for seen in shown[:4]:
+            assert all(np.array_equal(seen[part][i], values) for part, values in alone.items())
+            alone, *_ = env.step(np.ones(6, np.float32))
+    env.close()
+
+
+def test_a_policy_that_sees_them_fits(tmp_path: Path) -> None:
+    env = gym.make("Hurcules/Reach-v0", fidelity="kinematic", cameras=("auxiliary",))
+
+    def sees(size: int) -> Policy:
+        inputs = {"observation": 18, "auxiliary": size}
+        write(tmp_path / "a.onnx", Graph((), {}, inputs, {"action": 6}))
+        return Policy(tmp_path / "a.onnx")
+
+    sees(3).check("Reach-v0", env.observation_space, env.action_space)
+    with pytest.raises(hurcules.Error, match=r"got .*auxiliary \(128\); pictures are \(n, height"):
+        sees(128).check("Reach-v0", env.observation_space, env.action_space)
 
 
 @pytest.mark.parametrize(
