@@ -11,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import zlib
 from pathlib import Path
 
@@ -134,8 +135,33 @@ def test_a_picture_shows_the_target() -> None:
     green = (shown[..., 1] > 1.5 * shown[..., 0]) & (shown[..., 1] > 1.5 * shown[..., 2])
     red = (shown[..., 0] > 2 * shown[..., 1]) & (shown[..., 0] > 2 * shown[..., 2])
     assert green.sum() > 10 and red.sum() > 10
+    assert np.array_equal(simulation.picture(320, 240, "side"), shown)
+    assert simulation.picture(64, 48).shape == (48, 64, 3)
+    again = []
+    thread = threading.Thread(target=lambda: again.append(simulation.picture(320, 240, "side")))
+    thread.start()
+    thread.join()
+    assert np.array_equal(again, [shown])  # each thread has a renderer of its own
     with pytest.raises(hurcules.Error, match="camera 'top' does not exist; there are: side"):
         simulation.picture(camera="top")
+
+
+def test_pictures_of_one_size_are_drawn_by_one_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made anew for each, they took 2 to 4 times as long."""
+    if not has_renderer():
+        pytest.skip(f"no OpenGL here; remedy: {rendering.REMEDY}")
+    made = []
+
+    def make(*given):
+        made.append(given)
+        return rendering.make_renderer(*given)
+
+    monkeypatch.setattr(drawing, "make_renderer", make)
+    for simulation in (loop(), loop()):
+        first = simulation.picture(80, 60)
+        simulation.step(300, {"hand": [0.0, 0.0, 0.3]})
+        assert not np.array_equal(simulation.picture(80, 60), first)
+    assert len(made) == 2  # one a model
 
 
 def test_a_notebook_shows_levels_limits_and_a_picture(monkeypatch: pytest.MonkeyPatch) -> None:
