@@ -188,6 +188,8 @@ class Simulation(_core.Simulation):
         """
         if not isinstance(n, int | np.integer):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
+        if self.mission is None and isinstance(command, Mapping) and not command:
+            command = None  # nothing is named, and so everything holds: targets too
         return super().step(n, command)
 
     def picture(
