@@ -160,6 +160,9 @@ def record(
         list[str] | None, typer.Option(help="Whose pictures are recorded too; several times.")
     ] = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
+    author: Annotated[
+        str | None, typer.Option(help="In the data set's name.", show_default="expert or policy")
+    ] = None,
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
     """Record episodes as a data set for imitation, of Minari, robomimic or LeRobot.
@@ -170,23 +173,23 @@ def record(
     """
     from hurcules_envs import recording
 
-    name, author, source = _known(environment), "expert", ""
+    name, kind, source = _known(environment), "expert", ""
     options = _given(
         fidelity=fidelity or ("exact" if fastest_fidelity(name) else None), cameras=camera or None,
         robot=robot, frames=frame or None,
     )  # fmt: skip
     act: Any = _expert
     if policy != "expert":
-        network, author = Policy(policy), "policy"
+        network, kind = Policy(policy), "policy"
         source = sha256(network.path.read_bytes()).hexdigest()
         environment_of(network, name)
         act = _acting(network)
     with Progress() as bar:
-        task = bar.add_task(f"{author} in {name}", total=episodes)
+        task = bar.add_task(f"{kind} in {name}", total=episodes)
         folder = out or Path("out", "data")
         try:
             identifier = recording.record(
-                name, act, episodes, folder, seed=seed, author=author, source=source,
+                name, act, episodes, folder, seed=seed, author=author or kind, source=source,
                 form=form, **options, progress=lambda done: bar.update(task, completed=done),
             )  # fmt: skip
         except KeyboardInterrupt as stopped:

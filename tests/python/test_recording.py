@@ -50,10 +50,11 @@ def words(form: str, out: Path, *more: str) -> list[str]:
 
 
 def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
-    taken = []
+    taken, authors = [], []
 
     def kept(name, act, *_, progress, form, seed, author, source, **options):
         taken.append(options)
+        authors.append(author)
         env = gym.make(name, **options).unwrapped
         env.reset(seed=0)
         assert act(env, None).shape == env.action_space.shape
@@ -63,6 +64,10 @@ def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
     for name in ("Stretch-v0", "Reach-v0"):  # the former has no fidelity to choose
         assert main(["record", name, "--out", str(tmp_path)]) == 0
     assert taken == [{}, {"fidelity": "exact"}]
+    given = ["--robot", "manipulation", "--fidelity", "kinematic", "--author", "anna"]
+    assert main(["record", "Reach-v0", *given]) == 0
+    assert taken[2:] == [{"robot": "manipulation", "fidelity": "kinematic"}]
+    assert authors == ["expert", "expert", "anna"]
 
 
 def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
