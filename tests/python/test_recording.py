@@ -94,6 +94,25 @@ def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
             assert info["is_success"] == episode.infos["is_success"][k + 1]
 
 
+def test_pictures_of_minari_are_those_that_were_seen(tmp_path, monkeypatch):
+    """It writes JPEG unless it is told not to."""
+    minari = pytest.importorskip("minari", reason="pip install 'hurcules[data]'")
+    options = {**FAST, "cameras": ["head_wide"], "camera_size": [64, 48], "max_episode_steps": 3}
+    seen = []
+
+    def acts(env, observation):
+        seen.append(observation["head_wide"])
+        return expert(env, observation)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        identifier = recording.record(NAME, acts, 2, tmp_path, **options)
+        monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+        data = minari.load_dataset(identifier)
+    kept = [episode.observations["head_wide"][:-1] for episode in data]
+    assert np.array_equal(np.concatenate(kept), seen)
+
+
 def test_a_file_of_robomimic_gives_the_same_episode(tmp_path):
     h5py = pytest.importorskip("h5py", reason="pip install h5py")
     assert main(words("robomimic", tmp_path)) == 0
