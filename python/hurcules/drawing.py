@@ -7,7 +7,6 @@ where it is planned to be; a red ball is a joint at its limit. Any robot, in MuJ
 
 from __future__ import annotations
 
-import atexit
 import base64
 import struct
 import threading
@@ -229,11 +228,6 @@ class _Own(threading.local):
     renderer: mujoco.Renderer | None = None
     size: tuple[int, int, int] = (0, 0, 0)  # id of its model, which it keeps, width, height
 
-    def close(self) -> None:
-        if self.renderer is not None:
-            self.renderer.close()
-        self.renderer = None
-
 
 _own = _Own()
 
@@ -241,10 +235,10 @@ _own = _Own()
 def _kept_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
     wanted = (id(model), width, height)
     if _own.renderer is None or _own.size != wanted:
-        _own.close()
+        if _own.renderer is not None:
+            _own.renderer.close()
+        _own.renderer = None
         _own.renderer, _own.size = make_renderer(model, width, height), wanted
-        atexit.unregister(_own.close)
-        atexit.register(_own.close)  # before OpenGL's own, which it has registered by now
     return _own.renderer
 
 

@@ -4,6 +4,8 @@ Strategy: Gymnasium's own checker; what is seen against the renderer asked by ha
 picture after `set_state`; what a recording keeps; vectors; and wrong names and sizes.
 """
 
+import subprocess
+import sys
 from pathlib import Path
 
 import gymnasium as gym
@@ -49,6 +51,29 @@ def test_a_picture_shows_the_episode_as_it_stands() -> None:
     env.unwrapped.set_state(state)
     assert np.array_equal(env.unwrapped.observe()["auxiliary"], first["auxiliary"])
     env.close()
+
+
+def test_the_end_of_one_environment_is_not_seen_in_another() -> None:
+    """A renderer gave back what had its numbers in the one that had drawn last."""
+    one, other = (
+        gym.make("Hurcules/Reach-v0", fidelity="kinematic", cameras=CAMERAS) for _ in range(2)
+    )
+    one.reset(seed=0)
+    seen, _ = other.reset(seed=1)
+    one.close()
+    again = other.unwrapped.observe()
+    assert all(np.array_equal(again[camera], seen[camera]) for camera in CAMERAS)
+    other.close()
+
+
+def test_an_environment_that_nobody_closes_ends_in_silence() -> None:
+    program = (
+        "import gymnasium, hurcules_envs\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', cameras=['auxiliary'])\n"
+        "env.reset(seed=0)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_a_recording_keeps_them(tmp_path: Path) -> None:
