@@ -4,6 +4,7 @@ Strategy: Gymnasium's own checker; what is seen against the renderer asked by ha
 picture after `set_state`; what a recording keeps; vectors; and wrong names and sizes.
 """
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +16,7 @@ from gymnasium.utils.env_checker import check_env
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from hurcules.doctor import render_with
 from hurcules_envs.episode_data import Episode
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, write
@@ -66,13 +68,22 @@ def test_the_end_of_one_environment_is_not_seen_in_another() -> None:
     other.close()
 
 
-def test_an_environment_that_nobody_closes_ends_in_silence() -> None:
+@pytest.mark.parametrize("backend", ["egl", "osmesa"])
+def test_an_environment_that_nobody_closes_ends_in_silence(backend: str) -> None:
+    if lost := render_with(backend):
+        pytest.skip(f"{backend} does not draw here: {lost}")
     program = (
         "import gymnasium, hurcules_envs\n"
         "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', cameras=['auxiliary'])\n"
         "env.reset(seed=0)\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={n: v for n, v in os.environ.items() if n != "PYOPENGL_PLATFORM"}
+        | {"MUJOCO_GL": backend},
+        capture_output=True,
+        text=True,
+    )
     assert (done.returncode, done.stderr) == (0, "")
 
 
