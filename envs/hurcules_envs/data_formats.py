@@ -105,7 +105,10 @@ def _robomimic_place(recording: Recording) -> str:
 
 
 def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out: Path) -> None:
-    """The layout of robomimic 0.3: data/demo_i with actions, rewards, dones, obs and next_obs."""
+    """The layout of robomimic 0.3: data/demo_i with actions, rewards, dones, obs and next_obs.
+
+    The filter key "success" leaves those that succeeded.
+    """
     import h5py
 
     about = {
@@ -116,11 +119,12 @@ def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out:
     with h5py.File(whole, "w") as file:
         data = file.create_group("data")
         data.attrs["env_args"] = json.dumps(about)
-        total = 0
+        total, succeeded = 0, []
         for i, one in enumerate(episodes):
             demo = data.create_group(f"demo_{i}")
             demo.attrs["num_samples"], demo.attrs["seed"] = len(one.actions), one.seed
             demo.attrs["success"] = one.success
+            succeeded += [f"demo_{i}"] * one.success
             demo.create_dataset("actions", data=one.actions)
             demo.create_dataset("rewards", data=one.rewards)
             demo.create_dataset("dones", data=one.done.astype(int))
@@ -130,6 +134,7 @@ def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out:
                 demo.create_dataset(f"next_obs/{name}", data=values[1:], compression=packed)
             total += len(one.actions)
         data.attrs["total"] = total
+        file["mask/success"] = np.array(succeeded, dtype="S")
     out.mkdir()
     (out / _robomimic_place(recording)).write_bytes(whole.getbuffer())
 

@@ -130,6 +130,7 @@ def test_a_file_of_robomimic_gives_the_same_episode(tmp_path):
                 assert (reward, over) == (demo["rewards"][k], bool(demo["dones"][k]))
                 assert np.array_equal(observation["desired_goal"], demo["next_obs/desired_goal"][k])
             assert demo.attrs["success"]
+        assert file["mask/success"][()].tolist() == [b"demo_0", b"demo_1"]
 
 
 def test_a_data_set_of_lerobot_gives_the_same_episode(tmp_path):
