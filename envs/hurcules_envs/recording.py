@@ -146,7 +146,9 @@ def _told(target: Path, paths: Sequence[Path]) -> Iterator[None]:
 
 def _kept(paths: Sequence[Path]) -> str:
     kept = sum(path.exists() for path in paths)
-    return kept * (
+    if not kept:
+        return ""
+    return (
         f"{kept} of {len(paths)} episodes are kept in {paths[0].parent}; the same command goes on "
         f"with them, and for {kept} episodes it writes these alone"
     )
