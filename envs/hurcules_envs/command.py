@@ -182,7 +182,7 @@ def record(
     if policy != "expert":
         network, kind = Policy(policy), "policy"
         source = sha256(network.path.read_bytes()).hexdigest()
-        environment_of(network, name)
+        _, options = environment_of(network, name, **options)
         act = _acting(network)
     with Progress() as bar:
         task = bar.add_task(f"{kind} in {name}", total=episodes)

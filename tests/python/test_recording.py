@@ -19,6 +19,7 @@ import hurcules
 from hurcules.cli import main
 from hurcules_envs import recording
 from hurcules_envs.data_formats import Format
+from hurcules_envs.onnx_file import Graph, write
 
 NAME = "Hurcules/Drive-v0"
 FAST = {"fidelity": "kinematic"}
@@ -68,6 +69,16 @@ def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
     assert main(["record", "Reach-v0", *given]) == 0
     assert taken[2:] == [{"robot": "manipulation", "fidelity": "kinematic"}]
     assert authors == ["expert", "expert", "anna"]
+
+
+def test_a_policy_is_recorded_in_the_environment_that_it_was_trained_in(tmp_path, monkeypatch):
+    """Its options were left out: increments were recorded as velocities, say."""
+    taken = []
+    monkeypatch.setattr(recording, "record", lambda name, *_, **given: taken.append(given) or name)
+    own = {"environment": NAME, "options": '{"fidelity": "kinematic", "friction": [0.5, 1.0]}'}
+    write(tmp_path / "a.onnx", Graph((), {}, {"observation": 15}, {"action": 3}, own))
+    assert main(["record", "Drive-v0", "--policy", str(tmp_path / "a.onnx")]) == 0
+    assert (taken[0]["friction"], taken[0]["fidelity"]) == ([0.5, 1.0], "exact")
 
 
 def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
