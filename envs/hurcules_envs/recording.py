@@ -24,6 +24,7 @@ from hurcules.validation import require_known
 from hurcules_envs.data_formats import FORMATS
 from hurcules_envs.episode_data import Episode, Recording
 from hurcules_envs.policy import full_id
+from hurcules_envs.registry import steps_of_episode
 
 __all__ = ["Act", "Again", "record", "record_episode"]
 
@@ -65,7 +66,8 @@ def record(
         author: who acts, for the data set's name: letters, digits, "_" and "-".
         source: which policy, so that a recording that was stopped goes on with no other.
         progress: is told how many are done.
-        options: of the environment.
+        options: of the environment, and `max_episode_steps`; at another `rate` episodes last as
+            long, unless it is given.
 
     Returns:
         The id of the data set, or the path of the file or folder.
@@ -125,8 +127,10 @@ def _wanted(
         raise hurcules.Error(f"episodes: wanted a whole number from 1 on, got {episodes!r}")
     if not re.fullmatch(r"[\w-]+", author, re.ASCII):
         raise hurcules.Error(f"author: wanted letters, digits, '_' and '-', got {author!r}")
-    plain = json.loads(json.dumps(options, default=_plain))
-    return Recording(full_id(environment), episodes, seed, author, source, plain)
+    name, plain = full_id(environment), json.loads(json.dumps(options, default=_plain))
+    if "rate" in plain:  # episodes last as long at any
+        plain = {"max_episode_steps": steps_of_episode(name, plain)} | plain
+    return Recording(name, episodes, seed, author, source, plain)
 
 
 def _plain(value: Any) -> Any:

@@ -286,6 +286,15 @@ def test_options_are_paths_and_arrays_too(tmp_path, plain):
     assert len(plain) == 1
 
 
+def test_recorded_episodes_last_as_long_at_any_rate(tmp_path, plain):
+    def holds(*_):
+        return np.zeros(6)
+
+    for given, steps in (({"rate": 10}, 50), ({"rate": 10, "max_episode_steps": 7}, 7)):
+        recording.record("Reach-v0", holds, 1, tmp_path / str(steps), form="plain", **FAST, **given)
+        assert len(plain[0].actions) == steps
+
+
 def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
     begun = count()
 
