@@ -103,6 +103,14 @@ def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:
         assert rewards == episode["rewards"].tolist()  # actions alone give the same bits
 
 
+def test_an_episode_lasts_as_long_at_the_rate_of_its_policy(tmp_path: Path) -> None:
+    metadata = REACH | {"options": '{"rate": 10}'}
+    policy = linear(tmp_path / "a.onnx", metadata=metadata)
+    words = ["run", "--policy", str(policy), "--fidelity", "kinematic", "--no-video"]
+    assert main([*words, "--out", str(tmp_path)]) in (0, 1)
+    assert json.loads((tmp_path / "summary.json").read_text())["steps"] == 50  # 5 s
+
+
 def test_the_command_line_films_an_episode_and_says_that_it_failed(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg", reason="pip install 'hurcules[report]'")
     hurcules_envs.register("Own/Short-v0", "hurcules_envs.reach:Reach", 5)
