@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from contextlib import ExitStack
 from typing import Any
@@ -58,7 +59,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
 
         Args:
             environment: "module:Class" of an `Environment`.
-            render_mode: None, "rgb_array", or "human" (a window).
+            render_mode: None, "rgb_array", or "human" (a window, in real time at most).
             flat: of a goal environment: one array, the observation and the way to the goal.
             cameras: of the robot ("head_wide", "head_left", "head_right", "auxiliary") or the
                 scene, whose pictures are observed too: an observation is then a dictionary of
@@ -95,6 +96,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
         self._window = ExitStack()  # waits for the viewer's thread
+        self._due = 0.0  # [s] when the next step may be shown
         self._views = Views(self.environment)
 
     @property
@@ -160,6 +162,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._steps = 0 if terminated else self._steps + 1
         if self.render_mode == "human":
             self.render()
+            self._keep_time()
         return self._seen(step), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
@@ -237,6 +240,11 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
             self._viewer = self._window.enter_context(opened(model, self._shown))
         pose(model, self._shown, data.qpos)
         self._viewer.sync()
+
+    def _keep_time(self) -> None:
+        now = time.perf_counter()
+        time.sleep(max(0.0, self._due - now))
+        self._due = max(self._due, now) + self._episodes.period
 
 
 def _info(step: Step) -> dict[str, Any]:

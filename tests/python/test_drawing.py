@@ -221,6 +221,22 @@ def test_a_mistake_while_a_window_is_open_ends_with_its_error(tmp_path: Path) ->
     assert (done.returncode, "channel 'hnad' does not exist" in done.stderr) == (1, True), done
 
 
+def test_an_environment_in_a_window_keeps_time_and_closes(tmp_path: Path) -> None:
+    done = in_a_window(
+        tmp_path,
+        "import gymnasium, hurcules_envs, numpy, time\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', render_mode='human')\n"
+        "env.reset(seed=0)\n"
+        "env.step(numpy.zeros(6))\n"
+        "begun = time.perf_counter()\n"
+        "for _ in range(20): env.step(numpy.zeros(6))\n"
+        "took = time.perf_counter() - begun\n"
+        "env.close()\n"
+        "assert took >= 0.95, took\n",  # 20 steps of 50 ms
+    )
+    assert done.returncode == 0, done.stderr
+
+
 def test_a_window_that_is_still_open_does_not_crash_the_end(tmp_path: Path) -> None:
     done = in_a_window(
         tmp_path,
