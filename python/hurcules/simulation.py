@@ -188,9 +188,7 @@ class Simulation(_core.Simulation):
         """
         if not isinstance(n, int | np.integer):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
-        if self.mission is None and isinstance(command, Mapping) and not command:
-            command = None  # nothing is named, and so everything holds: targets too
-        return super().step(n, command)
+        return super().step(n, _named(command, self.mission))
 
     def picture(
         self,
@@ -261,7 +259,7 @@ class SimulationBatch(_core.SimulationBatch):
         if n < 1:
             raise Error(f"a batch wants n >= 1, {n} came")
         super().__init__(simulation, n, threads, list(models))
-        self._controller = simulation.controller
+        self._controller, self._mission = simulation.controller, simulation.mission
 
     def __repr__(self) -> str:
         """How many, of what."""
@@ -283,7 +281,7 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: an unknown channel, a wrong shape, or numbers that are not finite.
         """
-        super().step(ticks, commands, _mask(mask))
+        super().step(ticks, _named(commands, self._mission), _mask(mask))
 
     def step_and_read(
         self,
@@ -306,7 +304,14 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: as `step`.
         """
+        commands = _named(commands, self._mission)
         return super().step_and_read(ticks, quantities, commands, _mask(mask))
+
+
+def _named(command: Command | None, mission: str | None) -> Command | None:
+    """A command that names no channel lets all hold, targets too; in a mission all rates are 0."""
+    nothing = mission is None and isinstance(command, Mapping) and not command
+    return None if nothing else command
 
 
 def _mask(mask: ArrayLike | None) -> Any:
