@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import struct
+import threading
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 
 from hurcules import _core
 from hurcules.legend import joint_words, level_words
-from hurcules.rendering import RendererError, open_renderer
+from hurcules.rendering import RendererError, make_renderer
 from hurcules.validation import require_known
 
 __all__ = [
@@ -215,10 +216,30 @@ def picture(
     model = loop.model
     if isinstance(camera, str):
         require_known("camera", camera, [model.camera(i).name for i in range(model.ncam)])
-    with open_renderer(model, width, height) as renderer:
-        renderer.update_scene(loop.data, -1 if camera is None else camera)
-        draw(renderer.scene, loop)
-        return np.array(renderer.render())
+    renderer = _kept_renderer(model, width, height)
+    renderer.update_scene(loop.data, -1 if camera is None else camera)
+    draw(renderer.scene, loop)
+    return np.array(renderer.render())
+
+
+class _Own(threading.local):
+    """The last renderer of each thread: to make one takes longer than to draw."""
+
+    renderer: mujoco.Renderer | None = None
+    size: tuple[int, int, int] = (0, 0, 0)  # id of its model, which it keeps, width, height
+
+
+_own = _Own()
+
+
+def _kept_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
+    wanted = (id(model), width, height)
+    if _own.renderer is None or _own.size != wanted:
+        if _own.renderer is not None:
+            _own.renderer.close()
+        _own.renderer = None
+        _own.renderer, _own.size = make_renderer(model, width, height), wanted
+    return _own.renderer
 
 
 def html(loop: Loop) -> str:

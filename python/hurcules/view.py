@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import sys
 import threading
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +21,7 @@ from hurcules.drawing import draw
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
 
-__all__ = ["require_display", "view", "watch"]
+__all__ = ["opened", "require_display", "view", "watch"]
 
 FPS = 60  # pictures a second
 
@@ -60,6 +62,11 @@ def watch(
     Raises:
         Error: there is no display, or a command that `Simulation.step` refuses.
     """
+    if not isinstance(simulation, Simulation):
+        raise Error(
+            f"watch: wanted a hurcules.Simulation, got {simulation!r}; an environment is shown by "
+            "render_mode='human'"
+        )
 
     def advance(n: int) -> None:
         now = command(simulation) if callable(command) else command
@@ -82,11 +89,7 @@ def _show(
     seconds: float | None,
 ) -> None:
     """Opens the window; `advance` takes steps of the physics, `mark` draws into its own scene."""
-    require_display()
-    import mujoco.viewer
-
-    threads = set(threading.enumerate())
-    with mujoco.viewer.launch_passive(model, data, show_left_ui=False) as window:
+    with opened(model, data, show_left_ui=False) as window:
         started, begun = time.perf_counter(), data.time
         while window.is_running():
             passed = time.perf_counter() - started
@@ -99,8 +102,38 @@ def _show(
                 mark(window.user_scn)
             window.sync()
             time.sleep(max(0.0, 1.0 / FPS - (time.perf_counter() - started - passed)))
-    for thread in set(threading.enumerate()) - threads:
-        thread.join()  # the window still draws this model
+
+
+@contextmanager
+def opened(model: Any, data: Any, **shown: Any) -> Iterator[Any]:
+    """MuJoCo's passive viewer; its thread has ended when this is left, or the program ends.
+
+    Args:
+        model: of what is shown.
+        data: of it.
+        shown: as `mujoco.viewer.launch_passive` takes it.
+
+    Raises:
+        Error: there is no display.
+    """
+    require_display()
+    import mujoco.viewer
+
+    threads = set(threading.enumerate())
+    window = mujoco.viewer.launch_passive(model, data, **shown)
+    drawing = set(threading.enumerate()) - threads
+
+    def close() -> None:
+        window.close()
+        for thread in drawing:
+            thread.join()  # it still draws this model
+
+    atexit.register(close)
+    try:
+        yield window
+    finally:
+        close()
+        atexit.unregister(close)
 
 
 def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:

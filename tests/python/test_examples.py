@@ -98,6 +98,13 @@ def stands(said: str) -> None:
     assert numbers(r"away, (\S+) rad/s", said)[0] < 1e-2
 
 
+def is_led_by_hand(said: str) -> None:
+    assert abs(numbers(r"by hand: (\S+) m ahead", said)[0] - 0.10) < 0.01
+    assert 0.35 < numbers(r"held for (\S+) s", said)[0] < 0.55
+    assert "pel:" in said and "held by" in said
+    assert "the same bits: True" in said
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -114,6 +121,7 @@ RESULTS = {
     "12": clones,
     "13": stands,
     "14": moves_as_wanted,
+    "15": is_led_by_hand,
 }
 
 
