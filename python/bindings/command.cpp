@@ -31,6 +31,16 @@ Array numbers_of(const std::string& what, const py::handle& values) {
   return numbers;
 }
 
+// rates are 0, so that in a mission they are not the operator's; targets and forces stay (NaN)
+void hold(const WholeBodyController& controller, Matrix& all) {
+  Index column = 0;
+  for (const Channel& channel : controller.channels()) {
+    const bool sets = channel.kind() == ChannelKind::Target || channel.kind() == ChannelKind::Force;
+    if (!sets) all.middleCols(column, channel.size()).setZero();
+    column += channel.size();
+  }
+}
+
 // rows of what came, or of the values of all channels side by side; `shape` of n numbers, as a text
 template <class Shape>
 Matrix rows_of(const WholeBodyController& controller, const py::object& command, Index rows,
@@ -50,12 +60,11 @@ Matrix rows_of(const WholeBodyController& controller, const py::object& command,
     if (std::find(known.begin(), known.end(), text) == known.end())
       throw Error(unknown_name("channel", text, known));
   }
-  const double left = given.empty() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
-  Matrix all = Matrix::Constant(rows, k, left);
+  Matrix all = Matrix::Constant(rows, k, std::numeric_limits<double>::quiet_NaN());
   Index column = 0;
   for (const Channel& channel : controller.channels()) {
     const Index size = channel.size();
-    if (const py::str name(channel.name()); given.contains(name)) {
+    if (const py::str name(channel.name()); given.contains(name) && !given[name].is_none()) {
       const std::string what = "channel '" + channel.name() + "'";
       const Array numbers = numbers_of(what, given[name]);
       if (numbers.size() != rows * size)
@@ -64,7 +73,15 @@ Matrix rows_of(const WholeBodyController& controller, const py::object& command,
     }
     column += size;
   }
+  if (all.array().isNaN().all()) hold(controller, all);
   return all;
+}
+
+// none where they name nothing
+template <class Numbers>
+std::optional<Numbers> given(const Numbers& numbers) {
+  if (numbers.size() > 0 && numbers.array().isNaN().all()) return std::nullopt;
+  return numbers;
 }
 
 }  // namespace
@@ -72,7 +89,7 @@ Matrix rows_of(const WholeBodyController& controller, const py::object& command,
 std::optional<Vector> command_of(const WholeBodyController& controller, const py::object& command) {
   if (command.is_none()) return std::nullopt;
   const auto shape = [](Index n) { return "(" + std::to_string(n) + ",)"; };
-  return rows_of(controller, command, 1, shape).row(0).transpose();
+  return given<Vector>(rows_of(controller, command, 1, shape).row(0).transpose());
 }
 
 std::optional<Matrix> commands_of(const WholeBodyController& controller, const py::object& commands,
@@ -81,7 +98,7 @@ std::optional<Matrix> commands_of(const WholeBodyController& controller, const p
   const auto shape = [rows](Index n) {
     return "(" + std::to_string(rows) + ", " + std::to_string(n) + ")";
   };
-  return rows_of(controller, commands, rows, shape);
+  return given<Matrix>(rows_of(controller, commands, rows, shape));
 }
 
 }  // namespace hurcules_bindings

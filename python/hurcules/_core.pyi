@@ -3913,10 +3913,11 @@ class Simulation:
     def restore(self, state: ArrayLike) -> None:
         """Goes on from what state() gave, bit for bit, in any simulation of the same mission and model.
 
-        The log keeps what it recorded before that time.
+        The log keeps what it recorded before that time. Masses, sizes and friction are the model's, not the
+        state's: where they differ, what follows does.
 
         Raises:
-          Error: the state belongs to another model or mission."""
+          Error: the state belongs to a model of other parts, or another mission."""
 
     def resume(self) -> None:
         """The mission goes on after `pause`.

@@ -105,6 +105,7 @@ def test_a_channel_that_a_command_does_not_name_holds() -> None:
     simulation.step(1000, {"finger": [0.01]})
     assert at(simulation) == pytest.approx(where, abs=1e-3)
     simulation.step(100, {})  # names none: all hold
+    simulation.step(100, {"tip": None})
     assert at(simulation) == pytest.approx(where, abs=1e-3)
     batch = hurcules.SimulationBatch(simulation, 1, threads=1)
     batch.step(100, {})

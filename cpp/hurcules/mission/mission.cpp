@@ -143,7 +143,7 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
   const std::string& stack = table_.phases[phase_].stack;
   if (stack == kJoints) {
     controller.move_joints();
-  } else if (controller.moves_joints() || controller.stacks()[controller.active()].name != stack) {
+  } else if (!rules(controller)) {
     controller.use(stack);
     controller.hold_targets();  // where the plan is: nothing jumps
   }
@@ -268,7 +268,14 @@ void Mission::pause() {
 void Mission::resume(WholeBodyController& controller, double time) {
   paused_ = false;
   waiting_ = doing_ == Doing::Leading ? 0.0 : 1.0;
-  if (moved_) enter(phase_, controller, time);
+  if (moved_ || !rules(controller)) enter(phase_, controller, time);
+}
+
+// the stack of the phase does
+bool Mission::rules(const WholeBodyController& controller) const {
+  const std::string& stack = table_.phases[phase_].stack;
+  if (stack == kJoints) return controller.moves_joints();
+  return !controller.moves_joints() && controller.stacks()[controller.active()].name == stack;
 }
 
 std::optional<double> Mission::asks_until() const {

@@ -87,6 +87,7 @@ class Mission : public Supervisor {
   // to a trouble, by its number, or to being late; false: the run is over
   bool react(std::optional<std::size_t> trouble, WholeBodyController& controller, double time);
   bool wait(double time, WholeBodyController& controller);
+  [[nodiscard]] bool rules(const WholeBodyController& controller) const;
   void tell();
   // phase and condition that it is in trouble with, in words; cause as in Why
   [[nodiscard]] std::string words(std::size_t phase, std::size_t cause) const;

@@ -272,6 +272,20 @@ TEST_F(MissionTest, APhaseBeginsAnewWhereSomebodyCommandedInThePause) {
   }
 }
 
+// it led no task of another stack, and took too long
+TEST_F(MissionTest, APhaseHasItsStackBackAfterAPauseInWhichSomebodyUsedAnother) {
+  MissionTable table = wave_table();
+  table.phases = {table.phases[2]};
+  const auto mission = make(table);
+  for (int i = 0; i < 10; ++i) tick(*mission);
+  mission->pause();
+  controller_->move_joints();
+  EXPECT_TRUE(tick(*mission));
+  mission->resume(*controller_, time_);
+  EXPECT_FALSE(controller_->moves_joints());
+  EXPECT_EQ(controller_->stacks()[controller_->active()].name, table.phases[0].stack);
+}
+
 TEST_F(MissionTest, FiguresMeasureTheirPhasesAndJudgeTheRun) {
   MissionTable table;
   table.phases = {{.name = "one", .stack = "reach", .seconds = 0.25},
@@ -348,9 +362,7 @@ TEST_F(MissionTest, ATableIsCheckedWhenItIsLoaded) {
   row.posture = "hand";
   row.keys = {{1.0, {{"a", 0.0}}}};
   expect(row, "wants a PostureTask of all coordinates");
-  EXPECT_TRUE(contains(error_text([&] {
-                         (void)make(MissionTable{{good, good}, ""});
-                       }),
+  EXPECT_TRUE(contains(error_text([&] { (void)make(MissionTable{{good, good}, ""}); }),
                        "two phases are called 'good'"));
 }
 
