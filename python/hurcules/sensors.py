@@ -17,8 +17,8 @@ def realistic(robot: Robot | None = None) -> SensorOptions:
     """The sensors of a robot of this kind, with noise, bias, delay and quantisation.
 
     Args:
-        robot: that has them, its inertial unit and its scanner only where its model names them; None:
-            all that Hurcules has.
+        robot: that has them, an inertial unit and a scanner only where its model names them;
+            None: all that Hurcules has.
 
     Returns:
         SensorOptions; change what you know better, e.g.
