@@ -127,6 +127,7 @@ from hurcules.ik import Posture, inverse_kinematics  # noqa: E402
 from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
+from hurcules.support import support_polygon  # noqa: E402
 from hurcules.urdf import load_urdf, on_floor  # noqa: E402
 from hurcules.view import watch  # noqa: E402
 
@@ -263,6 +264,7 @@ __all__ = [
     "servo_table",
     "sole_points",
     "step",
+    "support_polygon",
     "transfer_bed",
     "watch",
     "with_motors",

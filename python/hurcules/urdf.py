@@ -113,11 +113,17 @@ def on_floor(
         (nq,) the same with another height: the lowest of the geoms that can touch the plane does.
 
     Raises:
-        Error: no such plane, or no free root.
+        Error: no such plane, no free root, or another number of numbers.
     """
     plane = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, floor)
     if plane < 0 or model.geom_type[plane] != mujoco.mjtGeom.mjGEOM_PLANE:
-        raise Error(f"on_floor wants the name of a plane, {floor!r} is none")
+        planes = np.flatnonzero(model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE)
+        names = ", ".join(name for name in (model.geom(geom).name for geom in planes) if name)
+        raise Error(
+            f"on_floor wants the name of a plane, {floor!r} is none; there are: {names or 'none'}"
+        )
+    if np.shape(qpos) != (model.nq,):
+        raise Error(f"on_floor wants qpos of shape ({model.nq},), {np.shape(qpos)} came")
     if model.njnt == 0 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
         raise Error("on_floor wants a robot whose first joint is free")
     data = mujoco.MjData(model)
