@@ -98,6 +98,13 @@ def stands(said: str) -> None:
     assert numbers(r"away, (\S+) rad/s", said)[0] < 1e-2
 
 
+def walks(said: str) -> None:
+    assert all(force > 5.0 for force in numbers(r"carries (\S+) N", said))
+    wanted, *moved = ([float(x) for x in way.split()] for way in re.findall(r"\[(.*?)\]", said))
+    assert len(moved) == 4
+    assert all(abs(a - b) < 0.02 for way in moved for a, b in zip(wanted, way, strict=True))
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -114,6 +121,7 @@ RESULTS = {
     "12": clones,
     "13": stands,
     "14": moves_as_wanted,
+    "15": walks,
 }
 
 
