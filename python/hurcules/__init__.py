@@ -17,6 +17,7 @@ except ModuleNotFoundError as error:
 
 from hurcules import (  # noqa: E402
     _moved,
+    _pickles,
     _reprs,
     cameras,
     casualties,
@@ -132,6 +133,8 @@ from hurcules.urdf import load_urdf, on_floor  # noqa: E402
 from hurcules.view import watch  # noqa: E402
 
 _reprs.install()
+
+_pickles.install()
 
 _moved.install()
 
