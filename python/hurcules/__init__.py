@@ -130,7 +130,7 @@ from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
 from hurcules.support import support_polygon  # noqa: E402
 from hurcules.urdf import load_urdf, on_floor  # noqa: E402
-from hurcules.view import watch  # noqa: E402
+from hurcules.view import film, watch  # noqa: E402
 
 _reprs.install()
 
@@ -250,6 +250,7 @@ __all__ = [
     "cameras",
     "casualties",
     "driving",
+    "film",
     "inverse_kinematics",
     "largest_stiffness",
     "lift",

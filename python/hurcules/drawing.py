@@ -10,7 +10,7 @@ from __future__ import annotations
 import base64
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Protocol
@@ -33,6 +33,7 @@ __all__ = [
     "html",
     "limit_marks",
     "picture",
+    "pictures",
 ]
 
 Array = NDArray[np.float64]
@@ -212,13 +213,21 @@ def picture(
         RendererError: there is no OpenGL that works.
         Error: the model has no such camera.
     """
+    return next(pictures(loop, width, height, camera))
+
+
+def pictures(
+    loop: Loop, width: int, height: int, camera: str | mujoco.MjvCamera | None
+) -> Generator[Picture, None, None]:
+    """As `picture`, of what it looks like each time that one is asked for."""
     model = loop.model
     if isinstance(camera, str):
         require_known("camera", camera, [model.camera(i).name for i in range(model.ncam)])
     with open_renderer(model, width, height) as renderer:
-        renderer.update_scene(loop.data, -1 if camera is None else camera)
-        draw(renderer.scene, loop)
-        return np.array(renderer.render())
+        while True:
+            renderer.update_scene(loop.data, -1 if camera is None else camera)
+            draw(renderer.scene, loop)
+            yield np.array(renderer.render())
 
 
 def html(loop: Loop) -> str:

@@ -89,9 +89,12 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
         if base is None or spec.worldbody.next_body(base) is not None or spec.worldbody.geoms:
             raise Error("its root link is fixed to the world, or is empty: it cannot float")
         base.add_freejoint(name="root")
+        spec.worldbody.add_light(pos=[0, -2, 4], dir=[0, 0.4, -1], castshadow=False)
         spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10, 10, 0.1])
         model = with_motors(spec)
+        lying = model.qpos0.copy()
         model.qpos0[:] = on_floor(model, model.qpos0)
+        model.stat.center += (model.qpos0 - lying)[:3]  # where cameras look
         return model
     except (ValueError, Error) as error:
         raise Error(f"{path}: {error}") from error

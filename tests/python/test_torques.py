@@ -36,6 +36,8 @@ def test_a_urdf_stands_on_a_floor_on_its_sole(urdf: Path) -> None:
     model = hurcules.load_urdf(urdf, floating=True)
     assert (model.nq, model.nv, model.nu) == (8, 7, 1)
     assert model.qpos0[2] == pytest.approx(0.02 - 5e-4)  # half a box, 0.5 mm in the floor
+    assert model.nlight == 1  # and cameras look at where it stands
+    assert model.stat.center[2] == pytest.approx(model.qpos0[2])
     robot = hurcules.Robot(model, floating=True)
     sole = hurcules.sole_points(robot, "foot")
     assert sole.shape == (4, 3)
