@@ -129,7 +129,7 @@ from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
 from hurcules.support import support_polygon  # noqa: E402
-from hurcules.urdf import load_urdf, on_floor  # noqa: E402
+from hurcules.urdf import load_urdf, on_floor, urdf_spec  # noqa: E402
 from hurcules.view import film, watch  # noqa: E402
 
 _reprs.install()
@@ -270,6 +270,7 @@ __all__ = [
     "step",
     "support_polygon",
     "transfer_bed",
+    "urdf_spec",
     "watch",
     "with_motors",
 ]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hurcules._core import Error
 from hurcules.motors import with_motors
 
-__all__ = ["load_urdf"]
+__all__ = ["load_urdf", "on_floor", "urdf_spec"]
 
 _MESHES = (".stl", ".obj", ".msh")  # that MuJoCo reads
 _LEAST_MASS, _LEAST_INERTIA = 1e-3, 1e-6  # [kg], [kg m^2] of links that say nothing, or less
@@ -50,6 +50,19 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
             MuJoCo does not read.
     """
+    return _read(path, shapes, floating)[1]
+
+
+def urdf_spec(path: str | Path, *, shapes: bool = True, floating: bool = False) -> mujoco.MjSpec:
+    """The same as a specification, for what a scene has beside the robot.
+
+    Arguments, errors and warnings are those of `load_urdf`. `spec.worldbody.add_geom(...)` adds a
+    step, say, `spec.option.timestep` is the time step, and `spec.compile()` the model.
+    """
+    return _read(path, shapes, floating)[0]
+
+
+def _read(path: str | Path, shapes: bool, floating: bool) -> tuple[mujoco.MjSpec, mujoco.MjModel]:
     path = Path(path)
     try:
         root = ET.parse(path).getroot()
@@ -84,7 +97,7 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
     try:
         _exclude_overlaps(spec, spec.compile())
         if not floating:
-            return with_motors(spec)
+            return spec, with_motors(spec)
         base = spec.worldbody.first_body()
         if base is None or spec.worldbody.next_body(base) is not None or spec.worldbody.geoms:
             raise Error("its root link is fixed to the world, or is empty: it cannot float")
@@ -95,7 +108,8 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
         lying = model.qpos0.copy()
         model.qpos0[:] = on_floor(model, model.qpos0)
         model.stat.center += (model.qpos0 - lying)[:3]  # where cameras look
-        return model
+        base.pos = model.qpos0[:3]
+        return spec, model
     except (ValueError, Error) as error:
         raise Error(f"{path}: {error}") from error
 

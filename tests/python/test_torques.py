@@ -56,6 +56,30 @@ def test_a_urdf_stands_on_a_floor_on_its_sole(urdf: Path) -> None:
     assert hurcules.on_floor(model, pressed, depth=0.0)[2] == pytest.approx(0.02)
 
 
+def test_a_scene_is_built_about_a_urdf(urdf: Path) -> None:
+    plain = hurcules.load_urdf(urdf, floating=True)
+    spec = hurcules.urdf_spec(urdf, floating=True)
+    step = {"type": mujoco.mjtGeom.mjGEOM_BOX, "size": [0.3, 0.3, 0.05], "pos": [0.0, 0.0, 0.05]}
+    spec.worldbody.add_geom(name="step", **step)
+    spec.option.timestep = 0.001
+    model = spec.compile()
+    np.testing.assert_array_equal(model.qpos0, plain.qpos0)
+    assert (model.nu, model.nbody, model.ngeom) == (plain.nu, plain.nbody, plain.ngeom + 1)
+    qpos = model.qpos0.copy()
+    qpos[2] += 0.1
+    robot = hurcules.Robot(model, floating=True)
+    robot.set_qpos(qpos)
+    foot = hurcules.ContactTask("foot", robot, "foot")
+    levels = [foot, hurcules.PostureTask("posture", robot)]
+    controller = hurcules.WholeBodyController(robot, levels, control="torque")
+    simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+    simulation.step(1000)
+    assert simulation.data.qpos[2] == pytest.approx(0.12, abs=1e-3)
+    assert controller.contact_force("foot")[2] == pytest.approx(4 * 9.81, abs=0.05)
+    held = hurcules.urdf_spec(urdf).compile()
+    assert (held.nq, held.nu) == (1, 1)
+
+
 def test_on_floor_says_what_it_wants(urdf: Path) -> None:
     model = hurcules.load_urdf(urdf, floating=True)
     with pytest.raises(hurcules.Error, match="'ground' is none; there are: floor"):
