@@ -1,5 +1,6 @@
 """Hierarchical optimal control of the rescue robot Hurcules, simulated in MuJoCo."""
 
+import sys
 import warnings
 from typing import Any
 
@@ -153,7 +154,8 @@ def __getattr__(name: str) -> Any:
     if _moved.new_name(f"hurcules.{name}"):
         globals()[name] = _moved.forward(f"hurcules.{name}", 3)
         return globals()[name]
-    raise AttributeError(f"module 'hurcules' has no attribute {name!r}")
+    text = f"module 'hurcules' has no attribute {name!r}"
+    raise AttributeError(text, name=name, obj=sys.modules[__name__])  # Python says what is near
 
 
 __all__ = [

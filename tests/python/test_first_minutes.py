@@ -170,6 +170,12 @@ def test_solutions_and_options_show_what_they_hold() -> None:
         assert "object at 0x" not in repr(shown) and "=" in repr(shown)
 
 
+def test_a_name_that_is_misspelt_is_answered_with_the_near_one() -> None:
+    code = "import hurcules; hurcules.PositonTask"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "has no attribute 'PositonTask'. Did you mean: 'PositionTask'?" in done.stderr
+
+
 @pytest.mark.parametrize("method", rhqp.method_names())
 def test_the_solution_of_each_method_is_shown(method: str) -> None:
     solver = rhqp.Solver(2, rhqp.SolverOptions(method=method))

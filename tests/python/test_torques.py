@@ -16,7 +16,6 @@ URDF = f"""<robot name="hinge">{LINK.format(name="foot")}{LINK.format(name="top"
     <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="30" velocity="3"/></joint></robot>"""
 LEGS = ("FL", "FR", "HL", "HR")
 QUADRUPED = hurcules.models.folder() / "examples" / "quadruped.xml"
-LEGS = ("FL", "FR", "HL", "HR")
 
 
 @pytest.fixture
