@@ -99,7 +99,7 @@ def train(
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
             raise
-    _judge(str(folder), None, judge, "exact", None, None, None, console)
+    _judge(str(folder), None, judge, {"fidelity": "exact"}, None, console)
 
 
 def _on_cluster(
@@ -127,6 +127,9 @@ def evaluate(
     fidelity: Annotated[str, typer.Option(help="exact, fast or kinematic.")] = "exact",
     robot: Robot = None,
     frame: Frame = None,
+    camera: Annotated[
+        list[str] | None, typer.Option(help="Whose pictures the policy sees; several times.")
+    ] = None,
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
@@ -137,7 +140,8 @@ def evaluate(
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
     `hurcules evaluate Drive-v0`
     """
-    _judge(policy, environment, episodes, fidelity, robot, frame, out, Console())
+    chosen = _given(fidelity=fidelity, robot=robot, frames=frame, cameras=camera)
+    _judge(policy, environment, episodes, chosen, out, Console())
 
 
 def record(
@@ -150,10 +154,15 @@ def record(
     fidelity: Annotated[
         str | None, typer.Option(help="exact, fast or kinematic.", show_default="exact")
     ] = None,
+    robot: Robot = None,
+    frame: Frame = None,
     camera: Annotated[
         list[str] | None, typer.Option(help="Whose pictures are recorded too; several times.")
     ] = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
+    author: Annotated[
+        str | None, typer.Option(help="In the data set's name.", show_default="expert or policy")
+    ] = None,
     out: Annotated[Path | None, results_in("out/data")] = None,
 ) -> None:
     """Record episodes as a data set for imitation, of Minari, robomimic or LeRobot.
@@ -164,22 +173,28 @@ def record(
     """
     from hurcules_envs import recording
 
-    name, author, source = _known(environment), "expert", ""
+    name, kind, source = _known(environment), "expert", ""
+    options = _given(
+        fidelity=fidelity or ("exact" if fastest_fidelity(name) else None), cameras=camera or None,
+        robot=robot, frames=frame or None,
+    )  # fmt: skip
     act: Any = _expert
     if policy != "expert":
-        network, author = Policy(policy), "policy"
+        network, kind = Policy(policy), "policy"
         source = sha256(network.path.read_bytes()).hexdigest()
-        environment_of(network, name)
+        _, options = environment_of(network, name, **options)
         act = _acting(network)
     with Progress() as bar:
-        task = bar.add_task(f"{author} in {name}", total=episodes)
+        task = bar.add_task(f"{kind} in {name}", total=episodes)
         folder = out or Path("out", "data")
-        identifier = recording.record(
-            name, act, episodes, folder, seed=seed, author=author, source=source,
-            form=form, **_given(fidelity=fidelity or ("exact" if fastest_fidelity(name) else None),
-                                cameras=camera or None),
-            progress=lambda done: bar.update(task, completed=done),
-        )  # fmt: skip
+        try:
+            identifier = recording.record(
+                name, act, episodes, folder, seed=seed, author=author or kind, source=source,
+                form=form, **options, progress=lambda done: bar.update(task, completed=done),
+            )  # fmt: skip
+        except KeyboardInterrupt as stopped:
+            bar.console.print(*getattr(stopped, "__notes__", ()))
+            raise
     Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)
 
 
@@ -206,16 +221,12 @@ def _judge(
     source: str,
     environment: str | None,
     episodes: int,
-    fidelity: str,
-    robot: str | None,
-    frames: list[str] | None,
+    chosen: dict[str, Any],
     out: Path | None,
     console: Console,
 ) -> None:
     policy = Policy(source)
-    name, options = environment_of(
-        policy, environment, fidelity=fidelity, robot=robot, frames=frames
-    )
+    name, options = environment_of(policy, environment, **chosen)
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
     try:

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.util import find_spec
+from inspect import signature
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -60,34 +61,39 @@ def _minari(recording: Recording, env: Any, episodes: Iterable[Episode], out: Pa
     import minari
     from minari.data_collector import EpisodeBuffer
 
-    buffers = [
-        EpisodeBuffer(
-            id=i,
-            seed=one.seed,
-            observations=one.observations.get("flat", one.observations),
-            actions=one.actions,
-            rewards=one.rewards.tolist(),
-            terminations=one.terminated.tolist(),
-            truncations=one.truncated.tolist(),
-            infos=dict(one.infos),
-        )
-        for i, one in enumerate(episodes)
-    ]
     out.mkdir()
     before = os.environ.get(MINARI_PATH)
     os.environ[MINARI_PATH] = str(out.resolve())
+    dataset: Any = None
+    create = minari.create_dataset_from_buffers
+    as_seen = {"jpeg_encoding": False} if "jpeg_encoding" in signature(create).parameters else {}
     try:
-        minari.create_dataset_from_buffers(
-            _minari_place(recording),
-            buffers,
-            env=env,
-            eval_env=gymnasium.spec(recording.environment),
-            algorithm_name=recording.author,
-            description=env.unwrapped.task_description,
-            author="The Hurcules developers",
-            author_email="none",
-            code_permalink="none",
-        )
+        for i, one in enumerate(episodes):  # pictures of all together may be more than the memory
+            buffer = EpisodeBuffer(
+                id=i,
+                seed=one.seed,
+                observations=one.observations.get("flat", one.observations),
+                actions=one.actions,
+                rewards=one.rewards.tolist(),
+                terminations=one.terminated.tolist(),
+                truncations=one.truncated.tolist(),
+                infos=dict(one.infos),
+            )
+            if dataset is not None:
+                dataset.update_dataset_from_buffer([buffer])
+                continue
+            dataset = create(
+                _minari_place(recording),
+                [buffer],
+                env=env,
+                eval_env=gymnasium.spec(recording.environment),
+                algorithm_name=recording.author,
+                description=env.unwrapped.task_description,
+                author="The Hurcules developers",
+                author_email="none",
+                code_permalink="none",
+                **as_seen,
+            )
     finally:
         del os.environ[MINARI_PATH]
         if before is not None:
@@ -99,7 +105,10 @@ def _robomimic_place(recording: Recording) -> str:
 
 
 def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out: Path) -> None:
-    """The layout of robomimic 0.3: data/demo_i with actions, rewards, dones, obs and next_obs."""
+    """The layout of robomimic 0.3: data/demo_i with actions, rewards, dones, obs and next_obs.
+
+    The filter key "success" leaves those that succeeded.
+    """
     import h5py
 
     about = {
@@ -110,11 +119,12 @@ def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out:
     with h5py.File(whole, "w") as file:
         data = file.create_group("data")
         data.attrs["env_args"] = json.dumps(about)
-        total = 0
+        total, succeeded = 0, []
         for i, one in enumerate(episodes):
             demo = data.create_group(f"demo_{i}")
             demo.attrs["num_samples"], demo.attrs["seed"] = len(one.actions), one.seed
             demo.attrs["success"] = one.success
+            succeeded += [f"demo_{i}"] * one.success
             demo.create_dataset("actions", data=one.actions)
             demo.create_dataset("rewards", data=one.rewards)
             demo.create_dataset("dones", data=one.done.astype(int))
@@ -124,6 +134,7 @@ def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out:
                 demo.create_dataset(f"next_obs/{name}", data=values[1:], compression=packed)
             total += len(one.actions)
         data.attrs["total"] = total
+        file["mask/success"] = np.array(succeeded, dtype="S")
     out.mkdir()
     (out / _robomimic_place(recording)).write_bytes(whole.getbuffer())
 

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules_envs.policy import Policy
+from hurcules_envs.episodes import Episodes
+from hurcules_envs.pictures import SIZE, Pictures
+from hurcules_envs.policy import Policy, full_id
 from hurcules_envs.registry import make_episodes, steps_of_episode
 
 __all__ = ["Evaluation", "evaluate", "wilson"]
@@ -45,7 +48,7 @@ class Evaluation:
 
 
 def evaluate(
-    act: Callable[[Any], NDArray[Any]],
+    act: Callable[[Any], NDArray[Any]] | str | Path,
     environment: str,
     episodes: int = 100,
     seed: int = 10_000,
@@ -55,37 +58,44 @@ def evaluate(
     """Runs a policy once in each of many episodes.
 
     Args:
-        act: actions (n, k) for observations; a `Policy` is checked against the environment first.
-        environment: id.
+        act: actions (n, k) for observations (n, ...); a `Policy`, or what one is read from, is
+            checked against the environment first.
+        environment: id, "Reach-v0" say.
         episodes: how many, side by side.
         seed: of the first; they are not those of training.
         threads: 0 for one a processor.
-        options: of the environment, and ranges of what differs between episodes.
+        options: of the environment, and ranges of what differs between episodes; `cameras` and
+            `camera_size` as `gymnasium.make` takes them.
     """
+    if isinstance(act, str | Path):
+        act = Policy(act)
+    environment = full_id(environment)
+    drawn = {key: options.pop(key) for key in ("cameras", "camera_size") if key in options}
     batch = make_episodes(environment, episodes, seed, threads, **options)
+    eyes = _Eyes(batch, **drawn)
     if isinstance(act, Policy):
-        act.check(environment, batch.single_observation_space, batch.single_action_space)
+        act.check(environment, eyes.observation_space, batch.single_action_space)
     seen = batch.look(remember=None)
     running = np.ones(episodes, dtype=bool)
     success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess = 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
-    for _ in range(steps_of_episode(environment, options) or sys.maxsize):
-        observation = seen.observation
-        parts = observation if len(observation) > 1 else observation["observation"]
-        batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still
-        seen = batch.look(remember=running)
-        info = seen.info
-        returns[running] += seen.reward[running]
-        lengths[running] += 1
-        touching += float((info["self_contacts"][running] > 0).sum())
-        excess = max(excess, float(info["limit_excess"][running].max()))
-        success[running] = info["is_success"][running]
-        fell[running] = info["failed"][running]
-        running &= ~seen.terminated
-        if not running.any():
-            break
+    with eyes:
+        for _ in range(steps_of_episode(environment, options) or sys.maxsize):
+            parts = eyes.look(seen.observation, running)
+            batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still
+            seen = batch.look(remember=running)
+            info = seen.info
+            returns[running] += seen.reward[running]
+            lengths[running] += 1
+            touching += float((info["self_contacts"][running] > 0).sum())
+            excess = max(excess, float(info["limit_excess"][running].max()))
+            success[running] = info["is_success"][running]
+            fell[running] = info["failed"][running]
+            running &= ~seen.terminated
+            if not running.any():
+                break
     low, high = wilson(int(success.sum()), episodes)
     return Evaluation(
         episodes=episodes,
@@ -98,6 +108,43 @@ def evaluate(
         limit_excess=excess,
         self_contacts=touching / float(lengths.sum()),
     )
+
+
+class _Eyes:
+    """What episodes side by side observe, pictures included."""
+
+    def __init__(
+        self, batch: Episodes, cameras: Sequence[str] = (), camera_size: Sequence[int] = SIZE
+    ) -> None:
+        self.observation_space = batch.single_observation_space
+        self._batch, self._views = batch, {}
+        self._pictures: Pictures | None = None
+        if cameras:
+            self._pictures = Pictures(
+                batch.environment, cameras, camera_size, self.observation_space
+            )
+            self.observation_space = self._pictures.observation_space
+            self._views = {
+                name: np.zeros((batch.n, *space.shape), np.uint8)
+                for name, space in self._pictures.spaces.items()
+            }
+
+    def look(self, parts: dict[str, NDArray[Any]], running: NDArray[np.bool_]) -> Any:
+        """An array (n, m), or a dictionary of them; what is over is seen as it was."""
+        if self._pictures is None:
+            return parts if len(parts) > 1 else parts["observation"]
+        for i in np.flatnonzero(running):
+            for name, view in self._pictures.take(self._batch, int(i)).items():
+                self._views[name][i] = view
+        return parts | self._views
+
+    def __enter__(self) -> None:
+        """Draws from here on."""
+
+    def __exit__(self, *_: object) -> None:
+        """Gives the renderer back."""
+        if self._pictures is not None:
+            self._pictures.close()
 
 
 def wilson(successes: int, n: int) -> tuple[float, float]:

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules_envs.registry import make_episodes
+from hurcules_envs.policy import full_id
+from hurcules_envs.registry import make_episodes, steps_of_episode
 
 __all__ = ["Demonstrations", "ask_expert", "demonstrate"]
 
@@ -72,7 +72,7 @@ def demonstrate(
     What is kept is what it wanted to do (Laskey et al., DART, 2017). Actions of 0 are not pushed.
 
     Args:
-        name: id of the environment.
+        name: id of the environment, "Reach-v0" say.
         episodes: how many, side by side.
         seed: of episodes and noise.
         noise: standard deviation of the pushes.
@@ -81,13 +81,14 @@ def demonstrate(
     Raises:
         hurcules.Error: the environment has no expert for its action.
     """
+    name = full_id(name)
     batch = make_episodes(name, episodes, 1000 + seed, **options)
     shape = (episodes, len(batch.action_scale))
     seen = batch.look(remember=None)
     generator, push = np.random.default_rng(seed), np.zeros(shape)
     going, successes = np.ones(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
     kept: list[tuple[Any, ...]] = []
-    for _ in range(gymnasium.spec(name).max_episode_steps or sys.maxsize):
+    for _ in range(steps_of_episode(name, options) or sys.maxsize):
         before, wanted = _chosen(seen.observation, going), ask_expert(name, batch, shape)
         fresh = generator.normal(0.0, noise, shape)
         push = KEPT * push + np.sqrt(1.0 - KEPT**2) * fresh

@@ -16,9 +16,10 @@ from hurcules import cameras
 from hurcules.rendering import make_renderer
 from hurcules_envs.environment import Environment
 
-__all__ = ["Pictures", "Views"]
+__all__ = ["SIZE", "Pictures", "Views"]
 
 MOST = 2048  # [pixels] a side
+SIZE = (128, 96)  # [pixels] of what is observed, where nothing else is asked for
 WIDTH, HEIGHT = 640, 368  # [pixels] of a view, multiples of 16 as encoders want them
 
 
@@ -54,6 +55,7 @@ class Pictures:
 
     Attributes:
         spaces: by camera, (height, width, 3) uint8.
+        observation_space: these beside what is observed otherwise.
     """
 
     def __init__(
@@ -61,7 +63,7 @@ class Pictures:
         environment: Environment,
         names: Sequence[str],
         size: Sequence[int],
-        taken: Sequence[str],
+        space: spaces.Space[Any],
     ) -> None:
         """Finds the cameras.
 
@@ -69,11 +71,12 @@ class Pictures:
             environment: whose visual model is drawn.
             names: of cameras of that model.
             size: (width, height) [pixels].
-            taken: names that observations have already.
+            space: of what is observed otherwise, "observation" where it is no dictionary.
 
         Raises:
             hurcules.Error: no sequence of names, each once, no such camera, or no such size.
         """
+        taken = dict(space.spaces) if isinstance(space, spaces.Dict) else {"observation": space}
         if isinstance(names, str) or not all(isinstance(name, str) for name in names):
             raise hurcules.Error(f"cameras: wanted a sequence of names, got {names!r}")
         if len(set(names)) < len(names) or set(names) & set(taken):
@@ -91,6 +94,7 @@ class Pictures:
         self._cameras = {name: cameras.find(model, name).name for name in names}
         box = spaces.Box(0, 255, (self._size[1], self._size[0], 3), np.uint8)
         self.spaces = dict.fromkeys(names, box)
+        self.observation_space = spaces.Dict(taken | self.spaces)
         self._renderer: mujoco.Renderer | None = None
 
     def take(self, episodes: Any, i: int) -> dict[str, NDArray[np.uint8]]:

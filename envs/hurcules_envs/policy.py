@@ -8,6 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+import gymnasium
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
@@ -43,6 +44,9 @@ OPERATORS: Mapping[str, Callable[..., Any]] = {
     "Sub": lambda a, b: a - b,
     "Tanh": np.tanh,
 }
+
+
+_TYPES = {"tensor(uint8)": np.uint8, "tensor(double)": np.float64}  # onnxruntime's names
 
 
 class Policy:
@@ -99,7 +103,9 @@ class Policy:
         """
         trained = f"; it was trained in {self.environment}" if self.environment else ""
         boxes = observation.spaces if isinstance(observation, spaces.Dict) else {}
-        wanted = {key: space.shape[0] for key, space in boxes.items() if space.shape}
+        if any(len(space.shape or ()) == 3 for space in boxes.values()):
+            trained = f"; pictures are (n, height, width, 3){trained}"
+        wanted = {key: space.shape[-1] for key, space in boxes.items() if space.shape}
         if not wanted:
             only = next(iter(self._graph.inputs)) if len(self._graph.inputs) == 1 else "observation"
             wanted = {only: (observation.shape or (0,))[0]}
@@ -121,20 +127,22 @@ class Policy:
     def __call__(self, observation: Any) -> Array:
         """Actions (n, k) in [-1, 1] for observations (n, ...), an array or a dictionary of them.
 
+        Pictures are (n, height, width, 3).
+
         Raises:
             hurcules.Error: observations of another shape, or the network gave numbers that are not
                 finite.
         """
         names = list(self._graph.inputs)
         given = observation if isinstance(observation, Mapping) else {names[0]: observation}
-        fed = {name: np.asarray(given[name], dtype=np.float32) for name in names}
+        fed = {name: np.asarray(given[name], dtype=self._type(name)) for name in names}
         for name, values in fed.items():
-            if values.ndim != 2:
+            if values.ndim not in (2, 4):
                 raise hurcules.Error(
                     f"{self.path}: wanted observations (n, m), got '{name}' of shape "
                     f"{values.shape}; one() takes a single one"
                 )
-        result = self._computed(fed) if self._session is None else self._session.run(None, fed)[0]
+        result = self._computed(fed) if self._session is None else self._ran(fed)
         if not np.isfinite(result).all():
             raise hurcules.Error(f"{self.path}: the network gave numbers that are not finite")
         return np.clip(result, -1.0, 1.0).astype(np.float32)
@@ -151,6 +159,30 @@ class Policy:
             inputs = [known[name] for name in node.inputs if name]
             known[node.outputs[0]] = OPERATORS[node.kind](*inputs, **node.attributes)
         return known[next(iter(self._graph.outputs))]
+
+    def _type(self, name: str) -> Any:
+        """Of the numbers that go into an input."""
+        inputs = self._session.get_inputs() if self._session is not None else []
+        types = {one.name: one.type for one in inputs}
+        return _TYPES.get(types.get(name, ""), np.float32)
+
+    def _ran(self, fed: dict[str, Any]) -> Any:
+        """What onnxruntime computes: row by row where the file takes one only, as exporters write.
+
+        Raises:
+            hurcules.Error: it refuses these shapes.
+        """
+        one = self._session.get_inputs()[0].shape[:1] == [1]
+        n = len(next(iter(fed.values())))
+        rows = [slice(i, i + 1) for i in range(n)] if one else [slice(None)]
+        try:
+            parts = [
+                self._session.run(None, {name: values[some] for name, values in fed.items()})[0]
+                for some in rows
+            ]
+        except Exception as error:  # its classes have no common one
+            raise hurcules.Error(f"{self.path}: {' '.join(str(error).split())}") from error
+        return np.concatenate(parts)
 
     def _other_runtime(self) -> Any:
         others = sorted({node.kind for node in self._graph.nodes} - set(OPERATORS))
@@ -173,9 +205,9 @@ def shipped() -> dict[str, Path]:
 
 
 def full_id(name: str) -> str:
-    """The id of an environment of this package: Reach-v0 is Hurcules/Reach-v0."""
+    """The id of an environment: Reach-v0 is Hurcules/Reach-v0, where no other has that name."""
     name = name.removeprefix("hurcules_envs:")
-    return name if "/" in name else f"Hurcules/{name}"
+    return name if "/" in name or name in gymnasium.registry else f"Hurcules/{name}"
 
 
 def _file(source: str) -> Path:

@@ -19,6 +19,7 @@ from hurcules.rendering import RendererError
 from hurcules.run import DONE, FAILED, INTERRUPTED, progress_bar
 from hurcules.video import encode
 from hurcules_envs.policy import Policy, full_id
+from hurcules_envs.registry import steps_of_episode
 
 __all__ = ["environment_of", "run_policy"]
 
@@ -88,7 +89,9 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
         frames=options.frames,
     )  # fmt: skip
     lost = extras.without() if options.video else "not asked for (--no-video)"
-    env = gymnasium.make(name, render_mode=None if lost else "rgb_array", **settings)
+    steps = steps_of_episode(name, settings)
+    mode = None if lost else "rgb_array"
+    env = gymnasium.make(name, max_episode_steps=steps, render_mode=mode, **settings)
     policy.check(name, env.observation_space, env.action_space)
     output = Output(options.out or Path("out", name.split("/")[-1]), FILES)
     if lost and options.video:
@@ -96,9 +99,7 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
     with Interrupts() as interrupts:
         episode = _Episode(env, draw=not lost)
         with progress_bar(console) as bar:
-            task = bar.add_task(
-                f"run {name}", total=gymnasium.spec(name).max_episode_steps, note=""
-            )
+            task = bar.add_task(f"run {name}", total=steps, note="")
             episode.reset(options.seed)
             while not (episode.over or interrupts.noted):
                 episode.step(policy)

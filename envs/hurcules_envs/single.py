@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
+from contextlib import ExitStack
 from typing import Any
 
 import gymnasium
 import mujoco
 import numpy as np
-from gymnasium import spaces
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules import _core
 from hurcules.rendering import pose
-from hurcules.view import require_display
+from hurcules.view import opened
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
-from hurcules_envs.pictures import Pictures, Views
+from hurcules_envs.pictures import SIZE, Pictures, Views
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
@@ -51,14 +52,14 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         render_mode: str | None = None,
         flat: bool = False,
         cameras: Sequence[str] = (),
-        camera_size: Sequence[int] = (128, 96),
+        camera_size: Sequence[int] = SIZE,
         **options: Any,
     ) -> None:
         """Builds the environment.
 
         Args:
             environment: "module:Class" of an `Environment`.
-            render_mode: None, "rgb_array", or "human" (a window).
+            render_mode: None, "rgb_array", or "human" (a window, in real time at most).
             flat: of a goal environment: one array, the observation and the way to the goal.
             cameras: of the robot ("head_wide", "head_left", "head_right", "auxiliary") or the
                 scene, whose pictures are observed too: an observation is then a dictionary of
@@ -86,15 +87,16 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self.observation_space = self._episodes.single_observation_space
         if cameras:
             space = self.observation_space
-            parts = dict(space.spaces) if isinstance(space, spaces.Dict) else {"observation": space}
-            self._pictures = Pictures(self.environment, cameras, camera_size, list(parts))
-            self.observation_space = spaces.Dict(parts | self._pictures.spaces)
+            self._pictures = Pictures(self.environment, cameras, camera_size, space)
+            self.observation_space = self._pictures.observation_space
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward
         self._begun = False
         self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
+        self._window = ExitStack()  # waits for the viewer's thread
+        self._due = 0.0  # [s] when the next step may be shown
         self._views = Views(self.environment)
 
     @property
@@ -160,6 +162,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._steps = 0 if terminated else self._steps + 1
         if self.render_mode == "human":
             self.render()
+            self._keep_time()
         return self._seen(step), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
@@ -204,8 +207,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
     def close(self) -> None:
         """Gives the renderer and the window back."""
         self._views.close()
-        if self._viewer is not None:
-            self._viewer.close()
+        self._window.close()
         if self._pictures is not None:
             self._pictures.close()
         self._viewer = None
@@ -233,14 +235,16 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         return values["observation"] if len(values) == 1 else values
 
     def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        import mujoco.viewer
-
         if self._viewer is None:
-            require_display()
             self._shown = mujoco.MjData(model)
-            self._viewer = mujoco.viewer.launch_passive(model, self._shown)
+            self._viewer = self._window.enter_context(opened(model, self._shown))
         pose(model, self._shown, data.qpos)
         self._viewer.sync()
+
+    def _keep_time(self) -> None:
+        now = time.perf_counter()
+        time.sleep(max(0.0, self._due - now))
+        self._due = max(self._due, now) + self._episodes.period
 
 
 def _info(step: Step) -> dict[str, Any]:

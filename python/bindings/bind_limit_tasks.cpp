@@ -87,6 +87,7 @@ Args:
   margin: [m] kept from its sides.
   reference: frame whose axes the corners are in, '' for the world.
   height: [m] of the polygon, z in the axes of the reference.
+  room: a row each for so many corners of later polygons, at least k.
 
 Raises:
   Error: fewer than three corners, or corners that are not convex.
@@ -95,7 +96,7 @@ constexpr const char* kSetPolygon =
     R"(Another polygon from the next tick on, after a step say.
 
 Args:
-  polygon: (j, 2) [m] corners as for the task, no more of them than it was made with.
+  polygon: (j, 2) [m] corners as for the task, no more of them than it has rows.
 
 Raises:
   Error: more corners, fewer than three, or corners that are not convex.
@@ -306,14 +307,14 @@ void bind_limit_tasks(py::module_& module) {
       "robot"_a, "body"_a, kSolePoints);
   const BalanceTaskOptions balance;
   const auto make_balance = [](std::string name, const Robot& robot, Matrix polygon, double margin,
-                               std::string reference, double height) {
+                               std::string reference, double height, Index room) {
     return std::make_unique<BalanceTask>(
         std::move(name), robot,
-        BalanceTaskOptions{std::move(polygon), margin, height, std::move(reference)});
+        BalanceTaskOptions{std::move(polygon), margin, height, std::move(reference), room});
   };
   py::class_<BalanceTask, Task>(module, "BalanceTask", kBalanceTask)
       .def(py::init(make_balance), "name"_a, "robot"_a, "polygon"_a, "margin"_a = balance.margin,
-           "reference"_a = balance.reference, "height"_a = balance.height)
+           "reference"_a = balance.reference, "height"_a = balance.height, "room"_a = balance.room)
       .def("set_polygon", &BalanceTask::set_polygon, "polygon"_a, kSetPolygon);
   const ZeroMomentTaskOptions zero_moment;
   const auto make_zero_moment = [](std::string name, const Robot& robot, Matrix polygon,

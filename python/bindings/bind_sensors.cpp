@@ -58,7 +58,9 @@ void bind_sensor_options(py::module_& module) {
       module, "SensorOptions", kSensorOptions,
       {field("models", &Options::models), field("range", &Options::range),
        field("faults", &Options::faults), field("hold_seconds", &Options::hold_seconds)});
-  module.def("realistic_sensors", &realistic_sensors, kRealisticSensors);
+  module.def("realistic_sensors", py::overload_cast<>(&realistic_sensors), kRealisticSensors);
+  module.def("realistic_sensors", py::overload_cast<const Robot&>(&realistic_sensors), "robot"_a,
+             "Those of them that a robot has.");
 }
 
 void bind_monitor_options(py::module_& module) {

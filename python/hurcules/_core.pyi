@@ -1095,6 +1095,7 @@ class BalanceTask(Task):
       margin: [m] kept from its sides.
       reference: frame whose axes the corners are in, '' for the world.
       height: [m] of the polygon, z in the axes of the reference.
+      room: a row each for so many corners of later polygons, at least k.
 
     Raises:
       Error: fewer than three corners, or corners that are not convex."""
@@ -1107,12 +1108,13 @@ class BalanceTask(Task):
         margin: float = 0.05,
         reference: str = "",
         height: float = 0.0,
+        room: int = 0,
     ) -> None: ...
     def set_polygon(self, polygon: ArrayLike) -> None:
         """Another polygon from the next tick on, after a step say.
 
         Args:
-          polygon: (j, 2) [m] corners as for the task, no more of them than it was made with.
+          polygon: (j, 2) [m] corners as for the task, no more of them than it has rows.
 
         Raises:
           Error: more corners, fewer than three, or corners that are not convex."""
@@ -4400,8 +4402,13 @@ def read_table(path: str) -> tuple[MissionSetup, MissionTable]:
     Raises:
       Error: it cannot be read, with its line, what was wanted and what exists."""
 
+@overload
 def realistic_sensors() -> SensorOptions:
     """SensorOptions of typical sensors, with noise, bias, delay and resolution."""
+
+@overload
+def realistic_sensors(robot: Robot) -> SensorOptions:
+    """Those of them that a robot has."""
 
 def self_collision(
     robot: Robot,

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import base64
 import struct
+import threading
 import zlib
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Protocol
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 
 from hurcules import _core
 from hurcules.legend import joint_words, level_words
-from hurcules.rendering import RendererError, open_renderer
+from hurcules.rendering import RendererError, make_renderer
 from hurcules.validation import require_known
 
 __all__ = [
@@ -33,7 +34,6 @@ __all__ = [
     "html",
     "limit_marks",
     "picture",
-    "pictures",
 ]
 
 Array = NDArray[np.float64]
@@ -213,21 +213,33 @@ def picture(
         RendererError: there is no OpenGL that works.
         Error: the model has no such camera.
     """
-    return next(pictures(loop, width, height, camera))
-
-
-def pictures(
-    loop: Loop, width: int, height: int, camera: str | mujoco.MjvCamera | None
-) -> Generator[Picture, None, None]:
-    """As `picture`, of what it looks like each time that one is asked for."""
     model = loop.model
     if isinstance(camera, str):
         require_known("camera", camera, [model.camera(i).name for i in range(model.ncam)])
-    with open_renderer(model, width, height) as renderer:
-        while True:
-            renderer.update_scene(loop.data, -1 if camera is None else camera)
-            draw(renderer.scene, loop)
-            yield np.array(renderer.render())
+    renderer = _kept_renderer(model, width, height)
+    renderer.update_scene(loop.data, -1 if camera is None else camera)
+    draw(renderer.scene, loop)
+    return np.array(renderer.render())
+
+
+class _Own(threading.local):
+    """The last renderer of each thread: to make one takes longer than to draw."""
+
+    renderer: mujoco.Renderer | None = None
+    size: tuple[int, int, int] = (0, 0, 0)  # id of its model, which it keeps, width, height
+
+
+_own = _Own()
+
+
+def _kept_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
+    wanted = (id(model), width, height)
+    if _own.renderer is None or _own.size != wanted:
+        if _own.renderer is not None:
+            _own.renderer.close()
+        _own.renderer = None
+        _own.renderer, _own.size = make_renderer(model, width, height), wanted
+    return _own.renderer
 
 
 def html(loop: Loop) -> str:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import atexit
+import weakref
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import mujoco
 import numpy as np
@@ -45,6 +47,21 @@ class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the pa
         super().update_scene(data, camera, scene_option)
         self._gear.show(data, self.scene)
 
+    def close(self) -> None:
+        """Gives back what it has, in its own context: in another one these would be another's."""
+        if context := getattr(self, "_gl_context", None):
+            context.make_current()
+        super().close()
+
+
+_open: weakref.WeakSet[TrackRenderer] = weakref.WeakSet()
+
+
+def _close_all() -> None:
+    for renderer in list(_open):
+        with suppress(Exception):  # another thread may draw still
+            renderer.close()
+
 
 def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
     """Makes an off-screen renderer that the caller closes.
@@ -61,7 +78,10 @@ def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
     buffer.offwidth, buffer.offheight = max(buffer.offwidth, width), max(buffer.offheight, height)
     try:
         give_mujoco(choose_backend())
-        return TrackRenderer(model, height, width)
+        _open.add(renderer := TrackRenderer(model, height, width))
+        atexit.unregister(_close_all)
+        atexit.register(_close_all)  # before OpenGL's own end, which is registered by now
+        return renderer
     # each OpenGL fails with an exception of its own: RuntimeError, FatalError, ImportError, ...
     except Exception as error:
         text = " ".join(str(error).split()) or type(error).__name__

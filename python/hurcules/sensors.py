@@ -8,16 +8,20 @@ cpp/hurcules/sim/realistic_sensors.cpp.
 from __future__ import annotations
 
 from hurcules import _core
-from hurcules._core import SensorOptions
+from hurcules._core import Robot, SensorOptions
 
 __all__ = ["realistic"]
 
 
-def realistic() -> SensorOptions:
+def realistic(robot: Robot | None = None) -> SensorOptions:
     """The sensors of a robot of this kind, with noise, bias, delay and quantisation.
+
+    Args:
+        robot: that has them, its inertial unit and its scanner only where its model names them; None:
+            all that Hurcules has.
 
     Returns:
         SensorOptions; change what you know better, e.g.
         `options.models = options.models | {"imu_rate": hurcules.SensorModel(noise=0.01)}`.
     """
-    return _core.realistic_sensors()
+    return _core.realistic_sensors() if robot is None else _core.realistic_sensors(robot)

@@ -188,7 +188,7 @@ class Simulation(_core.Simulation):
         """
         if not isinstance(n, int | np.integer):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
-        return super().step(n, command)
+        return super().step(n, _named(command, self.mission))
 
     def replay(self, log: Mapping[str, Array]) -> int:
         """Takes the ticks of a log with the commands that they had: same start, same bits.
@@ -285,7 +285,7 @@ class SimulationBatch(_core.SimulationBatch):
         if n < 1:
             raise Error(f"a batch wants n >= 1, {n} came")
         super().__init__(simulation, n, threads, list(models))
-        self._controller = simulation.controller
+        self._controller, self._mission = simulation.controller, simulation.mission
 
     def __repr__(self) -> str:
         """How many, of what."""
@@ -307,7 +307,7 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: an unknown channel, a wrong shape, or numbers that are not finite.
         """
-        super().step(ticks, commands, _mask(mask))
+        super().step(ticks, _named(commands, self._mission), _mask(mask))
 
     def step_and_read(
         self,
@@ -330,7 +330,14 @@ class SimulationBatch(_core.SimulationBatch):
         Raises:
             Error: as `step`.
         """
+        commands = _named(commands, self._mission)
         return super().step_and_read(ticks, quantities, commands, _mask(mask))
+
+
+def _named(command: Command | None, mission: str | None) -> Command | None:
+    """A command that names no channel lets all hold, targets too; in a mission all rates are 0."""
+    nothing = mission is None and isinstance(command, Mapping) and not command
+    return None if nothing else command
 
 
 def _mask(mask: ArrayLike | None) -> Any:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import sys
 import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +17,13 @@ import mujoco
 
 from hurcules import models
 from hurcules._core import Error, Plant
-from hurcules.drawing import Picture, draw, pictures
+from hurcules.drawing import Picture, draw
 from hurcules.extras import without
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
 from hurcules.video import encode
 
-__all__ = ["film", "require_display", "view", "watch"]
+__all__ = ["film", "opened", "require_display", "view", "watch"]
 
 FPS = 60  # pictures a second
 
@@ -62,6 +64,11 @@ def watch(
     Raises:
         Error: there is no display, or a command that `Simulation.step` refuses.
     """
+    if not isinstance(simulation, Simulation):
+        raise Error(
+            f"watch: wanted a hurcules.Simulation, got {simulation!r}; an environment is shown by "
+            "render_mode='human'"
+        )
 
     def advance(n: int) -> None:
         now = command(simulation) if callable(command) else command
@@ -119,22 +126,18 @@ def film(
         raise Error(f"film wants a file that ends in .mp4, got {str(path)!r}")
     if lost := without():
         raise Error(f"film: {lost}")
-    shown = pictures(simulation, width, height, camera)
     begun = simulation.time
 
     def steps() -> Iterator[Picture]:
         for i in range(round(seconds * fps)):
-            yield next(shown)
+            yield simulation.picture(width, height, camera)
             if simulation.finished:
                 return
             until = begun + (i + 1) / fps
             now = command(simulation) if callable(command) else command
             simulation.step(max(0, round((until - simulation.time) / simulation.dt)), now)
 
-    try:
-        return encode(Path(path), steps(), fps)
-    finally:
-        shown.close()
+    return encode(Path(path), steps(), fps)
 
 
 def _show(
@@ -145,11 +148,7 @@ def _show(
     seconds: float | None,
 ) -> None:
     """Opens the window; `advance` takes steps of the physics, `mark` draws into its own scene."""
-    require_display()
-    import mujoco.viewer
-
-    threads = set(threading.enumerate())
-    with mujoco.viewer.launch_passive(model, data, show_left_ui=False) as window:
+    with opened(model, data, show_left_ui=False) as window:
         started, begun = time.perf_counter(), data.time
         while window.is_running():
             passed = time.perf_counter() - started
@@ -162,8 +161,38 @@ def _show(
                 mark(window.user_scn)
             window.sync()
             time.sleep(max(0.0, 1.0 / FPS - (time.perf_counter() - started - passed)))
-    for thread in set(threading.enumerate()) - threads:
-        thread.join()  # the window still draws this model
+
+
+@contextmanager
+def opened(model: Any, data: Any, **shown: Any) -> Iterator[Any]:
+    """MuJoCo's passive viewer; its thread has ended when this is left, or the program ends.
+
+    Args:
+        model: of what is shown.
+        data: of it.
+        shown: as `mujoco.viewer.launch_passive` takes it.
+
+    Raises:
+        Error: there is no display.
+    """
+    require_display()
+    import mujoco.viewer
+
+    threads = set(threading.enumerate())
+    window = mujoco.viewer.launch_passive(model, data, **shown)
+    drawing = set(threading.enumerate()) - threads
+
+    def close() -> None:
+        window.close()
+        for thread in drawing:
+            thread.join()  # it still draws this model
+
+    atexit.register(close)
+    try:
+        yield window
+    finally:
+        close()
+        atexit.unregister(close)
 
 
 def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:

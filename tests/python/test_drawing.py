@@ -11,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import zlib
 from pathlib import Path
 
@@ -134,6 +135,13 @@ def test_a_picture_shows_the_target() -> None:
     green = (shown[..., 1] > 1.5 * shown[..., 0]) & (shown[..., 1] > 1.5 * shown[..., 2])
     red = (shown[..., 0] > 2 * shown[..., 1]) & (shown[..., 0] > 2 * shown[..., 2])
     assert green.sum() > 10 and red.sum() > 10
+    assert np.array_equal(simulation.picture(320, 240, "side"), shown)
+    assert simulation.picture(64, 48).shape == (48, 64, 3)
+    again = []
+    thread = threading.Thread(target=lambda: again.append(simulation.picture(320, 240, "side")))
+    thread.start()
+    thread.join()
+    assert np.array_equal(again, [shown])  # each thread has a renderer of its own
     with pytest.raises(hurcules.Error, match="camera 'top' does not exist; there are: side"):
         simulation.picture(camera="top")
 
@@ -190,6 +198,24 @@ def test_a_film_without_the_extra_says_so(tmp_path: Path, monkeypatch: pytest.Mo
         hurcules.film(loop(), tmp_path / "arm.mp4", 1.0)
 
 
+def test_pictures_of_one_size_are_drawn_by_one_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made anew for each, they took 2 to 4 times as long."""
+    if not has_renderer():
+        pytest.skip(f"no OpenGL here; remedy: {rendering.REMEDY}")
+    made = []
+
+    def make(*given):
+        made.append(given)
+        return rendering.make_renderer(*given)
+
+    monkeypatch.setattr(drawing, "make_renderer", make)
+    for simulation in (loop(), loop()):
+        first = simulation.picture(80, 60)
+        simulation.step(300, {"hand": [0.0, 0.0, 0.3]})
+        assert not np.array_equal(simulation.picture(80, 60), first)
+    assert len(made) == 2  # one a model
+
+
 def test_a_notebook_shows_levels_limits_and_a_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = loop()
     text = simulation._repr_html_()
@@ -209,26 +235,66 @@ def test_a_notebook_shows_levels_limits_and_a_picture(monkeypatch: pytest.Monkey
     assert "no usable renderer &lt;here&gt;" in simulation._repr_html_()
 
 
-def test_the_viewer_watches_a_simulation_of_any_robot(tmp_path: Path) -> None:
+def in_a_window(tmp_path: Path, program: str) -> subprocess.CompletedProcess[str]:
+    """How a program ends that shows `loop()` on a virtual display."""
     if not shutil.which("xvfb-run"):
         pytest.skip("no virtual display here; remedy: apt-get install xvfb xauth")
-    program = tmp_path / "watch.py"
-    program.write_text(
+    path = tmp_path / "watch.py"
+    path.write_text(
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "import hurcules, test_drawing\n"
-        "simulation = test_drawing.loop()\n"
+        "simulation = test_drawing.loop()\n" + program
+    )
+    return subprocess.run(
+        ["xvfb-run", "-a", sys.executable, str(path)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+def test_the_viewer_watches_a_simulation_of_any_robot(tmp_path: Path) -> None:
+    done = in_a_window(
+        tmp_path,
         "begun, asked = simulation.time, []\n"
         "def command(simulation):\n"
         "    asked.append(simulation.time)\n"
         "    return {'hand': [0.6, 0.0, 0.1]}\n"
         "hurcules.watch(simulation, command, seconds=2.0)\n"
-        "assert simulation.time > begun and asked, (simulation.time, asked)\n"
+        "assert simulation.time > begun and asked, (simulation.time, asked)\n",
     )
-    done = subprocess.run(
-        ["xvfb-run", "-a", sys.executable, str(program)],
-        capture_output=True,
-        text=True,
-        timeout=300,
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_mistake_while_a_window_is_open_ends_with_its_error(tmp_path: Path) -> None:
+    """It ended the process, or never ended: the window still drew."""
+    program = "hurcules.watch(hurcules.Simulation('stretch'), {'hnad': [0.0, 0.0, 0.0]})\n"
+    done = in_a_window(tmp_path, program)
+    assert (done.returncode, "channel 'hnad' does not exist" in done.stderr) == (1, True), done
+
+
+def test_an_environment_in_a_window_keeps_time_and_closes(tmp_path: Path) -> None:
+    done = in_a_window(
+        tmp_path,
+        "import gymnasium, hurcules_envs, numpy, time\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', render_mode='human')\n"
+        "env.reset(seed=0)\n"
+        "env.step(numpy.zeros(6))\n"
+        "begun = time.perf_counter()\n"
+        "for _ in range(20): env.step(numpy.zeros(6))\n"
+        "took = time.perf_counter() - begun\n"
+        "env.close()\n"
+        "assert took >= 0.95, took\n",  # 20 steps of 50 ms
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_window_that_is_still_open_does_not_crash_the_end(tmp_path: Path) -> None:
+    done = in_a_window(
+        tmp_path,
+        "from hurcules.view import opened\n"
+        "window = opened(simulation.model, simulation.data)\n"
+        "window.__enter__().sync()\n",
     )
     assert done.returncode == 0, done.stderr
 
@@ -238,3 +304,5 @@ def test_without_a_display_watch_says_what_is_missing(monkeypatch: pytest.Monkey
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(hurcules.Error, match="the viewer needs a display"):
         hurcules.watch(loop())
+    with pytest.raises(hurcules.Error, match=r"watch: wanted .* got 'stretch'"):
+        hurcules.watch("stretch")

@@ -47,6 +47,11 @@ def test_the_goals_of_goal_environments_are_kept() -> None:
     assert seen["desired_goal"].shape == (200, 6)
 
 
+def test_demonstrations_last_as_long_at_any_rate() -> None:
+    shown = demonstrate("Reach-v0", 1, fidelity="kinematic", rate=10)
+    assert len(shown.going) == 50  # 5 s, as 100 steps at the usual 20 Hz
+
+
 def test_an_action_without_expert_is_refused() -> None:
     with pytest.raises(hurcules.Error, match="ValveJoint-v0 has no expert for its action"):
         demonstrate("Hurcules/ValveJoint-v0", 1, **FAST)

@@ -4,6 +4,9 @@ Strategy: Gymnasium's own checker; what is seen against the renderer asked by ha
 picture after `set_state`; what a recording keeps; vectors; and wrong names and sizes.
 """
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import gymnasium as gym
@@ -13,7 +16,11 @@ from gymnasium.utils.env_checker import check_env
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from hurcules.doctor import render_with
 from hurcules_envs.episode_data import Episode
+from hurcules_envs.evaluation import evaluate
+from hurcules_envs.onnx_file import Graph, write
+from hurcules_envs.policy import Policy
 from hurcules_envs.recording import record_episode
 
 CAMERAS = ("head_wide", "auxiliary")
@@ -48,6 +55,38 @@ def test_a_picture_shows_the_episode_as_it_stands() -> None:
     env.close()
 
 
+def test_the_end_of_one_environment_is_not_seen_in_another() -> None:
+    """A renderer gave back what had its numbers in the one that had drawn last."""
+    one, other = (
+        gym.make("Hurcules/Reach-v0", fidelity="kinematic", cameras=CAMERAS) for _ in range(2)
+    )
+    one.reset(seed=0)
+    seen, _ = other.reset(seed=1)
+    one.close()
+    again = other.unwrapped.observe()
+    assert all(np.array_equal(again[camera], seen[camera]) for camera in CAMERAS)
+    other.close()
+
+
+@pytest.mark.parametrize("backend", ["egl", "osmesa"])
+def test_an_environment_that_nobody_closes_ends_in_silence(backend: str) -> None:
+    if lost := render_with(backend):
+        pytest.skip(f"{backend} does not draw here: {lost}")
+    program = (
+        "import gymnasium, hurcules_envs\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', cameras=['auxiliary'])\n"
+        "env.reset(seed=0)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={n: v for n, v in os.environ.items() if n != "PYOPENGL_PLATFORM"}
+        | {"MUJOCO_GL": backend},
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_a_recording_keeps_them(tmp_path: Path) -> None:
     env = gym.make(
         "Hurcules/Reach-v0", fidelity="kinematic", cameras=("auxiliary",), max_episode_steps=3
@@ -58,6 +97,39 @@ def test_a_recording_keeps_them(tmp_path: Path) -> None:
     assert pictures.dtype == np.uint8
     assert pictures.shape == (4, 96, 128, 3)
     env.close()
+
+
+def test_who_acts_on_them_is_judged() -> None:
+    """The episodes side by side show what each shows alone, its last picture after its end too."""
+    shown = []
+
+    def act(seen):
+        shown.append({name: values.copy() for name, values in seen.items()})
+        return np.ones((2, 6))
+
+    options = {"fidelity": "kinematic", "cameras": ("auxiliary",), "camera_size": (64, 48)}
+    result = evaluate(act, "Reach-v0", 2, seed=5, **options)
+    assert (result.episodes, len(shown)) == (2, 100)
+    env = gym.make("Hurcules/Reach-v0", **options)
+    for i in range(2):
+        alone, _ = env.reset(seed=5 + i)
+        for seen in shown[:4]:
+            assert all(np.array_equal(seen[part][i], values) for part, values in alone.items())
+            alone, *_ = env.step(np.ones(6, np.float32))
+    env.close()
+
+
+def test_a_policy_that_sees_them_fits(tmp_path: Path) -> None:
+    env = gym.make("Hurcules/Reach-v0", fidelity="kinematic", cameras=("auxiliary",))
+
+    def sees(size: int) -> Policy:
+        inputs = {"observation": 18, "auxiliary": size}
+        write(tmp_path / "a.onnx", Graph((), {}, inputs, {"action": 6}))
+        return Policy(tmp_path / "a.onnx")
+
+    sees(3).check("Reach-v0", env.observation_space, env.action_space)
+    with pytest.raises(hurcules.Error, match=r"got .*auxiliary \(128\); pictures are \(n, height"):
+        sees(128).check("Reach-v0", env.observation_space, env.action_space)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ Not tested: that training leads anywhere (docs/environments.md has the figures).
 import json
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import gymnasium
 import numpy as np
@@ -102,6 +103,14 @@ def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:
         assert rewards == episode["rewards"].tolist()  # actions alone give the same bits
 
 
+def test_an_episode_lasts_as_long_at_the_rate_of_its_policy(tmp_path: Path) -> None:
+    metadata = REACH | {"options": '{"rate": 10}'}
+    policy = linear(tmp_path / "a.onnx", metadata=metadata)
+    words = ["run", "--policy", str(policy), "--fidelity", "kinematic", "--no-video"]
+    assert main([*words, "--out", str(tmp_path)]) in (0, 1)
+    assert json.loads((tmp_path / "summary.json").read_text())["steps"] == 50  # 5 s
+
+
 def test_the_command_line_films_an_episode_and_says_that_it_failed(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg", reason="pip install 'hurcules[report]'")
     hurcules_envs.register("Own/Short-v0", "hurcules_envs.reach:Reach", 5)
@@ -155,3 +164,40 @@ def test_numbers_that_are_not_finite_are_no_action(tmp_path: Path) -> None:
     policy = Policy(linear(tmp_path / "a.onnx"))
     with pytest.raises(hurcules.Error, match="not finite"):
         policy({name: np.full((1, 6), np.nan, np.float32) for name in GOAL})
+
+
+class OtherRuntime:
+    """Stands for onnxruntime: computes a network that takes rows of doubles, so many at a time."""
+
+    def __init__(self, rows: object) -> None:
+        self.rows = rows
+
+    def get_inputs(self) -> list[SimpleNamespace]:
+        """What it takes."""
+        kind = {"type": "tensor(double)", "shape": [self.rows, 6]}
+        return [SimpleNamespace(name=name, **kind) for name in GOAL]
+
+    def run(self, _outputs: None, fed: dict) -> list[np.ndarray]:
+        """The network's answer."""
+        assert all(values.dtype == np.float64 for values in fed.values())
+        if isinstance(self.rows, int) and len(fed["desired_goal"]) != self.rows:
+            raise RuntimeError("Got invalid dimensions\n  for input")
+        return [np.tanh(3.0 * (fed["desired_goal"] - fed["achieved_goal"]))]
+
+
+@pytest.mark.parametrize("rows", ["n", 1])
+def test_networks_of_another_runtime_take_rows_as_they_were_exported(tmp_path, rows) -> None:
+    """Exporters fix the batch at 1, unless they are told otherwise."""
+    policy = Policy(linear(tmp_path / "a.onnx"))
+    seen = {name: np.random.default_rng(0).normal(size=(5, 6)) for name in GOAL}
+    wanted = policy(seen)
+    policy._session = OtherRuntime(rows)
+    assert np.allclose(policy(seen), wanted, atol=1e-6)
+    policy._session = OtherRuntime(2)
+    with pytest.raises(hurcules.Error, match=r"a\.onnx: Got invalid dimensions for input$"):
+        policy(seen)
+
+
+def test_a_file_is_judged_by_its_name(tmp_path: Path) -> None:
+    path = linear(tmp_path / "a.onnx", gain=8.0)
+    assert evaluate(path, "Reach-v0", 2, fidelity="kinematic").success == 1.0

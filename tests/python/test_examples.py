@@ -105,6 +105,13 @@ def walks(said: str) -> None:
     assert all(abs(a - b) < 0.02 for way in moved for a, b in zip(wanted, way, strict=True))
 
 
+def is_led_by_hand(said: str) -> None:
+    assert abs(numbers(r"by hand: (\S+) m ahead", said)[0] - 0.10) < 0.01
+    assert 0.35 < numbers(r"held for (\S+) s", said)[0] < 0.55
+    assert "pel:" in said and "held by" in said
+    assert "the same bits: True" in said
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -121,7 +128,8 @@ RESULTS = {
     "12": clones,
     "13": stands,
     "14": moves_as_wanted,
-    "15": walks,
+    "15": is_led_by_hand,
+    "16": walks,
 }
 
 

@@ -8,6 +8,7 @@ Not tested: what is learnt from them (docs/environments.md).
 import json
 import resource
 import warnings
+from itertools import count
 from pathlib import Path
 
 import gymnasium as gym
@@ -17,6 +18,8 @@ import pytest
 import hurcules
 from hurcules.cli import main
 from hurcules_envs import recording
+from hurcules_envs.data_formats import Format
+from hurcules_envs.onnx_file import Graph, write
 
 NAME = "Hurcules/Drive-v0"
 FAST = {"fidelity": "kinematic"}
@@ -26,6 +29,21 @@ def expert(env, _):
     return env.environment.expert(env.numbers)[0]
 
 
+@pytest.fixture
+def plain(monkeypatch):
+    """A format that wants no package, and the episodes that it was given last."""
+    given = []
+
+    def write(_recording, _env, episodes, out):
+        given[:] = episodes
+        out.mkdir()
+        (out / "data").write_text("")
+
+    form = Format(("json", ""), lambda one: "data", write)
+    monkeypatch.setitem(recording.FORMATS, "plain", form)
+    return given
+
+
 def words(form: str, out: Path, *more: str) -> list[str]:
     """The command that records two episodes of the policy that ships."""
     given = ["record", "Drive-v0", "--format", form, "--episodes", "2", "--seed", "3"]
@@ -33,10 +51,11 @@ def words(form: str, out: Path, *more: str) -> list[str]:
 
 
 def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
-    taken = []
+    taken, authors = [], []
 
     def kept(name, act, *_, progress, form, seed, author, source, **options):
         taken.append(options)
+        authors.append(author)
         env = gym.make(name, **options).unwrapped
         env.reset(seed=0)
         assert act(env, None).shape == env.action_space.shape
@@ -46,6 +65,20 @@ def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
     for name in ("Stretch-v0", "Reach-v0"):  # the former has no fidelity to choose
         assert main(["record", name, "--out", str(tmp_path)]) == 0
     assert taken == [{}, {"fidelity": "exact"}]
+    given = ["--robot", "manipulation", "--fidelity", "kinematic", "--author", "anna"]
+    assert main(["record", "Reach-v0", *given]) == 0
+    assert taken[2:] == [{"robot": "manipulation", "fidelity": "kinematic"}]
+    assert authors == ["expert", "expert", "anna"]
+
+
+def test_a_policy_is_recorded_in_the_environment_that_it_was_trained_in(tmp_path, monkeypatch):
+    """Its options were left out: increments were recorded as velocities, say."""
+    taken = []
+    monkeypatch.setattr(recording, "record", lambda name, *_, **given: taken.append(given) or name)
+    own = {"environment": NAME, "options": '{"fidelity": "kinematic", "friction": [0.5, 1.0]}'}
+    write(tmp_path / "a.onnx", Graph((), {}, {"observation": 15}, {"action": 3}, own))
+    assert main(["record", "Drive-v0", "--policy", str(tmp_path / "a.onnx")]) == 0
+    assert (taken[0]["friction"], taken[0]["fidelity"]) == ([0.5, 1.0], "exact")
 
 
 def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
@@ -72,6 +105,25 @@ def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
             assert info["is_success"] == episode.infos["is_success"][k + 1]
 
 
+def test_pictures_of_minari_are_those_that_were_seen(tmp_path, monkeypatch):
+    """It writes JPEG unless it is told not to."""
+    minari = pytest.importorskip("minari", reason="pip install 'hurcules[data]'")
+    options = {**FAST, "cameras": ["head_wide"], "camera_size": [64, 48], "max_episode_steps": 3}
+    seen = []
+
+    def acts(env, observation):
+        seen.append(observation["head_wide"])
+        return expert(env, observation)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        identifier = recording.record(NAME, acts, 2, tmp_path, **options)
+        monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+        data = minari.load_dataset(identifier)
+    kept = [episode.observations["head_wide"][:-1] for episode in data]
+    assert np.array_equal(np.concatenate(kept), seen)
+
+
 def test_a_file_of_robomimic_gives_the_same_episode(tmp_path):
     h5py = pytest.importorskip("h5py", reason="pip install h5py")
     assert main(words("robomimic", tmp_path)) == 0
@@ -89,6 +141,7 @@ def test_a_file_of_robomimic_gives_the_same_episode(tmp_path):
                 assert (reward, over) == (demo["rewards"][k], bool(demo["dones"][k]))
                 assert np.array_equal(observation["desired_goal"], demo["next_obs/desired_goal"][k])
             assert demo.attrs["success"]
+        assert file["mask/success"][()].tolist() == [b"demo_0", b"demo_1"]
 
 
 def test_a_data_set_of_lerobot_gives_the_same_episode(tmp_path):
@@ -167,13 +220,125 @@ def test_a_full_disk_keeps_what_was_finished(tmp_path):
 
     size = Path(tried("whole")).stat().st_size
     usual = resource.getrlimit(resource.RLIMIT_FSIZE)
-    for limit, kept in ((size - 1, 4), (2000, 0)):
+    for limit, said, left in (
+        (size - 1, r"4 of 4 episodes are kept in .*\.part", [".part"]),
+        (2000, r"could not be written: .*large\.$", []),
+    ):
         out = f"limit {limit}"
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, usual[1]))
         try:
-            with pytest.raises(hurcules.Error, match=rf"{kept} of 4 episodes are kept in .*\.part"):
+            with pytest.raises(hurcules.Error, match=said):
                 tried(out)
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, usual)
-        assert [one.suffix for one in (tmp_path / out).iterdir()] == [".part"]
+        assert [one.suffix for one in (tmp_path / out).iterdir()] == left
         assert Path(tried(out)).stat().st_size == size
+
+
+def test_what_is_recorded_is_what_was_done(tmp_path, plain):
+    recording.record(NAME, lambda *_: [3.0, -3.0, 0.0], 1, tmp_path, form="plain", **FAST)
+    (one,) = plain
+    assert (one.actions == np.float32([1.0, -1.0, 0.0])).all()
+    env = gym.make(NAME, **FAST)
+    env.reset(seed=0)
+    assert [env.step(action)[1] for action in one.actions] == one.rewards.tolist()
+
+
+def test_who_acts_ends_an_episode_or_begins_it_anew(tmp_path, plain):
+    """The first attempt at the first episode does not count, the second one is cut."""
+    steps = count(1)
+
+    def person(env, seen):
+        step = next(steps)
+        if step == 5:
+            raise recording.Again
+        return None if step == 12 else expert(env, seen)
+
+    recording.record("Drive-v0", person, 2, str(tmp_path), form="plain", **FAST)
+    first, second = plain
+    assert (first.seed, len(first.actions), first.success) == (0, 6, False)
+    assert first.truncated.tolist() == [False] * 5 + [True] and not first.terminated.any()
+    assert (second.seed, second.success, bool(second.terminated[-1])) == (1, True, True)
+    assert np.array_equal(
+        first.actions[0], recording.record_episode(gym.make(NAME, **FAST), expert, 0).actions[0]
+    )
+    with pytest.raises(hurcules.Error, match="before its first step"):
+        recording.record(NAME, lambda *_: None, 1, tmp_path / "none", form="plain", **FAST)
+    assert not list((tmp_path / "none").iterdir())
+
+
+def test_mistakes_are_told_before_anything_is_recorded(tmp_path, plain):
+    for given, said in (
+        ({"author": "J. Doe / 3"}, "author: wanted letters"),
+        ({"episodes": 0}, "episodes: wanted a whole number from 1 on, got 0"),
+        ({"environment": gym.make(NAME, **FAST)}, "environment: wanted an id"),
+    ):
+        wanted = {"environment": NAME, "act": expert, "episodes": 1, "out": tmp_path} | given
+        with pytest.raises(hurcules.Error, match=said):
+            recording.record(**wanted, form="plain", **FAST)
+    assert not list(tmp_path.iterdir())
+
+
+def test_options_are_paths_and_arrays_too(tmp_path, plain):
+    arm = Path(gym.__file__).parent / "envs/mujoco/assets/pusher_v5.xml"
+    given = {"robot": arm, "frames": ("tips_arm",), "observation_noise": np.array([0.0, 0.01])}
+    recording.record("Reach-v0", lambda *_: np.zeros(3), 1, tmp_path, form="plain", **FAST, **given)
+    assert len(plain) == 1
+
+
+def test_recorded_episodes_last_as_long_at_any_rate(tmp_path, plain):
+    def holds(*_):
+        return np.zeros(6)
+
+    for given, steps in (({"rate": 10}, 50), ({"rate": 10, "max_episode_steps": 7}, 7)):
+        recording.record("Reach-v0", holds, 1, tmp_path / str(steps), form="plain", **FAST, **given)
+        assert len(plain[0].actions) == steps
+
+
+def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
+    begun = count()
+
+    def unplugged(env, seen):
+        if env.simulation.time == 0.0 and next(begun) == 2:
+            raise OSError("no such device")
+        return expert(env, seen)
+
+    def tried(episodes, act=expert):
+        return recording.record(NAME, act, episodes, tmp_path, form="plain", **FAST)
+
+    said = r"^no such device\n2 of 3 episodes are kept in \S+; [\w\s,]{60,80} these alone$"
+    with pytest.raises(OSError, match=said):
+        tried(3, unplugged)
+    with pytest.raises(hurcules.Error, match="holds 2 episodes that are finished, 1 were wanted"):
+        tried(1)
+    tried(2, unplugged)
+    assert [one.seed for one in plain] == [0, 1]
+
+
+def test_a_stop_says_what_is_kept(tmp_path, plain, monkeypatch, capsys):
+    begun = count()
+
+    def stops(env, seen):
+        if env.simulation.time == 0.0 and next(begun) == 1:
+            raise KeyboardInterrupt
+        return expert(env, seen)
+
+    monkeypatch.setattr("hurcules_envs.command._expert", stops)
+    assert (
+        main(
+            [
+                "record",
+                "Drive-v0",
+                "--fidelity",
+                "kinematic",
+                "--format",
+                "plain",
+                "--episodes",
+                "3",
+                "--out",
+                str(tmp_path),
+            ]
+        )
+        == 130
+    )
+    assert capsys.readouterr().out.count("1 of 3 episodes are kept in") == 1

@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 from rich.console import Console
@@ -35,6 +36,24 @@ def realistic() -> Simulation:
 
 def test_every_typical_model_is_of_a_sensor_that_exists(realistic: Simulation) -> None:
     assert set(hurcules.sensors.realistic().models) == set(realistic.sensor_entries())
+
+
+def test_another_robot_gets_those_that_it_has() -> None:
+    # "site 'lidar' does not exist", then "sensor 'imu_acceleration' does not exist"
+    model = mujoco.MjModel.from_xml_string(
+        """<mujoco><worldbody><body><joint name="hinge" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/></body></worldbody>
+        <actuator><motor joint="hinge" forcerange="-20 20"/></actuator></mujoco>"""
+    )
+    robot = hurcules.Robot(model)
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    options = hurcules.sensors.realistic(robot)
+    simulation = Simulation(model=model, controller=controller, sensors=options, record=False)
+    simulation.step(10)
+    assert set(options.models) == set(simulation.sensor_entries())
+    assert "encoder_position" in options.models and "imu_rate" not in options.models
+    whole = hurcules.Robot(hurcules.models.load("rescue", "flat"))
+    assert set(hurcules.sensors.realistic(whole).models) == set(hurcules.sensors.realistic().models)
 
 
 def test_readings_have_the_entries_that_are_named(realistic: Simulation) -> None:

@@ -305,5 +305,10 @@ def test_a_balance_task_follows_the_feet_that_stand() -> None:
     assert (simulation.data.subtree_com[1][:2] - four[0]) @ inward < 0.0
     with pytest.raises(hurcules.Error, match="of up to 4 corners, 5 came"):
         balance.set_polygon([*four, [0.25, 0.0]])
+    roomy = hurcules.BalanceTask("balance", robot, four, room=6)
+    roomy.set_polygon([*four, [0.25, 0.0]])
+    roomy.update(robot)
+    assert roomy.rows == 6
+    assert np.isfinite(roomy.error).all()
     with pytest.raises(hurcules.Error, match="convex"):
         balance.set_polygon(four[[0, 2, 1, 3]])

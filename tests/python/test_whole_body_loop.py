@@ -104,6 +104,12 @@ def test_a_channel_that_a_command_does_not_name_holds() -> None:
     simulation.step(100, {"tip": where})
     simulation.step(1000, {"finger": [0.01]})
     assert at(simulation) == pytest.approx(where, abs=1e-3)
+    simulation.step(100, {})  # names none: all hold
+    assert at(simulation) == pytest.approx(where, abs=1e-3)
+    batch = hurcules.SimulationBatch(simulation, 1, threads=1)
+    batch.step(100, {})
+    simulation.step(100)
+    assert np.array_equal(batch[0].state(), simulation.state())
     with pytest.raises(hurcules.Error, match="finite"):
         simulation.step(1, {"tip": [np.nan, np.nan]})
     with pytest.raises(hurcules.Error, match="finite"):

@@ -1,6 +1,7 @@
-// Numbers out of text.
+// Numbers out of text, and text of numbers.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -16,6 +17,13 @@ template <class Number>
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end) return std::nullopt;
   return value;
+}
+
+// the shortest text that reads as this number: 0.3, 1e-09, inf
+[[nodiscard]] inline std::string number_text(double value) {
+  std::array<char, 32> text;
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() ? std::string(text.data(), end) : "a number";
 }
 
 }  // namespace hurcules

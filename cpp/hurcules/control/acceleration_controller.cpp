@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/control/limit_rows.hpp"
 #include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
@@ -28,7 +29,7 @@ void check(const AccelerationControllerOptions& options) {
   require(std::isfinite(L) && L > 0.0, "damping wants a positive number [1/s]");
   // held for dt, an acceleration turns the speed beyond L dt = 2; a third of it leaves room
   require(L * dt < 0.66 && K * dt * dt < 0.1,
-          "stiffness and damping are too high for a control period of " + std::to_string(dt) +
+          "stiffness and damping are too high for a control period of " + number_text(dt) +
               " s: damping * dt < 0.66 and stiffness * dt^2 < 0.1 are wanted");
   require(std::isfinite(options.horizon) && options.horizon >= dt,
           "horizon wants a time of at least one control period, else a limit is passed; got " +

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/tasks/force_task.hpp"
 
 namespace hurcules {
@@ -47,7 +48,7 @@ Channel::Channel(std::string name, ChannelKind kind, Vector scale,
   require(!name_.empty(), "a channel wants a name");
   for (Index i = 0; i < scale_.size(); ++i) {
     require(scale_[i] > 0.0, "the scale of channel '" + name_ + "' wants numbers above 0, " +
-                                 std::to_string(scale_[i]) + " came");
+                                 number_text(scale_[i]) + " came");
   }
   if (components_.empty()) components_ = usual_components(size());
   require(static_cast<Index>(components_.size()) == size(),

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/tasks/force_task.hpp"
 
 namespace hurcules {
@@ -15,7 +16,7 @@ void check(const StackLevel& level) {
   require(level.limits || !level.tasks.empty(),
           "a level of a stack wants at least one task; '" + level.name + "' has none");
   require(level.rho >= 0.0 && std::isfinite(level.rho),
-          "level '" + level.name + "' wants a finite rho >= 0, got " + std::to_string(level.rho));
+          "level '" + level.name + "' wants a finite rho >= 0, got " + number_text(level.rho));
   for (const Task* task : level.tasks) {
     require(task != nullptr, "level '" + level.name + "' holds a task that does not exist (null)");
   }
@@ -73,8 +74,8 @@ void require_period(const Stack& stack, double dt) {
       const auto* const force = dynamic_cast<const ForceTask*>(task);
       require(!force || std::abs(force->options().gains.dt - dt) <= 1e-9 * dt,
               "task '" + task->name() + "' reckons with a period of " +
-                  (force ? std::to_string(force->options().gains.dt) : "") +
-                  " s, its controller has " + std::to_string(dt) + " s: ForceGains(dt=...)");
+                  (force ? number_text(force->options().gains.dt) : "") +
+                  " s, its controller has " + number_text(dt) + " s: ForceGains(dt=...)");
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -21,7 +22,7 @@ void check(const VelocityControllerOptions& options) {
   require(std::isfinite(options.gain) && options.gain >= 0.0, "gain wants a number >= 0 [1/s]");
   // an error that is corrected by more than itself in a period grows
   require(options.gain * options.dt <= 1.0, "gain * dt wants to be 1 at most, got " +
-                                                std::to_string(options.gain) + " 1/s at " +
+                                                number_text(options.gain) + " 1/s at " +
                                                 std::to_string(options.dt) + " s");
   require(std::isfinite(options.horizon) && options.horizon >= options.dt,
           "horizon wants a time of at least one control period, else a limit is passed; got " +

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/base/values.hpp"
 
@@ -393,8 +394,8 @@ void WholeBodyController::require_start(const Vector& qpos) const {
   for (Index i = 0; i < servo_.size() && !by_torques(); ++i) {
     const double there = servo_.actuator(i).position(qpos), here = servo_.position()[i];
     if (std::abs(there - here) <= kFar) continue;
-    throw Error("joint '" + servo_.actuator(i).joint + "' is at " + std::to_string(there) +
-                ", the plan starts at " + std::to_string(here) + ": reset(qpos) first");
+    throw Error("joint '" + servo_.actuator(i).joint + "' is at " + number_text(there) +
+                ", the plan starts at " + number_text(here) + ": reset(qpos) first");
   }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/motor.hpp"
 
 namespace hurcules {
@@ -277,7 +278,7 @@ double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
     if (without(mj_id2name(&m, mjOBJ_NUMERIC, i), "velocity_limit_") != joint) continue;
     const double limit = m.numeric_data[m.numeric_adr[i]];
     require(limit > 0, "velocity limit of joint '" + joint + "' wants to be above 0, " +
-                           std::to_string(limit) + " came");
+                           number_text(limit) + " came");
     return limit;
   }
   return kInfinity;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
@@ -24,7 +25,7 @@ double find_limit(const mjModel* m, const std::string& marker, const std::string
   if (numeric < 0) return kNone;
   const double limit = m->numeric_data[m->numeric_adr[numeric]];
   require(limit > 0.0, "numeric '" + marker + joint + "' wants a number above 0, " +
-                           std::to_string(limit) + " came");
+                           number_text(limit) + " came");
   return limit;
 }
 

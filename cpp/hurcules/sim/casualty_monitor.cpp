@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
@@ -57,7 +58,7 @@ const std::vector<std::string>& CasualtyMonitor::names() {
 CasualtyMonitor::CasualtyMonitor(const mjModel* m, const std::string& prefix, double stand_off)
     : stand_off_(stand_off), region_of_(static_cast<std::size_t>(m->nbody), -1) {
   require(stand_off_ >= 0.0 && std::isfinite(stand_off_),
-          "a watched casualty wants a stand-off >= 0, " + std::to_string(stand_off_) + " m came");
+          "a watched casualty wants a stand-off >= 0, " + number_text(stand_off_) + " m came");
   pelvis_ = body_of(m, prefix + "pelvis");
   chest_ = body_of(m, prefix + "thorax");
   root_ = m->body_rootid[pelvis_];

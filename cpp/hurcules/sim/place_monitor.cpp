@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
@@ -41,7 +42,7 @@ PlaceMonitor::PlaceMonitor(const mjModel* m, const std::string& body, double sta
               mj_name2id(m, mjOBJ_SITE, (body + "_right").c_str())},
       stand_off_(stand_off) {
   require(stand_off_ >= 0.0 && std::isfinite(stand_off_),
-          "a watched thing wants a stand-off >= 0, " + std::to_string(stand_off_) + " m came");
+          "a watched thing wants a stand-off >= 0, " + number_text(stand_off_) + " m came");
   require((places_[0] < 0) == (places_[1] < 0),
           "'" + body + "' wants places to grasp on both sides, or none");
   values_ = Vector::Zero(places_[0] < 0 ? kPlaces : kQuantities);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -33,10 +34,10 @@ void check(const RangeFinderOptions& o) {
   require(o.period >= 1,
           "range finder: period wants 1 tick or more, " + std::to_string(o.period) + " came");
   require(o.angle >= 0.0 && o.angle <= kTurn,
-          "range finder: angle wants 0 to 2 pi, " + std::to_string(o.angle) + " came");
+          "range finder: angle wants 0 to 2 pi, " + number_text(o.angle) + " came");
   require(o.min_range >= 0.0 && o.min_range < o.max_range && std::isfinite(o.max_range),
-          "range finder: ranges want 0 <= min_range < max_range, " + std::to_string(o.min_range) +
-              " and " + std::to_string(o.max_range) + " came");
+          "range finder: ranges want 0 <= min_range < max_range, " + number_text(o.min_range) +
+              " and " + number_text(o.max_range) + " came");
   require_sensor_model("range", o.model);
 }
 

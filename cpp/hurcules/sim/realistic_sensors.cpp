@@ -1,7 +1,11 @@
 #include "hurcules/sim/realistic_sensors.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "hurcules/sim/sensor_setups.hpp"
 
@@ -44,6 +48,16 @@ SensorOptions realistic_sensors() {
   options.range.rays = 361;
   options.range.period = 25;
   options.range.model = {.noise = 0.01, .step = 0.001};
+  return options;
+}
+
+SensorOptions realistic_sensors(const Robot& robot) {
+  SensorOptions options = realistic_sensors();
+  const mjModel* const model = robot.model().get();
+  std::set<std::string> there;
+  for (const SensorSetup& setup : find_sensors(model, robot.root_body())) there.insert(setup.name);
+  std::erase_if(options.models, [&](const auto& named) { return !there.contains(named.first); });
+  if (mj_name2id(model, mjOBJ_SITE, options.range.site.c_str()) < 0) options.range.rays = 0;
   return options;
 }
 

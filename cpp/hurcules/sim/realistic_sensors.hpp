@@ -9,5 +9,7 @@
 namespace hurcules {
 
 [[nodiscard]] SensorOptions realistic_sensors();
+// those of them that this robot has
+[[nodiscard]] SensorOptions realistic_sensors(const Robot& robot);
 
 }  // namespace hurcules

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -29,7 +30,7 @@ void require_sensor_model(const std::string& sensor, const SensorModel& model) {
   const auto check = [&](const char* name, double value) {
     require(std::isfinite(value) && value >= 0.0, "sensor '" + sensor + "': " + name +
                                                       " wants a number >= 0, " +
-                                                      std::to_string(value) + " came");
+                                                      number_text(value) + " came");
   };
   check("noise", model.noise);
   check("bias", model.bias);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/sim/sensor_setups.hpp"
 
 namespace hurcules {
@@ -40,9 +41,9 @@ Sensors::Sensors(const Robot& robot, int root, const SensorOptions& options)
     : options_(options),
       range_(robot.model().get(), options.range),
       monitor_(references_of(robot, root), robot.model()->opt.timestep, options.monitor) {
-  require(std::isfinite(options_.hold_seconds) && options_.hold_seconds >= 0.0,
-          "sensors: hold_seconds wants a number >= 0, " + std::to_string(options_.hold_seconds) +
-              " came");
+  require(
+      std::isfinite(options_.hold_seconds) && options_.hold_seconds >= 0.0,
+      "sensors: hold_seconds wants a number >= 0, " + number_text(options_.hold_seconds) + " came");
   for (SensorSetup& setup : find_sensors(robot.model().get(), root)) {
     const auto found = options_.models.find(setup.name);
     const SensorModel model = found == options_.models.end() ? SensorModel{} : found->second;
@@ -64,9 +65,9 @@ std::size_t Sensors::find(const std::string& name) const {
 }
 
 void Sensors::add_fault(const SensorFault& fault) {
-  require(std::isfinite(fault.start) && fault.start >= 0.0,
-          "fault of '" + fault.entry + "': start wants a time >= 0, " +
-              std::to_string(fault.start) + " came");
+  require(std::isfinite(fault.start) && fault.start >= 0.0, "fault of '" + fault.entry +
+                                                                "': start wants a time >= 0, " +
+                                                                number_text(fault.start) + " came");
   const std::size_t slash = fault.entry.find('/');
   const std::size_t sensor = find(fault.entry.substr(0, slash));
   const std::string entry = slash == std::string::npos ? "" : fault.entry.substr(slash + 1);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/control/tasks.hpp"
 
@@ -82,7 +83,7 @@ int substeps_of(double period, double timestep) {
   const double whole = std::round(ratio);
   require(whole >= 1.0 && std::abs(ratio - whole) < 1e-6,
           "the controller's period wants to be a whole number of physics steps of " +
-              std::to_string(timestep) + " s, it is " + std::to_string(period) + " s");
+              number_text(timestep) + " s, it is " + number_text(period) + " s");
   return static_cast<int>(whole);
 }
 
@@ -622,7 +623,7 @@ void Simulation::write(std::vector<double>& values) const {
 void Simulation::restore(const std::vector<double>& values) {
   require(values.size() >= kStateHeader && values[0] == kStateVersion,
           "a snapshot of another version: wanted " + std::to_string(kStateVersion) + ", got " +
-              (values.empty() ? "nothing" : std::to_string(values[0])));
+              (values.empty() ? "nothing" : number_text(values[0])));
   require(values.size() == state_size_ && values[1] == static_cast<double>(state_size_) &&
               values[2] == hash_of(record_.names()),
           "a snapshot of another model, controller or mission: it has " +

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -22,7 +23,7 @@ void check_shape(const LevelView& level, const std::string& where, Index unknown
                                           std::to_string(unknowns) + " (the unknowns), got " +
                                           std::to_string(level.rows()));
     require(level.rho == 0.0,
-            where + ": bounds are never regularised, got rho = " + std::to_string(level.rho));
+            where + ": bounds are never regularised, got rho = " + number_text(level.rho));
     return;
   }
   require(level.A.rows() == level.rows() && (level.rows() == 0 || level.A.cols() == unknowns),
@@ -42,8 +43,8 @@ void check_row(const LevelView& level, const std::string& where, Index i) {
   require(!std::isnan(level.lower[i]) && !std::isnan(level.upper[i]),
           place(where, i) + ": a bound is NaN");
   require(level.lower[i] <= level.upper[i],
-          place(where, i) + ": lower must not exceed upper, got " + std::to_string(level.lower[i]) +
-              " > " + std::to_string(level.upper[i]));
+          place(where, i) + ": lower must not exceed upper, got " + number_text(level.lower[i]) +
+              " > " + number_text(level.upper[i]));
   require(level.lower[i] < kInfinity && level.upper[i] > -kInfinity,
           place(where, i) + ": no x can meet a lower bound of +inf or an upper bound of -inf");
   if (level.bounds) return;
@@ -54,7 +55,7 @@ void check_row(const LevelView& level, const std::string& where, Index i) {
 
 void check_numbers(const LevelView& level, const std::string& where) {
   require(std::isfinite(level.rho) && level.rho >= 0.0,
-          where + ": rho must be finite and >= 0, got " + std::to_string(level.rho));
+          where + ": rho must be finite and >= 0, got " + number_text(level.rho));
   for (Index i = 0; i < level.rows(); ++i) {
     if (!is_sound(level, i)) check_row(level, where, i);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -33,7 +34,7 @@ void check(const SolverOptions& options) {
           "max_iterations must be positive, got " + std::to_string(options.max_iterations));
   require(std::isfinite(options.singular_threshold) && options.singular_threshold > 0.0,
           "singular_threshold must be finite and positive, got " +
-              std::to_string(options.singular_threshold));
+              number_text(options.singular_threshold));
 }
 
 }  // namespace hurcules

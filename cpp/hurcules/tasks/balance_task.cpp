@@ -19,7 +19,7 @@ constexpr double kFarInside = 1.0;     // [m] of a row without a side
 }  // namespace
 
 BalanceTask::BalanceTask(std::string name, const Robot& robot, const BalanceTaskOptions& options)
-    : Task(std::move(name), options.polygon.rows(), robot),
+    : Task(std::move(name), std::max(options.polygon.rows(), options.room), robot),
       corners_(Matrix::Zero(rows(), 2)),
       normals_(corners_),
       reference_(robot, options.reference),

@@ -17,6 +17,7 @@ struct BalanceTaskOptions {
   double margin = 0.05;        // [m] kept from its sides
   double height = 0.0;         // [m] of the polygon, z in the axes of the reference
   std::string reference = "";  // frame whose axes the corners are in, "" = the world
+  Index room = 0;              // a row each for so many corners of later polygons, at least k
 };
 
 class BalanceTask : public Task {
@@ -28,8 +29,8 @@ class BalanceTask : public Task {
 
   void update(const Robot& robot) override;
   [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
-  // another polygon from the next update on, after a step say: (k', 2), k' <= k; the rows that are
-  // left over ask for nothing
+  // another polygon from the next update on, after a step say: (k', 2), k' <= rows; the rows that
+  // are left over ask for nothing
   void set_polygon(const Matrix& corners);
   [[nodiscard]] Index sides() const { return sides_; }  // k'
   // there is no target: hold and advance change nothing
@@ -42,7 +43,7 @@ class BalanceTask : public Task {
 
  private:
   Index sides_ = 0;
-  Matrix corners_, normals_;  // (k, 2), 0 beyond the sides
+  Matrix corners_, normals_;  // (rows, 2), 0 beyond the sides
   Reference reference_;
   PointMotion com_;
 };

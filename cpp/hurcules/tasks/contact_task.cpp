@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/sole_points.hpp"
 
 namespace hurcules {
@@ -32,7 +33,7 @@ ContactTaskOptions completed(const Robot& robot, const std::string& body,
   for (const Vector3& point : options.points)
     require(point.allFinite(), "a contact wants points of finite numbers [m]");
   require(std::isfinite(options.friction) && options.friction > 0.0,
-          "a contact wants a friction > 0, " + std::to_string(options.friction) + " came");
+          "a contact wants a friction > 0, " + number_text(options.friction) + " came");
   require(options.normal.allFinite() && options.normal.norm() > 1e-9,
           "a contact wants a normal that is not zero");
   options.normal.normalize();

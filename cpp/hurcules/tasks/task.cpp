@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -32,9 +33,8 @@ Task::Task(std::string name, Index rows, const Robot& robot)
 }
 
 void Task::set_max_speed(double speed) {
-  require(
-      speed > 0.0 && std::isfinite(speed),
-      "max_speed of task '" + name_ + "' wants a positive number, got " + std::to_string(speed));
+  require(speed > 0.0 && std::isfinite(speed),
+          "max_speed of task '" + name_ + "' wants a positive number, got " + number_text(speed));
   max_speed_ = speed;
 }
 
@@ -46,14 +46,14 @@ void Task::set_gain(const ConstVectorRef& gains) {
   require_rows(gains, "gain");
   require(gains.minCoeff() > 0.0, "gain of task '" + name_ +
                                       "' wants positive numbers [1/s], got " +
-                                      std::to_string(gains.minCoeff()));
+                                      number_text(gains.minCoeff()));
   gains_ = gains;
 }
 
 void Task::set_weights(const ConstVectorRef& weights) {
   require_rows(weights, "weights");
   require(weights.minCoeff() >= 0.0, "weights of task '" + name_ + "' want numbers >= 0, got " +
-                                         std::to_string(weights.minCoeff()));
+                                         number_text(weights.minCoeff()));
   weights_ = weights;
 }
 
@@ -92,13 +92,13 @@ void Task::set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper
   for (Index row = 0; row < rows(); ++row)
     if (!(lower[row] <= upper[row]))  // also for a number that is none
       throw Error("interval of task '" + name_ + "', row " + std::to_string(row) +
-                  ": lower <= upper is wanted, " + std::to_string(lower[row]) + " and " +
-                  std::to_string(upper[row]) + " came");
+                  ": lower <= upper is wanted, " + number_text(lower[row]) + " and " +
+                  number_text(upper[row]) + " came");
   for (Index row = 0; row < rows(); ++row)
     if (lower[row] >= kNoNumber || upper[row] <= -kNoNumber)
       throw Error("interval of task '" + name_ + "', row " + std::to_string(row) +
-                  ": an interval that holds a number is wanted, " + std::to_string(lower[row]) +
-                  " to " + std::to_string(upper[row]) + " came");
+                  ": an interval that holds a number is wanted, " + number_text(lower[row]) +
+                  " to " + number_text(upper[row]) + " came");
   lower_ = lower;
   upper_ = upper;
 }
@@ -112,7 +112,7 @@ void Task::require_robot(const Robot& robot) const {
 
 void Task::require_time(double dt) const {
   if (!std::isfinite(dt))
-    throw Error("dt of task '" + name_ + "' wants a finite time, got " + std::to_string(dt));
+    throw Error("dt of task '" + name_ + "' wants a finite time, got " + number_text(dt));
 }
 
 void Task::require_rows(const ConstVectorRef& values, const char* what) const {
@@ -127,7 +127,7 @@ void Task::require_values(const ConstVectorRef& values, const char* what) const 
     throw Error(std::string(what) + " of task '" + name_ + "' wants finite values");
   if (values.size() > 0 && values.cwiseAbs().maxCoeff() > kLargest)
     throw Error(std::string(what) + " of task '" + name_ + "' wants numbers up to 1e6, " +
-                std::to_string(values.cwiseAbs().maxCoeff()) + " came");
+                number_text(values.cwiseAbs().maxCoeff()) + " came");
 }
 
 void copy_memory(const Task& from, Task& to, std::vector<double>& scratch) {

@@ -348,7 +348,7 @@ TEST(ForceTask, ReckonsWithThePeriodOfItsController) {
   Press press(first_order(1e-3, 1e4));
   VelocityController slow(press.robot, {.dt = 5e-3});
   const std::string text = error_text([&] { slow.set_stack(press.stack()); });
-  EXPECT_TRUE(contains(text, "period of 0.001000 s, its controller has 0.005000 s")) << text;
+  EXPECT_TRUE(contains(text, "period of 0.001 s, its controller has 0.005 s")) << text;
 }
 
 TEST(ForceTask, ARestoredOneGivesTheSameBits) {

@@ -152,7 +152,7 @@ TEST_F(RangeFinderTest, RefusesWhatCannotBe) {
   EXPECT_TRUE(contains(refusal(wrong), "period wants 1 tick or more, 0 came"));
   wrong = options(5);
   wrong.angle = 7.0;
-  EXPECT_TRUE(contains(refusal(wrong), "angle wants 0 to 2 pi, 7.0"));
+  EXPECT_TRUE(contains(refusal(wrong), "angle wants 0 to 2 pi, 7 came"));
   wrong = options(5);
   wrong.min_range = 40.0;
   EXPECT_TRUE(contains(refusal(wrong), "min_range < max_range"));

@@ -3,7 +3,7 @@
 A foot is a contact for as long as a stack with it rules. So a step is a change of stacks: the
 centre of mass goes over the three feet that stay, then the fourth is lifted, led and set down.
 
-Run:  python python/examples/15_walk.py
+Run:  python python/examples/16_walk.py
 """
 
 import mujoco
