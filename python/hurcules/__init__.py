@@ -1,5 +1,6 @@
 """Hierarchical optimal control of the rescue robot Hurcules, simulated in MuJoCo."""
 
+import sys
 import warnings
 from typing import Any
 
@@ -17,6 +18,7 @@ except ModuleNotFoundError as error:
 
 from hurcules import (  # noqa: E402
     _moved,
+    _pickles,
     _reprs,
     cameras,
     casualties,
@@ -127,10 +129,13 @@ from hurcules.ik import Posture, inverse_kinematics  # noqa: E402
 from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
-from hurcules.urdf import load_urdf, on_floor  # noqa: E402
-from hurcules.view import watch  # noqa: E402
+from hurcules.support import support_polygon  # noqa: E402
+from hurcules.urdf import load_urdf, on_floor, urdf_spec  # noqa: E402
+from hurcules.view import film, watch  # noqa: E402
 
 _reprs.install()
+
+_pickles.install()
 
 _moved.install()
 
@@ -149,7 +154,8 @@ def __getattr__(name: str) -> Any:
     if _moved.new_name(f"hurcules.{name}"):
         globals()[name] = _moved.forward(f"hurcules.{name}", 3)
         return globals()[name]
-    raise AttributeError(f"module 'hurcules' has no attribute {name!r}")
+    text = f"module 'hurcules' has no attribute {name!r}"
+    raise AttributeError(text, name=name, obj=sys.modules[__name__])  # Python says what is near
 
 
 __all__ = [
@@ -246,6 +252,7 @@ __all__ = [
     "cameras",
     "casualties",
     "driving",
+    "film",
     "inverse_kinematics",
     "largest_stiffness",
     "lift",
@@ -263,7 +270,9 @@ __all__ = [
     "servo_table",
     "sole_points",
     "step",
+    "support_polygon",
     "transfer_bed",
+    "urdf_spec",
     "watch",
     "with_motors",
 ]

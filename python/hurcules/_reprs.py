@@ -49,7 +49,10 @@ def _values(shown: Any) -> dict[str, str]:
             continue
         old = (member.__doc__ or "").startswith("Deprecated")
         if not name.startswith("_") and isinstance(member, property) and not old:
-            text = _line(getattr(shown, name))
+            try:
+                text = _line(getattr(shown, name))
+            except _core.Error:  # the level reports of a method that has none
+                continue
             if text:
                 found[name] = text
     return found
@@ -68,6 +71,8 @@ def _line(value: Any) -> str:
             return np.array2string(value, precision=4, separator=", ", max_line_width=200)
         return f"array of {' x '.join(map(str, value.shape))}"
     if isinstance(value, list | tuple):
+        if value and all(isinstance(item, _core.Shortfall) for item in value):
+            return f"[{'; '.join(map(str, value))}]"
         simple = len(value) <= MOST and all(isinstance(item, str | int | float) for item in value)
         return repr(value) if simple else f"{len(value)} items"
     if hasattr(value, "name") and hasattr(type(value), "__members__"):

@@ -55,6 +55,8 @@ def inverse_kinematics(
 ) -> Posture:
     """The posture nearest to the present one, of those found, that meets all tasks.
 
+    Where none does: the one that lacks least in the first level, then in the second, and so on.
+
     A controller descends from where the robot stands; where limits or singularities end the
     descent, others begin at random postures, each farther from the present one than the last.
     What a controller cannot reach from here in one go (the target wants an elbow or a wrist turned
@@ -73,8 +75,8 @@ def inverse_kinematics(
         Error: no task, fewer than one start, or a tolerance that is not positive.
     """
     levels = list(tasks)
-    wanted = [task for level in levels for task in _tasks_of(level)]
-    if not wanted:
+    wanted = [_tasks_of(level) for level in levels]
+    if not any(wanted):
         raise Error("inverse_kinematics: wanted at least one task")
     if starts < 1:
         raise Error(f"inverse_kinematics: starts wants a number >= 1, got {starts}")
@@ -84,24 +86,24 @@ def inverse_kinematics(
     lower, upper = _ranges(robot)
     inside = np.clip(present, lower, upper)
     generator = np.random.default_rng(seed)
-    found: list[tuple[float, NDArray[np.float64]]] = []
+    found: list[tuple[list[float], NDArray[np.float64]]] = []
     try:
         for start in range(starts):
             found.append((_descend(robot, levels, wanted, tolerance), robot.configuration))
-            if found[0][0] <= tolerance:
+            if max(found[0][0]) <= tolerance:
                 break
             drawn = _within_balls(robot, generator.uniform(lower, upper))
             robot.set_configuration(inside + (start + 1) / starts * (drawn - inside))
     finally:
         robot.set_configuration(present)
-        for task in wanted:
+        for task in (task for level in wanted for task in level):
             task.update(robot)
-    met = [one for one in found if one[0] <= tolerance]
+    met = [one for one in found if max(one[0]) <= tolerance]
     if met:
-        error, configuration = min(met, key=lambda one: np.abs(one[1] - present).max())
-    else:
-        error, configuration = min(found, key=lambda one: one[0])
-    return Posture(configuration, error, bool(met), (len(found), len(met)))
+        short, configuration = min(met, key=lambda one: np.abs(one[1] - present).max())
+    else:  # what differs by less than the tolerance is alike
+        short, configuration = min(found, key=lambda one: [int(s / tolerance) for s in one[0]])
+    return Posture(configuration, max(short), bool(met), (len(found), len(met)))
 
 
 def _tasks_of(level: Level) -> Sequence[Task]:
@@ -133,24 +135,23 @@ def _within_balls(robot: Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
 def _descend(
     robot: Robot,
     levels: Sequence[Level],
-    wanted: Sequence[Task],
+    wanted: Sequence[Sequence[Task]],
     tolerance: float,
-) -> float:
-    """Moves the robot as far as it goes; what is lacking there [m or rad]."""
+) -> list[float]:
+    """Moves the robot as far as it goes; what each level lacks there [m or rad]."""
     options = VelocityControllerOptions(dt=DT, gain=GAIN, max_acceleration=np.inf, transition=0.0)
     controller = VelocityController(robot, options)
     controller.set_stack(Stack(list(levels)))
     for _ in range(round(SECONDS / DT)):
         controller.step(robot)
-        for task in wanted:
-            task.update(robot)
-        error = max(map(_lacking, wanted))
-        if error <= 0.1 * tolerance or np.abs(controller.velocity).max() < REST:
+        short = [max((_lacking(robot, task) for task in level), default=0.0) for level in wanted]
+        if max(short) <= 0.1 * tolerance or np.abs(controller.velocity).max() < REST:
             break
-    return error
+    return short
 
 
-def _lacking(task: Task) -> float:
+def _lacking(robot: Robot, task: Task) -> float:
+    task.update(robot)
     error = task.error
     short = np.abs(np.clip(error, task.lower, task.upper) - error)
     return float(short[task.weights > 0.0].max(initial=0.0))

@@ -15,6 +15,11 @@ __all__ = ["warn_of_physics"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
+ON_FEET = (
+    "a robot on feet stands by torques, with contacts: "
+    "Robot(model, floating=True), ContactTask, control='torque'"
+)
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
 SINGLE = (HINGE, SLIDE)
@@ -36,9 +41,10 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         yield (
             "the robot's root is free, and nothing says what it stands on: the plan holds the root "
             "where it starts, the physics lets it fall; WholeBodyController(..., support=BODY) "
-            "names the body that stands"
+            f"names the body that stands, and {ON_FEET}"
         )
     else:
+        yield from _feet(model, controller)
         chain = _chain(model, controller)
         yield from _loose_joints(model, controller, chain)
         yield from _weak_motors(model, controller, chain)
@@ -102,6 +108,26 @@ def _settings(model: mujoco.MjModel) -> Iterator[str]:
             f"{iterations} iterations of MuJoCo's solver: with 4 or fewer contacts of tracks are "
             "wrong, and nothing else says so"
         )
+
+
+def _feet(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """Robots that stand on a body that nothing holds down."""
+    plan = controller.plan
+    dofs = [driven.dof for coordinate in plan.coordinates for driven in coordinate.joints]
+    for root in np.unique(model.body_rootid[model.dof_bodyid[dofs]]):
+        joint = model.body_jntadr[root]
+        if joint < 0 or model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_FREE:
+            continue
+        bodies = [int(body) for body in np.flatnonzero(model.body_rootid == root)]
+        names = [model.body(body).name for body in bodies]
+        still = [name for name in names if name and not np.any(plan.position_jacobian(name))]
+        mass = sum(float(model.body(name).mass[0]) for name in still)
+        whole = float(model.body_subtreemass[root])
+        if still and mass < LIGHT * whole:
+            yield (
+                f"the robot stands by servos on '{still[0]}', {mass:.2g} of its {whole:.3g} kg, "
+                f"which nothing holds down: it shakes and falls; {ON_FEET}"
+            )
 
 
 def _chain(model: mujoco.MjModel, controller: WholeBodyController) -> set[int]:

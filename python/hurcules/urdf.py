@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hurcules._core import Error
 from hurcules.motors import with_motors
 
-__all__ = ["load_urdf"]
+__all__ = ["load_urdf", "on_floor", "urdf_spec"]
 
 _MESHES = (".stl", ".obj", ".msh")  # that MuJoCo reads
 _LEAST_MASS, _LEAST_INERTIA = 1e-3, 1e-6  # [kg], [kg m^2] of links that say nothing, or less
@@ -50,6 +50,19 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
             MuJoCo does not read.
     """
+    return _read(path, shapes, floating)[1]
+
+
+def urdf_spec(path: str | Path, *, shapes: bool = True, floating: bool = False) -> mujoco.MjSpec:
+    """The same as a specification, for what a scene has beside the robot.
+
+    Arguments, errors and warnings are those of `load_urdf`. `spec.worldbody.add_geom(...)` adds a
+    step, say, `spec.option.timestep` is the time step, and `spec.compile()` the model.
+    """
+    return _read(path, shapes, floating)[0]
+
+
+def _read(path: str | Path, shapes: bool, floating: bool) -> tuple[mujoco.MjSpec, mujoco.MjModel]:
     path = Path(path)
     try:
         root = ET.parse(path).getroot()
@@ -84,15 +97,19 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
     try:
         _exclude_overlaps(spec, spec.compile())
         if not floating:
-            return with_motors(spec)
+            return spec, with_motors(spec)
         base = spec.worldbody.first_body()
         if base is None or spec.worldbody.next_body(base) is not None or spec.worldbody.geoms:
             raise Error("its root link is fixed to the world, or is empty: it cannot float")
         base.add_freejoint(name="root")
+        spec.worldbody.add_light(pos=[0, -2, 4], dir=[0, 0.4, -1], castshadow=False)
         spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10, 10, 0.1])
         model = with_motors(spec)
+        lying = model.qpos0.copy()
         model.qpos0[:] = on_floor(model, model.qpos0)
-        return model
+        model.stat.center += (model.qpos0 - lying)[:3]  # where cameras look
+        base.pos = model.qpos0[:3]
+        return spec, model
     except (ValueError, Error) as error:
         raise Error(f"{path}: {error}") from error
 
@@ -113,11 +130,17 @@ def on_floor(
         (nq,) the same with another height: the lowest of the geoms that can touch the plane does.
 
     Raises:
-        Error: no such plane, or no free root.
+        Error: no such plane, no free root, or another number of numbers.
     """
     plane = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, floor)
     if plane < 0 or model.geom_type[plane] != mujoco.mjtGeom.mjGEOM_PLANE:
-        raise Error(f"on_floor wants the name of a plane, {floor!r} is none")
+        planes = np.flatnonzero(model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE)
+        names = ", ".join(name for name in (model.geom(geom).name for geom in planes) if name)
+        raise Error(
+            f"on_floor wants the name of a plane, {floor!r} is none; there are: {names or 'none'}"
+        )
+    if np.shape(qpos) != (model.nq,):
+        raise Error(f"on_floor wants qpos of shape ({model.nq},), {np.shape(qpos)} came")
     if model.njnt == 0 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
         raise Error("on_floor wants a robot whose first joint is free")
     data = mujoco.MjData(model)

@@ -1,4 +1,4 @@
-"""`hurcules view`: a mission, robot, scene or MJCF file in MuJoCo's own viewer, in real time."""
+"""A mission, robot, scene or MJCF file in MuJoCo's own viewer, in real time, or as a film."""
 
 from __future__ import annotations
 
@@ -17,11 +17,13 @@ import mujoco
 
 from hurcules import models
 from hurcules._core import Error, Plant
-from hurcules.drawing import draw
+from hurcules.drawing import Picture, draw
+from hurcules.extras import without
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
+from hurcules.video import encode
 
-__all__ = ["opened", "require_display", "view", "watch"]
+__all__ = ["film", "opened", "require_display", "view", "watch"]
 
 FPS = 60  # pictures a second
 
@@ -79,6 +81,63 @@ def watch(
         draw(scene, simulation)
 
     _show(simulation.model, simulation.data, advance, mark, seconds)
+
+
+def film(
+    simulation: Simulation,
+    path: str | Path,
+    seconds: float,
+    command: Command | Callable[[Simulation], Command | None] | None = None,
+    *,
+    camera: str | mujoco.MjvCamera | None = None,
+    width: int = 640,
+    height: int = 480,
+    fps: int = 25,
+) -> int:
+    """Simulates, and writes what it looks like as a film at the pace of the physics.
+
+    What its controller does is drawn, as by `watch`.
+
+    Args:
+        simulation: goes on from where it is, until it is finished at most.
+        path: the file, .mp4.
+        seconds: how long [s].
+        command: as for `Simulation.step`, or a function of the simulation that gives one for each
+            picture.
+        camera: as for `Simulation.picture`.
+        width: [pixels], a multiple of 16.
+        height: [pixels], a multiple of 16.
+        fps: [1/s] pictures a second.
+
+    Returns:
+        The number of pictures.
+
+    Raises:
+        RendererError: there is no OpenGL that works.
+        Error: the model has no such camera, a file of another kind, a size that is no multiple of
+            16, a command that `Simulation.step` refuses, or no extra hurcules[report].
+        OSError: the file cannot be written.
+    """
+    if width % 16 or height % 16 or min(width, height) < 16:
+        raise Error(f"film: width and height want multiples of 16, got {width} and {height}")
+    if not (seconds > 0.0 and fps > 0):
+        raise Error(f"film: seconds and fps want numbers above 0, got {seconds} and {fps}")
+    if Path(path).suffix != ".mp4":
+        raise Error(f"film wants a file that ends in .mp4, got {str(path)!r}")
+    if lost := without():
+        raise Error(f"film: {lost}")
+    begun = simulation.time
+
+    def steps() -> Iterator[Picture]:
+        for i in range(round(seconds * fps)):
+            yield simulation.picture(width, height, camera)
+            if simulation.finished:
+                return
+            until = begun + (i + 1) / fps
+            now = command(simulation) if callable(command) else command
+            simulation.step(max(0, round((until - simulation.time) / simulation.dt)), now)
+
+    return encode(Path(path), steps(), fps)
 
 
 def _show(

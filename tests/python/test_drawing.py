@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules import drawing, rendering
+from hurcules import drawing, extras, rendering
 
 ARM = """
 <mujoco>
@@ -144,6 +144,58 @@ def test_a_picture_shows_the_target() -> None:
     assert np.array_equal(again, [shown])  # each thread has a renderer of its own
     with pytest.raises(hurcules.Error, match="camera 'top' does not exist; there are: side"):
         simulation.picture(camera="top")
+
+
+# imageio's reader, not its writer, leaves pipes open
+@pytest.mark.filterwarnings(
+    "ignore:unclosed file", "ignore::pytest.PytestUnraisableExceptionWarning"
+)
+def test_a_film_shows_each_moment_and_asks_for_each_command(tmp_path: Path) -> None:
+    if not has_renderer():
+        pytest.skip(f"no OpenGL here; remedy: {rendering.REMEDY}")
+    imageio = pytest.importorskip("imageio.v2")
+    simulation = loop()
+    begun, asked, path = simulation.time, [], tmp_path / "arm.mp4"
+
+    def command(asking: hurcules.Simulation) -> dict[str, list[float]]:
+        asked.append(asking.time - begun)
+        return {"hand": [0.6, 0.0, 0.1]}
+
+    shown = hurcules.film(
+        simulation, path, 1.2, command, camera="side", width=160, height=128, fps=10
+    )
+    assert shown == 12 and simulation.time == pytest.approx(begun + 1.2)
+    assert asked == pytest.approx(np.arange(12) / 10, abs=1e-9)
+    with imageio.get_reader(path) as reader:
+        pictures = [np.asarray(picture).astype(int) for picture in reader]
+    assert len(pictures) == 12 and pictures[0].shape == (128, 160, 3)
+    assert np.abs(pictures[0] - pictures[-1]).max() > 100  # the arm has moved
+    with pytest.raises(hurcules.Error, match="channel 'hnad' does not exist"):
+        hurcules.film(simulation, path, 1.0, {"hnad": [0.0, 0.0, 0.0]}, width=160, height=128)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("arm.mp4", {"seconds": 1.0, "width": 100}, "multiples of 16, got 100 and 480"),
+        ("arm.mp4", {"seconds": 0.0}, "numbers above 0, got 0.0 and 25"),
+        ("arm.mp4", {"seconds": float("nan")}, "numbers above 0, got nan and 25"),
+        ("arm.gif", {"seconds": 1.0}, "ends in .mp4, got '.*arm.gif'"),
+    ],
+)
+def test_a_film_says_what_it_wants(
+    tmp_path: Path, name: str, options: dict[str, float], words: str
+) -> None:
+    simulation = loop()
+    with pytest.raises(hurcules.Error, match=words):
+        hurcules.film(simulation, tmp_path / name, **options)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_film_without_the_extra_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(extras, "missing", lambda: ["imageio"])
+    with pytest.raises(hurcules.Error, match=r"imageio is not installed; remedy: pip install 'hur"):
+        hurcules.film(loop(), tmp_path / "arm.mp4", 1.0)
 
 
 def test_pictures_of_one_size_are_drawn_by_one_renderer(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -98,6 +98,13 @@ def stands(said: str) -> None:
     assert numbers(r"away, (\S+) rad/s", said)[0] < 1e-2
 
 
+def walks(said: str) -> None:
+    assert all(force > 5.0 for force in numbers(r"carries (\S+) N", said))
+    wanted, *moved = ([float(x) for x in way.split()] for way in re.findall(r"\[(.*?)\]", said))
+    assert len(moved) == 4
+    assert all(abs(a - b) < 0.02 for way in moved for a, b in zip(wanted, way, strict=True))
+
+
 def is_led_by_hand(said: str) -> None:
     assert abs(numbers(r"by hand: (\S+) m ahead", said)[0] - 0.10) < 0.01
     assert 0.35 < numbers(r"held for (\S+) s", said)[0] < 0.55
@@ -122,6 +129,7 @@ RESULTS = {
     "13": stands,
     "14": moves_as_wanted,
     "15": is_led_by_hand,
+    "16": walks,
 }
 
 

@@ -14,6 +14,7 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -167,6 +168,36 @@ def test_solutions_and_options_show_what_they_hold() -> None:
     ):
         assert repr(shown).startswith(f"{type(shown).__name__}(")
         assert "object at 0x" not in repr(shown) and "=" in repr(shown)
+
+
+def test_a_name_that_is_misspelt_is_answered_with_the_near_one() -> None:
+    code = "import hurcules; hurcules.PositonTask"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "has no attribute 'PositonTask'. Did you mean: 'PositionTask'?" in done.stderr
+
+
+@pytest.mark.parametrize("method", rhqp.method_names())
+def test_the_solution_of_each_method_is_shown(method: str) -> None:
+    solver = rhqp.Solver(2, rhqp.SolverOptions(method=method))
+    solution = solver.solve([rhqp.Level(np.eye(2), np.ones(2), np.ones(2), rho=0.1)])
+    assert "status=Solved" in repr(solution) and "status" in solution._repr_html_()
+    assert (", levels=" in repr(solution)) == (method == "lexicographic")
+
+
+def test_diagnostics_show_what_is_short_and_why() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><body name="tip"><joint name="slide" type="slide" axis="1 0 0"'
+        ' range="-1 1"/><geom size="0.1"/></body></worldbody><actuator>'
+        '<motor joint="slide"/></actuator></mujoco>'
+    )
+    robot = hurcules.Robot(model)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=[[1.0, 0.0, 0.0]])
+    tip.set_target([3.0])
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([tip]))
+    for _ in range(5000):
+        controller.step(robot)
+    assert "tip: 2 m short, held by slide upper limit" in str(controller.diagnostics(robot)[-1])
 
 
 def test_without_the_extra_a_run_says_so_and_does_the_rest(

@@ -114,6 +114,23 @@ def test_out_of_reach_it_says_by_how_much(robot: hurcules.Robot) -> None:
     assert 0.2 <= found.error < 0.2 + 2e-3
 
 
+@pytest.mark.parametrize(
+    ("posture", "wish"), [((-0.7, -2.0), (0.7, 2.1)), ((-0.1, -1.3), (1.6, 2.1))]
+)
+def test_a_wish_that_cannot_be_met_costs_the_hand_above_it_nothing(
+    robot: hurcules.Robot, posture: tuple[float, float], wish: tuple[float, float]
+) -> None:
+    # descents that miss the hand by 0.3 and 0.8 m come nearer to the wish
+    hand = hand_at(robot, posture)
+    last = hurcules.PostureTask("wish", robot)
+    last.set_target(wish)
+    found = hurcules.inverse_kinematics(robot, [hand, last], starts=8)
+    assert not found.reached and found.error > 0.5
+    robot.set_configuration(found.configuration)
+    hand.update(robot)
+    assert np.abs(hand.error).max() < 1e-4
+
+
 def test_distances_that_come_first_hold(robot: hurcules.Robot) -> None:
     apart = hurcules.DistanceTask("post", robot, [("lower", "post"), ("upper", "post")], 0.05)
     hand = hand_at(robot, (-1.8, 1.5))  # the elbow in the post: the other way round it is free

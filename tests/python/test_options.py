@@ -6,6 +6,7 @@ text and treated alike. Not tested: what an option does.
 
 import copy
 import inspect
+import pickle
 import re
 
 import numpy as np
@@ -56,8 +57,15 @@ def test_options_print_compare_and_copy_by_their_fields(name: str) -> None:
     assert re.findall(r"[(,] ?(\w+)=", repr(one))[: len(fields(name))]
     assert all(f"{field}=" in repr(one) for field in fields(name))
     assert one != "another kind" and one.__hash__ is None
-    for twin in (copy.copy(one), copy.deepcopy(one)):
+    for twin in (copy.copy(one), copy.deepcopy(one), pickle.loads(pickle.dumps(one))):
         assert twin == one and twin is not one
+
+
+def test_a_table_of_phases_and_when_a_robot_fell_are_pickled() -> None:
+    table = hurcules.Mission.load("models/missions/lift.toml").rows
+    assert pickle.loads(pickle.dumps(table)) == table
+    fell = pickle.loads(pickle.dumps(hurcules.FallOptions(frame="head", max_tilt=0.5)))
+    assert (fell.frame, fell.max_tilt, fell.min_height) == ("head", 0.5, -np.inf)
 
 
 @pytest.mark.parametrize("name", NAMES)

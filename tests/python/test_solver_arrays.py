@@ -7,10 +7,12 @@ with level and row. Shapes refused when a level is made are in test_solver.py.
 
 from __future__ import annotations
 
+import copy
 import gc
+import pickle
 import threading
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
@@ -119,6 +121,35 @@ def test_a_level_keeps_its_arrays_alive_and_lets_them_go() -> None:
     del level
     gc.collect()
     assert gone() is None
+
+
+@pytest.mark.parametrize(
+    "twin",
+    [lambda one: pickle.loads(pickle.dumps(one)), copy.deepcopy, copy.copy],
+    ids=["pickle", "deepcopy", "copy"],
+)
+def test_levels_are_pickled_and_copied(twin: Callable[[object], object]) -> None:
+    rng = np.random.default_rng(0)
+    A, b = rng.standard_normal((2, 3)), rng.standard_normal(2)
+    levels = [
+        rhqp.Bounds(-np.ones(3), [1.0, np.inf, 0.5]),
+        rhqp.Level(A, b, [b[0], np.inf], rho=1e-9),
+        rhqp.Level(np.zeros((0, 3)), [], []),
+    ]
+    copies = twin(levels) if twin is not copy.copy else list(map(twin, levels))
+    assert [level.rho for level in copies] == [0.0, 1e-9, 0.0]
+    bits = [rhqp.Solver(3).solve(some).x.tobytes() for some in (levels, copies)]
+    assert bits[0] == bits[1]
+    stacks = [
+        rhqp.BoundsStack(-np.ones((4, 3)), np.ones((4, 3))),
+        rhqp.LevelStack(A, rng.standard_normal((4, 2)), np.full((4, 2), np.inf), 0.1),
+    ]
+    for one, other in zip(
+        rhqp.solve_batch(stacks), rhqp.solve_batch(list(map(twin, stacks))), strict=True
+    ):
+        assert one.x.tobytes() == other.x.tobytes()
+    change = twin(rhqp.LevelChange(lower=[1.0, 2.0], rho=0.5))
+    assert change.A is None and change.lower.tolist() == [1.0, 2.0] and change.rho == 0.5
 
 
 def test_other_threads_run_during_a_solve() -> None:

@@ -5,6 +5,7 @@ that nothing holds, and motors that are too weak for what hangs on them, are nam
 it wants gets no warning. Not tested: how far a robot with weak motors sinks.
 """
 
+import re
 import warnings
 
 import mujoco
@@ -64,6 +65,33 @@ def test_a_robot_with_all_it_wants_is_let_go_without_a_word(motors: str, last: s
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         simulation(model(motors=motors, last=last), list(motors))
+
+
+LEG = """<mujoco><option timestep="0.002"/><worldbody>
+  <geom name="floor" type="plane" size="9 9 .1"/>
+  <body name="trunk" pos="0 0 0.52"><freejoint/><geom type="box" size=".1 .1 .1" mass="10"/>
+    <body name="leg" pos="0 0 -.1"><joint name="hip" axis="0 1 0"/>
+      <geom type="capsule" size=".03" fromto="0 0 0 0 0 -.4" mass="1"/>
+      <body name="foot" pos="0 0 -.4"><joint name="ankle" axis="0 1 0"/>
+        <geom type="box" size=".1 .05 .02" mass="{foot}"/></body>
+    </body></body></worldbody>
+  <actuator><motor joint="hip" ctrlrange="-50 50"/><motor joint="ankle" ctrlrange="-50 50"/>
+  </actuator></mujoco>"""
+
+
+@pytest.mark.parametrize(("foot", "warns"), [(0.3, True), (30.0, False)])
+def test_a_robot_that_stands_by_servos_on_a_light_foot_is_told_of_torques(
+    foot: float, warns: bool
+) -> None:
+    leg = mujoco.MjModel.from_xml_string(LEG.format(foot=foot))
+    robot = hurcules.Robot(leg)
+    robot.stand_on("foot")
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        hurcules.Simulation(model=leg, controller=controller, record=False)
+    words = "by servos on 'foot', 0.3 of its 11.3 kg, which nothing holds down.*control='torque'"
+    assert [bool(re.search(words, str(one.message))) for one in caught] == [True] * warns
 
 
 @pytest.mark.parametrize("wrong", ["spec", "data"])

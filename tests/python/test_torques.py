@@ -14,8 +14,8 @@ LINK = """<link name="{name}"><inertial><mass value="2"/>
 URDF = f"""<robot name="hinge">{LINK.format(name="foot")}{LINK.format(name="top")}
   <joint name="knee" type="revolute"><parent link="foot"/><child link="top"/><origin xyz="0 0 0.1"/>
     <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="30" velocity="3"/></joint></robot>"""
-QUADRUPED = hurcules.models.folder() / "examples" / "quadruped.xml"
 LEGS = ("FL", "FR", "HL", "HR")
+QUADRUPED = hurcules.models.folder() / "examples" / "quadruped.xml"
 
 
 @pytest.fixture
@@ -35,6 +35,8 @@ def test_a_urdf_stands_on_a_floor_on_its_sole(urdf: Path) -> None:
     model = hurcules.load_urdf(urdf, floating=True)
     assert (model.nq, model.nv, model.nu) == (8, 7, 1)
     assert model.qpos0[2] == pytest.approx(0.02 - 5e-4)  # half a box, 0.5 mm in the floor
+    assert model.nlight == 1  # and cameras look at where it stands
+    assert model.stat.center[2] == pytest.approx(model.qpos0[2])
     robot = hurcules.Robot(model, floating=True)
     sole = hurcules.sole_points(robot, "foot")
     assert sole.shape == (4, 3)
@@ -53,14 +55,93 @@ def test_a_urdf_stands_on_a_floor_on_its_sole(urdf: Path) -> None:
     assert hurcules.on_floor(model, pressed, depth=0.0)[2] == pytest.approx(0.02)
 
 
+def test_a_scene_is_built_about_a_urdf(urdf: Path) -> None:
+    plain = hurcules.load_urdf(urdf, floating=True)
+    spec = hurcules.urdf_spec(urdf, floating=True)
+    step = {"type": mujoco.mjtGeom.mjGEOM_BOX, "size": [0.3, 0.3, 0.05], "pos": [0.0, 0.0, 0.05]}
+    spec.worldbody.add_geom(name="step", **step)
+    spec.option.timestep = 0.001
+    model = spec.compile()
+    np.testing.assert_array_equal(model.qpos0, plain.qpos0)
+    assert (model.nu, model.nbody, model.ngeom) == (plain.nu, plain.nbody, plain.ngeom + 1)
+    qpos = model.qpos0.copy()
+    qpos[2] += 0.1
+    robot = hurcules.Robot(model, floating=True)
+    robot.set_qpos(qpos)
+    foot = hurcules.ContactTask("foot", robot, "foot")
+    levels = [foot, hurcules.PostureTask("posture", robot)]
+    controller = hurcules.WholeBodyController(robot, levels, control="torque")
+    simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+    simulation.step(1000)
+    assert simulation.data.qpos[2] == pytest.approx(0.12, abs=1e-3)
+    assert controller.contact_force("foot")[2] == pytest.approx(4 * 9.81, abs=0.05)
+    held = hurcules.urdf_spec(urdf).compile()
+    assert (held.nq, held.nu) == (1, 1)
+
+
 def test_on_floor_says_what_it_wants(urdf: Path) -> None:
     model = hurcules.load_urdf(urdf, floating=True)
-    with pytest.raises(hurcules.Error, match="'ground' is none"):
+    with pytest.raises(hurcules.Error, match="'ground' is none; there are: floor"):
         hurcules.on_floor(model, model.qpos0, "ground")
-    with pytest.raises(hurcules.Error, match="name of a plane"):
+    with pytest.raises(hurcules.Error, match=r"of shape \(8,\), \(1,\) came"):
+        hurcules.on_floor(model, model.qpos0[7:])
+    with pytest.raises(hurcules.Error, match="name of a plane, 'floor' is none; there are: none"):
         hurcules.on_floor(hurcules.load_urdf(urdf), np.zeros(1))
     with pytest.raises(hurcules.Error, match="no geom of the robot"):
         hurcules.load_urdf(urdf, shapes=False, floating=True)
+
+
+@pytest.mark.parametrize("way", [[0.25, 0.0, 0.0], [0.0, -0.2, 0.0], [-0.2, 0.2, 0.0]])
+@pytest.mark.parametrize("balanced", [True, False])
+def test_a_centre_of_mass_that_is_led_beyond_the_feet_stops_over_them(
+    way: list[float], balanced: bool
+) -> None:
+    robot = quadruped()
+    shanks = [f"{leg}_shank" for leg in LEGS]
+    corners = hurcules.support_polygon(robot, shanks)
+    np.testing.assert_allclose(np.abs(corners), np.tile([0.2, 0.13], (4, 1)), atol=1e-9)
+    feet = [hurcules.ContactTask(shank, robot, shank) for shank in shanks]
+    balance = hurcules.BalanceTask("balance", robot, corners, margin=0.03)
+    com = hurcules.CenterOfMassTask("com", robot)
+    trunk = hurcules.OrientationTask("trunk", robot, "trunk")
+    posture = hurcules.PostureTask("posture", robot)
+    levels = [feet, *([balance] if balanced else []), [com, trunk], posture]
+    channels = {"com": hurcules.Twist(com, 0.5)}
+    controller = hurcules.WholeBodyController(robot, levels, channels, control="torque")
+    simulation = hurcules.Simulation(model=QUADRUPED, controller=controller, record=False)
+    data, second = simulation.data, round(1.0 / simulation.dt)
+    height = data.body("trunk").xpos[2]
+    simulation.step(second, {"com": way})
+    simulation.step(2 * second)
+    assert (data.body("trunk").xpos[2] > height - 0.05) == balanced
+    if balanced:
+        balance.update(controller.plan)
+        assert balance.error.min() > 0.03 - 1e-3
+
+
+def test_the_polygon_of_the_feet_is_convex_and_in_the_axes_of_a_frame(urdf: Path) -> None:
+    model = hurcules.load_urdf(urdf, floating=True)
+    robot = hurcules.Robot(model, floating=True)
+    qpos = model.qpos0.copy()
+    qpos[:2], qpos[3:7] = [3.0, 1.0], [np.cos(0.4), 0.0, 0.0, np.sin(0.4)]
+    robot.set_qpos(qpos)
+    corners = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]]
+    mine = hurcules.support_polygon(robot, ["foot"], "foot")
+    np.testing.assert_allclose(sorted(mine.tolist()), sorted(corners), atol=1e-12)
+    turn = np.array([[np.cos(0.8), -np.sin(0.8)], [np.sin(0.8), np.cos(0.8)]])
+    there = hurcules.support_polygon(robot, "foot")
+    np.testing.assert_allclose(
+        sorted(there.tolist()), sorted(([3.0, 1.0] + corners @ turn.T).tolist()), atol=1e-12
+    )
+    edges = np.roll(there, -1, axis=0) - there
+    after = np.roll(edges, -1, axis=0)
+    assert np.all(edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0] > 0.0)  # to the left
+    quad = quadruped()
+    three = hurcules.support_polygon(quad, ["FL_shank", "FR_shank", "HL_shank"])
+    assert three.shape == (3, 2)
+    for feet in (["FL_shank", "FR_shank"], []):
+        with pytest.raises(hurcules.Error, match="soles that enclose an area, those of "):
+            hurcules.support_polygon(quad, feet)
 
 
 def test_a_robot_that_floats_wants_torques_and_contacts() -> None:
