@@ -6,7 +6,7 @@ cpp/hurcules/mission/table_controllers.cpp; here are the case and the container.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +14,7 @@ import mujoco
 
 from hurcules import _core, mjcf, scenes
 from hurcules._core import WholeBodyController
-from hurcules.mission_options import in_words_of, pair, read_options, record, require_offset
+from hurcules.mission_options import in_words_of, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
 __all__ = ["Job", "controller", "job", "mission", "model", "parameters_of", "spec"]
@@ -57,15 +57,7 @@ def parameters_of(words: Sequence[str]) -> dict[str, Any]:
     Raises:
         Error: another option, or a value that is none.
     """
-    return read_options(words, _OPTIONS)
-
-
-_OPTIONS: Mapping[str, Callable[[str], Any]] = {
-    "--mass": float,
-    "--offset": pair,
-    "--yaw": float,
-    "--friction": float,
-}
+    return read_options(words, Job)
 
 
 def model(job: Job) -> mujoco.MjModel:

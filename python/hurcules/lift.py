@@ -7,7 +7,7 @@ controller that they command in cpp/hurcules/mission/table_controllers.cpp; here
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ import mujoco
 
 from hurcules import _core, mjcf, scenes
 from hurcules._core import WholeBodyController
-from hurcules.mission_options import in_words_of, pair, read_options, record, require_offset
+from hurcules.mission_options import in_words_of, read_options, record, require_offset
 from hurcules.mission_table import Mission
 
 __all__ = [
@@ -30,7 +30,6 @@ __all__ = [
     "spec",
 ]
 
-MISSIONS = ("lift", "casualty", "crossing")
 CONTROLLER = "lift"
 SUPPORT = "lower_leg_L"
 START = _core.lift_start()
@@ -74,17 +73,20 @@ class Away(Person):
     ground: int = 0
 
 
+MISSIONS: Mapping[str, type[Person]] = {"lift": Person, "casualty": Person, "crossing": Away}
+
+
 def person(parameters: Mapping[str, Any], name: str = "lift") -> Person:
     """A person from parameters by name; the others keep their defaults.
 
     Args:
-        parameters: of `Person`, in the mission "crossing" those of `Away` too.
-        name: of the mission.
+        parameters: of the kind of person that the mission has.
+        name: of the mission, one of `MISSIONS`.
 
     Raises:
         Error: no such parameter, or an offset that is not two numbers.
     """
-    made = record(Away if name == "crossing" else Person, "person", parameters)
+    made = record(MISSIONS[name], "person", parameters)
     require_offset("person", made.offset)
     return made
 
@@ -99,22 +101,7 @@ def parameters_of(words: Sequence[str], name: str = "lift") -> dict[str, Any]:
     Raises:
         Error: another option, or a value that is none.
     """
-    return read_options(words, _OPTIONS | _OF_THE_WAY if name == "crossing" else _OPTIONS)
-
-
-_OPTIONS: dict[str, Callable[[str], Any]] = {
-    "--mass": int,
-    "--offset": pair,
-    "--yaw": float,
-    "--friction": float,
-    "--pose": str,
-}
-_OF_THE_WAY: dict[str, Callable[[str], Any]] = {
-    "--terrain": str,
-    "--way": float,
-    "--rise": float,
-    "--ground": int,
-}
+    return read_options(words, MISSIONS[name])
 
 
 def model(person: Person) -> mujoco.MjModel:

@@ -10,40 +10,44 @@ from typing import Any, TypeVar
 
 from hurcules._core import Error
 
-__all__ = ["in_words_of", "pair", "read_options", "record", "require_offset"]
+__all__ = ["in_words_of", "read_options", "record", "require_offset"]
 
 Record = TypeVar("Record")
 
 
-def read_options(
-    words: Sequence[str], readers: Mapping[str, Callable[[str], Any]]
-) -> dict[str, Any]:
+def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, Any]:
     """Reads `--mass 90 --offset 0.05,-0.1 --yaw=0.2`.
 
     Args:
         words: of the command line.
-        readers: by the option's name, what makes its value of a text.
+        kind: a dataclass: an option for each field, of the type of its default.
 
     Raises:
         Error: another option, or a value that is none.
     """
+    defaults: dict[str, Any] = {
+        f"--{field.name}": field.default
+        for field in fields(kind)  # type: ignore[arg-type]
+    }
     found: dict[str, Any] = {}
     rest = list(words)
     while rest:
         option, _, value = rest.pop(0).partition("=")
-        if option not in readers:
-            raise Error(f"no such option: {option}; there are: {', '.join(readers)}")
+        if option not in defaults:
+            raise Error(f"no such option: {option}; there are: {', '.join(defaults)}")
         value = value or (rest.pop(0) if rest else "")
         if not value:
             raise Error(f"{option} wants a value")
         try:
-            found[option.removeprefix("--")] = readers[option](value)
+            default = defaults[option]
+            read = _pair if isinstance(default, tuple) else type(default)
+            found[option.removeprefix("--")] = read(value)
         except ValueError:
             raise Error(f"{option}: cannot read {value!r}") from None
     return found
 
 
-def pair(text: str) -> tuple[float, ...]:
+def _pair(text: str) -> tuple[float, ...]:
     """Numbers between commas."""
     return tuple(float(number) for number in text.split(","))
 
