@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
-from hurcules_envs.carriers import FEELS, HANDS, Carrier, Wanted, load_carrier
+from hurcules_envs.carrier_search import Wanted, load_carrier
+from hurcules_envs.carriers import FEELS, HANDS, Carrier
 from hurcules_envs.contact import (
     ContactEnvironment,
     add_force_sensor,
