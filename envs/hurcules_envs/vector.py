@@ -233,16 +233,6 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         if self._views is not None:
             self._views.close()
 
-    def _went_on(self) -> dict[str, Any] | None:
-        if not self._begun:
-            return None
-        ranges = self._episodes.randomisation.ranges
-        return {"state": self.get_state(), "ranges": dict(ranges)}
-
-    def _go_on(self, there: dict[str, Any]) -> None:
-        self.reset(options=there["ranges"])
-        self.set_state(there["state"])
-
     def _require_begun(self, call: str) -> None:
         if not self._begun:
             waiting = np.flatnonzero(self._steps < 0).tolist()
