@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict
 from hashlib import sha256
+from itertools import chain, count
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -135,7 +137,7 @@ def evaluate(
 ) -> None:
     """Judge a policy: success with its 95 % interval, falls, limits, self-contact.
 
-    Runs without PyTorch. Writes evaluation.json.
+    Runs without PyTorch. Writes evaluation.json, beside that of other settings evaluation-2.json.
 
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
     `hurcules evaluate Drive-v0`
@@ -234,8 +236,8 @@ def _judge(
     except KeyboardInterrupt:
         console.print("no figures: episodes run side by side, and not all of them were over")
         raise
-    figures = asdict(result) | {"environment": name, "options": options}
-    output.write_json("evaluation.json", figures)
+    judged = {"environment": name, "options": options}
+    output.write_json(_free(output.folder, judged), asdict(result) | judged)
     words = ", ".join(f"{key} {value}" for key, value in options.items())
     console.print(f"{name} ({words}), {episodes} episodes")
     console.print(f"  success        {result.success:.0%} ({result.low:.0%} to {result.high:.0%})")
@@ -244,6 +246,20 @@ def _judge(
     console.print(f"  over a limit   {1e3 * result.limit_excess:.1f} mrad at most, measured")
     console.print(f"  self-contact   {result.self_contacts:.2%} of the steps")
     console.print(f"  {output.saved[0]}")
+
+
+def _free(folder: Path, judged: dict[str, Any]) -> str:
+    """The name of an evaluation that takes no other one's place, that of the training say."""
+
+    def is_free(name: str) -> bool:
+        try:
+            there = json.loads((folder / name).read_text())
+        except (OSError, ValueError):
+            return True
+        return all(there.get(key) == value for key, value in judged.items())
+
+    names = chain(["evaluation.json"], (f"evaluation-{i}.json" for i in count(2)))
+    return next(filter(is_free, names))
 
 
 def _known(environment: str) -> str:

@@ -86,6 +86,12 @@ def test_the_command_line_judges_a_file(tmp_path: Path) -> None:
     assert main([*words, "--episodes", "4", "--out", str(tmp_path / "judged")]) == 0
     figures = json.loads((tmp_path / "judged" / "evaluation.json").read_text())
     assert figures["success"] == 1.0
+    # it took the place of that of the training
+    more = ["--episodes", "2", "--robot", "manipulation", "--out", str(tmp_path / "judged")]
+    assert main([*words, *more]) == 0
+    assert json.loads((tmp_path / "judged" / "evaluation.json").read_text()) == figures
+    other = json.loads((tmp_path / "judged" / "evaluation-2.json").read_text())
+    assert other["options"] == {"fidelity": "kinematic", "robot": "manipulation"}
 
 
 def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:
