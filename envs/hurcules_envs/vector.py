@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 from gymnasium import logger, spaces
-from gymnasium.error import ResetNeeded
+from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
@@ -130,8 +130,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
                 episodes, see `randomisation`, which hold for all that begin from now on.
 
         Raises:
+            gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
             hurcules.Error: an unknown option, a range that is none, or a mask of another shape.
         """
+        self._require_open("reset")
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
         ranges = known_ranges(options, "reset_mask")
@@ -233,7 +235,12 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         if self._views is not None:
             self._views.close()
 
+    def _require_open(self, call: str) -> None:
+        if self.closed:
+            raise ClosedEnvironmentError(f"{call}() of a vector that was closed")
+
     def _require_begun(self, call: str) -> None:
+        self._require_open(call)
         if not self._begun:
             waiting = np.flatnonzero(self._steps < 0).tolist()
             raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before {call}()")

@@ -531,3 +531,12 @@ def test_the_table_of_the_observation_is_that_of_the_space(path):
 )
 def test_the_fastest_fidelity_is_what_training_takes(name: str, fastest: str | None) -> None:
     assert fastest_fidelity(f"Hurcules/{name}") == fastest
+
+
+def test_a_vector_that_was_closed_is_not_stepped() -> None:
+    vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, fidelity="kinematic")
+    vector.reset(seed=0)
+    vector.close()
+    for use in (vector.reset, lambda: vector.step(np.zeros(vector.action_space.shape))):
+        with pytest.raises(gym.error.ClosedEnvironmentError, match="was closed"):
+            use()
