@@ -9,6 +9,7 @@
 #include "annotated.hpp"
 #include "arrays.hpp"
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/tasks/angle_task.hpp"
 #include "hurcules/tasks/center_of_mass_task.hpp"
 #include "hurcules/tasks/custom_task.hpp"
@@ -29,6 +30,13 @@ using namespace hurcules_bindings;
 using Name = std::string;
 
 namespace {
+
+Vector3 point_of(const ArrayLike& target, const Task& task) {
+  const std::string what = "target of task '" + task.name() + "'";
+  const Vector values = vector_of(target, what, "(3,)");
+  require_size(what, values.size(), 3);
+  return values;
+}
 
 constexpr const char* kTask = R"(What a task is: it measures, a controller decides.
 
@@ -338,10 +346,10 @@ void bind_pose_tasks(py::module_& module) {
   const auto pose = [](Name n, const Robot& r, const Name& f, Name ref) {
     return std::make_unique<PoseTask>(std::move(n), r, f, PoseTaskOptions{std::move(ref)});
   };
-  const auto set_target = [](PoseTask& task, const Vector3& position,
+  const auto set_target = [](PoseTask& task, const ArrayLike& position,
                              const OptionalArrayLike& orientation,
                              const std::optional<Vector>& velocity) {
-    task.set_target(position,
+    task.set_target(point_of(position, task),
                     orientation.is_none()
                         ? task.target_orientation()
                         : rotation_from(orientation, "orientation of task '" + task.name() + "'"));
@@ -439,8 +447,10 @@ void bind_arm_and_head_tasks(py::module_& module) {
   py::class_<GazeTask, Task>(module, "GazeTask", kGazeTask)
       .def(py::init<Name, const Robot&, const Name&>(), name, robot, py::arg("frame"))
       .def_property_readonly("target", &GazeTask::target, copy, "p_WT (3,) [m]")
-      .def("set_target", &GazeTask::set_target, py::arg("target"),
-           "Sets the target (3,) [m] in W, at rest; seen at the next update.");
+      .def(
+          "set_target",
+          [](GazeTask& task, const ArrayLike& target) { task.set_target(point_of(target, task)); },
+          py::arg("target"), "Sets the target (3,) [m] in W, at rest; seen at the next update.");
 }
 
 }  // namespace

@@ -149,3 +149,16 @@ def test_tasks_are_not_ordered_by_comparison() -> None:
     with pytest.raises(TypeError, match=r"Stack\(\[a, b, c\]\)"):
         assert a < b
     assert repr(hurcules.Stack([a, b])) == "a < b"
+
+
+def test_a_point_of_another_size_is_told() -> None:
+    # pybind11's list of signatures came
+    robot = hurcules.Robot(hurcules.models.load("rescue", "flat"))
+    for task in (
+        hurcules.GazeTask("look", robot, "head_wide"),
+        hurcules.PoseTask("hand", robot, "L_tcp"),
+    ):
+        with pytest.raises(hurcules.Error, match=r"target of task '\w+' wants 3 numbers, 2 came"):
+            task.set_target([1.0, 2.0])
+        with pytest.raises(hurcules.Error, match=r"real numbers of shape \(3,\)"):
+            task.set_target("ahead")

@@ -52,7 +52,7 @@ Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyControll
     if (dynamic_cast<const ForceTask*>(task)) force_names_.push_back(task->name());
   }
   forces_ = Vector::Zero(static_cast<Index>(force_names_.size()));
-  std::string support = controller.options().support;
+  std::string support = setup_.support.empty() ? controller.options().support : setup_.support;
   rows_.reserve(table_.phases.size());
   for (const Phase& phase : table_.phases) {
     if (!phase.support.empty()) support = phase.support;
