@@ -21,8 +21,8 @@ enum class ChannelKind { Twist, Delta, Target, Force, Drive, Joint, Joints };
 
 class Channel {
  public:
-  // `scale`: the largest magnitude, one number or one a component; a command is held to it, inf for none.
-  // Throws Error for a task that has no such target, or a scale that is not above 0.
+  // `scale`: the largest magnitude, one number or one a component; a command is held to it, inf for
+  // none. Throws Error for a task that has no such target, or a scale that is not above 0.
   Channel(std::string name, ChannelKind kind, Task& task, Vector scale,
           std::vector<std::string> components = {});
   static Channel drive(std::string name, double speed, double yaw_rate);
