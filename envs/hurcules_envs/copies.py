@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from gymnasium.utils import EzPickle
@@ -19,26 +19,17 @@ _WORD = 32  # bits that a number holds
 class Copied(EzPickle):
     """A copy, deep or by pickle, is made with the same arguments and goes on where this one is."""
 
-    _counted: ClassVar[tuple[str, ...]] = ()  # attributes that no state holds
-
     def __getstate__(self: Any) -> dict[str, Any]:
         """The arguments, and what was done since."""
         made: dict[str, Any] = EzPickle.__getstate__(self)
-        made["spec"] = self.spec
-        if self._begun:
-            made["state"] = self.get_state()
-            made["ranges"] = dict(self._episodes.randomisation.ranges)
-            made["counted"] = {name: getattr(self, name) for name in self._counted}
-        return made
+        return made | {"spec": self.spec, "went_on": self._went_on()}
 
-    def __setstate__(self: Any, made: dict[str, Any]) -> None:
+    def __setstate__(self: Any, state: dict[str, Any]) -> None:
         """Makes it anew, and goes on."""
-        EzPickle.__setstate__(self, made)
-        self.spec = made["spec"]
-        if "state" in made:
-            self.reset(options=made["ranges"])
-            self.set_state(made["state"])
-            vars(self).update(made["counted"])
+        EzPickle.__setstate__(self, state)
+        self.spec = state["spec"]
+        if state["went_on"] is not None:
+            self._go_on(state["went_on"])
 
 
 def generator_numbers(generator: np.random.Generator) -> NDArray[np.float64]:

@@ -45,7 +45,6 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 20}  # noqa: RUF012
-    _counted = ("_steps",)
 
     def __init__(
         self,
@@ -212,6 +211,17 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         if self._pictures is not None:
             self._pictures.close()
         self._viewer = None
+
+    def _went_on(self) -> dict[str, Any] | None:
+        if not self._begun:
+            return None
+        ranges = self._episodes.randomisation.ranges
+        return {"state": self.get_state(), "steps": self._steps, "ranges": dict(ranges)}
+
+    def _go_on(self, there: dict[str, Any]) -> None:
+        self.reset(options=there["ranges"])
+        self.set_state(there["state"])
+        self._steps = there["steps"]
 
     def _require_begun(self, call: str) -> None:
         if not self._begun:

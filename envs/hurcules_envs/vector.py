@@ -239,6 +239,16 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         if self.closed:
             raise ClosedEnvironmentError(f"{call}() of a vector that was closed")
 
+    def _went_on(self) -> dict[str, Any] | None:
+        if not self._begun:
+            return None
+        ranges = self._episodes.randomisation.ranges
+        return {"state": self.get_state(), "ranges": dict(ranges)}
+
+    def _go_on(self, there: dict[str, Any]) -> None:
+        self.reset(options=there["ranges"])
+        self.set_state(there["state"])
+
     def _require_begun(self, call: str) -> None:
         self._require_open(call)
         if not self._begun:
