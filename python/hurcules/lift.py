@@ -1,7 +1,7 @@
 """The missions `lift`, `casualty` and `crossing`: the rescue robot lifts a person.
 
 In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off,
-in `crossing` a terrain lies on the way there and home. The phases stand in models/missions, the
+in `crossing` a terrain lies on the way there and home, and the bed has rims. The phases stand in models/missions, the
 controller that they command in cpp/hurcules/mission/table_controllers.cpp; here is the person.
 """
 
@@ -13,7 +13,7 @@ from typing import Any
 
 import mujoco
 
-from hurcules import _core, mjcf, scenes
+from hurcules import _core, mjcf, scenes, transfer_bed
 from hurcules._core import WholeBodyController
 from hurcules.mission_options import in_words_of, read_options, record, require_offset
 from hurcules.mission_table import Mission
@@ -122,7 +122,7 @@ def spec(person: Person) -> mujoco.MjSpec:
         dx, seed = dx + NEAR + person.way + BEYOND, person.ground
     words = {"lying": "pose", "heading": "yaw", "cloth": "friction", "seed": "ground"}
     with in_words_of(words):
-        return scenes.make(
+        scene = scenes.make(
             "casualty",
             robot="rescue",
             seed=seed,
@@ -134,6 +134,9 @@ def spec(person: Person) -> mujoco.MjSpec:
             heading=person.yaw,
             cloth=person.friction,
         )
+    if isinstance(person, Away):
+        transfer_bed.add_rims(scene)
+    return scene
 
 
 def mission(name: str = "lift") -> Mission:

@@ -1,20 +1,23 @@
-"""The transfer bed of the rescue robot: taking it off, and how far it is out.
+"""The transfer bed of the rescue robot: taking it off, rims for it, and how far it is out.
 
 The bed can be attached or detached, depending on the mission; without it the battery alone limits
-hip and knee (`hurcules.mode_ranges`).
+hip and knee (`hurcules.mode_ranges`). Across terrain it wants rims.
 """
 
 from __future__ import annotations
 
 import mujoco
 
+from hurcules import mjcf
 from hurcules._core import Error
 from hurcules.postures.moves import Move
 
-__all__ = ["LIFT", "SLIDE", "detach", "expand", "fold"]
+__all__ = ["LIFT", "SLIDE", "add_rims", "detach", "expand", "fold"]
 
 LIFT = 0.38  # [m] to where the arms, level, lay somebody down
 SLIDE = 0.31  # [m] of each plate
+_RIMS = {"L": 0.115, "R": -0.115}  # [m] to the left of the bed's middle
+_RIM_SPEED, _RIM_POWER = 0.05, 6.0  # [m/s], [W] peaks of each
 _BATTERY_STOP = 1.40  # [rad] of the hip, where the torso meets the battery
 
 
@@ -33,6 +36,26 @@ def detach(spec: mujoco.MjSpec) -> None:
                 spec.delete(element)
     spec.delete(body)
     spec.joint("HIP").range = [spec.joint("HIP").range[0], _BATTERY_STOP]
+
+
+def add_rims(spec: mujoco.MjSpec) -> None:
+    """Bags of air beside the bed's front and back edge, for a robot that is not yet compiled.
+
+    Joints `L_bed_rim_front` ... `R_bed_rim_back`, 0 to 0.12 m up, with a motor each (the pump).
+
+    Raises:
+        Error: there is no bed, or it has rims.
+    """
+    bed = spec.body("transfer_bed")
+    if bed is None or spec.joint("L_bed_rim_front") is not None:
+        raise Error("a robot with a transfer bed without rims is wanted: 'rescue', with its bed on")
+    for side, y in _RIMS.items():
+        rims = mujoco.MjSpec.from_file(str(mjcf.folder() / "modules" / "transfer_bed_rims.xml"))
+        joints = [f"{side}_{joint.name}" for joint in rims.joints]
+        spec.attach(rims, prefix=f"{side}_", frame=bed.add_frame(pos=[0.0, y, 0.0]))
+        for joint in joints:
+            spec.add_numeric(name=f"velocity_limit_{joint}", data=[_RIM_SPEED], size=1)
+            spec.add_numeric(name=f"power_limit_{joint}", data=[_RIM_POWER], size=1)
 
 
 def _is_of_bed(name: str) -> bool:

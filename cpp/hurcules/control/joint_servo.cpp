@@ -22,6 +22,7 @@ constexpr double kBandwidth = 30.0;  // [rad/s]
 constexpr int kSamples = 32;         // of the ranges
 // the fastest pole of a loop is about 3 omega J_rated / J; times dt it stays below this
 constexpr double kFastest = 0.5;
+constexpr double kRolling = 3.0;  // times the rated inertia: a third of what a triple pole bears
 
 const ServoGains& row_of(const std::vector<ServoGains>& table, const std::string& joint) {
   std::vector<std::string> names;
@@ -96,6 +97,10 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       high = most[k] / share;
       rated = std::sqrt(low * high);
       if (!all) low = std::min(low, actuator.least_inertia);
+    }
+    if (actuator.rolling_inertia > 0.0) {  // off the ground it turns itself alone
+      high = std::max(high, actuator.rolling_inertia);
+      rated = std::max(std::sqrt(low * high), high / kRolling);
     }
     // the decoupling knows of coordinates alone
     const double slowest = decoupled && all ? 1.0 : std::min(1.0, low / rated);

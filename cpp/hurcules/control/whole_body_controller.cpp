@@ -40,13 +40,40 @@ void require_distinct(const std::vector<Named>& all, const char* kind) {
   }
 }
 
+// rows that are given, and reckoned ones for the other joints
+std::vector<ServoGains> all_gains(const Robot& robot, const std::vector<ServoGains>& given,
+                                  const std::vector<JointActuator>& actuators, double dt,
+                                  bool decoupled) {
+  std::vector<std::string> joints;
+  for (const JointActuator& actuator : actuators) joints.push_back(actuator.joint);
+  for (const ServoGains& row : given) {
+    if (std::find(joints.begin(), joints.end(), row.joint) == joints.end())
+      throw Error(unknown_name("joint with an actuator", row.joint, joints));
+  }
+  const auto row_of = [&given](const std::string& joint) {
+    return std::find_if(given.begin(), given.end(),
+                        [&joint](const ServoGains& row) { return row.joint == joint; });
+  };
+  if (std::all_of(joints.begin(), joints.end(),
+                  [&](const std::string& joint) { return row_of(joint) != given.end(); }))
+    return given;
+  std::vector<ServoGains> rows = default_servo_gains(robot, dt, decoupled);
+  for (ServoGains& row : rows) {
+    if (const auto own = row_of(row.joint); own != given.end()) row = *own;
+  }
+  return rows;
+}
+
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
   options.velocity.dt = options.acceleration.dt = options.torque.dt = options.dt;
-  options.decoupled = options.decoupled.value_or(options.servo.empty() && options.feed_forward);
+  const std::vector<JointActuator> actuators = joint_actuators(robot);
+  const bool rolls =
+      std::any_of(actuators.begin(), actuators.end(),
+                  [](const JointActuator& actuator) { return actuator.rolling_inertia > 0.0; });
+  options.decoupled =
+      options.decoupled.value_or(options.servo.empty() && options.feed_forward && !rolls);
   require(!*options.decoupled || options.feed_forward, "decoupled servos want feed_forward");
-  if (options.servo.empty()) {
-    options.servo = default_servo_gains(robot, options.dt, *options.decoupled);
-  }
+  options.servo = all_gains(robot, options.servo, actuators, options.dt, *options.decoupled);
   if (options.support.empty()) options.support = robot.support_name();
   if (options.drive) options.drive->drive.dt = options.dt;
   return options;

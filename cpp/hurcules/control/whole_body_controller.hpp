@@ -55,12 +55,13 @@ struct WholeBodyControllerOptions {
   AccelerationControllerOptions torque = {.max_acceleration = 200.0};
   std::string support = "";  // body that stands, "" for the root
   BaseSource base = BaseSource::Held;
-  std::vector<ServoGains> servo = {};  // none: default_servo_gains
+  std::vector<ServoGains> servo = {};  // of the joints that are left out: default_servo_gains
   // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
   // whatever the robot carries is a disturbance to them.
   bool feed_forward = true;
   // what the servos ask for as accelerations is given by the mass matrix, so that no joint's motion
-  // disturbs another; wants feed_forward; not given: where the gains are default_servo_gains
+  // disturbs another; wants feed_forward; not given: where servo is empty and no wheel is driven (the
+  // mass matrix does not know what a wheel on the ground moves)
   std::optional<bool> decoupled = {};
   // the motion slows down where a motor would be asked for more than its peak
   bool torque_scaling = true;

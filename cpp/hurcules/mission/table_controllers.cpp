@@ -6,6 +6,7 @@
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/mission/posture_way.hpp"
 #include "hurcules/mission/robot_tables.hpp"
+#include "hurcules/robot/joint_actuators.hpp"
 
 namespace hurcules {
 
@@ -67,6 +68,15 @@ Channel joints_but(const std::vector<ServoGains>& servo, const std::vector<std::
     if (!left_out) names.push_back(row.joint);
   }
   return Channel::joints("joints", names, std::numeric_limits<double>::infinity());
+}
+
+// the rims of the bed, where it has them: pumps, 2.5 kg each
+std::vector<ServoGains> with_rims(const Robot& robot, std::vector<ServoGains> servo) {
+  for (const JointActuator& actuator : joint_actuators(robot)) {
+    if (actuator.joint.find("_bed_rim_") != std::string::npos)
+      servo.push_back({actuator.joint, 2.5, 20.0});
+  }
+  return servo;
 }
 
 Channel tracks() {
@@ -131,8 +141,9 @@ std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model,
   };
   std::vector<Channel> channels = tasks.channels();
   channels.push_back(tracks());
-  channels.push_back(joints_but(rescue_servo(), {"_belt"}));
-  auto controller = make(robot, rescue_servo(), std::move(stacks), std::move(channels),
+  const std::vector<ServoGains> servo = with_rims(robot, rescue_servo());
+  channels.push_back(joints_but(servo, {"_belt"}));
+  auto controller = make(robot, servo, std::move(stacks), std::move(channels),
                          std::move(limits), tasks, method);
   controller->sense(left_press, std::make_unique<SpringForce>(model, "LEBS", "L_tcp"));
   controller->sense(right_press, std::make_unique<SpringForce>(model, "REBS", "R_tcp"));

@@ -2,7 +2,11 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
@@ -65,6 +69,58 @@ JointActuator read(const mjModel* m, int a) {
   return found;
 }
 
+// [m] of a shape that is round about a line through the origin of its body (whose axes these are);
+// 0: it is not. By the box about the shape, which is square then.
+double radius_about(const mjModel* m, int geom, const Vector3& point, const Vector3& axis) {
+  constexpr double kRound = 0.02, kAlong = 0.999;
+  if (m->geom_type[geom] == mjGEOM_BOX || m->geom_type[geom] == mjGEOM_PLANE) return 0.0;
+  const Matrix3 R = rotation_of(m->geom_quat + 4 * geom);
+  const Vector3 own = R.transpose() * axis;
+  Index along = 0;
+  if (own.cwiseAbs().maxCoeff(&along) < kAlong && m->geom_type[geom] != mjGEOM_SPHERE) return 0.0;
+  const Eigen::Map<const Vector3> box(m->geom_aabb + 6 * geom), half(m->geom_aabb + 6 * geom + 3);
+  const double r = half[(along + 1) % 3];
+  const Vector3 middle = R * box + Eigen::Map<const Vector3>(m->geom_pos + 3 * geom) - point;
+  const bool round = std::abs(half[(along + 2) % 3] - r) < kRound * r &&
+                     (middle - middle.dot(axis) * axis).norm() < kRound * r;
+  return round ? r : 0.0;
+}
+
+// [m] of a wheel, see JointActuator::rolling_inertia; 0: none
+double wheel_radius(const mjModel* m, const JointActuator& actuator) {
+  const int joint = actuator.joint_id, body = m->jnt_bodyid[joint], root = m->body_rootid[body];
+  if (m->jnt_type[joint] != mjJNT_HINGE || m->jnt_limited[joint] || root == body ||
+      m->body_dofnum[root] == 0)
+    return 0.0;
+  for (int b = body + 1; b < m->nbody; ++b)
+    if (m->body_parentid[b] == body) return 0.0;
+  const Eigen::Map<const Vector3> point(m->jnt_pos + 3 * joint), axis(m->jnt_axis + 3 * joint);
+  double radius = 0.0;
+  for (int g = m->body_geomadr[body]; g < m->body_geomadr[body] + m->body_geomnum[body]; ++g) {
+    if (m->geom_contype[g] == 0 && m->geom_conaffinity[g] == 0) continue;
+    const double r = radius_about(m, g, point, axis);
+    if (r == 0.0) return 0.0;
+    radius = std::max(radius, r);
+  }
+  return radius;
+}
+
+// the mass of each robot is shared out among its driven wheels
+void read_wheels(const mjModel* m, std::vector<JointActuator>& actuators) {
+  std::map<int, std::set<int>> wheels;  // joints by the root of their robot
+  const auto root_of = [m](const JointActuator& own) {
+    return m->body_rootid[m->jnt_bodyid[own.joint_id]];
+  };
+  for (const JointActuator& own : actuators)
+    if (wheel_radius(m, own) > 0.0) wheels[root_of(own)].insert(own.joint_id);
+  for (JointActuator& own : actuators) {
+    const double r = wheel_radius(m, own);
+    if (r == 0.0) continue;
+    const auto shares = static_cast<double>(wheels[root_of(own)].size());
+    own.rolling_inertia = own.most_inertia + m->body_subtreemass[root_of(own)] * r * r / shares;
+  }
+}
+
 // where a ball joint has one, it has three
 void require_three(const mjModel* m, const std::vector<JointActuator>& actuators) {
   for (const JointActuator& own : actuators) {
@@ -98,6 +154,7 @@ std::vector<JointActuator> joint_actuators(const Robot& robot) {
     if (type != mjJNT_FREE) found.push_back(read(m, a));
   }
   require_three(m, found);
+  read_wheels(m, found);
   return found;
 }
 

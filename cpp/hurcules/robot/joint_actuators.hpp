@@ -31,6 +31,10 @@ struct JointActuator {
   // [kg m^2] or [kg] that it turns in the model's initial posture, where all other joints give way
   // and where they hold
   double least_inertia = 0.0, most_inertia = 0.0;
+  // [kg m^2] that a driven wheel turns where it rolls: its share of the robot's mass; 0: no wheel. A
+  // wheel has a hinge without a range, on a robot that can move; it bears no other body, and its
+  // shapes are round about the axis
+  double rolling_inertia = 0.0;
 
   // [rad] or [m] where it is, in all of qpos (nq)
   [[nodiscard]] double position(const Vector& all) const;
