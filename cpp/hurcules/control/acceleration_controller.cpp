@@ -65,7 +65,8 @@ AccelerationController::AccelerationController(const Robot& robot,
       joint_ranges_("limits of loops and balls", robot),
       problem_(robot.size()),
       contacts_(robot),
-      solver_(robot.size(), options_.solver) {
+      solver_(robot.size(), options_.solver),
+      scaling_(robot.size()) {
   check(options_);
   if (options_.law == Law::Arrive && !robot.floating()) probe_.emplace(robot);
   acceleration_ = braked_ = speed_ = next_ = step_ = Vector::Zero(robot.size());
@@ -155,7 +156,7 @@ const Vector& AccelerationController::solve() {
 
 bool AccelerationController::scale_velocity(const VelocityBounds& bounds, const Vector& velocity) {
   next_ = velocity + options_.dt * acceleration_;
-  if (!hurcules::scale_velocity(bounds, next_)) return false;
+  if (!scaling_.apply(bounds, problem_.hierarchy(), solver_.solution().x, next_)) return false;
   const Vector& most = (limits() ? *limits() : own_limits_).max_velocity();
   next_ = next_.cwiseMax(-most).cwiseMin(most);
   // what is fed forward counts with the acceleration: at once, each tick would ask for more

@@ -112,6 +112,7 @@ class AccelerationController {
   StackProblem problem_;
   ContactForces contacts_;
   Solver solver_;
+  TorqueScaling scaling_;
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
   bool has_zone_ = false;        // by the law that arrives, where no contacts hold the robot

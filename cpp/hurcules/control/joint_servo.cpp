@@ -11,6 +11,7 @@
 #include "hurcules/base/pose.hpp"
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/left_out.hpp"
 
 namespace hurcules {
 
@@ -40,6 +41,14 @@ bool follows(const Robot& robot, const JointActuator& actuator) {
   for (Index f = 0; loops && f < loops->size(); ++f)
     if (loops->dof(f) == actuator.dof) return true;
   return false;
+}
+
+// what of a range the actuator's controls can give
+EffortRange within(const EffortRange& range, const JointActuator& actuator,
+                   const RobotState& state) {
+  const EffortRange own = actuator.efforts(actuator.position(state.qpos), state.qvel[actuator.dof]);
+  return {std::clamp(own.lower, range.lower, range.upper),
+          std::clamp(own.upper, range.lower, range.upper)};
 }
 
 // the i-th point of an even, never repeating sequence in 0 .. 1, another one for each coordinate
@@ -105,6 +114,11 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
     // the decoupling knows of coordinates alone
     const double slowest = decoupled && all ? 1.0 : std::min(1.0, low / rated);
     const double bandwidth = std::min(kBandwidth, kFastest * slowest / (3.0 * dt));
+    require(rated > 0.0 && std::isfinite(rated),
+            "no servo can be made for joint '" + actuator.joint +
+                "': the inertia that it turns cannot be reckoned, as where a loop ties more "
+                "coordinates than it leaves free. " +
+                left_out(robot));
     table.push_back({actuator.joint, rated, bandwidth});
   }
   return table;
@@ -158,12 +172,32 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
         motor.ball[static_cast<std::size_t>(other.part - kTurns)] = static_cast<Index>(i);
     }
   }
+  find_ties(*robot.model());
   error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
   reference_ = position_;
   feed_forward_ = Vector::Zero(size());
   rests_.resize(motors_.size());
   left_.resize(motors_.size(), false);
   bounds_.lower = bounds_.upper = Vector::Zero(robot.size());
+}
+
+void JointServo::find_ties(const mjModel_& model) {
+  const auto servo_of = [this](int joint) {
+    const auto found = std::find_if(motors_.begin(), motors_.end(), [joint](const Motor& motor) {
+      return motor.actuator.joint_id == joint;
+    });
+    return found == motors_.end() ? Index{-1} : static_cast<Index>(found - motors_.begin());
+  };
+  ties_.resize(motors_.size());
+  for (const Coupling& coupling : find_couplings(model)) {
+    for (const Coupling& one : {coupling, turned_round(coupling)}) {
+      const Index leader = servo_of(one.second), follower = servo_of(one.first);
+      if (leader < coordinate_joints_) continue;
+      if (follower >= 0 && follower < coordinate_joints_) continue;
+      ties_[static_cast<std::size_t>(leader)].push_back(
+          {follower, one.first_qpos, one.slope, one.shift});
+    }
+  }
 }
 
 Index JointServo::find(const std::string& joint) const {
@@ -181,6 +215,8 @@ void JointServo::place(Index joint, VectorRef qpos) const {
   const JointActuator& own = actuator(joint);
   if (own.part < 0) {
     qpos[own.qpos] = position_[joint];
+    for (const Tie& tie : ties(joint))
+      if (tie.follower < 0) qpos[tie.qpos] = tie.slope * position_[joint] + tie.shift;
     return;
   }
   const Eigen::Quaterniond turn(rotation(joint, position_));
@@ -270,9 +306,10 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kOfPeak * pid_.options().max_torque[i];
+    const EffortRange range = within({-peak, peak}, motor.actuator, state);
     const double beside = feed_forward_[i];
-    const double a = pid_.rate_at(i, error_, -peak - beside) / motor.factor;
-    const double b = pid_.rate_at(i, error_, peak - beside) / motor.factor;
+    const double a = pid_.rate_at(i, error_, range.lower - beside) / motor.factor;
+    const double b = pid_.rate_at(i, error_, range.upper - beside) / motor.factor;
     double& lower = bounds_.lower[motor.coordinate];
     double& upper = bounds_.upper[motor.coordinate];
     lower = std::max(lower, std::min(a, b));
@@ -307,7 +344,7 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
     const Rest& rest = rests_[static_cast<std::size_t>(i)];
     error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
     const bool idle = motors_[static_cast<std::size_t>(i)].idle;
-    pid_.limit(i, rest.on || idle ? EffortRange{} : status.range);
+    pid_.limit(i, rest.on || idle ? EffortRange{} : within(status.range, motor, state));
     if (rest.over) pid_.take_over(i, error_, status.brake_load - feed_forward_[i]);
   }
   const Vector& torque = pid_.compute(error_, feed_forward_);

@@ -57,6 +57,16 @@ class JointServo {
   void follow(const Vector& q, const Vector& velocity);
   // where one joint shall be, whatever its coordinate says
   void move(Index joint, double position, double velocity);
+  // What the model couples to a joint that no coordinate moves:
+  //   q_follower = slope q_joint + shift
+  struct Tie {
+    Index follower = -1;  // the joint, -1: it has no servo
+    int qpos = 0;         // its address
+    double slope = 1.0, shift = 0.0;
+  };
+  [[nodiscard]] const std::vector<Tie>& ties(Index joint) const {
+    return ties_[static_cast<std::size_t>(joint)];
+  }
   // an actuator that somebody else commands from now on: no control is written for it
   void leave(Index joint) { left_[static_cast<std::size_t>(joint)] = true; }
   // from here on a coordinate's joints keep the distance from it that they have now; q and velocity
@@ -93,7 +103,7 @@ class JointServo {
     return motors_[static_cast<std::size_t>(joint)].coordinate;
   }
   [[nodiscard]] const Vector& position() const { return position_; }  // [rad] (m) reference
-  // writes a joint's reference where it belongs in qpos (nq)
+  // writes a joint's reference where it belongs in qpos (nq), and what it takes along without a servo
   void place(Index joint, VectorRef qpos) const;
   [[nodiscard]] const Vector& velocity() const { return velocity_; }    // [rad/s] (m) reference
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
@@ -118,6 +128,7 @@ class JointServo {
     bool on = false;    // the brake holds, the motor is without power
     bool over = false;  // this tick the motor takes over what the brake bore
   };
+  void find_ties(const mjModel_& model);
   void read_brakes(const RobotState& state);
   // from where the joints are to these references (m)
   void find_position_error(const Vector& reference, const Vector& qpos);
@@ -125,6 +136,7 @@ class JointServo {
   [[nodiscard]] Matrix3 rotation(Index joint, const Vector& reference) const;
 
   std::vector<Motor> motors_;
+  std::vector<std::vector<Tie>> ties_;  // of each joint
   std::vector<std::string> names_;
   Index coordinate_joints_ = 0;
   JointPid pid_;

@@ -70,7 +70,8 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
       joint_ranges_("limits of loops and balls", robot),
       problem_(robot.size()),
       reachable_(robot.size()),
-      solver_(robot.size(), options_.solver) {
+      solver_(robot.size(), options_.solver),
+      scaling_(robot.size()) {
   check(options_);
   if (options_.law == Law::Arrive) probe_.emplace(robot);
   velocity_ = next_ = step_ = offset_ = Vector::Zero(robot.size());
@@ -162,7 +163,7 @@ const Vector& VelocityController::solve() {
 }
 
 bool VelocityController::scale_velocity(const VelocityBounds& window) {
-  if (!hurcules::scale_velocity(window, velocity_)) return false;
+  if (!scaling_.apply(window, problem_.hierarchy(), solver_.solution().x, velocity_)) return false;
   if (!limits()) return true;
   if (options_.law == Law::Arrive) {
     limit_change(next_, options_.max_acceleration * options_.dt, intervals_, velocity_);

@@ -101,6 +101,7 @@ class VelocityController {
   StackProblem problem_;
   Reachable reachable_;  // by the limits of the coordinates
   Solver solver_;
+  TorqueScaling scaling_;
   std::size_t leading_limits_ = 0;  // levels from the first on that are limits
   std::vector<double> weights_;     // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;       // K / max(1, F) [1/s] of each level, the same

@@ -194,6 +194,7 @@ void WholeBodyController::collect_tasks() {
 
 void WholeBodyController::check_channels() {
   require_distinct(channels_, "channels");
+  led_.assign(static_cast<std::size_t>(servo_.size()), false);
   for (const Channel& channel : channels_) {
     for (const std::string& entry : channel.entries()) command_names_.push_back(entry);
     if (channel.kind() == ChannelKind::Drive) {
@@ -214,6 +215,7 @@ void WholeBodyController::check_channels() {
       require(servo_.actuator(joint).part < 0, "channel '" + channel.name() + "' moves '" + name +
                                                    "', a part of a ball joint: it wants a task");
       moved_.back().push_back(joint);
+      if (channel.kind() == ChannelKind::Joint) led_[static_cast<std::size_t>(joint)] = true;
     }
     if (!channel.task()) continue;
     const auto found = std::find(tasks_.begin(), tasks_.end(), channel.task());
@@ -530,7 +532,12 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
       const JointActuator& actuator = servo_.actuator(joint);
       const double place = servo_.position()[joint] + command[0] * dt();
       const double held = std::clamp(place, actuator.lower, actuator.upper);
-      servo_.move(joint, held, held == place ? command[0] : 0.0);
+      const double rate = held == place ? command[0] : 0.0;
+      servo_.move(joint, held, rate);
+      for (const JointServo::Tie& tie : servo_.ties(joint)) {
+        if (tie.follower >= 0 && !led_[static_cast<std::size_t>(tie.follower)])
+          servo_.move(tie.follower, tie.slope * held + tie.shift, tie.slope * rate);
+      }
       return;
     }
     case ChannelKind::Joints:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -17,8 +18,8 @@ void check_setup(const MissionSetup& setup, const Robot& plan) {
                        " came");
   };
   want(setup.max_seconds > 0.0, "max_seconds", "a time above 0 [s]", setup.max_seconds);
-  want(setup.max_tilt >= 0.0, "max_tilt", "an angle of 0 (nobody looks) or more [rad]",
-       setup.max_tilt);
+  want(setup.max_tilt >= 0.0 && setup.max_tilt <= std::numbers::pi, "max_tilt",
+       "an angle from 0 (nobody looks) to pi [rad]", setup.max_tilt);
   want(std::isfinite(setup.min_height), "min_height", "a finite height [m]", setup.min_height);
   want(setup.min_height == 0.0 || setup.max_tilt > 0.0, "min_height",
        "a max_tilt above 0 beside it, or nobody looks", setup.min_height);
@@ -252,10 +253,13 @@ bool Mission::wait(double time, WholeBodyController& controller) {
   answer_.reset();
   waiting_ = 0.0;
   doing_ = Doing::Leading;
+  const auto trouble = cause_ > 0 ? std::optional(cause_ - 1) : std::nullopt;
   if (!go_on) {
-    return react(cause_ > 0 ? std::optional(cause_ - 1) : std::nullopt, controller, time);
+    rows_[phase_].refuse(trouble);
+    return react(trouble, controller, time);
   }
-  if (asks && cause_ == 0) extra_ = elapsed_;  // as much time once more
+  if (asks && trouble) rows_[phase_].excuse(*trouble);
+  if (asks && !trouble) extra_ = elapsed_;  // as much time once more
   return true;
 }
 

@@ -97,9 +97,9 @@ bool PhaseRow::needs_log() const {
 
 void PhaseRow::reset() {
   for (std::size_t cause = 0; cause < left_.size(); ++cause) {
-    const std::vector<Reaction>& reactions =
-        cause == 0 ? phase_->late : phase_->troubles[cause - 1].reactions;
-    for (std::size_t k = 0; k < reactions.size(); ++k) left_[cause][k] = reactions[k].times;
+    const std::vector<Reaction>& row =
+        reactions(cause == 0 ? std::nullopt : std::optional(cause - 1));
+    for (std::size_t k = 0; k < row.size(); ++k) left_[cause][k] = row[k].times;
   }
   forget();
   if (posture_) posture_->start(Vector::Zero(posture_size_));
@@ -186,20 +186,36 @@ std::optional<std::size_t> PhaseRow::trouble(double dt) {
 bool PhaseRow::TimedCondition::look(double dt) {
   const bool now = condition.above ? *source >= condition.value : *source <= condition.value;
   const bool long_enough = since >= condition.seconds;  // so far
+  if (now && since < 0.0) return false;
   since = now ? since + dt : 0.0;
   return now && long_enough;
 }
 
+const std::vector<Reaction>& PhaseRow::reactions(std::optional<std::size_t> trouble) const {
+  return trouble ? phase_->troubles[*trouble].reactions : phase_->late;
+}
+
 const Reaction* PhaseRow::react(std::optional<std::size_t> trouble) {
-  const std::vector<Reaction>& reactions =
-      trouble ? phase_->troubles[*trouble].reactions : phase_->late;
+  const std::vector<Reaction>& row = reactions(trouble);
   std::vector<int>& left = left_[trouble ? *trouble + 1 : 0];
-  for (std::size_t i = 0; i < reactions.size(); ++i) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
     if (left[i] == 0) continue;
     --left[i];
-    return &reactions[i];
+    return &row[i];
   }
   return nullptr;
+}
+
+void PhaseRow::excuse(std::size_t trouble) {
+  troubles_[trouble].since = -1.0;
+}
+
+void PhaseRow::refuse(std::optional<std::size_t> trouble) {
+  const std::vector<Reaction>& row = reactions(trouble);
+  std::vector<int>& left = left_[trouble ? *trouble + 1 : 0];
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i].kind == ReactionKind::Ask && left[i] < row[i].times) left[i] = 0;
+  }
 }
 
 void PhaseRow::save(StateWriter& writer) const {

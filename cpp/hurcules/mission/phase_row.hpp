@@ -52,6 +52,10 @@ class PhaseRow {
   // the first reaction that is left, which is then one less; null for none. Of a trouble, by its
   // number, or of being late
   const Reaction* react(std::optional<std::size_t> trouble);
+  // asked for it, somebody says yes: the trouble is none until it has been away once
+  void excuse(std::size_t trouble);
+  // no, or nothing: it is not asked again
+  void refuse(std::optional<std::size_t> trouble);
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
@@ -61,7 +65,7 @@ class PhaseRow {
   struct TimedCondition {
     Condition condition;
     const double* source = nullptr;
-    double since = 0.0;  // [s]
+    double since = 0.0;  // [s], below 0: excused
     bool look(double dt);
   };
   struct Way {
@@ -77,6 +81,8 @@ class PhaseRow {
   };
   [[nodiscard]] static Way way_of(const Lead& lead, const WholeBodyController& controller,
                                   const std::string& where);
+  // what is done about a trouble, by its number, or about being late
+  [[nodiscard]] const std::vector<Reaction>& reactions(std::optional<std::size_t> trouble) const;
   void forget();  // for how long conditions have been true, and how far ways have come
 
   const Phase* phase_;

@@ -155,6 +155,11 @@ void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController&
   const Vector& given = lead.rate.size() > 0 ? lead.rate : lead.by;
   require(given.size() == size, where + " wants " + std::to_string(size) + " finite numbers, " +
                                     std::to_string(given.size()) + " came");
+  for (Index i = 0; i < lead.rate.size(); ++i) {
+    require(std::abs(given[i]) <= (1.0 + 1e-9) * channel.scale()[i],
+            where + " gives at most " + to_text(channel.scale()[i]) + " a second, a rate of " +
+                to_text(given[i]) + " came");
+  }
   if (lead.rate.size() > 0 || !lead.to.empty()) return;
   for (Index i = 0; i < size; ++i) {
     const double seconds = kPeak * std::abs(given[i]) / channel.scale()[i];

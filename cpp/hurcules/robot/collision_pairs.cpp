@@ -7,6 +7,8 @@
 #include <random>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/pose.hpp"
+#include "hurcules/robot/joint_actuators.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -167,6 +169,77 @@ std::vector<CollisionPair> selected(const std::vector<GeomPair>& candidates, con
   return found;
 }
 
+// where a robot's bodies go further than any sampled posture: along slides of a wide range, over the
+// ground on driven wheels
+class Roaming {
+ public:
+  explicit Roaming(const Robot& robot) : model_(*robot.model()) {
+    for (const Coordinate& coordinate : robot.coordinates()) {
+      const int joint = coordinate.joints.front().joint;
+      if (model_.jnt_type[joint] != mjJNT_SLIDE || coordinate.upper - coordinate.lower < kWide)
+        continue;
+      const int body = model_.jnt_bodyid[joint];
+      const Vector3 axis(model_.jnt_axis + 3 * joint);
+      ways_.push_back({body, robot.pose({mjOBJ_BODY, body}).R * axis});
+    }
+    for (const JointActuator& actuator : joint_actuators(robot)) {
+      if (actuator.rolling_inertia == 0.0) continue;
+      const int root = model_.body_rootid[model_.jnt_bodyid[actuator.joint_id]];
+      ways_.push_back({root, Vector3::UnitX()});
+      ways_.push_back({root, Vector3::UnitY()});
+    }
+  }
+
+  [[nodiscard]] bool meets(const GeomPair& pair) const {
+    const auto leads = [&](const Way& way) {
+      return is_below(model_.geom_bodyid[pair.first], way.body) &&
+             (model_.geom_type[pair.second] != mjGEOM_PLANE || crosses(pair.second, way.axis));
+    };
+    return std::any_of(ways_.begin(), ways_.end(), leads);
+  }
+
+ private:
+  static constexpr double kWide = 2.0;  // [m]
+  struct Way {
+    int body = 0;
+    Vector3 axis;  // in W
+  };
+
+  [[nodiscard]] bool is_below(int body, int other) const {
+    while (body > other) body = model_.body_parentid[body];
+    return body == other;
+  }
+  // of a plane that stands still
+  [[nodiscard]] bool crosses(int plane, const Vector3& axis) const {
+    constexpr double kAlong = 1e-3;
+    const Matrix3 R = rotation_of(model_.body_quat + 4 * model_.geom_bodyid[plane]) *
+                      rotation_of(model_.geom_quat + 4 * plane);
+    return std::abs(R.col(2).dot(axis)) > kAlong;
+  }
+
+  const mjModel& model_;
+  std::vector<Way> ways_;
+};
+
+// those that a robot which roams may meet, but for what it touches now
+std::vector<CollisionPair> met(const std::vector<GeomPair>& candidates, const Robot& robot,
+                               const CollisionSampling& sampling) {
+  const Roaming roaming(robot);
+  Robot probe(robot.model(), robot.coordinate_names());
+  stand_alike(robot, probe);
+  std::vector<GeomPair> pairs;
+  for (const GeomPair& pair : moving(candidates, robot, Postures(robot, sampling.seed)))
+    if (roaming.meets(pair)) pairs.push_back(pair);
+  const std::size_t count = pairs.size();
+  GeomDistance distance(probe, std::move(pairs), sampling.near, count);
+  std::vector<CollisionPair> found;
+  for (const GeomPair& pair : distance.pairs()) found.push_back({pair, sampling.near});
+  for (const GeomDistance::Near& one : distance.measure(probe))
+    if (one.pair >= 0) found[static_cast<std::size_t>(one.pair)].distance = one.distance;
+  std::erase_if(found, [](const CollisionPair& pair) { return pair.distance <= 0.0; });
+  return found;
+}
+
 }  // namespace
 
 std::vector<CollisionPair> self_pairs(const Robot& robot, const CollisionSampling& sampling) {
@@ -214,6 +287,13 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
     }
   }
   std::vector<CollisionPair> found = selected(still, robot, sampling);
+  const auto is_new = [&found](const CollisionPair& pair) {
+    return std::none_of(found.begin(), found.end(), [&pair](const CollisionPair& other) {
+      return other.geoms.first == pair.geoms.first && other.geoms.second == pair.geoms.second;
+    });
+  };
+  for (const CollisionPair& pair : met(still, robot, sampling))
+    if (is_new(pair)) found.push_back(pair);
   for (const GeomPair& pair : moving(told, robot, Postures(robot, sampling.seed)))
     found.push_back({pair, sampling.near});
   return found;

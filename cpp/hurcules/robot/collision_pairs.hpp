@@ -6,6 +6,8 @@
 //   - what is in contact in the robot's present configuration, or in nearly every sampled posture;
 //   - what never comes near in sampled postures.
 // Bodies that are named as obstacles may move: of those, only what no coordinate moves is left out.
+// A robot on slides of 2 m or more, or on driven wheels, may go anywhere along them: of what stands
+// still there, only what it touches now is left out.
 // Postures are drawn evenly between the limits of the coordinates (a turn or a metre to either side
 // where there is none); the same seed draws the same.
 #pragma once

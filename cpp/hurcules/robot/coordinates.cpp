@@ -205,16 +205,6 @@ std::vector<Coordinate> chosen(const mjModel& m, std::vector<Coordinate> all,
   return found;
 }
 
-// first joint = slope * second joint + shift
-struct Coupling {
-  int first = 0, second = 0;
-  double slope = 1.0, shift = 0.0;
-};
-
-Coupling turned_round(const Coupling& coupling) {
-  return {coupling.second, coupling.first, 1.0 / coupling.slope, -coupling.shift / coupling.slope};
-}
-
 std::optional<Coupling> coupling_of(const mjModel& m, int equality) {
   const int first = m.eq_obj1id[equality], second = m.eq_obj2id[equality];
   if (m.eq_type[equality] != mjEQ_JOINT || !m.eq_active0[equality] || second < 0)
@@ -222,8 +212,8 @@ std::optional<Coupling> coupling_of(const mjModel& m, int equality) {
   const mjtNum* const c = m.eq_data + mjNEQDATA * equality;
   const bool linear = c[1] != 0.0 && c[2] == 0.0 && c[3] == 0.0 && c[4] == 0.0;
   if (!linear || !is_single(m, first) || !is_single(m, second)) return std::nullopt;
-  const double shift = m.qpos0[m.jnt_qposadr[first]] + c[0] - c[1] * m.qpos0[m.jnt_qposadr[second]];
-  return Coupling{first, second, c[1], shift};
+  const int at = m.jnt_qposadr[first], of = m.jnt_qposadr[second];
+  return Coupling{first, second, at, of, c[1], m.qpos0[at] + c[0] - c[1] * m.qpos0[of]};
 }
 
 using Place = std::pair<std::size_t, std::size_t>;  // coordinate, joint of it
@@ -261,12 +251,10 @@ void couple(const mjModel& m, std::vector<Coordinate>& all) {
   bool changed = true;
   while (changed) {
     changed = false;
-    for (int i = 0; i < m.neq; ++i) {
-      const std::optional<Coupling> coupling = coupling_of(m, i);
-      if (!coupling) continue;
-      changed = follow(m, *coupling, all) || changed;
-      if (!find_joint(all, coupling->second))
-        changed = follow(m, turned_round(*coupling), all) || changed;
+    for (const Coupling& coupling : find_couplings(m)) {
+      changed = follow(m, coupling, all) || changed;
+      if (!find_joint(all, coupling.second))
+        changed = follow(m, turned_round(coupling), all) || changed;
     }
   }
 }
@@ -335,6 +323,19 @@ void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinat
 }
 
 }  // namespace
+
+Coupling turned_round(const Coupling& coupling) {
+  return {coupling.second,     coupling.first,       coupling.second_qpos,
+          coupling.first_qpos, 1.0 / coupling.slope, -coupling.shift / coupling.slope};
+}
+
+std::vector<Coupling> find_couplings(const mjModel& m) {
+  std::vector<Coupling> found;
+  for (int i = 0; i < m.neq; ++i) {
+    if (const std::optional<Coupling> coupling = coupling_of(m, i)) found.push_back(*coupling);
+  }
+  return found;
+}
 
 int actuator_of(const mjModel& m, int joint) {
   return first_actuator(m, joint, -1);

@@ -28,6 +28,16 @@ namespace hurcules {
                                                        const std::vector<std::string>& names = {},
                                                        bool floating = false);
 
+// What an equality constraint says of two hinges or slides: first = slope * second + shift.
+struct Coupling {
+  int first = 0, second = 0;            // joints
+  int first_qpos = 0, second_qpos = 0;  // their addresses
+  double slope = 1.0, shift = 0.0;
+};
+[[nodiscard]] Coupling turned_round(const Coupling& coupling);
+// those of the linear ones that are active from the start
+[[nodiscard]] std::vector<Coupling> find_couplings(const mjModel_& model);
+
 // Parts of a free joint: three places, then three turns; a ball joint has the turns alone.
 inline constexpr int kTurns = 3, kParts = 6;
 

@@ -50,6 +50,9 @@ JointActuator read(const mjModel* m, int a) {
   }
   found.is_motor = found.gain == 1.0 && found.bias == std::array<double, 3>{};
   constexpr double kNone = std::numeric_limits<double>::infinity();
+  const bool bounded = m->actuator_ctrllimited[a] != 0;
+  found.least_control = bounded ? m->actuator_ctrlrange[2 * a] : -kNone;
+  found.most_control = bounded ? m->actuator_ctrlrange[2 * a + 1] : kNone;
   const bool ball = m->jnt_type[found.joint_id] == mjJNT_BALL;
   if (ball) {
     const int axis = axis_of(*m, a);

@@ -7,7 +7,10 @@
 // A ball joint has three, one about each axis of its body; q is that part of its rotation vector.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,7 +28,8 @@ struct JointActuator {
   double gear = 1.0;
   double gain = 1.0;
   std::array<double, 3> bias = {};
-  bool is_motor = true;             // gain 1, no bias
+  bool is_motor = true;                            // gain 1, no bias
+  double least_control = 0.0, most_control = 0.0;  // its range, -inf and inf without
   double lower = 0.0, upper = 0.0;  // [rad] or [m] range of the joint, -inf and inf without
   MotorLimits limits = {};
   // [kg m^2] or [kg] that it turns in the model's initial posture, where all other joints give way
@@ -41,8 +45,23 @@ struct JointActuator {
   // control for an effort [N m] or [N] at the joint, at its position and velocity
   [[nodiscard]] double control(double effort, double position, double velocity) const {
     if (is_motor) return effort / gear;
-    const double length = gear * position, rate = gear * velocity;
-    return (effort / gear - bias[0] - bias[1] * length - bias[2] * rate) / gain;
+    return std::clamp((effort / gear - bias_at(position, velocity)) / gain, least_control,
+                      most_control);
+  }
+  // efforts at the joint that its controls can give, at a position and velocity; what a motor gives
+  // stands in its limits
+  [[nodiscard]] EffortRange efforts(double position, double velocity) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    if (is_motor || !std::isfinite(least_control)) return {-kNone, kNone};
+    const double at_rest = gear * bias_at(position, velocity);
+    const double a = at_rest + gear * gain * least_control;
+    const double b = at_rest + gear * gain * most_control;
+    return {std::min(a, b), std::max(a, b)};
+  }
+
+ private:
+  [[nodiscard]] double bias_at(double position, double velocity) const {
+    return bias[0] + bias[1] * gear * position + bias[2] * gear * velocity;
   }
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -137,6 +138,9 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   const FallOptions& fall = options_.fall;
   if (!fall.frame.empty()) fall_frame_ = world_.frame(fall.frame);
   require(fall_frame_ || !std::isfinite(fall.min_height), "fall: min_height wants a frame");
+  require(fall.max_tilt >= 0.0 && (fall.max_tilt <= std::numbers::pi || std::isinf(fall.max_tilt)),
+          "fall: max_tilt wants an angle from 0 to pi [rad], or inf, " +
+              number_text(fall.max_tilt) + " came");
   if (mj_name2id(plant_.model(), mjOBJ_SITE, "casualty_chest") >= 0) {
     target_ = world_.frame("casualty_chest");
   }
