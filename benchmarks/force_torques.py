@@ -9,7 +9,8 @@ plane < posture`, the law the first-order one with C G = 30 1/s, 100 1/s on the 
 
 Told: the force of the last half second and its deviation, the largest force beside that of a plain
 admittance (`blend` = 0: v = C (f_des - f) from the first contact on), how often contact was lost;
-then the deviation on a wall that moves by 5 mm at 0.5 Hz. By the law it is 2 pi 0.5 Hz 5 mm / C.
+then the deviation on a wall that moves by 5 mm at 0.5 Hz. By the law alone it is
+2 pi 0.5 Hz 5 mm / C.
 """
 
 from __future__ import annotations
@@ -92,9 +93,12 @@ def arm() -> mujoco.MjModel:
 class Press:
     """The arm, its wall and its controller."""
 
-    def __init__(self, wall: Wall, force: float, rate: float, blend: float = 0.1) -> None:
-        """Wants a force [N] by a law of C = rate / G."""
+    def __init__(
+        self, wall: Wall, force: float, rate: float, blend: float = 0.1, bias: float = 0.0
+    ) -> None:
+        """Wants a force [N] by a law of C = rate / G, and reads it with a bias [N]."""
         self.wall = wall
+        self.bias = bias
         self.model = arm()
         self.data = mujoco.MjData(self.model)
         joints = [self.model.joint(i).name for i in range(7)]
@@ -130,7 +134,7 @@ class Press:
         pressed = self._push()
         self.robot.set_qpos(self.data.qpos)
         self.robot.set_velocity(self.data.qvel[:7])
-        self.task.sense(self.robot, -pressed)
+        self.task.sense(self.robot, -pressed - self.bias)
         if self.task.contact == hurcules.ContactState.Free:
             self.task.advance([-SPEED], DT)
         self.controller.compute(self.robot)

@@ -47,6 +47,36 @@ def test_what_a_mission_asks_is_said_and_answered() -> None:
         loop().answer(True)
 
 
+def test_a_yes_holds_until_the_trouble_has_been_away() -> None:
+    simulation = asking()
+    simulation.answer(True)
+    simulation.step(20)  # the trouble lasts: it was lowered one tick after the yes
+    assert (simulation.phase, simulation.question) == ("up", "")
+    saved = simulation.state()
+    simulation.step(20)
+    assert simulation.phase == "up"
+    simulation.restore(saved)
+    simulation.step(20)
+    assert simulation.phase == "up"  # what was excused is part of the state
+    simulation.pause()
+    simulation.step(100, {"posture": [0.0, -1.5]})  # away
+    simulation.resume()
+    while simulation.phase == "up":
+        assert simulation.step(1) == 1 and not simulation.question
+    assert simulation.data.joint("j2").qpos < 0.2  # here again, and its one question is used up
+
+
+@pytest.mark.parametrize("says_no", [True, False])
+def test_a_no_and_silence_are_not_asked_again(says_no: bool) -> None:
+    simulation = loop(ASKS.replace("ask 5.0 s", "ask 0.5 s, 3 times"))
+    while not simulation.question:
+        simulation.step(1)
+    if says_no:
+        simulation.answer(False)
+    simulation.step(2 if says_no else 502)
+    assert (simulation.phase, simulation.question) == ("back", "")
+
+
 def test_silence_is_a_no() -> None:
     simulation = asking()
     simulation.step(round(4.99 / simulation.dt))

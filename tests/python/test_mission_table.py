@@ -344,6 +344,7 @@ def test_conditions_and_reactions_are_read_from_text() -> None:
         (', "abort"]', "]", "a way to safety"),
         ("lead.posture", "lead.pasture", "channel 'pasture' does not exist"),
         ("rate = [0.5, 0.0]", "rate = [0.5]", "wants 2 finite numbers, 1 came"),
+        ("rate = [0.5, 0.0]", "rate = [2.5, 0.0]", "at most 2 a second, a rate of 2.5 came"),
         (", way = 0.2", "", "never ends"),
         ("seconds = 1.0", "secnds = 1.0", "no entry 'secnds'"),
         ('safety = "back"', 'safety = "home"', "phase 'home' does not exist"),

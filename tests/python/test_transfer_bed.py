@@ -15,6 +15,7 @@ from hurcules_studies.thesis.measures.bed import first_touch, ground_angle
 from hurcules_studies.thesis.measures.rig import start, touching
 
 PERSON = "objects/casualty_120kg.xml"
+ARMS_FREE = {"SP": -0.55, "SR": 0.20, "SY": 1.20, "EB": 1.00}  # [rad] models/missions/casualty.toml
 
 
 def settled(model, data):
@@ -37,15 +38,22 @@ def test_the_bed_expands_by_itself_and_folds_again():  # H16
     assert settled(model, data) == pytest.approx(low, abs=0.002)
 
 
-def with_person():
-    """The rescue robot in `drive`, the bed out, a person of 120 kg 2 cm above it."""
+def scene(person_file, rims=False):
+    """The rescue robot, a person 2 cm above the bed that is out."""
     files = [models.path("rescue"), models.folder() / "scenes/flat.xml"]
     spec = models.parse(files, "bed")
-    person = mujoco.MjSpec.from_file(str(models.folder() / PERSON))
+    if rims:
+        transfer_bed.add_rims(spec)
+    person = mujoco.MjSpec.from_file(str(models.folder() / person_file))
     # on the back, the head to the left, the middle of the body over that of the bed
     frame = spec.worldbody.add_frame(pos=[-0.17, -0.10, 0.76 + 0.13], quat=[0.5, -0.5, -0.5, -0.5])
     frame.attach_body(person.body("pelvis"), "person_", "")
-    model = spec.compile()
+    return spec.compile()
+
+
+def with_person():
+    """The same in `drive`, with 120 kg."""
+    model = scene(PERSON)
     data, player = start(model, "rescue", "drive")
     plates = {f"{s}_bed_{i}": transfer_bed.SLIDE for s in "LR" for i in (1, 2)}
     for joint, place in {"bed_lift": transfer_bed.LIFT, **plates}.items():
@@ -75,6 +83,61 @@ def test_a_person_of_120_kg_lies_on_the_bed_and_stays():
     assert 0.85 * sag < -data.joint("bed_spring").qpos[0] < 1.03 * sag
     # the lift bears at most the 1.4 kN and its dry friction, 120 N, of the 4 kN it has
     assert abs(data.actuator("bed_lift").force[0]) < 143 * 9.81 + 130
+
+
+def slid(rims, degrees):
+    """How far 75 kg slide in 2 s on the bed of a robot that leans ahead by so much (3,) [m].
+
+    The robot is held, but for the rims, which are pumped up for 4 s; gravity leans, 5 degrees a second.
+    """
+    model = scene("objects/casualty_75kg.xml", rims)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
+    plates = {f"{s}_bed_{i}": transfer_bed.SLIDE for s in "LR" for i in (1, 2)}
+    arms = {f"{s}{j}": v for s in "LR" for j, v in ARMS_FREE.items()}
+    for joint, place in {"bed_lift": transfer_bed.LIFT, "HIP": -0.52, **plates, **arms}.items():
+        data.joint(joint).qpos[0] = place
+    pumps = [f"{s}_bed_rim_{e}" for s in "LR" for e in ("front", "back")] if rims else []
+    root = model.body("person_pelvis").id
+    held = data.qpos[: model.jnt_qposadr[model.body_jntadr[root]]].copy()
+    moves = [model.joint(name).qposadr[0] for name in pumps]
+    start_of = None
+    for tick in range(round((6.0 + abs(degrees) / 5.0) / model.opt.timestep)):
+        time = tick * model.opt.timestep
+        angle = np.sign(degrees) * np.radians(min(abs(degrees), 5.0 * max(0.0, time - 4.0)))
+        model.opt.gravity[:] = 9.81 * np.array([np.sin(angle), 0.0, -np.cos(angle)])
+        for name in pumps:
+            data.actuator(name).ctrl = 250.0 if time < 4.0 else 0.0
+        mujoco.mj_step(model, data)
+        if time < 4.0:
+            held[moves] = data.qpos[moves]
+        data.qpos[: len(held)] = held
+        data.qvel[: model.body_dofadr[root]] = 0.0
+        if start_of is None and time >= 4.0:
+            start_of = data.subtree_com[root].copy()
+    return data.subtree_com[root] - start_of
+
+
+@pytest.mark.parametrize("degrees", [-30.0, 30.0])
+def test_rims_hold_a_person_on_a_slope(degrees):
+    """Without them he slides ahead, and back against the trunk, by two hands."""
+    bare, rimmed = slid(False, degrees), slid(True, degrees)
+    assert abs(bare[0]) > 0.08
+    assert np.linalg.norm(rimmed) < 0.05
+
+
+def test_rims_are_for_a_bed_that_has_none():
+    spec = models.parse([models.path("rescue")], "bed")
+    transfer_bed.add_rims(spec)
+    model = spec.compile()
+    assert mujoco.mj_getTotalmass(model) == pytest.approx(682.0, abs=0.01)
+    assert [model.key(k).name for k in range(model.nkey)][:2] == ["home", "drive"]
+    with pytest.raises(hurcules.Error, match="a transfer bed without rims"):
+        transfer_bed.add_rims(spec)
+    transfer_bed.detach(spec)
+    assert not [a.name for a in spec.actuators if "bed" in a.name]
+    with pytest.raises(hurcules.Error, match="a transfer bed without rims"):
+        transfer_bed.add_rims(models.parse([models.path("manipulation")], "bare"))
 
 
 @pytest.mark.parametrize(

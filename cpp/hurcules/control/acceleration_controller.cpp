@@ -174,7 +174,7 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
     for (const Task* task : level.tasks) {
       const auto* const force = dynamic_cast<const ForceTask*>(task);
       if (force && force->state() == ContactState::Contact)
-        torque += force->force() * force->jacobian().row(0).transpose();
+        torque += force->borne() * force->jacobian().row(0).transpose();
     }
   }
   contacts_.relieve(torque);

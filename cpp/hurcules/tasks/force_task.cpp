@@ -97,6 +97,9 @@ void ForceTask::sense(const Robot& robot, double force) {
   } else {
     age_ = std::min(age_ + dt, options_.blend);
   }
+  const bool presses = now == Mode::Force && mode_ == Mode::Force && options_.blend > 0.0;
+  borne_ = presses ? borne_ + std::min(1.0, dt / options_.blend) * (force_des_ - borne_)
+                   : monitor_.force();
   mode_ = now;
   wish_ += blended();
   show();
@@ -176,7 +179,7 @@ void ForceTask::save(StateWriter& writer) const {
   estimate_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, entry_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
+        wish_, offset_, age_, entry_, borne_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -189,7 +192,7 @@ void ForceTask::restore(StateReader& reader) {
   force_des_ = reader.get();
   enabled_ = reader.get_count(1) > 0;
   mode_ = static_cast<Mode>(reader.get_count(2));
-  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &rate_, &last_}) {
+  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &borne_, &rate_, &last_}) {
     *value = reader.get();
   }
   sensed_ = reader.get_count(1) > 0;

@@ -61,6 +61,10 @@ class ForceTask : public PositionTask {
   [[nodiscard]] ContactState state() const { return monitor_.state(); }
   [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
+  // [N] what torques bear of the contact: the reading; under force control it goes over from the
+  // first one to f_des with the blend time (0: it stays the reading), so that what the model of the
+  // robot misses is not magnified into a force that is missing
+  [[nodiscard]] double borne() const { return borne_; }
   [[nodiscard]] double stiffness() const;                          // [N/m] given or learnt
   [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
 
@@ -82,6 +86,7 @@ class ForceTask : public PositionTask {
   double wish_ = 0.0;    // [m/s] or [m/s^2], blend included
   double offset_ = 0.0, age_ = 0.0;
   double entry_ = 0.0;  // [N] read when the mode changed
+  double borne_ = 0.0;
   double rate_ = 0.0;   // [m/s] of the frame, by the robot's velocity or by differences
   double last_ = 0.0;   // [m] s at the last sense
   bool sensed_ = false;

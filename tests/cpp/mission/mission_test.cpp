@@ -374,8 +374,8 @@ TEST_F(MissionTest, ASetupOutOfRangeIsTold) {
   expect({.name = "a", .support = "feet"}, "[mission]: frame 'feet' does not exist");
   expect({.name = "a", .max_seconds = 0.0}, "max_seconds wants a time above 0 [s], 0 came");
   expect({.name = "a", .max_seconds = NAN}, "max_seconds wants a time above 0 [s], nan came");
-  expect({.name = "a", .max_tilt = NAN}, "max_tilt wants an angle of 0");
-  expect({.name = "a", .max_tilt = -0.1}, "max_tilt wants an angle of 0");
+  expect({.name = "a", .max_tilt = NAN}, "max_tilt wants an angle from 0");
+  expect({.name = "a", .max_tilt = -0.1}, "max_tilt wants an angle from 0");
   expect({.name = "a", .min_height = 0.1}, "min_height wants a max_tilt above 0 beside it");
 }
 

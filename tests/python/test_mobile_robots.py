@@ -1,0 +1,167 @@
+"""Robots on wheels and slides, with grippers: what their actuators can do, and what holds them up.
+
+Strategy: small robots written here; places, speeds and forces against rolling (v = w r), the ranges
+of the model, and MuJoCo's distances.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+import pytest
+
+import hurcules
+from hurcules import Error
+
+WHEEL, HALF_TRACK = 0.1, 0.3  # [m]
+CART = """
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.002" cone="elliptic" impratio="10"/>
+  <worldbody>
+    <geom type="plane" size="9 9 0.1"/>
+    <body name="base" pos="0 0 0.2"><freejoint/>
+      <geom type="box" size="0.3 0.25 0.08" pos="0 0 0.05" mass="50"/>
+      <body pos="0 0.3 -0.1"><joint name="left" axis="0 1 0"/>
+        <geom type="cylinder" size="0.1 0.02" zaxis="0 1 0" mass="1.5"/></body>
+      <body pos="0 -0.3 -0.1"><joint name="right" axis="0 1 0"/>
+        <geom type="cylinder" size="0.1 0.02" zaxis="0 1 0" mass="1.5"/></body>
+      <geom type="sphere" size="0.05" pos="0.25 0 -0.15" friction="0.001" priority="1" mass="0.5"/>
+      <geom type="sphere" size="0.05" pos="-0.25 0 -0.15" friction="0.001" priority="1" mass="0.5"/>
+      <body pos="0.1 0 0.13"><joint name="arm" axis="0 1 0" range="-2 2" armature="0.1"/>
+        <geom type="capsule" size="0.04" fromto="0 0 0 0 0 0.4" mass="2"/></body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor joint="left" ctrlrange="-40 40"/><motor joint="right" ctrlrange="-40 40"/>
+    <motor joint="arm" ctrlrange="-80 80"/>
+  </actuator>
+</mujoco>
+"""
+GANTRY = """
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.002" gravity="0 0 0"/>
+  <worldbody>
+    <body name="wall" pos="{wall} 0 0"><geom type="box" size="0.1 1 1"/></body>
+    <body name="hand">
+      <joint name="x" type="slide" axis="1 0 0"/>
+      <joint name="y" type="slide" axis="0 1 0" range="-1 1" limited="true"/>
+      <geom name="palm" type="sphere" size="0.05" mass="5"/>
+      <site name="tcp"/>
+      <body pos="0 0.1 0"><joint name="thumb" type="slide" axis="0 -1 0" range="0 0.08" armature="1"/>
+        <geom type="box" size="0.02 0.005 0.02" mass="0.1" contype="0" conaffinity="0"/></body>
+      <body pos="0 -0.1 0"><joint name="finger" type="slide" axis="0 1 0" range="0 0.08" armature="1"/>
+        <geom type="box" size="0.02 0.005 0.02" mass="0.1" contype="0" conaffinity="0"/></body>
+    </body>
+  </worldbody>
+  <equality><joint joint1="finger" joint2="thumb" polycoef="0 1 0 0 0"/></equality>
+  <actuator>{actuators}</actuator>
+</mujoco>
+"""
+MOTORS = '<motor joint="x" ctrlrange="-50 50"/><motor joint="y" ctrlrange="-50 50"/>'
+THUMB = '<motor joint="thumb" ctrlrange="-20 20"/>'
+
+
+def cart(**options: object) -> hurcules.Simulation:
+    model = mujoco.MjModel.from_xml_string(CART)
+    robot = hurcules.Robot(model, joints=["arm"])
+    posture = hurcules.PostureTask("posture", robot)
+    wheels = {side: hurcules.JointRate(side, 10.0) for side in ("left", "right")}
+    controller = hurcules.WholeBodyController(
+        robot, [posture], wheels, support="base", base="sensed", **options
+    )
+    return hurcules.Simulation(model=model, controller=controller)
+
+
+@pytest.mark.parametrize("servo", [{}, {"left": (0.3, 20.0), "right": (0.3, 20.0)}])
+def test_a_robot_on_wheels_stands_and_rolls(servo: dict[str, tuple[float, float]]) -> None:
+    simulation = cart(servo=servo)
+    simulation.step(1500)
+    assert np.abs(simulation.data.qvel).max() < 5e-3  # it swung by 1 rad/s, ever more
+    before = simulation.data.qpos[0]
+    simulation.step(1000, {"left": [2.0], "right": [2.0]})
+    assert simulation.data.qpos[0] - before == pytest.approx(2.0 * 2.0 * WHEEL, rel=0.02)
+    simulation.step(1000, {"left": [-1.0], "right": [1.0]})
+    assert simulation.data.qvel[5] == pytest.approx(WHEEL / HALF_TRACK, rel=0.15)
+
+
+def test_servos_that_are_not_given_are_reckoned() -> None:
+    own = cart(servo={"left": (0.3, 20.0)})
+    assert set(own.controller.joints) == {"left", "right", "arm"}
+    with pytest.raises(Error, match=r"'wl' does not exist; there are: left, right, arm|'wl'"):
+        cart(servo={"wl": (0.3, 20.0)})
+
+
+def gantry(actuators: str, wall: float = 50.0) -> tuple[mujoco.MjModel, hurcules.Robot]:
+    model = mujoco.MjModel.from_xml_string(GANTRY.format(actuators=actuators, wall=wall))
+    return model, hurcules.Robot(model, joints=["x", "y"])
+
+
+def test_joints_that_an_equality_couples_go_along() -> None:
+    for physics in (True, False):
+        for fingers in (THUMB, THUMB + '<motor joint="finger" ctrlrange="-20 20"/>'):
+            model, robot = gantry(MOTORS + fingers)
+            posture = hurcules.PostureTask("posture", robot)
+            controller = hurcules.WholeBodyController(
+                robot, [posture], {"grip": hurcules.JointRate("thumb", 0.1)}
+            )
+            simulation = hurcules.Simulation(model=model, controller=controller, physics=physics)
+            simulation.step(500, {"grip": [0.05]})
+            for joint in ("thumb", "finger"):
+                assert simulation.data.joint(joint).qpos == pytest.approx(0.05, abs=2e-3)
+
+
+def test_a_finger_at_its_peak_holds_up_no_arm() -> None:
+    text = GANTRY.format(actuators=MOTORS + THUMB, wall=50)
+    text = text.replace('contype="0" conaffinity="0"', "")  # the fingers close about a ball
+    text = text.replace(
+        '<site name="tcp"/>', '<site name="tcp"/><geom type="sphere" size="0.05" mass="0.1"/>'
+    )
+    text = text.replace(
+        'gravity="0 0 0"/>', 'gravity="0 0 0"><flag filterparent="disable"/></option>'
+    )
+    model = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(model, joints=["x", "y", "thumb"])
+    hand = hurcules.PositionTask("hand", robot, "tcp", axes=np.eye(3)[:2])
+    grip = hurcules.PostureTask("grip", robot, ["thumb"])
+    controller = hurcules.WholeBodyController(
+        robot, [hand, grip], {"hand": hurcules.Twist(hand, 0.5), "grip": hurcules.Twist(grip, 0.1)}
+    )
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(1000, {"grip": [0.08]})
+    before = simulation.data.qpos[0]
+    simulation.step(1000, {"hand": [0.2, 0.0], "grip": [0.08]})
+    assert simulation.data.joint("thumb").qpos < 0.06  # blocked
+    assert simulation.data.qpos[0] - before == pytest.approx(0.4, abs=0.01)  # 0.000 before
+
+
+def test_the_range_of_a_servos_control_is_a_limit() -> None:
+    servo = '<velocity joint="x" kv="20" ctrlrange="-1 1"/><motor joint="y" ctrlrange="-50 50"/>'
+    model, robot = gantry(servo)
+    hand = hurcules.PositionTask("hand", robot, "tcp", axes=np.eye(3)[:2])
+    controller = hurcules.WholeBodyController(robot, [hand], {"hand": hurcules.Twist(hand, 5.0)})
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    for _ in range(100):
+        simulation.step(10, {"hand": [3.0, 0.0]})  # the servo goes at 1 m/s at the most
+        assert np.abs(simulation.data.ctrl[0]) <= 1.0
+    simulation.step(2000)
+    ahead = controller.q_des[0] - simulation.data.qpos[0]
+    assert abs(ahead) < 1e-3 and abs(simulation.data.qvel[0]) < 1e-3
+    assert 1.0 < simulation.data.qpos[0] < 2.2  # not 6 m, and not thrown beyond
+
+
+@pytest.mark.parametrize("wall", [1.5, 5.0, 20.0])
+def test_a_base_keeps_off_what_stands_where_it_may_drive(wall: float) -> None:
+    model, robot = gantry(MOTORS + THUMB, wall)
+    apart = hurcules.obstacles(robot)
+    hand = hurcules.PositionTask("hand", robot, "tcp", axes=np.eye(3)[:2])
+    controller = hurcules.WholeBodyController(robot, [apart, hand], {})
+    hand.set_target([wall + 1.0, 0.0])
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    hand.set_target([wall + 1.0, 0.0])
+    least = np.inf
+    for _ in range(round(40 + 20 * wall)):
+        simulation.step(50)
+        least = min(least, wall - 0.1 - 0.05 - simulation.data.joint("x").qpos[0])
+    assert 0.0 < least < 0.1
