@@ -113,6 +113,74 @@ def test_motors_are_added_where_there_are_none() -> None:
     assert again.nu == 2
 
 
+GRIPPER = """<robot name="gripper"><link name="world"/>
+  <joint name="mount" type="revolute"><parent link="world"/><child link="palm"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="20" velocity="2"/></joint>
+  <link name="palm">{palm}</link>
+  <joint name="left" type="prismatic"><parent link="palm"/><child link="left_finger"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="0.04" effort="20" velocity="0.2"/></joint>
+  <link name="left_finger">{finger}</link>
+  <joint name="right" type="prismatic"><parent link="palm"/><child link="right_finger"/>
+    <axis xyz="0 -1 0"/><limit lower="0" upper="0.04" effort="20" velocity="0.2"/>
+    <mimic joint="left"/></joint>
+  <link name="right_finger">{finger}</link></robot>"""
+
+
+def link(mass: float) -> str:
+    inertia = " ".join(f'{axis}="{1e-3 * mass}"' for axis in ("ixx", "iyy", "izz"))
+    return (
+        f'<inertial><mass value="{mass}"/><inertia {inertia} ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+
+
+@pytest.mark.parametrize("joints", [["mount"], ["mount", "left"]], ids=["by a rate", "as a task"])
+def test_fingers_that_one_joint_leads_have_one_motor_and_go_together(
+    file: Path, joints: list[str]
+) -> None:
+    # with a motor each the second one was held, a Panda's came to 0.029 and 0.001 m
+    file.write_text(GRIPPER.format(palm=link(1.0), finger=link(0.05)))
+    model = hurcules.load_urdf(file)
+    assert [model.actuator(i).name for i in range(model.nu)] == ["mount", "left"]
+    robot = hurcules.Robot(model, joints=joints)
+    tasks: list[hurcules.Task] = [hurcules.PostureTask("posture", robot, ["mount"])]
+    if "left" in joints:
+        tasks.append(hurcules.PostureTask("grip", robot, ["left"]))
+        grip = hurcules.Twist(tasks[1], 0.05)
+    else:
+        grip = hurcules.JointRate("left", 0.05)
+    controller = hurcules.WholeBodyController(robot, tasks, {"grip": grip})
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(round(1.0 / simulation.dt), {"grip": [0.03]})
+    simulation.step(round(1.0 / simulation.dt))
+    assert simulation.data.qpos[1:] == pytest.approx([0.03, 0.03], abs=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("motors", "couplings", "wanted"),
+    [
+        ("", [("b", "a"), ("c", "a")], ["a"]),
+        ("", [("b", "a"), ("c", "b")], ["a"]),
+        ("", [("c", "b"), ("b", "a")], ["a"]),
+        ("c", [("b", "a"), ("c", "a")], ["c"]),
+        ("", [("b", "a"), ("a", "b")], ["a", "c"]),
+        ("", [], ["a", "b", "c"]),
+    ],
+)
+def test_joints_that_are_coupled_have_one_motor_together(
+    motors: str, couplings: list[tuple[str, str]], wanted: list[str]
+) -> None:
+    bodies = "".join(f'<body><joint name="{name}"/><geom size="0.1"/></body>' for name in "abc")
+    equal = "".join(f'<joint joint1="{one}" joint2="{two}"/>' for one, two in couplings)
+    driven = "".join(f'<motor name="{name}" joint="{name}"/>' for name in motors)
+    model = hurcules.with_motors(
+        mujoco.MjSpec.from_string(
+            f"<mujoco><worldbody>{bodies}</worldbody><equality>{equal}</equality>"
+            f"<actuator>{driven}</actuator></mujoco>"
+        )
+    )
+    assert [model.actuator(i).name for i in range(model.nu)] == wanted
+
+
 def test_a_robot_without_motors_is_refused_in_the_physics_alone() -> None:
     text = (
         '<mujoco><worldbody><body><joint name="a"/><geom size="0.1"/></body></worldbody></mujoco>'
