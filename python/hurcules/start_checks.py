@@ -14,6 +14,7 @@ from hurcules._core import WholeBodyController
 __all__ = ["warn_of_physics"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
+LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
@@ -32,6 +33,11 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
 
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    if controller.dt > 1.001 * LONGEST:
+        yield (
+            f"a control period of {1e3 * controller.dt:g} ms is too long for servos: robots swing; "
+            f"dt={LONGEST:g} of the controller, or less"
+        )
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)

@@ -58,6 +58,23 @@ def test_motors_that_are_too_weak_are_named_with_what_is_wanted() -> None:
         simulation(model(motors="bc", extra=weak), None)
 
 
+@pytest.mark.parametrize(("period", "warns"), [(0.024, False), (0.04, True)])
+def test_a_period_at_which_servos_swing_is_told(period: float, warns: bool) -> None:
+    chain = model()
+    robot = hurcules.Robot(chain)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(robot, [posture], dt=period)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        hurcules.Simulation(model=chain, controller=controller, physics=False)
+        assert not caught
+        again = hurcules.WholeBodyController(robot, [posture], dt=period)
+        hurcules.Simulation(model=chain, controller=again)
+    assert [bool(re.search("40 ms is too long", str(one.message))) for one in caught] == [
+        True
+    ] * warns
+
+
 @pytest.mark.parametrize(
     ("servo", "gives"),
     [  # the weight of the links wants 13 N m, upwards: negative
