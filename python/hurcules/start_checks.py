@@ -9,13 +9,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._core import WholeBodyController
+from hurcules._core import DistanceTask, WholeBodyController
 
 __all__ = ["warn_of_physics"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+FAR = 2.0  # [m] of a slide's range: sampled postures may miss what stands along it
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
     "a robot on feet stands by torques, with contacts: "
@@ -41,6 +42,7 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
+    yield from _far_away(model, controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
     elif controller.plan.floats:
@@ -100,6 +102,40 @@ def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Itera
             f"{', '.join(moved)}: moved by actuators of tendons alone, which no servo commands: "
             "the plan moves, the robot does not. hurcules.with_motors gives each joint a motor"
         )
+
+
+def _far_away(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """What `obstacles` has not found, though a base that slides gets there."""
+    plan = controller.plan
+    slides = any(
+        one.upper - one.lower > FAR
+        and int(model.jnt_type[int(model.dof_jntid[driven.dof])]) == SLIDE
+        for one in plan.coordinates
+        for driven in one.joints
+    )
+    tasks = [one for one in controller.tasks if isinstance(one, DistanceTask)]
+    for task in tasks if slides else []:
+        if task.name != "obstacles":
+            continue
+        pairs = {name for pair in task.pairs(plan) for name in pair}
+        touches = (model.geom_contype | model.geom_conaffinity) != 0
+        far = [
+            _told(model, int(geom))
+            for geom in np.flatnonzero(touches & (model.body_weldid[model.geom_bodyid] == 0))
+            if int(model.geom_type[geom]) != mujoco.mjtGeom.mjGEOM_HFIELD
+        ]
+        if missing := [one for one in far if one not in pairs]:
+            yield (
+                f"obstacles has no pair with {', '.join(missing)}: too far away where it was made, "
+                "but the base may get there. obstacles(robot, bodies=[...]) names them; a geom of "
+                "the world wants a body of its own"
+            )
+
+
+def _told(model: mujoco.MjModel, geom: int) -> str:
+    """As tasks name it."""
+    body = model.body(model.geom_bodyid[geom]).name
+    return model.geom(geom).name or f"geom {geom} of {body}"
 
 
 def _settings(model: mujoco.MjModel) -> Iterator[str]:

@@ -8,6 +8,8 @@ same without the level, the task, the call. Not tested: wheels on the ground.
 
 from __future__ import annotations
 
+import re
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +20,7 @@ import pytest
 import hurcules
 
 BASE, ARM = ["x", "y", "yaw"], ["lift", "j1", "j2", "j3", "j4"]
+NEAR = '<body name="table" pos="-1'  # out of the way
 FINGERS = """<position name="grip" joint="left" kp="4000" kv="80" ctrlrange="-.02 .04"
   forcerange="-60 60"/>"""
 TENDON = """<general name="grip" tendon="split" gainprm=".0157" biastype="affine"
@@ -256,3 +259,27 @@ def test_a_stick_beyond_the_reach_is_paid_for_unless_the_lead_is_bounded(
     there = simulation.data.site("tcp").xpos[0]
     simulation.step(250, {"hand": [-0.3, 0.0, 0.0]})
     assert (simulation.data.site("tcp").xpos[0] < there - 0.05) == soon
+
+
+@pytest.mark.parametrize("bodies", [[], ["wall"]])
+def test_a_wall_far_away_is_named_and_then_kept_off(bodies: list[str]) -> None:
+    # postures about where the base stands do not come there, and the hand was driven into it
+    wall = '<body name="wall" pos="6 0 .5"><geom name="wall" type="box" size=".1 3 .5"/></body>'
+    text = ROBOT.format(grip=FINGERS).replace("</worldbody>", wall + "</worldbody>")
+    of = mujoco.MjModel.from_xml_string(text.replace('<body name="table" pos=".85', NEAR))
+    robot = placed(of)
+    clear = hurcules.obstacles(robot, bodies)
+    hand = hurcules.PositionTask("hand", robot, "tcp")
+    levels = [clear, hand, hurcules.PostureTask("posture", robot)]
+    controller = hurcules.WholeBodyController(robot, levels)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        simulation = hurcules.Simulation(model=of, controller=controller)
+    assert [bool(re.search("no pair with wall", str(one.message))) for one in caught] == (
+        [] if bodies else [True]
+    )
+    if bodies:
+        hand.set_target(robot.position("tcp") + np.array([8.0, 0.0, 0.0]))
+        simulation.step(8000)
+        assert 5.7 < simulation.data.site("tcp").xpos[0] < 5.9
+        assert all(of.geom("wall").id not in contact.geom for contact in simulation.data.contact)
