@@ -224,14 +224,14 @@ def picture(
 
 
 def overview(loop: Loop) -> mujoco.MjvCamera:
-    """Looks at all of the model, or, farther than its size from there, at the robot."""
+    """Looks at all of the model, and goes after a robot that is half its size away."""
     model, camera = loop.model, mujoco.MjvCamera()
     mujoco.mjv_defaultFreeCamera(model, camera)
     moved = loop.controller.plan.coordinates[0].joints[0].dof
     root = model.body_rootid[model.dof_bodyid[moved]]
     way: Array = loop.data.xpos[root] - model.body_pos[root]
     away = float(np.linalg.norm(way))
-    camera.lookat += way * max(0.0, 1.0 - float(model.stat.extent) / max(away, NEAR))
+    camera.lookat += way * max(0.0, 1.0 - 0.5 * float(model.stat.extent) / max(away, NEAR))
     return camera
 
 
