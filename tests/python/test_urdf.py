@@ -11,6 +11,7 @@ import pytest
 import hurcules
 
 # a shoulder and an elbow; the base has no inertia about z, its mesh is not there, the tool is fixed
+FOOT = """<joint name="foot" type="fixed"><parent link="foot"/><child link="base"/></joint>"""
 ARM = """
 <robot name="arm">
   <link name="base">
@@ -191,6 +192,21 @@ def test_a_robot_without_motors_is_refused_in_the_physics_alone() -> None:
     with pytest.raises(hurcules.Error, match=r"no joint of the robot has an actuator.*with_motors"):
         hurcules.Simulation(model=model, controller=controller)
     hurcules.Simulation(model=model, controller=controller, physics=False).step(10)
+
+
+def test_a_planar_base_is_three_coordinates_with_its_limit_of_speed(file: Path) -> None:
+    base = """<robot name="base"><link name="ground"/><joint name="wheels" type="planar">
+      <parent link="ground"/><child link="foot"/><axis xyz="0 0 1"/>
+      <limit effort="300" velocity="0.5"/></joint>"""
+    file.write_text(
+        base
+        + ARM.replace('<robot name="arm">', '<link name="foot"/>', 1).replace(
+            '<joint name="flange"', FOOT + '<joint name="flange"', 1
+        )
+    )
+    robot = hurcules.Robot(hurcules.load_urdf(file, shapes=False))
+    assert robot.coordinate_names[:3] == ["wheels_TX", "wheels_TY", "wheels_RZ"]
+    assert [one.max_velocity for one in robot.coordinates] == [0.5, 0.5, 0.5, 1.5, 2.5]
 
 
 @pytest.mark.parametrize(
