@@ -207,7 +207,8 @@ def picture(
         loop: the simulation.
         width: [pixels].
         height: [pixels].
-        camera: of the model, by name, or one of MuJoCo's; None looks at all of it.
+        camera: of the model, by name, or one of MuJoCo's; None looks at all of it, and goes after
+            a robot that leaves it.
 
     Raises:
         RendererError: there is no OpenGL that works.
@@ -217,9 +218,21 @@ def picture(
     if isinstance(camera, str):
         require_known("camera", camera, [model.camera(i).name for i in range(model.ncam)])
     renderer = _kept_renderer(model, width, height)
-    renderer.update_scene(loop.data, -1 if camera is None else camera)
+    renderer.update_scene(loop.data, overview(loop) if camera is None else camera)
     draw(renderer.scene, loop)
     return np.array(renderer.render())
+
+
+def overview(loop: Loop) -> mujoco.MjvCamera:
+    """Looks at all of the model, and goes after a robot that is half its size away."""
+    model, camera = loop.model, mujoco.MjvCamera()
+    mujoco.mjv_defaultFreeCamera(model, camera)
+    moved = loop.controller.plan.coordinates[0].joints[0].dof
+    root = model.body_rootid[model.dof_bodyid[moved]]
+    way: Array = loop.data.xpos[root] - model.body_pos[root]
+    away = float(np.linalg.norm(way))
+    camera.lookat += way * max(0.0, 1.0 - 0.5 * float(model.stat.extent) / max(away, NEAR))
+    return camera
 
 
 class _Own(threading.local):

@@ -23,7 +23,9 @@ __all__ = ["Posture", "inverse_kinematics"]
 
 Level = Task | JointLimits | StackLevel | Sequence[Task | JointLimits]
 
-DT, GAIN, SECONDS = 0.02, 20.0, 10.0  # [s], [1/s], [s] of a descent
+DT, GAIN = 0.02, 20.0  # [s], [1/s] of a descent
+LEAST, MOST = 10, 1000  # [s] that it takes, unless it ends by itself: a base may have far to go
+WAY = 0.1  # [m or rad] that one which goes on beyond LEAST comes nearer in a second
 REST = 1e-5  # [rad/s] or [m/s]: it goes no farther
 FREE = np.pi  # [rad] or [m] to either side of where a coordinate without range stands
 
@@ -142,11 +144,18 @@ def _descend(
     options = VelocityControllerOptions(dt=DT, gain=GAIN, max_acceleration=np.inf, transition=0.0)
     controller = VelocityController(robot, options)
     controller.set_stack(Stack(list(levels)))
-    for _ in range(round(SECONDS / DT)):
+    nearest = [np.inf] * len(wanted)
+    for tick in range(1, round(MOST / DT) + 1):
         controller.step(robot)
         short = [max((_lacking(robot, task) for task in level), default=0.0) for level in wanted]
         if max(short) <= 0.1 * tolerance or np.abs(controller.velocity).max() < REST:
             break
+        seconds, rest = divmod(tick, round(1.0 / DT))
+        if rest == 0:
+            goes_on = any(now < one - WAY for now, one in zip(short, nearest, strict=True))
+            if seconds >= LEAST and not goes_on:
+                break
+            nearest = [min(both) for both in zip(short, nearest, strict=True)]
     return short
 
 

@@ -19,7 +19,9 @@ def with_motors(
 ) -> mujoco.MjModel:
     """A model with a motor, named after its joint, at each hinge and slide that has no actuator.
 
-    A ball joint gets three, NAME_rx, NAME_ry and NAME_rz, about the axes of its body.
+    A ball joint gets three, NAME_rx, NAME_ry and NAME_rz, about the axes of its body. Joints that
+    equality constraints couple (mimic joints of a URDF) have one motor together, at the joint that
+    leads, and none where one of them has an actuator.
     A motor gives as much as the joint allows: `actuatorfrcrange` in MJCF, `effort` in a URDF.
 
     Args:
@@ -36,8 +38,9 @@ def with_motors(
     try:
         spec = model if isinstance(model, mujoco.MjSpec) else mujoco.MjSpec.from_file(str(model))
         driven = {each.target for each in spec.actuators if _is_at_joint(each)}
+        led = _led(spec, driven)
         for joint in spec.joints:
-            if joint.type not in _MOVING or joint.name in driven:
+            if joint.type not in _MOVING or joint.name in driven or joint.name in led:
                 continue
             if joint.type == mujoco.mjtJoint.mjJNT_BALL:
                 for axis, part in enumerate(("_rx", "_ry", "_rz")):
@@ -50,6 +53,21 @@ def with_motors(
         return spec.compile()
     except ValueError as error:
         raise Error(f"with_motors: {error}") from error
+
+
+def _led(spec: mujoco.MjSpec, driven: set[str]) -> set[str]:
+    """Joints that another one, which has or gets an actuator, moves by an equality constraint."""
+    groups: dict[str, list[str]] = {}  # by each of its joints, the one that leads first
+    for equality in spec.equalities:
+        follower, leader = equality.name1, equality.name2
+        if equality.type != mujoco.mjtEq.mjEQ_JOINT or not equality.active or not leader:
+            continue
+        group = groups.get(leader, [leader])
+        group += [name for name in groups.get(follower, [follower]) if name not in group]
+        groups.update(dict.fromkeys(group, group))
+    return {
+        name for name, group in groups.items() if name != group[0] or not driven.isdisjoint(group)
+    }
 
 
 def _is_at_joint(actuator: mujoco.MjsActuator) -> bool:

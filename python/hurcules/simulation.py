@@ -227,7 +227,8 @@ class Simulation(_core.Simulation):
         Args:
             width: [pixels].
             height: [pixels].
-            camera: of the model, by name, or one of MuJoCo's; None looks at all of it.
+            camera: of the model, by name, or one of MuJoCo's; None looks at all of it, and goes
+                after a robot that leaves it.
 
         Returns:
             (height, width, 3) red, green, blue.

@@ -14,6 +14,7 @@ from hurcules._core import WholeBodyController
 __all__ = ["warn_of_physics"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
+LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
@@ -32,6 +33,11 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
 
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    if controller.dt > 1.001 * LONGEST:
+        yield (
+            f"a control period of {1e3 * controller.dt:g} ms is too long for servos: robots swing; "
+            f"dt={LONGEST:g} of the controller, or less"
+        )
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
@@ -197,13 +203,15 @@ def _weak_motors(
     for joint, motors in _actuated(model).items():
         if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SINGLE:
             continue
-        most = _most(model, motors[0])  # the others give nothing
+        least, most = _range(model, data, motors[0])  # the others give nothing
         if model.jnt_actfrclimited[joint]:
-            most = min(most, float(np.abs(model.jnt_actfrcrange[joint]).max()))
-        asked = abs(float(weight[model.jnt_dofadr[joint]]))
-        if asked > most * ENOUGH:
+            lower, upper = (float(each) for each in model.jnt_actfrcrange[joint])
+            least, most = max(least, lower), min(most, upper)
+        asked = float(weight[model.jnt_dofadr[joint]])
+        gives = max(most if asked > 0.0 else -least, 0.0)
+        if abs(asked) > gives * ENOUGH:
             unit = "N m" if int(model.jnt_type[joint]) == HINGE else "N"
-            weak.append(f"{model.joint(joint).name} ({asked:.3g} of {most:.3g} {unit})")
+            weak.append(f"{model.joint(joint).name} ({abs(asked):.3g} of {gives:.3g} {unit})")
     if weak:
         yield (
             f"motors cannot hold the weight on them where the robot starts: {', '.join(weak)}. It "
@@ -211,14 +219,16 @@ def _weak_motors(
         )
 
 
-def _most(model: mujoco.MjModel, motor: int) -> float:
-    """[N m] or [N] at the joint, inf for one without a limit."""
-    gear = abs(float(model.actuator_gear[motor, 0]))
-    most = float("inf")
-    if model.actuator_forcelimited[motor]:
-        most = float(np.abs(model.actuator_forcerange[motor]).max())
-    plain = model.actuator_biastype[motor] == mujoco.mjtBias.mjBIAS_NONE
+def _range(model: mujoco.MjModel, data: mujoco.MjData, motor: int) -> tuple[float, float]:
+    """[N m] or [N] at the joint where the robot starts, at rest; infinite without a limit."""
+    ends = np.array([-np.inf, np.inf])
+    plain = model.actuator_gaintype[motor] == mujoco.mjtGain.mjGAIN_FIXED
     if plain and model.actuator_ctrllimited[motor]:
-        control = float(np.abs(model.actuator_ctrlrange[motor]).max())
-        most = min(most, control * abs(float(model.actuator_gainprm[motor, 0])))
-    return most * gear
+        ends = float(model.actuator_gainprm[motor, 0]) * model.actuator_ctrlrange[motor]
+        if model.actuator_biastype[motor] == mujoco.mjtBias.mjBIAS_AFFINE:
+            constant, stiffness = model.actuator_biasprm[motor, :2]
+            ends = ends + constant + stiffness * data.actuator_length[motor]
+    if model.actuator_forcelimited[motor]:
+        ends = np.clip(ends, *model.actuator_forcerange[motor])
+    least, most = sorted(float(end) for end in ends * model.actuator_gear[motor, 0])
+    return least, most

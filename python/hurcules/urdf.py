@@ -90,8 +90,9 @@ def _read(path: str | Path, shapes: bool, floating: bool) -> tuple[mujoco.MjSpec
         raise Error(f"{path}: {error}") from error
     joints = {joint.name for joint in spec.joints}
     for name, speed in speeds.items():
-        if name in joints:
-            spec.add_numeric(name=f"velocity_limit_{name}", data=[speed], size=1)
+        for part in ("", "_TX", "_TY", "_RZ"):  # a planar joint is three
+            if name + part in joints:
+                spec.add_numeric(name=f"velocity_limit_{name}{part}", data=[speed], size=1)
     for mesh in spec.meshes:  # thin ones have no volume
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     try:

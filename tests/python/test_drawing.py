@@ -146,6 +146,24 @@ def test_a_picture_shows_the_target() -> None:
         simulation.picture(camera="top")
 
 
+@pytest.mark.parametrize("way", [0.0, 0.2, 6.0])
+def test_the_camera_goes_after_a_robot_that_drives_away(way: float) -> None:
+    base = '<joint name="x" type="slide" axis="1 0 0"/>'
+    text = ARM.format(root=base).replace("<actuator>", '<actuator><motor joint="x"/>')
+    model = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(model)
+    robot.set_configuration([way, 0.0, 0.0])
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    simulation = hurcules.Simulation(model=model, controller=controller, physics=False)
+    still = mujoco.MjvCamera()
+    mujoco.mjv_defaultFreeCamera(model, still)
+    margin = 0.5 * float(model.stat.extent)
+    wanted = still.lookat + np.array([max(0.0, way - margin), 0.0, 0.0])
+    np.testing.assert_allclose(drawing.overview(simulation).lookat, wanted, atol=1e-9)
+    if way < margin and has_renderer():
+        assert np.array_equal(simulation.picture(80, 60), simulation.picture(80, 60, still))
+
+
 # imageio's reader, not its writer, leaves pipes open
 @pytest.mark.filterwarnings(
     "ignore:unclosed file", "ignore::pytest.PytestUnraisableExceptionWarning"

@@ -112,6 +112,13 @@ def is_led_by_hand(said: str) -> None:
     assert "the same bits: True" in said
 
 
+def rolls(said: str) -> None:
+    assert numbers(r"hand +(\S+) mm", said)[0] > 1000.0
+    assert numbers(r"hand +(\S+) mm", said)[-1] < 1.0
+    ahead, left = (float(one) for one in re.findall(r"\[(.*?)\]", said)[-1].split())
+    assert ahead > 0.0 and left > 0.8  # the goal is 0.5 m behind: it has turned
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -130,6 +137,7 @@ RESULTS = {
     "14": moves_as_wanted,
     "15": is_led_by_hand,
     "16": walks,
+    "17": rolls,
 }
 
 

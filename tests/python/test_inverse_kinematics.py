@@ -92,6 +92,21 @@ def test_postures_near_the_present_one_are_tried_first(seed: int) -> None:
     assert np.abs(found.configuration - start).max() < 2 * np.pi
 
 
+@pytest.mark.parametrize("way", [3.0, 8.0, 30.0, -300.0])
+def test_a_base_goes_as_far_as_it_takes(way: float) -> None:
+    # a descent ended after 10 s, 5 m from where it began: 8 m were 1.3 m short
+    joints = '<joint name="x" type="slide" axis="1 0 0"/><joint name="shoulder"'
+    text = ARM.replace('<joint name="shoulder"', joints, 1)
+    text = text.replace("<actuator>", '<actuator><motor joint="x"/>')
+    base = hurcules.Robot(mujoco.MjModel.from_xml_string(text))
+    base.set_configuration([0.0, 0.4, 1.0])
+    task = hurcules.PositionTask("hand", base, "hand", axes=[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    task.set_target(base.position("hand")[:2] + np.array([way, 0.0]))
+    found = hurcules.inverse_kinematics(base, [task])
+    assert found.reached and found.starts == (1, 1)
+    assert abs(found.configuration[0] - way) < 2.0  # the arm does the rest
+
+
 def test_what_the_controller_reaches_is_found_at_the_first_descent_and_nothing_is_moved(
     robot: hurcules.Robot,
 ) -> None:

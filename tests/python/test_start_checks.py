@@ -58,6 +58,49 @@ def test_motors_that_are_too_weak_are_named_with_what_is_wanted() -> None:
         simulation(model(motors="bc", extra=weak), None)
 
 
+@pytest.mark.parametrize(("period", "warns"), [(0.024, False), (0.04, True)])
+def test_a_period_at_which_servos_swing_is_told(period: float, warns: bool) -> None:
+    chain = model()
+    robot = hurcules.Robot(chain)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(robot, [posture], dt=period)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        hurcules.Simulation(model=chain, controller=controller, physics=False)
+        assert not caught
+        again = hurcules.WholeBodyController(robot, [posture], dt=period)
+        hurcules.Simulation(model=chain, controller=again)
+    assert [bool(re.search("40 ms is too long", str(one.message))) for one in caught] == [
+        True
+    ] * warns
+
+
+@pytest.mark.parametrize(
+    ("servo", "gives"),
+    [  # the weight of the links wants 13 N m, upwards: negative
+        ('<velocity joint="a" kv="4" ctrlrange="-2 2"/>', "8"),
+        ('<velocity joint="a" kv="4" ctrlrange="-9 2"/>', None),
+        ('<position joint="a" kp="10" ctrlrange="-1 1"/>', "10"),
+        ('<position joint="a" kp="30" ctrlrange="-1 1"/>', None),
+        ('<position joint="a" kp="30" ctrlrange="-1 1" forcerange="-9 20"/>', "9"),
+        ('<position joint="a" kp="30" ctrlrange="-1 1" forcerange="-20 9"/>', None),
+        ('<position joint="a" kp="30"/>', None),
+        ('<motor joint="a" ctrlrange="-20 1"/>', None),
+        ('<motor joint="a" ctrlrange="-1 20" gear="-1"/>', None),
+        ('<motor joint="a" ctrlrange="-1 20"/>', "1"),
+    ],
+)
+def test_servos_are_as_strong_as_their_range_of_controls_lets_them(
+    servo: str, gives: str | None
+) -> None:
+    # an arm on velocity servos of 10 N m fell by 0.43 m without a word
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        simulation(model(motors="bc", extra=servo), None)
+    told = [re.search(r": a \(13 of (.*) N m\)", str(one.message)) for one in caught]
+    assert [one and one[1] for one in told] == [gives] * (gives is not None)
+
+
 @pytest.mark.parametrize(
     ("motors", "last"), [("abc", ""), ("ab", 'stiffness="50"')], ids=["motors", "a spring"]
 )

@@ -11,6 +11,7 @@ import pytest
 import hurcules
 
 # a shoulder and an elbow; the base has no inertia about z, its mesh is not there, the tool is fixed
+FOOT = """<joint name="foot" type="fixed"><parent link="foot"/><child link="base"/></joint>"""
 ARM = """
 <robot name="arm">
   <link name="base">
@@ -113,6 +114,74 @@ def test_motors_are_added_where_there_are_none() -> None:
     assert again.nu == 2
 
 
+GRIPPER = """<robot name="gripper"><link name="world"/>
+  <joint name="mount" type="revolute"><parent link="world"/><child link="palm"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="20" velocity="2"/></joint>
+  <link name="palm">{palm}</link>
+  <joint name="left" type="prismatic"><parent link="palm"/><child link="left_finger"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="0.04" effort="20" velocity="0.2"/></joint>
+  <link name="left_finger">{finger}</link>
+  <joint name="right" type="prismatic"><parent link="palm"/><child link="right_finger"/>
+    <axis xyz="0 -1 0"/><limit lower="0" upper="0.04" effort="20" velocity="0.2"/>
+    <mimic joint="left"/></joint>
+  <link name="right_finger">{finger}</link></robot>"""
+
+
+def link(mass: float) -> str:
+    inertia = " ".join(f'{axis}="{1e-3 * mass}"' for axis in ("ixx", "iyy", "izz"))
+    return (
+        f'<inertial><mass value="{mass}"/><inertia {inertia} ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+
+
+@pytest.mark.parametrize("joints", [["mount"], ["mount", "left"]], ids=["by a rate", "as a task"])
+def test_fingers_that_one_joint_leads_have_one_motor_and_go_together(
+    file: Path, joints: list[str]
+) -> None:
+    # with a motor each the second one was held, a Panda's came to 0.029 and 0.001 m
+    file.write_text(GRIPPER.format(palm=link(1.0), finger=link(0.05)))
+    model = hurcules.load_urdf(file)
+    assert [model.actuator(i).name for i in range(model.nu)] == ["mount", "left"]
+    robot = hurcules.Robot(model, joints=joints)
+    tasks: list[hurcules.Task] = [hurcules.PostureTask("posture", robot, ["mount"])]
+    if "left" in joints:
+        tasks.append(hurcules.PostureTask("grip", robot, ["left"]))
+        grip = hurcules.Twist(tasks[1], 0.05)
+    else:
+        grip = hurcules.JointRate("left", 0.05)
+    controller = hurcules.WholeBodyController(robot, tasks, {"grip": grip})
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(round(1.0 / simulation.dt), {"grip": [0.03]})
+    simulation.step(round(1.0 / simulation.dt))
+    assert simulation.data.qpos[1:] == pytest.approx([0.03, 0.03], abs=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("motors", "couplings", "wanted"),
+    [
+        ("", [("b", "a"), ("c", "a")], ["a"]),
+        ("", [("b", "a"), ("c", "b")], ["a"]),
+        ("", [("c", "b"), ("b", "a")], ["a"]),
+        ("c", [("b", "a"), ("c", "a")], ["c"]),
+        ("", [("b", "a"), ("a", "b")], ["a", "c"]),
+        ("", [], ["a", "b", "c"]),
+    ],
+)
+def test_joints_that_are_coupled_have_one_motor_together(
+    motors: str, couplings: list[tuple[str, str]], wanted: list[str]
+) -> None:
+    bodies = "".join(f'<body><joint name="{name}"/><geom size="0.1"/></body>' for name in "abc")
+    equal = "".join(f'<joint joint1="{one}" joint2="{two}"/>' for one, two in couplings)
+    driven = "".join(f'<motor name="{name}" joint="{name}"/>' for name in motors)
+    model = hurcules.with_motors(
+        mujoco.MjSpec.from_string(
+            f"<mujoco><worldbody>{bodies}</worldbody><equality>{equal}</equality>"
+            f"<actuator>{driven}</actuator></mujoco>"
+        )
+    )
+    assert [model.actuator(i).name for i in range(model.nu)] == wanted
+
+
 def test_a_robot_without_motors_is_refused_in_the_physics_alone() -> None:
     text = (
         '<mujoco><worldbody><body><joint name="a"/><geom size="0.1"/></body></worldbody></mujoco>'
@@ -123,6 +192,21 @@ def test_a_robot_without_motors_is_refused_in_the_physics_alone() -> None:
     with pytest.raises(hurcules.Error, match=r"no joint of the robot has an actuator.*with_motors"):
         hurcules.Simulation(model=model, controller=controller)
     hurcules.Simulation(model=model, controller=controller, physics=False).step(10)
+
+
+def test_a_planar_base_is_three_coordinates_with_its_limit_of_speed(file: Path) -> None:
+    base = """<robot name="base"><link name="ground"/><joint name="wheels" type="planar">
+      <parent link="ground"/><child link="foot"/><axis xyz="0 0 1"/>
+      <limit effort="300" velocity="0.5"/></joint>"""
+    file.write_text(
+        base
+        + ARM.replace('<robot name="arm">', '<link name="foot"/>', 1).replace(
+            '<joint name="flange"', FOOT + '<joint name="flange"', 1
+        )
+    )
+    robot = hurcules.Robot(hurcules.load_urdf(file, shapes=False))
+    assert robot.coordinate_names[:3] == ["wheels_TX", "wheels_TY", "wheels_RZ"]
+    assert [one.max_velocity for one in robot.coordinates] == [0.5, 0.5, 0.5, 1.5, 2.5]
 
 
 @pytest.mark.parametrize(
