@@ -1,8 +1,9 @@
 """The missions `lift`, `casualty` and `crossing`: the rescue robot lifts a person.
 
 In `lift` it holds him and lays him down again, in `casualty` it lays him on its bed and drives off,
-in `crossing` a terrain lies on the way there and home, and the bed has rims. The phases stand in models/missions, the
-controller that they command in cpp/hurcules/mission/table_controllers.cpp; here is the person.
+in `crossing` a terrain lies on the way there and home, and the bed has rims. The phases stand in
+models/missions, the controller that they command in cpp/hurcules/mission/table_controllers.cpp;
+here is the person.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 Strategy: an arm with motors alone, one-sided springs of 1e3 to 1e5 N/m. The force must be reached
 without an error, an impact be no harder than that of a plain admittance of the same compliance, and
-a moving wall leave less than what the first-order law alone says: amplitude of its speed / C. What a
-model misses must not be magnified.
+a moving wall leave less than what the first-order law alone says: amplitude of its speed / C. What
+a model misses must not be magnified.
 """
 
 import sys

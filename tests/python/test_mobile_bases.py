@@ -8,7 +8,6 @@ same without the level, the task, the call. Not tested: wheels on the ground.
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Any
 

@@ -49,9 +49,11 @@ GANTRY = """
       <joint name="y" type="slide" axis="0 1 0" range="-1 1" limited="true"/>
       <geom name="palm" type="sphere" size="0.05" mass="5"/>
       <site name="tcp"/>
-      <body pos="0 0.1 0"><joint name="thumb" type="slide" axis="0 -1 0" range="0 0.08" armature="1"/>
+      <body pos="0 0.1 0">
+        <joint name="thumb" type="slide" axis="0 -1 0" range="0 0.08" armature="1"/>
         <geom type="box" size="0.02 0.005 0.02" mass="0.1" contype="0" conaffinity="0"/></body>
-      <body pos="0 -0.1 0"><joint name="finger" type="slide" axis="0 1 0" range="0 0.08" armature="1"/>
+      <body pos="0 -0.1 0">
+        <joint name="finger" type="slide" axis="0 1 0" range="0 0.08" armature="1"/>
         <geom type="box" size="0.02 0.005 0.02" mass="0.1" contype="0" conaffinity="0"/></body>
     </body>
   </worldbody>

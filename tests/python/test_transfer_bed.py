@@ -88,7 +88,8 @@ def test_a_person_of_120_kg_lies_on_the_bed_and_stays():
 def slid(rims, degrees):
     """How far 75 kg slide in 2 s on the bed of a robot that leans ahead by so much (3,) [m].
 
-    The robot is held, but for the rims, which are pumped up for 4 s; gravity leans, 5 degrees a second.
+    The robot is held, but for the rims, which are pumped up for 4 s; gravity leans by 5 degrees a
+    second.
     """
     model = scene("objects/casualty_75kg.xml", rims)
     data = mujoco.MjData(model)
