@@ -167,3 +167,28 @@ def test_a_base_keeps_off_what_stands_where_it_may_drive(wall: float) -> None:
         simulation.step(50)
         least = min(least, wall - 0.1 - 0.05 - simulation.data.joint("x").qpos[0])
     assert 0.0 < least < 0.1
+
+
+def test_a_hand_stays_while_a_base_that_no_coordinate_moves_drives() -> None:
+    model = mujoco.MjModel.from_xml_string("""
+<mujoco>
+  <option gravity="0 0 0"/>
+  <worldbody>
+    <body><joint name="base" type="slide" axis="1 0 0"/><geom size="0.1" mass="20"/>
+      <body><joint name="arm" type="slide" axis="1 0 0"/><geom size="0.05" mass="2"/>
+        <site name="tcp"/></body></body>
+  </worldbody>
+  <actuator><motor joint="base"/><motor joint="arm"/></actuator>
+</mujoco>""")
+    robot = hurcules.Robot(model, joints=["arm"])
+    hand = hurcules.PositionTask("hand", robot, "tcp", axes=[[1, 0, 0]])
+    controller = hurcules.WholeBodyController(
+        robot, [hand], {"base": hurcules.JointRate("base", 0.5)}, base="sensed"
+    )
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(100, {"base": [0.1]})
+    for _ in range(20):
+        simulation.step(50, {"base": [0.1]})
+        # v / K = 20 mm before
+        assert simulation.data.site("tcp").xpos[0] == pytest.approx(0.0, abs=3e-3)
+    assert simulation.data.joint("base").qpos[0] > 0.1

@@ -175,6 +175,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
   feedback_ = feedback_acceleration_ = efforts_;
   delta_ = Vector::Zero(scale_.size());
+  carrying_ = carrying_joints(plan_);
   reset(robot.qpos(), true);
 }
 
@@ -440,12 +441,13 @@ void WholeBodyController::kinematics(const RobotState& state) {
     return;
   }
   if (options_.base == BaseSource::Sensed) {
+    // what carries the robot 1 / K further: -K e then contains its velocity
+    const double lead = law().rate() > 0.0 ? 1.0 / law().rate() : 0.0;
     ahead_ = state.qpos;
+    for (const CarryingJoint& joint : carrying_) ahead_[joint.qpos] += lead * state.qvel[joint.dof];
     plan_.set_qpos(ahead_);
-    if (plan_.root_qpos() >= 0) {
-      // the support, and all that stands on it, 1 / K further: -K e then contains its velocity
+    if (plan_.root_qpos() >= 0) {  // the support, and all that stands on it
       const Twist twist = plan_.twist(support_, state.qvel);
-      const double lead = law().rate() > 0.0 ? 1.0 / law().rate() : 0.0;
       const Vector3 p = plan_.position(support_);
       const Matrix3 turn = rotation_exp(lead * twist.angular);
       auto root = ahead_.segment<7>(plan_.root_qpos());

@@ -27,6 +27,7 @@
 #include "hurcules/control/track_drive.hpp"
 #include "hurcules/control/yielding_targets.hpp"
 #include "hurcules/robot/spring_force.hpp"
+#include "hurcules/robot/trees.hpp"
 #include "hurcules/tasks/force_task.hpp"
 
 namespace hurcules {
@@ -196,6 +197,7 @@ class WholeBodyController {
   std::vector<JointLimits*> limits_;          // that they name
   std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
   std::vector<Channel> channels_;
+  std::vector<CarryingJoint> carrying_;
   std::vector<std::vector<Index>> moved_;    // (channels) joints of Joints channels
   std::vector<bool> led_;                    // (joints of the servo) by a channel of their own
   std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack

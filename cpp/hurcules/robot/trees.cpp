@@ -44,6 +44,31 @@ bool may_move(const mjModel& m, int body) {
   return body != 0;
 }
 
+std::vector<CarryingJoint> carrying_joints(const Robot& robot) {
+  const mjModel& m = *robot.model();
+  std::vector<bool> moved(static_cast<std::size_t>(m.njnt), false);
+  for (const Coordinate& coordinate : robot.coordinates())
+    for (const DrivenJoint& joint : coordinate.joints)
+      moved[static_cast<std::size_t>(joint.joint)] = true;
+  std::vector<CarryingJoint> found;
+  int body = robot.root_body(), next = body;
+  while (next >= 0) {  // down the tree, as long as it has one branch and no coordinate
+    body = next;
+    for (int j = m.body_jntadr[body]; j < m.body_jntadr[body] + m.body_jntnum[body]; ++j) {
+      if (moved[static_cast<std::size_t>(j)]) return found;
+      if (m.jnt_type[j] == mjJNT_HINGE || m.jnt_type[j] == mjJNT_SLIDE)
+        found.push_back({m.jnt_qposadr[j], m.jnt_dofadr[j]});
+    }
+    next = -1;
+    for (int b = body + 1; b < m.nbody; ++b) {
+      if (m.body_parentid[b] != body) continue;
+      if (next >= 0) return found;
+      next = b;
+    }
+  }
+  return found;
+}
+
 void require_one_tree(const Robot& robot, const std::string& task) {
   const mjModel& m = *robot.model();
   for (const Coordinate& coordinate : robot.coordinates())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hurcules/robot/robot.hpp"
 
@@ -12,6 +13,11 @@ namespace hurcules {
 [[nodiscard]] bool in_own_tree(const Robot& robot, int body);
 // it, or a body below it, has a joint or is moved by mocap
 [[nodiscard]] bool may_move(const mjModel_& model, int body);
+// Hinges and slides that no coordinate moves and that carry all of one's tree: a base on slides, say.
+struct CarryingJoint {
+  int qpos = 0, dof = 0;  // addresses
+};
+[[nodiscard]] std::vector<CarryingJoint> carrying_joints(const Robot& robot);
 // throws Error where the coordinates are of several trees, of which a task knows the first alone
 void require_one_tree(const Robot& robot, const std::string& task);
 
