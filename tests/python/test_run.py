@@ -6,6 +6,7 @@ A whole mission is run by `make demo`, not here: these runs are cut short with -
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from rich.console import Console
 
 import hurcules
 from hurcules import run as runs
+from hurcules.figures import readable
 from hurcules.recording import CHANNELS, STAGES
 from hurcules.run import DONE, FAILED, RunOptions, run
 from hurcules.video import NOTE, STRIP
@@ -183,6 +185,10 @@ def test_without_a_renderer_the_rest_is_done_and_the_remedy_named(tmp_path: Path
         [*COMMAND, "run", "--seconds", "0.2", "--out", str(tmp_path)],
         env={**os.environ, "MUJOCO_GL": "disable", "COLUMNS": "300"},
         capture_output=True,
+    assert "stand for 1.5 s" in page
+    for drawn in re.findall("<svg.*?</svg>", page, flags=re.DOTALL):  # no word is cut off below
+        height = float(re.findall(r'viewBox="0 0 [\d.]+ ([\d.]+)"', drawn)[0])
+        assert max(float(y) for y in re.findall(r'<text[^>]* y="([\d.]+)"', drawn)) < height - 1
         text=True,
     )
     assert done.returncode == 0, done.stderr
