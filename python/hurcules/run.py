@@ -11,6 +11,7 @@ from typing import Any
 
 import mujoco
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
@@ -255,14 +256,15 @@ def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
         table.add_column(heading, justify="right" if heading else "left")
     for name, value in summary["figures"].items():
         thesis = readable(name, summary["thesis"].get(name))
-        table.add_row(describe(name).label, readable(name, value), thesis)
+        table.add_row(escape(describe(name).label), readable(name, value), thesis)
     worst, tick = summary["limit_violation"], summary["control_tick_us"]
     for what, excess in (("commanded", worst["commanded"]), ("physics", worst)):
         table.add_row(f"over a joint limit, {what}", readable("_rad", excess["position_rad"]))
     table.add_row("control tick, median / p99", f"{tick['median']:.0f} / {tick['p99']:.0f} µs")
     table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
     colour = "bold green" if summary["success"] else "bold"
-    console.print(f"\n{summary['reason']}, {summary['simulated_seconds']:.1f} s", style=colour)
+    reason = escape(summary["reason"])
+    console.print(f"\n{reason}, {summary['simulated_seconds']:.1f} s", style=colour)
     console.print(table)
     for path in output.saved:
         console.print(f"  {path}", highlight=False, soft_wrap=True)

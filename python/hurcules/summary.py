@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import platform
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
@@ -46,7 +47,7 @@ def summarize(
             "real_time_factor": simulation.time / wall if wall else None,
             "control_tick_us": _statistics(recording.control_tick_us),
             "limit_violation": simulation.limit_violation(),
-            "figures": simulation.figures() | _energy(recording, simulation.dt),
+            "figures": simulation.figures() | _of_log(recording.log, simulation.dt),
             "thesis": simulation.thesis_figures(),
             "events": [
                 {"time_s": round(time, 6), "text": text} for time, text in simulation.events()
@@ -61,13 +62,15 @@ def summarize(
     )
 
 
-def _energy(recording: Recording, dt: float) -> dict[str, float]:
-    """What the battery gave, standby included, and which share of it that is."""
-    if not len(recording.log.get("power", ())):
+def _of_log(log: Mapping[str, NDArray[np.float64]], dt: float) -> dict[str, float]:
+    """What the battery gave, standby included, which share of it that is, and when it yielded."""
+    if not len(log.get("power", ())):
         return {}
-    log = recording.log
-    energy = float(np.sum(log["power"])) * dt
-    return {"energy_J": energy, "battery_share": float(log["charge"][0] - log["charge"][-1])}
+    return {
+        "energy_J": float(np.sum(log["power"])) * dt,
+        "battery_share": float(log["charge"][0] - log["charge"][-1]),
+        "yielded_s": float(np.sum(log["yielding"])) * dt,
+    }
 
 
 def _reason(simulation: Simulation, recording: Recording) -> str:

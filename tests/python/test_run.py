@@ -87,9 +87,45 @@ def test_the_summary_has_the_thesis_beside_the_figures(summary: dict[str, Any]) 
 def test_every_figure_of_the_missions_is_described() -> None:
     from hurcules.figures import FIGURES
 
-    battery = {"energy_J", "battery_share"}  # of every mission, added by the summary
+    of_log = {"energy_J", "battery_share", "yielded_s"}  # of every mission, added by the summary
     given = [hurcules.Simulation(mission).figures() for mission in hurcules.missions()]
-    assert set().union(*given) == set(FIGURES) - battery
+    assert set().union(*given) == set(FIGURES) - of_log
+
+
+def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path) -> None:
+    assert readable("head_mps2", 34.94) == "34.9 m/s²"
+    assert readable("case_sinking_mps", 0.131) == "0.131 m/s"
+    assert readable("energy_margin_J", 2.06) == "2.06 J"
+    assert readable("energy_J", 133787.0) == "133.8 kJ"
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[mission]\nname = "own"\nscene = "lift"\n'
+        '[[phase]]\nname = "wait"\nstack = "arms"\nseconds = 0.1\n'
+        '[[figure]]\nname = "speed [m]"\nquantity = "time"\nmost = 0.01\n'
+    )
+    console = quiet()
+    options = RunOptions(str(own), out=tmp_path / "out", video=False)
+    assert run(options, console) == FAILED
+    assert "speed [m] is 0.099, wanted at most 0.01" in said(console)
+    assert said(console).count("speed [m] ") == 2  # brackets are no markup
+
+
+def test_a_posture_that_is_blocked_is_told(tmp_path: Path) -> None:
+    # the left blade jams on the robot's own track: "completed" and not a word, 0.8 rad short
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[mission]\nname = "wave"\nscene = "lift"\n'
+        '[[phase]]\nname = "wave"\nstack = "posture"\nseconds = 3\nposture = "posture"\n'
+        "keys = [{ LSP = 1.0, LEB = 1.0 }]\n"
+    )
+    console = quiet()
+    assert run(RunOptions(str(own), out=tmp_path / "out", video=False), console) == DONE
+    figures = json.loads((tmp_path / "out" / "summary.json").read_text())["figures"]
+    log = np.load(tmp_path / "out" / "log.npz")
+    assert log["q/LSP"][-1] > 1.5
+    assert figures["yielded_s"] == pytest.approx(np.count_nonzero(log["yielding"]) * 1e-3)
+    assert figures["yielded_s"] > 1.5
+    assert "the reference yielded for" in said(console)
 
 
 def test_the_log_holds_every_tick_of_every_documented_channel(result: tuple[Path, str]) -> None:
