@@ -16,7 +16,7 @@ import hurcules
 from hurcules import plugins
 from hurcules._core import Error
 from hurcules.mission_table import Mission
-from hurcules.output import WriteError, writing
+from hurcules.output import WriteError, write_whole
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
@@ -294,8 +294,7 @@ def show_mission(
     if out is None:
         print(table.table(), end="")
         return
-    with writing(out):
-        out.write_text(texts[out.suffix](), encoding="utf-8")
+    write_whole(out, texts[out.suffix]().encode())
 
 
 @app.command("view")

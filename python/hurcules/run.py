@@ -165,9 +165,9 @@ def _save(
 
     Film and report need the extra `hurcules[report]`.
     """
+    output.write_json("summary.json", summary)  # it has room on a disk that is all but full
     output.write_arrays("log.npz", recording.log)
     output.write_arrays("timing.npz", recording.timings)
-    output.write_json("summary.json", summary)
     if extras.missing():
         return
     video: Path | str = "not asked for (--no-video)"

@@ -71,6 +71,26 @@ def test_mission_prints_a_table_or_writes_it(
     )
 
 
+def test_a_table_that_does_not_fit_on_the_disk_leaves_what_there_was(tmp_path: Path) -> None:
+    file = tmp_path / "lift.table"
+    file.with_suffix(".mjb").write_text("older")
+    program = """
+import resource, sys
+from hurcules import cli
+resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
+sys.exit(cli.main())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, "mission", "lift", "--out", file],
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1), done.stderr
+    assert f"cannot write {file.with_suffix('.mjb')}: File too large" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["lift.mjb"]
+    assert file.with_suffix(".mjb").read_text() == "older"
+
+
 def test_doctor_tells_each_finding_and_ends_well_where_nothing_is_broken(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
