@@ -307,8 +307,10 @@ def _lead(rows: Sequence[tuple[str, Row]], leads: Sequence[Row]) -> None:
 def _named(
     rows: Sequence[tuple[str, Row]], names: Sequence[str], where: str
 ) -> Iterator[tuple[str, Row]]:
-    """The rows of these names."""
+    """The rows of these names, one at least."""
     known = _names(rows)
+    if not names:
+        raise Error(f"{where}: phases names none; there are: {', '.join(known)}")
     for name in names:
         if name not in known:
             raise Error(f"{where}: no phase {name!r}; there are: {', '.join(known)}")
