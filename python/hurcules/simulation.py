@@ -234,7 +234,7 @@ class Simulation(_core.Simulation):
 
         Raises:
             RendererError: there is no OpenGL that works.
-            Error: the model has no such camera.
+            Error: the model has no such camera, or a size that no picture has.
         """
         return drawing.picture(self, width, height, camera)
 
