@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["FIGURES", "Figure", "describe", "readable"]
+__all__ = ["FIGURES", "Figure", "describe", "readable", "wanted"]
 
 
 @dataclass(frozen=True)
@@ -130,6 +131,24 @@ def readable(name: str, value: float | None) -> str:
     if 0.0 < abs(value) < below:
         return f"{_digits(value * factor)} {smaller}"
     return f"{_digits(value)} {unit}"
+
+
+def wanted(name: str, bounds: Mapping[str, float | None] | None, value: float | None) -> str:
+    """What a figure must be for a success: "at least 0.300 m", ", missed" where it is not; "".
+
+    Args:
+        name: as for `readable`.
+        bounds: "least" and "most" in the figure's unit, None for none.
+        value: that came.
+    """
+    if not bounds:
+        return ""
+    least, most = bounds["least"], bounds["most"]
+    words = [f"at least {readable(name, least)}"] if least is not None else []
+    words += [f"at most {readable(name, most)}"] if most is not None else []
+    under = value is not None and least is not None and value < least
+    over = value is not None and most is not None and value > most
+    return ", ".join([*words, *["missed"] * (under or over)])
 
 
 def _digits(value: float) -> str:

@@ -20,7 +20,7 @@ from rich.console import Console
 
 import hurcules
 from hurcules import run as runs
-from hurcules.figures import readable
+from hurcules.figures import readable, wanted
 from hurcules.recording import CHANNELS, STAGES
 from hurcules.run import DONE, FAILED, RunOptions, run
 from hurcules.video import NOTE, STRIP
@@ -97,6 +97,10 @@ def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path)
     assert readable("case_sinking_mps", 0.131) == "0.131 m/s"
     assert readable("energy_margin_J", 2.06) == "2.06 J"
     assert readable("energy_J", 133787.0) == "133.8 kJ"
+    both = {"least": 0.5, "most": 2.0}
+    assert wanted("held_m", both, 2.5) == "at least 0.500 m, at most 2.00 m, missed"
+    assert wanted("held_m", both, 0.5) == wanted("held_m", both, None)
+    assert wanted("held_m", None, 2.5) == ""
     own = tmp_path / "own.toml"
     own.write_text(
         '[mission]\nname = "own"\nscene = "lift"\n'
@@ -106,8 +110,11 @@ def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path)
     console = quiet()
     options = RunOptions(str(own), out=tmp_path / "out", video=False)
     assert run(options, console) == FAILED
-    assert "speed [m] is 0.099, wanted at most 0.01" in said(console)
+    assert "failed: speed [m] is 0.099, wanted at most 0.01" in said(console)
     assert said(console).count("speed [m] ") == 2  # brackets are no markup
+    assert "at most 0.01, missed" in said(console)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["wanted"] == {"speed [m]": {"least": None, "most": 0.01}}
 
 
 def test_a_posture_that_is_blocked_is_told(tmp_path: Path) -> None:
@@ -186,6 +193,8 @@ def test_the_film_of_a_rescue_says_what_goes_on_and_the_report_what_is_done_to_t
     assert "casualty/force/R" in page
     assert "<h2>Beside the thesis</h2>" not in page  # which has no figures of it
     assert "stand for 1.5 s" in page
+    assert "Largest force of the robot on each region: none." in page  # 2 s: it drives up to him
+    assert "at least 90.00 %" in page  # of the weight on the bed
     for drawn in re.findall("<svg.*?</svg>", page, flags=re.DOTALL):  # no word is cut off below
         height = float(re.findall(r'viewBox="0 0 [\d.]+ ([\d.]+)"', drawn)[0])
         assert max(float(y) for y in re.findall(r'<text[^>]* y="([\d.]+)"', drawn)) < height - 1

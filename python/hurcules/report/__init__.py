@@ -9,8 +9,8 @@ from typing import Any
 
 import jinja2
 
-from hurcules.figures import describe, readable
-from hurcules.legend import event_words, joint_words, level_words
+from hurcules.figures import describe, readable, wanted
+from hurcules.legend import event_words, joint_words, level_words, region_words
 from hurcules.recording import (
     CHANNELS,
     LOAD_CHANNELS,
@@ -107,6 +107,7 @@ def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
             "thesis": readable(name, thesis[name]) if name in thesis else "",
             "where": describe(name).where,
         }
+            "wanted": wanted(name, summary["wanted"].get(name), value),
         for name, value in summary["figures"].items()
     ]
 
