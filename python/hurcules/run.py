@@ -281,9 +281,9 @@ def _report(summary: dict[str, Any], verdict: str, output: Output, console: Cons
 def progress_bar(console: Console) -> Iterator[Progress]:
     """A bar with a note (`note=`) and the time; each task says what it counts."""
     columns = (
-        TextColumn("{task.description:18}"),
+        TextColumn("{task.description:18}", markup=False),
         BarColumn(bar_width=28),
-        TextColumn("{task.fields[note]}"),
+        TextColumn("{task.fields[note]}", markup=False),
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console) as bar:

@@ -104,7 +104,7 @@ def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path)
     own = tmp_path / "own.toml"
     own.write_text(
         '[mission]\nname = "own"\nscene = "lift"\n'
-        '[[phase]]\nname = "wait"\nstack = "arms"\nseconds = 0.1\n'
+        '[[phase]]\nname = "wait [s]"\nstack = "arms"\nseconds = 0.1\n'
         '[[figure]]\nname = "speed [m]"\nquantity = "time"\nmost = 0.01\n'
     )
     console = quiet()
@@ -112,6 +112,7 @@ def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path)
     assert run(options, console) == FAILED
     assert "failed: speed [m] is 0.099, wanted at most 0.01" in said(console)
     assert said(console).count("speed [m] ") == 2  # brackets are no markup
+    assert "wait [s]" in said(console)
     assert "at most 0.01, missed" in said(console)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["wanted"] == {"speed [m]": {"least": None, "most": 0.01}}
