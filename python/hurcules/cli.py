@@ -16,7 +16,7 @@ import hurcules
 from hurcules import plugins
 from hurcules._core import Error
 from hurcules.mission_table import Mission
-from hurcules.output import WriteError, writing
+from hurcules.output import WriteError, write_whole
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
@@ -178,16 +178,22 @@ def run_mission(
         )
         raise typer.Exit(methods.run(asked, Console()))
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
-    rows = table_mission(mission)
-    if rows is None:
+    if table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
-    parameters = rows.parameters_of(context.args) if rows else {}
-    if context.args and not parameters:
-        kind = "no such option" if context.args[0].startswith("-") else "unexpected argument"
-        raise Error(f"{kind}: {context.args[0]}")
+    parameters = _parameters(mission, context.args)
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
     raise typer.Exit(run(options, Console()))
+
+
+def _parameters(mission: str, words: Sequence[str]) -> dict[str, Any]:
+    """What the words that are left say of a mission."""
+    rows = table_mission(mission)
+    parameters = rows.parameters_of(words) if rows else {}
+    if words and not parameters:
+        kind = "no such option" if words[0].startswith("-") else "unexpected argument"
+        raise Error(f"{kind}: {words[0]}")
+    return parameters
 
 
 def _require_no_option(name: str) -> None:
@@ -294,12 +300,12 @@ def show_mission(
     if out is None:
         print(table.table(), end="")
         return
-    with writing(out):
-        out.write_text(texts[out.suffix](), encoding="utf-8")
+    write_whole(out, texts[out.suffix]().encode())
 
 
-@app.command("view")
+@app.command("view", context_settings=_WITH_PARAMETERS)
 def view_model(
+    context: typer.Context,
     name: Annotated[
         str, typer.Argument(help="A mission, model or scene of `hurcules list`, or an MJCF file.")
     ] = "stretch",
@@ -310,9 +316,13 @@ def view_model(
 ) -> None:
     """Show a mission, model or scene in MuJoCo's viewer, in real time.
 
+    The options of a mission may follow, as in `hurcules run`.
+
     Exit status: 0 when the window was closed, 2 wrong usage or no display.
 
     For example `hurcules view`, or with more words:
+
+    - `hurcules view casualty --mass 90`
 
     - `hurcules view rescue`
 
@@ -320,7 +330,8 @@ def view_model(
     """
     from hurcules.view import view
 
-    view(name, seed, seconds)
+    _require_no_option(name)
+    view(name, seed, seconds, _parameters(name, context.args))
 
 
 @app.command("export")

@@ -14,7 +14,13 @@ import mujoco
 
 from hurcules import _core, mjcf, scenes
 from hurcules._core import WholeBodyController
-from hurcules.mission_options import in_words_of, read_options, record, require_offset
+from hurcules.mission_options import (
+    away_words,
+    in_words_of,
+    read_options,
+    record,
+    require_offset,
+)
 from hurcules.mission_table import Mission
 
 __all__ = ["Job", "controller", "job", "mission", "model", "parameters_of", "spec"]
@@ -72,7 +78,8 @@ def model(job: Job) -> mujoco.MjModel:
 def spec(job: Job) -> mujoco.MjSpec:
     """The same, not compiled yet."""
     dx, dy = job.offset
-    with in_words_of({"grip": "friction", "heading": "yaw"}):
+    words = {"grip": "friction", "heading": "yaw", **away_words(DISTANCE)}
+    with in_words_of(words):
         return scenes.make(
             "disposal",
             robot="manipulation",

@@ -212,7 +212,7 @@ def picture(
 
     Raises:
         RendererError: there is no OpenGL that works.
-        Error: the model has no such camera.
+        Error: the model has no such camera, or a size that no picture has.
     """
     model = loop.model
     if isinstance(camera, str):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["FIGURES", "Figure", "describe", "readable"]
+__all__ = ["FIGURES", "Figure", "describe", "readable", "wanted"]
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,7 @@ FIGURES = {
     "torque_excess_max_nm": Figure("torque asked for above a motor's limit"),
     "energy_J": Figure("energy from the battery, standby included"),
     "battery_share": Figure("share of the battery that was used"),
+    "yielded_s": Figure("more was asked than the motors hold: the reference yielded for"),
     # of the lift
     "held_height_m": Figure("held above where the person lay by, least"),
     "held_on_ground_share": Figure("share of the weight on the ground while held, largest"),
@@ -51,7 +53,7 @@ FIGURES = {
     "contact_share": Figure("largest contact force, share of its region's limit"),
     "support_N": Figure("largest force that carries a region of the body"),
     "neck_extension_rad": Figure("head hangs back by, at the most"),
-    "head_mps2": Figure("largest acceleration of the head, gravity included [m/s²]"),
+    "head_mps2": Figure("largest acceleration of the head, gravity included"),
     # of the casualty mission
     "on_bed_share": Figure("share of the weight on the bed in the end"),
     "left_arm_share": Figure("share of the weight on the left arm in the end"),
@@ -61,13 +63,13 @@ FIGURES = {
     "slid_ahead_m": Figure("slid along the robot on the way home by"),
     "slid_aside_m": Figure("slid across the robot on the way home by"),
     "carried_on_ground_share": Figure("share of the weight on the ground once carried, largest"),
-    "ride_mps2": Figure("largest acceleration of the head on the way home, with gravity [m/s²]"),
+    "ride_mps2": Figure("largest acceleration of the head on the way home, with gravity"),
     # of the disposal
     "in_container_share": Figure("share of the case's weight on the container in the end"),
     "in_ahead_m": Figure("the case lies ahead of the container's middle by"),
     "in_aside_m": Figure("and to its left by"),
     "in_up_m": Figure("and its centre above the ground by"),
-    "case_sinking_mps": Figure("largest speed of the case downwards [m/s]"),
+    "case_sinking_mps": Figure("largest speed of the case downwards"),
     "case_tilt_rad": Figure("largest tilt of the case while carried"),
     "slipped_m": Figure("the case slipped in the hands by"),
     "left_grip_least_N": Figure("fingers of the left hand press, least"),
@@ -99,6 +101,8 @@ _UNITS = {
     "_W": ("W", (0.0, 1.0, "W")),
     "_C": ("°C", (0.0, 1.0, "°C")),
     "_nm": ("N m", (0.0, 1.0, "N m")),
+    "_mps": ("m/s", (0.0, 1.0, "m/s")),
+    "_mps2": ("m/s²", (0.0, 1.0, "m/s²")),
 }
 
 
@@ -116,7 +120,7 @@ def readable(name: str, value: float | None) -> str:
     """
     if value is None or not math.isfinite(value):
         return "-"
-    if name.endswith("_J"):
+    if name.endswith("_J") and abs(value) >= 1e3:
         return f"{value / 1e3:.1f} kJ"
     if name.endswith("_share"):
         return f"{100 * value:.2f} %"
@@ -127,6 +131,24 @@ def readable(name: str, value: float | None) -> str:
     if 0.0 < abs(value) < below:
         return f"{_digits(value * factor)} {smaller}"
     return f"{_digits(value)} {unit}"
+
+
+def wanted(name: str, bounds: Mapping[str, float | None] | None, value: float | None) -> str:
+    """What a figure must be for a success: "at least 0.300 m", ", missed" where it is not; "".
+
+    Args:
+        name: as for `readable`.
+        bounds: "least" and "most" in the figure's unit, None for none.
+        value: that came.
+    """
+    if not bounds:
+        return ""
+    least, most = bounds["least"], bounds["most"]
+    words = [f"at least {readable(name, least)}"] if least is not None else []
+    words += [f"at most {readable(name, most)}"] if most is not None else []
+    under = value is not None and least is not None and value < least
+    over = value is not None and most is not None and value > most
+    return ", ".join([*words, *["missed"] * (under or over)])
 
 
 def _digits(value: float) -> str:

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-__all__ = ["JOINTS", "LEVELS", "event_words", "joint_words", "level_words", "limit_words"]
+__all__ = [
+    "JOINTS",
+    "LEVELS",
+    "event_words",
+    "joint_words",
+    "level_words",
+    "limit_words",
+    "region_words",
+]
 
 # without L or R for the side
 JOINTS = {
@@ -48,6 +56,12 @@ def joint_words(name: str) -> str:
 def level_words(name: str) -> str:
     """A level in words, "hand positions" for "hpos"; other names stay."""
     return LEVELS.get(name, name)
+
+
+def region_words(name: str) -> str:
+    """A region of the body in words, "left upper arm" for "L_upper_arm"."""
+    side, _, rest = name.partition("_")
+    return f"{_SIDES.get(side, side)} {rest.replace('_', ' ')}".strip()
 
 
 def event_words(text: str) -> str:

@@ -16,7 +16,13 @@ import mujoco
 
 from hurcules import _core, mjcf, scenes, transfer_bed
 from hurcules._core import WholeBodyController
-from hurcules.mission_options import in_words_of, read_options, record, require_offset
+from hurcules.mission_options import (
+    away_words,
+    in_words_of,
+    read_options,
+    record,
+    require_offset,
+)
 from hurcules.mission_table import Mission
 
 __all__ = [
@@ -117,11 +123,12 @@ def model(person: Person) -> mujoco.MjModel:
 def spec(person: Person) -> mujoco.MjSpec:
     """The same, not compiled yet."""
     dx, dy = person.offset
-    terrain, seed = {}, 0
+    terrain, seed, words = {}, 0, away_words(DISTANCE)
     if isinstance(person, Away):
         terrain = {"terrain": person.terrain, "way": person.way, "rise": person.rise, "near": NEAR}
         dx, seed = dx + NEAR + person.way + BEYOND, person.ground
-    words = {"lying": "pose", "heading": "yaw", "cloth": "friction", "seed": "ground"}
+        words = away_words(DISTANCE + NEAR + BEYOND, ", the way")
+    words |= {"lying": "pose", "heading": "yaw", "cloth": "friction", "seed": "ground"}
     with in_words_of(words):
         scene = scenes.make(
             "casualty",

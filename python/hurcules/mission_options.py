@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from hurcules._core import Error
 
-__all__ = ["in_words_of", "read_options", "record", "require_offset"]
+__all__ = ["away_words", "in_words_of", "read_options", "record", "require_offset"]
 
 Record = TypeVar("Record")
 
@@ -83,6 +83,19 @@ def in_words_of(words: Mapping[str, str]) -> Iterator[None]:
         if name not in words:
             raise
         raise Error(f"{noun}: {words[name]} {wanted}") from None
+
+
+def away_words(distance: float, way: str = "") -> dict[str, str]:
+    """How the offset is told that puts a thing out of the range of its place, for `in_words_of`.
+
+    Args:
+        distance: [m] ahead of the robot, without the offset.
+        way: that comes on top, in words.
+    """
+    return {
+        "distance": f"the place ahead, {distance:.3g} m{way} and the offset,",
+        "lateral": "the offset to the left",
+    }
 
 
 def require_offset(noun: str, offset: Sequence[float]) -> None:

@@ -40,6 +40,7 @@ another table.
 
 from __future__ import annotations
 
+import json
 import math
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
@@ -307,8 +308,10 @@ def _lead(rows: Sequence[tuple[str, Row]], leads: Sequence[Row]) -> None:
 def _named(
     rows: Sequence[tuple[str, Row]], names: Sequence[str], where: str
 ) -> Iterator[tuple[str, Row]]:
-    """The rows of these names."""
+    """The rows of these names, one at least."""
     known = _names(rows)
+    if not names:
+        raise Error(f"{where}: phases names none; there are: {', '.join(known)}")
     for name in names:
         if name not in known:
             raise Error(f"{where}: no phase {name!r}; there are: {', '.join(known)}")
@@ -416,7 +419,7 @@ def _value(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # as TOML has it
     if isinstance(value, list):
         return "[" + ", ".join(_value(one) for one in value) + "]"
     return repr(value)

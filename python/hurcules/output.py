@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 
-__all__ = ["Output", "WriteError", "writing"]
+__all__ = ["Output", "WriteError", "write_whole", "writing"]
 
 
 class WriteError(Error):
@@ -32,6 +32,21 @@ def writing(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise WriteError(f"cannot write {path}: {error.strerror}") from error
+
+
+def write_whole(path: Path, contents: bytes) -> None:
+    """Writes a file under another name beside it and renames it when it is whole.
+
+    Raises:
+        WriteError: the file could not be written; one of this name is as it was.
+    """
+    part = path.with_name(f"part-{os.getpid()}-{path.name}")
+    with writing(path):
+        try:
+            part.write_bytes(contents)
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
 
 
 class Output:

@@ -26,6 +26,9 @@ __all__ = [
 ]
 
 
+MOST = 16384  # [pixels] what OpenGL takes
+
+
 class RendererError(Error):
     """There is no usable OpenGL renderer; the text names the remedy."""
 
@@ -72,8 +75,13 @@ def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
         height: [pixels].
 
     Raises:
+        Error: a size that no picture has.
         RendererError: there is no OpenGL that works.
     """
+    for size in (width, height):  # before the model's buffer has it
+        if not isinstance(size, int | np.integer) or not 1 <= size <= MOST:
+            wanted = f"width and height of a picture want whole numbers from 1 to {MOST}"
+            raise Error(f"{wanted}, got {width!r} and {height!r}")
     buffer = model.vis.global_
     buffer.offwidth, buffer.offheight = max(buffer.offwidth, width), max(buffer.offheight, height)
     try:

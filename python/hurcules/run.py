@@ -11,12 +11,13 @@ from typing import Any
 
 import mujoco
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from hurcules import extras
 from hurcules._core import Error
-from hurcules.figures import describe, readable
+from hurcules.figures import describe, readable, wanted
 from hurcules.interrupts import Interrupts
 from hurcules.legend import event_words
 from hurcules.output import Output
@@ -105,15 +106,19 @@ def run(options: RunOptions, console: Console) -> int:
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
-        summary = summarize(simulation, recording, options.seed, options.method, options.sensors)
+        measures = mission.table().rows.measures if mission else ()
+        summary = summarize(
+            simulation, recording, options.seed, options.method, options.sensors, measures
+        )
         _save(options, simulation, mission, recording, summary, output, console, interrupts)
         if interrupts.noted:
             when = "at" if recording.interrupted else "after the simulation had ended at"
             said = f"interrupted {when} {simulation.time:.3f} s; {output.told()}"
             console.print(said, style="bold", highlight=False, soft_wrap=True)
             return INTERRUPTED
-        _report(summary, output, console)
-    return DONE if simulation.success or not simulation.finished else FAILED
+        failed = simulation.finished and not simulation.success
+        _report(summary, "failed: " * failed, output, console)
+    return FAILED if failed else DONE
 
 
 def _ticks(seconds: float | None, dt: float) -> int | None:
@@ -164,9 +169,9 @@ def _save(
 
     Film and report need the extra `hurcules[report]`.
     """
+    output.write_json("summary.json", summary)  # it has room on a disk that is all but full
     output.write_arrays("log.npz", recording.log)
     output.write_arrays("timing.npz", recording.timings)
-    output.write_json("summary.json", summary)
     if extras.missing():
         return
     video: Path | str = "not asked for (--no-video)"
@@ -248,21 +253,25 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
     return pictures
 
 
-def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
-    """The end in plain figures, and where everything lies."""
+def _report(summary: dict[str, Any], verdict: str, output: Output, console: Console) -> None:
+    """The end in plain figures, a verdict before it, and where everything lies."""
     table = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
-    for heading in ("", "measured", "thesis"):
+    beside = "wanted" if summary["wanted"] else "thesis"
+    for heading in ("", "measured", beside):
         table.add_column(heading, justify="right" if heading else "left")
     for name, value in summary["figures"].items():
-        thesis = readable(name, summary["thesis"].get(name))
-        table.add_row(describe(name).label, readable(name, value), thesis)
+        other = readable(name, summary["thesis"].get(name))
+        if summary["wanted"]:
+            other = wanted(name, summary["wanted"].get(name), value)
+        table.add_row(escape(describe(name).label), readable(name, value), other)
     worst, tick = summary["limit_violation"], summary["control_tick_us"]
     for what, excess in (("commanded", worst["commanded"]), ("physics", worst)):
         table.add_row(f"over a joint limit, {what}", readable("_rad", excess["position_rad"]))
     table.add_row("control tick, median / p99", f"{tick['median']:.0f} / {tick['p99']:.0f} µs")
     table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
     colour = "bold green" if summary["success"] else "bold"
-    console.print(f"\n{summary['reason']}, {summary['simulated_seconds']:.1f} s", style=colour)
+    reason = verdict + escape(summary["reason"])
+    console.print(f"\n{reason}, {summary['simulated_seconds']:.1f} s", style=colour)
     console.print(table)
     for path in output.saved:
         console.print(f"  {path}", highlight=False, soft_wrap=True)
@@ -272,9 +281,9 @@ def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
 def progress_bar(console: Console) -> Iterator[Progress]:
     """A bar with a note (`note=`) and the time; each task says what it counts."""
     columns = (
-        TextColumn("{task.description:18}"),
+        TextColumn("{task.description:18}", markup=False),
         BarColumn(bar_width=28),
-        TextColumn("{task.fields[note]}"),
+        TextColumn("{task.fields[note]}", markup=False),
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console) as bar:

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, TypeVar
+from zipfile import BadZipFile
 
 import mujoco
 import numpy as np
@@ -121,10 +122,13 @@ class Simulation(_core.Simulation):
             adds_command=adds_command,
             loaded_springs=loaded_springs,
         )
+        self._seed = options.seed
+        if isinstance(mission, str) and (model is not None or controller is not None):
+            raise Error("a simulation wants a mission, or a model and a controller, not all three")
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")
-        if model is not None and isinstance(mission, str):
-            raise Error("a simulation wants a mission, or a model and a controller, not all three")
+        if not isinstance(parameters, Mapping | None):
+            raise Error(f"parameters: wanted a mapping, as {{'mass': 90}}, got {parameters!r}")
         if controller is not None and method != "lexicographic":
             raise Error(f"method: your controller has its own, got {method!r}")
         rows = table_mission(mission) if isinstance(mission, str) else None
@@ -159,17 +163,18 @@ class Simulation(_core.Simulation):
         super().__init__(self.model, self.data, name, options)
         self.mission = name
 
-    def reset(self, seed: int = 0, start: ArrayLike | None = None) -> None:
+    def reset(self, seed: int | None = None, start: ArrayLike | None = None) -> None:
         """Back to the start.
 
         Args:
-            seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
+            seed: a whole number from 0 to 2**64 - 1; draws what differs between runs. None: that
+                which it was made with.
             start: (nq,) where that is this time, whatever a mission would draw.
 
         Raises:
             Error: another seed, or a start of another shape or not finite.
         """
-        super().reset(_seed(seed), start)
+        super().reset(self._seed if seed is None else _seed(seed), start)
 
     def step(self, n: int = 1, command: Command | None = None) -> int:
         """Takes control ticks. Releases the interpreter lock.
@@ -190,20 +195,22 @@ class Simulation(_core.Simulation):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
         return super().step(n, command)
 
-    def replay(self, log: Mapping[str, Array]) -> int:
+    def replay(self, log: Mapping[str, Array] | str | Path) -> int:
         """Takes the ticks of a log with the commands that they had: same start, same bits.
 
         What was done beside commands (`controller.use`, pushes, targets of tasks) is not in it.
 
         Args:
-            log: of a simulation with these channels, `log()` or the file of a run.
+            log: of a simulation with these channels: `log()`, or `log.npz` of a run or its path.
 
         Returns:
             The ticks done: fewer when the run ends.
 
         Raises:
-            Error: a channel is not in the log.
+            Error: a file that is no log, or a channel that is not in it.
         """
+        if isinstance(log, str | Path):
+            log = _read_log(log)
         names = [f"command/{name}" for name in self.command_names]
         if missing := [name for name in names if name not in log]:
             raise Error(f"the log has no '{missing[0]}': it is of other channels")
@@ -235,7 +242,7 @@ class Simulation(_core.Simulation):
 
         Raises:
             RendererError: there is no OpenGL that works.
-            Error: the model has no such camera.
+            Error: the model has no such camera, or a size that no picture has.
         """
         return drawing.picture(self, width, height, camera)
 
@@ -332,6 +339,14 @@ class SimulationBatch(_core.SimulationBatch):
             Error: as `step`.
         """
         return super().step_and_read(ticks, quantities, commands, _mask(mask))
+
+
+def _read_log(path: str | Path) -> dict[str, Array]:
+    try:
+        with np.load(path) as file:
+            return dict(file)
+    except (OSError, ValueError, AttributeError, BadZipFile, EOFError) as error:
+        raise Error(f"replay: cannot read {path} as a log: {error}") from None
 
 
 def _mask(mask: ArrayLike | None) -> Any:

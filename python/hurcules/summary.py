@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import platform
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from hurcules._core import Measure
 from hurcules._version import __version__
 from hurcules.recording import Recording
 from hurcules.simulation import Simulation
@@ -18,7 +20,12 @@ __all__ = ["processor", "summarize"]
 
 
 def summarize(
-    simulation: Simulation, recording: Recording, seed: int, method: str, noisy: bool = False
+    simulation: Simulation,
+    recording: Recording,
+    seed: int,
+    method: str,
+    noisy: bool = False,
+    measures: Sequence[Measure] = (),
 ) -> dict[str, Any]:
     """Sums up a run.
 
@@ -28,6 +35,7 @@ def summarize(
         seed: of the run.
         method: of the solver.
         noisy: whether its sensors were those of `hurcules.sensors.realistic`.
+        measures: of the mission's table, for what its figures must be.
 
     Returns:
         Plain data for JSON: numbers are finite or None.
@@ -46,7 +54,12 @@ def summarize(
             "real_time_factor": simulation.time / wall if wall else None,
             "control_tick_us": _statistics(recording.control_tick_us),
             "limit_violation": simulation.limit_violation(),
-            "figures": simulation.figures() | _energy(recording, simulation.dt),
+            "figures": simulation.figures() | _of_log(recording.log, simulation.dt),
+            "wanted": {
+                one.name: {"least": one.least, "most": one.most}
+                for one in measures
+                if math.isfinite(one.least) or math.isfinite(one.most)
+            },
             "thesis": simulation.thesis_figures(),
             "events": [
                 {"time_s": round(time, 6), "text": text} for time, text in simulation.events()
@@ -61,13 +74,15 @@ def summarize(
     )
 
 
-def _energy(recording: Recording, dt: float) -> dict[str, float]:
-    """What the battery gave, standby included, and which share of it that is."""
-    if not len(recording.log.get("power", ())):
+def _of_log(log: Mapping[str, NDArray[np.float64]], dt: float) -> dict[str, float]:
+    """What the battery gave, standby included, which share of it that is, and when it yielded."""
+    if not len(log.get("power", ())):
         return {}
-    log = recording.log
-    energy = float(np.sum(log["power"])) * dt
-    return {"energy_J": energy, "battery_share": float(log["charge"][0] - log["charge"][-1])}
+    return {
+        "energy_J": float(np.sum(log["power"])) * dt,
+        "battery_share": float(log["charge"][0] - log["charge"][-1]),
+        "yielded_s": float(np.sum(log["yielding"])) * dt,
+    }
 
 
 def _reason(simulation: Simulation, recording: Recording) -> str:

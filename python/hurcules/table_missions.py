@@ -13,7 +13,7 @@ import numpy as np
 
 from hurcules import _core, disposal, lift
 from hurcules.mission_table import Mission
-from hurcules.output import writing
+from hurcules.output import write_whole
 from hurcules.validation import require_known, told_at
 
 __all__ = ["TABLE_MISSIONS", "TableMission", "table_mission", "write_table"]
@@ -112,5 +112,4 @@ def write_table(
         table.setup, table.rows, mission.controller, beside.name, compiled.tobytes()
     )
     for file, contents in ((beside, compiled.tobytes()), (path, text.encode())):
-        with writing(file):
-            file.write_bytes(contents)
+        write_whole(file, contents)

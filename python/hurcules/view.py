@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -28,7 +28,12 @@ __all__ = ["film", "opened", "require_display", "view", "watch"]
 FPS = 60  # pictures a second
 
 
-def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
+def view(
+    name: str,
+    seed: int = 0,
+    seconds: float | None = None,
+    parameters: Mapping[str, Any] | None = None,
+) -> None:
     """Opens the viewer and simulates until its window is closed.
 
     Args:
@@ -37,12 +42,13 @@ def view(name: str, seed: int = 0, seconds: float | None = None) -> None:
             of a file moves as MuJoCo has it.
         seed: of the mission.
         seconds: close the window after this time [s].
+        parameters: of the mission, by name.
 
     Raises:
         Error: nothing has this name, a file is no model, or there is no display.
     """
     if name in missions() or name.endswith(".toml"):
-        watch(Simulation(name, seed, record=False), seconds=seconds)
+        watch(Simulation(name, seed, record=False, parameters=parameters), seconds=seconds)
     else:
         _show(*_subject(name), lambda scene: None, seconds)
 

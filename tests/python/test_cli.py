@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import hurcules
-from hurcules import cli, doctor
+from hurcules import cli, doctor, view
 from hurcules.output import Output, void
 
 
@@ -69,6 +69,59 @@ def test_mission_prints_a_table_or_writes_it(
     assert (
         err == f"hurcules: error: cannot write {tmp_path}/no/lift.svg: No such file or directory\n"
     )
+
+
+def test_a_table_that_does_not_fit_on_the_disk_leaves_what_there_was(tmp_path: Path) -> None:
+    file = tmp_path / "lift.table"
+    file.with_suffix(".mjb").write_text("older")
+    program = """
+import resource, sys
+from hurcules import cli
+resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
+sys.exit(cli.main())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, "mission", "lift", "--out", file],
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1), done.stderr
+    assert f"cannot write {file.with_suffix('.mjb')}: File too large" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["lift.mjb"]
+    assert file.with_suffix(".mjb").read_text() == "older"
+
+
+def test_places_out_of_range_are_told_by_the_options_that_say_them(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    for words, wanted in (
+        (
+            "lift --offset 100,0",
+            "the place ahead, 3.3 m and the offset, wants a number from 1.5 to",
+        ),
+        ("lift --offset 0,9", "the offset to the left wants a number from -5 to 5 m, got 9"),
+        ("crossing --way -5", "the place ahead, 5.3 m, the way and the offset, wants a number"),
+        ("disposal --offset 30,0", "the place ahead, 3 m and the offset, wants a number from 1.6"),
+    ):
+        code, _, err = call(capsys, "run", *words.split(), "--out", str(tmp_path))
+        assert code == 2
+        assert wanted in err
+
+
+def test_view_takes_the_options_of_a_mission(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen = []
+    monkeypatch.setattr(view, "watch", lambda simulation, seconds: seen.append(simulation))
+    assert call(capsys, "view", "lift", "--mass", "90", "--seed", "3")[0] == 0
+    people = [
+        part for part in range(seen[0].model.nbody) if "casualty" in seen[0].model.body(part).name
+    ]
+    assert sum(seen[0].model.body_mass[people]) == pytest.approx(90.0)
+    code, _, err = call(capsys, "view", "lift", "--mas", "90")
+    assert (code, "no such option: --mas; there are: --mass" in err) == (2, True)
+    code, _, err = call(capsys, "view", "rescue", "--mass", "90")
+    assert (code, "no such option: --mass" in err) == (2, True)
 
 
 def test_doctor_tells_each_finding_and_ends_well_where_nothing_is_broken(

@@ -70,6 +70,7 @@ def test_joint_by_joint_the_same_gains_never_rest() -> None:
     assert rest > 0.1
 
 
-def test_a_table_of_ones_own_wants_all_joints() -> None:
-    with pytest.raises(hurcules.Error, match="servo of joint 'wrist'"):
-        swing({"turn": (0.2, 30.0), "swing": (0.2, 30.0)})
+def test_a_table_of_ones_own_may_leave_joints_out_and_names_none_that_is_not_there() -> None:
+    swing({"turn": (0.2, 30.0), "swing": (0.2, 30.0)})
+    with pytest.raises(hurcules.Error, match="'elbow' does not exist; there are: .*wrist"):
+        swing({"elbow": (0.2, 30.0)})

@@ -144,6 +144,10 @@ def test_a_picture_shows_the_target() -> None:
     assert np.array_equal(again, [shown])  # each thread has a renderer of its own
     with pytest.raises(hurcules.Error, match="camera 'top' does not exist; there are: side"):
         simulation.picture(camera="top")
+    for size in ((0, 48), (64, 10**5), (64.5, 48)):
+        with pytest.raises(hurcules.Error, match="whole numbers from 1 to 16384, got"):
+            simulation.picture(*size)  # type: ignore[arg-type]
+    assert simulation.picture(64, 48).shape == (48, 64, 3)  # nor is the model's buffer enlarged
 
 
 @pytest.mark.parametrize("way", [0.0, 0.2, 6.0])

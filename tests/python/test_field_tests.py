@@ -199,6 +199,13 @@ def test_options_of_a_method_are_read_in_degrees():
     assert parse("e2829", ["--speed", "5,5.56"])[1] == (5.0, 5.56)
 
 
+def test_a_robot_without_hands_is_told_before_the_last_results_are_removed(tmp_path, capsys):
+    (tmp_path / "summary.json").write_text("{}")
+    assert cli.main(["run", "e2830", "--out", str(tmp_path)]) == 2
+    assert "e2830: --robot: wanted 'manipulation', which has hands" in capsys.readouterr().err
+    assert (tmp_path / "summary.json").read_text() == "{}"
+
+
 @pytest.mark.parametrize(
     "words, says",
     [

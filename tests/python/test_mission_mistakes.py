@@ -23,6 +23,8 @@ TROUBLE = 'trouble = [{ when = "q/j2 >= 2.0", do = ["ask 5.0 s", "lower"] }]'
 LEAD = "lead.posture = { rate = [0.5, 0.0], way = 0.2 }"
 MONITOR = '[[monitor]]\nwhen = "q/j1 >= 1.5"\ndo = ["abort"]\nphases = ["up"]\n'
 
+NO_PHASES = MONITOR.replace('["up"]', "[]") + "[[figure]]"
+
 
 @pytest.mark.parametrize(
     "old, new, wanted",
@@ -46,6 +48,7 @@ MONITOR = '[[monitor]]\nwhen = "q/j1 >= 1.5"\ndo = ["abort"]\nphases = ["up"]\n'
         ("[[figure]]", "[figure]", "figure: wanted a list of tables, got {'most': -0.4"),
         ("[[figure]]", "[monitor]\n[[figure]]", "monitor: wanted a list of tables, got {}"),
         ('phases = ["up"]', 'phases = "up"', "phases: wanted a list of texts, got 'up'"),
+        ("[[figure]]", NO_PHASES, "monitor 'q/j1 >= 1.5': phases names none; there are: up"),
         ('[mission]\nname = "wave"\nsafety = "back"', "mission = 1", "mission: wanted a table"),
         ('name = "wave"', "name = 5", "[mission], name: wanted a text, got 5"),
         ('name = "wave"', "", "[mission] wants name"),

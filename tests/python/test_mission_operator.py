@@ -66,6 +66,15 @@ def test_a_yes_holds_until_the_trouble_has_been_away() -> None:
     assert simulation.data.joint("j2").qpos < 0.2  # here again, and its one question is used up
 
 
+def test_what_is_asked_waits_for_the_end_of_a_pause() -> None:
+    simulation = asking()
+    simulation.pause()
+    with pytest.raises(Error, match="the mission is paused: resume"):
+        simulation.answer(True)
+    simulation.resume()
+    simulation.answer(True)
+
+
 @pytest.mark.parametrize("says_no", [True, False])
 def test_a_no_and_silence_are_not_asked_again(says_no: bool) -> None:
     simulation = loop(ASKS.replace("ask 5.0 s", "ask 0.5 s, 3 times"))

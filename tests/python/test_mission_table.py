@@ -297,6 +297,7 @@ phases = ["before", "up"]
     assert rows[1:] != read(ROWS).rows.phases
     assert [len(row.troubles) for row in rows] == [1, 2, 0]
     assert rows[0].last and not rows[1].last
+    mission.rows.phases[0].note = 'two lines\n"of" C:\\text, \t\x01\x7f ü'
     mission.save(tmp_path / "saved.toml")
     assert Mission.load(tmp_path / "saved.toml") == mission
     for old, new, wanted in (

@@ -6,6 +6,7 @@ A whole mission is run by `make demo`, not here: these runs are cut short with -
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from rich.console import Console
 
 import hurcules
 from hurcules import run as runs
+from hurcules.figures import readable, wanted
 from hurcules.recording import CHANNELS, STAGES
 from hurcules.run import DONE, FAILED, RunOptions, run
 from hurcules.video import NOTE, STRIP
@@ -85,9 +87,53 @@ def test_the_summary_has_the_thesis_beside_the_figures(summary: dict[str, Any]) 
 def test_every_figure_of_the_missions_is_described() -> None:
     from hurcules.figures import FIGURES
 
-    battery = {"energy_J", "battery_share"}  # of every mission, added by the summary
+    of_log = {"energy_J", "battery_share", "yielded_s"}  # of every mission, added by the summary
     given = [hurcules.Simulation(mission).figures() for mission in hurcules.missions()]
-    assert set().union(*given) == set(FIGURES) - battery
+    assert set().union(*given) == set(FIGURES) - of_log
+
+
+def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path) -> None:
+    assert readable("head_mps2", 34.94) == "34.9 m/s²"
+    assert readable("case_sinking_mps", 0.131) == "0.131 m/s"
+    assert readable("energy_margin_J", 2.06) == "2.06 J"
+    assert readable("energy_J", 133787.0) == "133.8 kJ"
+    both = {"least": 0.5, "most": 2.0}
+    assert wanted("held_m", both, 2.5) == "at least 0.500 m, at most 2.00 m, missed"
+    assert wanted("held_m", both, 0.5) == wanted("held_m", both, None)
+    assert wanted("held_m", None, 2.5) == ""
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[mission]\nname = "own"\nscene = "lift"\n'
+        '[[phase]]\nname = "wait [s]"\nstack = "arms"\nseconds = 0.1\n'
+        '[[figure]]\nname = "speed [m]"\nquantity = "time"\nmost = 0.01\n'
+    )
+    console = quiet()
+    options = RunOptions(str(own), out=tmp_path / "out", video=False)
+    assert run(options, console) == FAILED
+    assert "failed: speed [m] is 0.099, wanted at most 0.01" in said(console)
+    assert said(console).count("speed [m] ") == 2  # brackets are no markup
+    assert "wait [s]" in said(console)
+    assert "at most 0.01, missed" in said(console)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["wanted"] == {"speed [m]": {"least": None, "most": 0.01}}
+
+
+def test_a_posture_that_is_blocked_is_told(tmp_path: Path) -> None:
+    # the left blade jams on the robot's own track: "completed" and not a word, 0.8 rad short
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[mission]\nname = "wave"\nscene = "lift"\n'
+        '[[phase]]\nname = "wave"\nstack = "posture"\nseconds = 3\nposture = "posture"\n'
+        "keys = [{ LSP = 1.0, LEB = 1.0 }]\n"
+    )
+    console = quiet()
+    assert run(RunOptions(str(own), out=tmp_path / "out", video=False), console) == DONE
+    figures = json.loads((tmp_path / "out" / "summary.json").read_text())["figures"]
+    log = np.load(tmp_path / "out" / "log.npz")
+    assert log["q/LSP"][-1] > 1.5
+    assert figures["yielded_s"] == pytest.approx(np.count_nonzero(log["yielding"]) * 1e-3)
+    assert figures["yielded_s"] > 1.5
+    assert "the reference yielded for" in said(console)
 
 
 def test_the_log_holds_every_tick_of_every_documented_channel(result: tuple[Path, str]) -> None:
@@ -147,6 +193,12 @@ def test_the_film_of_a_rescue_says_what_goes_on_and_the_report_what_is_done_to_t
     assert "<h2>The person</h2>" in page
     assert "casualty/force/R" in page
     assert "<h2>Beside the thesis</h2>" not in page  # which has no figures of it
+    assert "stand for 1.5 s" in page
+    assert "Largest force of the robot on each region: none." in page  # 2 s: it drives up to him
+    assert "at least 90.00 %" in page  # of the weight on the bed
+    for drawn in re.findall("<svg.*?</svg>", page, flags=re.DOTALL):  # no word is cut off below
+        height = float(re.findall(r'viewBox="0 0 [\d.]+ ([\d.]+)"', drawn)[0])
+        assert max(float(y) for y in re.findall(r'<text[^>]* y="([\d.]+)"', drawn)) < height - 1
 
 
 def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Path) -> None:
@@ -215,7 +267,7 @@ sys.exit(cli.main())
     assert done.returncode == 128 + signal.SIGINT
     assert "Traceback" not in done.stderr
     assert "interrupted at 0.600 s; " in done.stdout
-    assert f"saved in {tmp_path}: log.npz, timing.npz, summary.json, report.html" in done.stdout
+    assert f"saved in {tmp_path}: summary.json, log.npz, timing.npz, report.html" in done.stdout
     assert len(np.load(tmp_path / "log.npz")["time"]) == 600
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert (summary["success"], summary["reason"]) == (False, "interrupted at 0.600 s")
@@ -255,7 +307,7 @@ def test_ctrl_c_while_saving_lets_everything_be_saved(
     before, console = signal.getsignal(signal.SIGINT), quiet()
     assert run(RunOptions(out=tmp_path, seconds=0.2), console) == 130
     assert signal.getsignal(signal.SIGINT) is before
-    files = ["log.npz", "timing.npz", "summary.json", "report.html"]
+    files = ["summary.json", "log.npz", "timing.npz", "report.html"]
     assert "interrupted after the simulation had ended at 0.200 s; saved in " in said(console)
     assert f"{tmp_path}: {', '.join(files)}" in said(console)
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(files)
@@ -307,8 +359,9 @@ sys.exit(cli.main())
     )
     assert done.returncode == 1, done.stderr
     assert done.stderr.count("\n") == 1
-    assert f"cannot write {tmp_path}/log.npz: File too large; nothing was saved" in done.stderr
-    assert list(tmp_path.iterdir()) == []
+    said = f"cannot write {tmp_path}/log.npz: File too large; saved in {tmp_path}: summary.json"
+    assert said in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["summary.json"]
 
 
 def test_a_mission_that_fails_says_why_and_ends_with_1(

@@ -5,6 +5,7 @@ Strategy: a planar arm of text under gravity, in the physics. What the loop is m
 """
 
 from collections.abc import Callable
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -117,7 +118,7 @@ def test_a_channel_that_a_command_does_not_name_holds() -> None:
         simulation.step(1, [np.nan, np.nan, 0.0])
 
 
-def test_what_an_operator_did_is_in_the_log_and_gives_the_same_bits() -> None:
+def test_what_an_operator_did_is_in_the_log_and_gives_the_same_bits(tmp_path: Path) -> None:
     # a target that was left alone was 0 in the log, a delta stood in each tick of its step
     def session() -> hurcules.Simulation:
         return simulate(
@@ -144,6 +145,34 @@ def test_what_an_operator_did_is_in_the_log_and_gives_the_same_bits() -> None:
     assert np.array_equal(first.state(), again.state())
     with pytest.raises(hurcules.Error, match="no 'command/tip_0'"):
         again.replay(simulate(lambda tip: {}).log())
+    file = tmp_path / "log.npz"
+    np.savez(file, **log)
+    third = session()
+    assert third.replay(file) == 160
+    assert np.array_equal(first.state(), third.state())
+    file.write_text("no log")
+    with pytest.raises(hurcules.Error, match=r"cannot read .*log\.npz as a log"):
+        third.replay(str(file))
+
+
+def test_a_reset_goes_back_to_its_own_start() -> None:
+    own = hurcules.Simulation("stretch", seed=3, record=False)
+    start = own.data.qpos.copy()
+    own.step(5)
+    own.reset()
+    assert np.array_equal(own.data.qpos, start)
+    own.reset(4)
+    assert not np.array_equal(own.data.qpos, start)
+    own.reset(seed=3)
+    assert np.array_equal(own.data.qpos, start)
+
+
+def test_what_does_not_belong_together_is_told() -> None:
+    person = hurcules.lift.Person(mass=90)
+    with pytest.raises(hurcules.Error, match=r"parameters: wanted a mapping.* got Person\(mass=90"):
+        hurcules.Simulation("lift", parameters=person)  # type: ignore[arg-type]
+    with pytest.raises(hurcules.Error, match="a mission, or a model and a controller, not all"):
+        hurcules.Simulation("lift", model=hurcules.lift.model(person))
 
 
 def test_the_point_that_a_gaze_looks_at_is_set() -> None:

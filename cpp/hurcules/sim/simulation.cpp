@@ -588,6 +588,7 @@ std::string Simulation::question() const {
 }
 
 void Simulation::answer(bool yes) {
+  require(!paused(), "the mission is paused: resume, and what it asks is asked again");
   require(supervisor_ && !finished() && supervisor_->asks_until(),
           "answer wants a mission that asks (reaction 'ask 30 s'), nothing is asked now");
   supervisor_->answer(yes);

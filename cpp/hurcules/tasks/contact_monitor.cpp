@@ -85,7 +85,8 @@ ContactState ContactMonitor::look(double reading, double position) {
 
 void ContactMonitor::reset() {
   state_ = ContactState::Free;
-  force_ = quiet_ = missing_ = changed_at_ = 0.0;
+  force_ = quiet_ = missing_ = changed_at_ = step_ = changes_ = 0.0;
+  coarse_ = false;
 }
 
 void ContactMonitor::save(StateWriter& writer) const {

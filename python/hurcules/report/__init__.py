@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
+import numpy as np
 
-from hurcules.figures import describe, readable
-from hurcules.legend import event_words, joint_words, level_words
+from hurcules.figures import describe, readable, wanted
+from hurcules.legend import event_words, joint_words, level_words, region_words
 from hurcules.recording import (
     CHANNELS,
     LOAD_CHANNELS,
@@ -106,6 +107,7 @@ def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
             "measured": readable(name, value),
             "thesis": readable(name, thesis[name]) if name in thesis else "",
             "where": describe(name).where,
+            "wanted": wanted(name, summary["wanted"].get(name), value),
         }
         for name, value in summary["figures"].items()
     ]
@@ -130,7 +132,8 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
         (plots.tick_times, log, "Time of a control tick", _TIMES),
     ]
     if "casualty/contact_share" in log:
-        drawn.insert(0, (plots.person, log, "The person", _PERSON))
+        text = f"{_PERSON} {_regions(log)}"
+        drawn.insert(0, (plots.person, log, "The person", text))
     if "load/off_m" in log:
         drawn.insert(0, (plots.load, log, "The load", _LOAD))
     with applied():
@@ -138,6 +141,22 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
             {"title": title, "text": text, "svg": draw(part, events)}
             for draw, part, title, text in drawn
         ]
+
+
+def _regions(log: dict[str, Any]) -> str:
+    """The largest force of the robot on each region of the body, and when."""
+    prefix = "casualty/force/"
+    found = [
+        (float(np.max(force)), name.removeprefix(prefix), log["time"][np.argmax(force)])
+        for name, force in log.items()
+        if name.startswith(prefix)
+    ]
+    told = [
+        f"{region_words(region)} {force:.0f} N at {time:.1f} s"
+        for force, region, time in sorted(found, reverse=True)
+        if force >= 1.0
+    ]
+    return f"Largest force of the robot on each region: {', '.join(told) or 'none'}."
 
 
 _POSITIONS = (

@@ -17,6 +17,7 @@ from hurcules.report.style import (
     INK,
     LINES,
     axes,
+    below,
     cells,
     decimate,
     mark,
@@ -181,7 +182,7 @@ def load(log: Log, events: Sequence[float]) -> str:
         force = log[f"load/{side}_grip_n"]
         plot.plot(*decimate(log["time"], force), color=colour, label=f"{side} hand")
     plot.set_title("the fingers press [N]")
-    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.4), ncols=2)
+    below(plot)
     _borne(drawn[-1][1], log, "load", _HOLDERS, "share of its weight on")
     for _, plot in drawn:
         mark(plot, events)
@@ -194,7 +195,7 @@ def _borne(plot: Axes, log: Log, prefix: str, bearers: Mapping[str, str], title:
         plot.plot(*decimate(log["time"], log[f"{prefix}/{name}"]), color=colour, label=label)
     plot.set_ylim(-0.1, 1.3)
     plot.set_title(title)
-    plot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.4), ncols=2)
+    below(plot)
 
 
 def solver_work(log: Log, events: Sequence[float]) -> str:

@@ -24,6 +24,7 @@ __all__ = [
     "LINES",
     "applied",
     "axes",
+    "below",
     "cells",
     "data_address",
     "decimate",
@@ -86,6 +87,11 @@ def cells(count: int, width: float = 3.3, height: float = 2.1) -> list[tuple[Fig
     """Pictures of one plot each, `width` x `height` inches, for `side_by_side`."""
     figures = [Figure(figsize=(width, height), layout="constrained") for _ in range(count)]
     return [(figure, figure.subplots()) for figure in figures]
+
+
+def below(plot: Axes) -> None:
+    """The legend of a cell, below its axis: there the layout makes room for all of it."""
+    plot.figure.legend(loc="outside lower center", ncols=2)
 
 
 def side_by_side(drawn: Iterable[tuple[Figure, Axes]]) -> str:

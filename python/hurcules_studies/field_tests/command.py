@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from hurcules import extras, scenes
+from hurcules import Error, extras, scenes
 from hurcules._version import __version__
 from hurcules.interrupts import Interrupts
 from hurcules.models import names as robot_names
@@ -33,6 +33,7 @@ __all__ = ["FIELD_TESTS", "run_method", "summarize"]
 
 FILES = ("summary.json", "video.mp4", "report.html")
 PACE = Pace()
+WITH_HANDS = "manipulation"  # the robot of `Method.grasps`
 
 
 class FieldTests:
@@ -69,6 +70,8 @@ def run_method(options: MethodOptions, console: Console) -> int:
     chosen, settings = parse(options.method, options.words)
     require_known("robot", options.robot, robot_names())
     runner.check(chosen, options.repetitions, options.workers, options.speed)
+    if chosen.grasps and options.robot != WITH_HANDS:  # before the last results are removed
+        raise Error(f"{options.method}: --robot: wanted '{WITH_HANDS}', which has hands")
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
         started = perf_counter()
