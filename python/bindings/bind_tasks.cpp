@@ -136,6 +136,11 @@ constexpr const char* kMaxLead =
 
 From a fifth of it on the target goes slower; a velocity that leads back is never held.
 )";
+constexpr const char* kMaxLeadOfPose =
+    R"(Distance [m], and three times as many [rad], that advance leads the target from the frame at most.
+
+inf for any. From a fifth of it on the target goes slower; a velocity that leads back is never held.
+)";
 constexpr const char* kValueTask =
     "A task whose value is a list of numbers: e = value - target, angles the short way round.";
 constexpr const char* kSetTarget =
@@ -365,6 +370,7 @@ void bind_pose_tasks(py::module_& module) {
       .def_property_readonly("world_target", &PoseTask::world_target, kWorldTarget)
       .def_property_readonly("world_target_orientation", &PoseTask::world_target_orientation,
                              "how it shall be turned (3, 3) in the world, for drawing")
+      .def_property("max_lead", &PoseTask::max_lead, &PoseTask::set_max_lead, kMaxLeadOfPose)
       .def("set_target", set_target, py::arg("position"), py::arg("orientation") = py::none(),
            py::arg("velocity") = py::none(), kSetPose);
   py::class_<RelativePoseTask, PoseTask>(module, "RelativePoseTask", kRelativePoseTask)
@@ -414,6 +420,8 @@ void bind_rotation_tasks(py::module_& module) {
       .def(py::init(orientation), name, robot, frame, reference)
       .def_property_readonly("orientation", &OrientationTask::orientation, copy, "R_RF (3, 3)")
       .def_property_readonly("target", &OrientationTask::target, copy, "R_des (3, 3)")
+      .def_property("max_lead", &OrientationTask::max_lead, &OrientationTask::set_max_lead,
+                    kMaxLead)
       .def(
           "set_target",
           [](OrientationTask& task, const ArrayLike& target,

@@ -40,23 +40,26 @@ void require_distinct(const std::vector<Named>& all, const char* kind) {
   }
 }
 
-// rows that are given, and reckoned ones for the other joints
+// Rows that are given, and reckoned ones for the other joints. A table that is whole may name joints
+// of another form of the robot; one that is not may have a name mistyped.
 std::vector<ServoGains> all_gains(const Robot& robot, const std::vector<ServoGains>& given,
                                   const std::vector<JointActuator>& actuators, double dt,
                                   bool decoupled) {
-  std::vector<std::string> joints;
-  for (const JointActuator& actuator : actuators) joints.push_back(actuator.joint);
-  for (const ServoGains& row : given) {
-    if (std::find(joints.begin(), joints.end(), row.joint) == joints.end())
-      throw Error(unknown_name("joint with an actuator", row.joint, joints));
-  }
   const auto row_of = [&given](const std::string& joint) {
     return std::find_if(given.begin(), given.end(),
                         [&joint](const ServoGains& row) { return row.joint == joint; });
   };
-  if (std::all_of(joints.begin(), joints.end(),
-                  [&](const std::string& joint) { return row_of(joint) != given.end(); }))
-    return given;
+  std::vector<std::string> joints;
+  bool whole = true;
+  for (const JointActuator& actuator : actuators) {
+    joints.push_back(actuator.joint);
+    whole = whole && row_of(actuator.joint) != given.end();
+  }
+  if (whole) return given;
+  for (const ServoGains& row : given) {
+    if (std::find(joints.begin(), joints.end(), row.joint) == joints.end())
+      throw Error(unknown_name("joint with an actuator", row.joint, joints));
+  }
   std::vector<ServoGains> rows = default_servo_gains(robot, dt, decoupled);
   for (ServoGains& row : rows) {
     if (const auto own = row_of(row.joint); own != given.end()) row = *own;

@@ -65,7 +65,7 @@ class ForceTask : public PositionTask {
   // first one to f_des with the blend time (0: it stays the reading), so that what the model of the
   // robot misses is not magnified into a force that is missing
   [[nodiscard]] double borne() const { return borne_; }
-  [[nodiscard]] double stiffness() const;                          // [N/m] given or learnt
+  [[nodiscard]] double stiffness() const;  // [N/m] given or learnt
   [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
 
  private:
@@ -87,8 +87,8 @@ class ForceTask : public PositionTask {
   double offset_ = 0.0, age_ = 0.0;
   double entry_ = 0.0;  // [N] read when the mode changed
   double borne_ = 0.0;
-  double rate_ = 0.0;   // [m/s] of the frame, by the robot's velocity or by differences
-  double last_ = 0.0;   // [m] s at the last sense
+  double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
+  double last_ = 0.0;  // [m] s at the last sense
   bool sensed_ = false;
 };
 

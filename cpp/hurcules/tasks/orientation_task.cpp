@@ -43,7 +43,7 @@ void OrientationTask::hold(const Robot& robot) {
 void OrientationTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
-  turn_ = velocity;
+  turn_ = velocity * max_lead_.share(error_, velocity);
   velocity_des_ = right_jacobian_inverse(error_) * turn_;
   // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
   if (turn_.squaredNorm() == 0) return;

@@ -7,6 +7,7 @@
 // to -e (all numbers stay bounded). Cameras: x along the line of sight, z up in the image.
 #pragma once
 
+#include "hurcules/tasks/max_lead.hpp"
 #include "hurcules/tasks/reference.hpp"
 #include "hurcules/tasks/task.hpp"
 
@@ -31,6 +32,10 @@ class OrientationTask : public Task {
   // turns the target by exp(velocity dt); angular velocity in the axes of R [rad/s], (3)
   void advance(const ConstVectorRef& velocity, double dt) override;
   [[nodiscard]] Index target_size() const override { return 3; }
+  // keeps `advance` from leading the target further than this from the frame [rad]; inf, the
+  // default: anywhere; see MaxLead
+  void set_max_lead(double max_lead) { max_lead_.set(max_lead, name_); }
+  [[nodiscard]] double max_lead() const { return max_lead_.value(); }
   void assign_target(const ConstVectorRef& target) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
@@ -47,6 +52,7 @@ class OrientationTask : public Task {
   RotationMotion rotation_;
   Matrix3 target_ = Matrix3::Identity();
   Vector3 turn_ = Vector3::Zero();  // w_des [rad/s], in the axes of the reference
+  MaxLead max_lead_;
 };
 
 }  // namespace hurcules

@@ -61,13 +61,19 @@ void PoseTask::hold(const Robot& robot) {
 void PoseTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
-  turn_ = velocity.tail<3>();
-  velocity_des_.head<3>() = velocity.head<3>();
+  turn_ = velocity.tail<3>() * max_turn_.share(error_.tail<3>(), velocity.tail<3>());
+  velocity_des_.head<3>() =
+      velocity.head<3>() * max_lead_.share(error_.head<3>(), velocity.head<3>());
   velocity_des_.tail<3>() = right_jacobian_inverse(error_.tail<3>()) * turn_;
-  p_des_ += velocity.head<3>() * dt;
+  p_des_ += velocity_des_.head<3>() * dt;
   // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
   if (turn_.squaredNorm() == 0) return;
   R_des_ = Eigen::Quaterniond(rotation_exp(turn_ * dt) * R_des_).normalized().toRotationMatrix();
+}
+
+void PoseTask::set_max_lead(double max_lead) {
+  max_lead_.set(max_lead, name_);
+  max_turn_.set(kTurnShare * max_lead, name_);
 }
 
 void PoseTask::back_calculate(double share) {

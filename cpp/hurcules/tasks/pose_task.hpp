@@ -7,6 +7,7 @@
 // are three times as fast [rad/s] as max_speed [m/s].
 #pragma once
 
+#include "hurcules/tasks/max_lead.hpp"
 #include "hurcules/tasks/reference.hpp"
 #include "hurcules/tasks/task.hpp"
 
@@ -35,6 +36,10 @@ class PoseTask : public Task {
   [[nodiscard]] ConstVectorRef yielding_target() const override { return p_des_; }
   void lead_target(const ConstVectorRef& step, double dt) override;
   [[nodiscard]] Index target_size() const override { return 6; }
+  // keeps `advance` from leading the target further than this from the frame: [m], and three times
+  // as many [rad]; inf, the default: anywhere; see MaxLead
+  void set_max_lead(double max_lead);
+  [[nodiscard]] double max_lead() const { return max_lead_.value(); }
   void assign_target(const ConstVectorRef& target) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
@@ -63,6 +68,7 @@ class PoseTask : public Task {
   Vector3 p_des_ = Vector3::Zero();
   Matrix3 R_des_ = Matrix3::Identity();
   Vector3 turn_ = Vector3::Zero();  // w_des [rad/s], in the axes of R
+  MaxLead max_lead_, max_turn_;     // [m], [rad]
 };
 
 // the pose of a frame in another frame of the robot

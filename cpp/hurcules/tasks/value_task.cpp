@@ -1,7 +1,5 @@
 #include "hurcules/tasks/value_task.hpp"
 
-#include <algorithm>
-
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 
@@ -33,10 +31,8 @@ void ValueTask::hold(const Robot& robot) {
 void ValueTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
-  const double slack = 1.25 * (1.0 - error_.norm() / max_lead_);
-  const bool leads = error_.dot(velocity) < 0.0;  // away from the value
   velocity_des_ = velocity;
-  if (leads && slack < 1.0) velocity_des_ *= std::max(0.0, slack);
+  if (const double share = max_lead_.share(error_, velocity); share < 1.0) velocity_des_ *= share;
   acceleration_des_.setZero();
   target_ += velocity_des_ * dt;
 }
@@ -48,11 +44,6 @@ void ValueTask::back_calculate(double share) {
 void ValueTask::lead_target(const ConstVectorRef& step, double dt) {
   velocity_des_ = step / dt;
   advance(velocity_des_, dt);
-}
-
-void ValueTask::set_max_lead(double max_lead) {
-  require(max_lead > 0.0, "max_lead of '" + name() + "' wants a positive distance, inf for none");
-  max_lead_ = max_lead;
 }
 
 void ValueTask::set_target(const ConstVectorRef& target) {

@@ -4,8 +4,7 @@
 //   hold: s_des = s;   advance: s_des += velocity dt
 #pragma once
 
-#include <limits>
-
+#include "hurcules/tasks/max_lead.hpp"
 #include "hurcules/tasks/task.hpp"
 
 namespace hurcules {
@@ -20,11 +19,10 @@ class ValueTask : public Task {
   void lead_target(const ConstVectorRef& step, double dt) override;
   [[nodiscard]] Index target_size() const override { return rows(); }
   void assign_target(const ConstVectorRef& target) override { set_target(target); }
-  // Keeps `advance` from leading the target further than this from the value (Euclidean norm, task
-  // unit; inf, the default: anywhere). From a fifth of it on the target goes slower, so that a
-  // robot at the end of its reach stops; a velocity that leads back is never held.
-  void set_max_lead(double max_lead);
-  [[nodiscard]] double max_lead() const { return max_lead_; }
+  // keeps `advance` from leading the target further than this from the value (Euclidean norm, task
+  // unit; inf, the default: anywhere), see MaxLead
+  void set_max_lead(double max_lead) { max_lead_.set(max_lead, name_); }
+  [[nodiscard]] double max_lead() const { return max_lead_.value(); }
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 
@@ -48,7 +46,7 @@ class ValueTask : public Task {
 
  private:
   bool wraps_;
-  double max_lead_ = std::numeric_limits<double>::infinity();
+  MaxLead max_lead_;
 };
 
 }  // namespace hurcules
