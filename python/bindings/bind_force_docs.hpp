@@ -82,6 +82,19 @@ Args:
   robot: Robot where the controller will see it.
   force: f [N], NaN for none.
 )";
+inline constexpr const char* kTare = R"(What is read next is zero from then on, until a reset.
+
+The weight of a tool behind the sensor, say. A contact that was none ends, at rest.
+)";
+inline constexpr const char* kSetFilter =
+    R"(A low-pass of what the force law is told; contact is judged by the reading itself.
+
+Args:
+  seconds: its time constant, 0 for none. `WholeBodyController.sense` sets 3 ms for a sensor.
+
+Raises:
+  Error: below 0 or not finite.
+)";
 inline constexpr const char* kEnable =
     "False: motion alone, whatever is read; readings are still watched.";
 inline constexpr const char* kReset = "Out of Stopped and SensorLost, at rest where the frame is.";

@@ -393,6 +393,8 @@ void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> sp
 }
 
 void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
+  constexpr double kFilter = 3e-3;  // [s]
+  task.set_filter(kFilter);
   forces_.push_back({&task, nullptr, sensor_row, sign});
 }
 

@@ -104,6 +104,8 @@ class WholeBodyController {
   // a force task that reads the deflection of a spring, or a row of the model's sensors (its
   // reading is `sign` times the force that the robot exerts along the task's axis)
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
+  // with a low-pass of 3 ms: a servo's damping times the compliance is the gain of a loop with a tick
+  // of delay, which may swing
   void sense(ForceTask& task, int sensor_row, double sign = 1.0);
 
   // One tick of a loop of one's own: from what is sensed, qpos (nq) and qvel (nv), to the controls

@@ -67,7 +67,19 @@ ForceTask::Mode ForceTask::mode() const {
   return enabled_ && state == ContactState::Contact ? Mode::Force : Mode::Motion;
 }
 
+void ForceTask::set_filter(double seconds) {
+  require(std::isfinite(seconds) && seconds >= 0.0,
+          "filter of force task '" + name_ + "' wants a time of 0 or more [s]");
+  filter_ = seconds;
+}
+
 void ForceTask::sense(const Robot& robot, double force) {
+  if (tares_ && std::isfinite(force)) {
+    zero_ = force;
+    tares_ = false;
+    release(robot);
+  }
+  force -= zero_;
   ValueTask::update(robot);
   const double s = value_[0], dt = options_.gains.dt;
   if (law_.commands_acceleration()) {
@@ -78,10 +90,12 @@ void ForceTask::sense(const Robot& robot, double force) {
   last_ = s;
   sensed_ = true;
   monitor_.look(force, s);
+  const double read = monitor_.force();
+  told_ = filter_ > dt ? told_ + dt / filter_ * (read - told_) : read;
   const Mode now = mode();
   if (now == Mode::Force) {
-    if (mode_ != Mode::Force) estimate_.start(s, monitor_.force());
-    estimate_.look(s, monitor_.force());
+    if (mode_ != Mode::Force) estimate_.start(s, read);
+    estimate_.look(s, read);
   }
   // without a reference in the law, the motion goes on from where the force left the frame
   const bool follows = now == Mode::Force && !law_.has_reference();
@@ -92,14 +106,17 @@ void ForceTask::sense(const Robot& robot, double force) {
   if (now != mode_) {
     offset_ = now == Mode::Hold ? 0.0 : before - wish_;  // a stop is at once
     age_ = 0.0;
-    entry_ = monitor_.force();
+    entry_ = told_;
     if (now == Mode::Force) law_.reset();
   } else {
     age_ = std::min(age_ + dt, options_.blend);
   }
-  const bool presses = now == Mode::Force && mode_ == Mode::Force && options_.blend > 0.0;
-  borne_ = presses ? borne_ + std::min(1.0, dt / options_.blend) * (force_des_ - borne_)
-                   : monitor_.force();
+  if (now != Mode::Force || options_.blend == 0.0)
+    borne_ = told_;
+  else if (mode_ != Mode::Force)  // no more than is wanted: an impact is not pushed on
+    borne_ = std::clamp(told_, std::min(force_des_, 0.0), std::max(force_des_, 0.0));
+  else
+    borne_ += std::min(1.0, dt / options_.blend) * (force_des_ - borne_);
   mode_ = now;
   wish_ += blended();
   show();
@@ -109,7 +126,7 @@ void ForceTask::sense(const Robot& robot, double force) {
 double ForceTask::blended() const {
   const double left = offset_ * fade(age_, options_.blend);
   if (mode_ != Mode::Force || left * force_des_ <= 0.0) return left;
-  const double lacked = force_des_ - entry_, lacks = force_des_ - force();
+  const double lacked = force_des_ - entry_, lacks = force_des_ - told_;
   return lacked * force_des_ > 0.0 ? left * std::clamp(lacks / lacked, 0.0, 1.0) : 0.0;
 }
 
@@ -123,7 +140,7 @@ double ForceTask::wish(Mode mode) {
       const double G = stiffness(), most = options_.max_rate;
       const bool known = options_.environment > 0.0 || law_.has_reference();
       const double share = known ? 1.0 : std::min(1.0, most / law_.rate(G));
-      return law_.step(law_.has_reference() ? moving : motion, force_des_ - force(), share);
+      return law_.step(law_.has_reference() ? moving : motion, force_des_ - told_, share);
     }
     default:
       return law_.commands_acceleration() ? law_.free(moving) : motion_;
@@ -166,7 +183,14 @@ void ForceTask::advance(const ConstVectorRef& velocity, double dt) {
 }
 
 void ForceTask::reset(const Robot& robot) {
+  zero_ = 0.0;
+  tares_ = false;
+  release(robot);
+}
+
+void ForceTask::release(const Robot& robot) {
   monitor_.reset();
+  told_ = 0.0;
   law_.reset();
   mode_ = Mode::Motion;
   ForceTask::hold(robot);
@@ -179,7 +203,8 @@ void ForceTask::save(StateWriter& writer) const {
   estimate_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, entry_, borne_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
+        wish_, offset_, age_, entry_, borne_, told_, rate_, last_, zero_, tares_ ? 1.0 : 0.0,
+        sensed_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -192,9 +217,11 @@ void ForceTask::restore(StateReader& reader) {
   force_des_ = reader.get();
   enabled_ = reader.get_count(1) > 0;
   mode_ = static_cast<Mode>(reader.get_count(2));
-  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &borne_, &rate_, &last_}) {
+  for (double* value :
+       {&motion_, &wish_, &offset_, &age_, &entry_, &borne_, &told_, &rate_, &last_, &zero_}) {
     *value = reader.get();
   }
+  tares_ = reader.get_count(1) > 0;
   sensed_ = reader.get_count(1) > 0;
 }
 

@@ -55,6 +55,12 @@ class ForceTask : public PositionTask {
   void set_force(double force_des);  // [N] f_d
   // false: motion alone, whatever is read; readings are still watched
   void enable(bool on) { enabled_ = on; }
+  // time constant [s] of a low-pass of what the force law is told, 0: none; contact is judged by the
+  // reading itself. Throws Error unless it is finite and >= 0
+  void set_filter(double seconds);
+  // What is read next is zero from then on, until a reset: the weight of a tool behind the sensor,
+  // say. A contact that was none ends.
+  void tare() { tares_ = true; }
   // out of Stopped and SensorLost, at rest where the frame is
   void reset(const Robot& robot) override;
 
@@ -62,7 +68,7 @@ class ForceTask : public PositionTask {
   [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
   // [N] what torques bear of the contact: the reading; under force control it goes over from the
-  // first one to f_des with the blend time (0: it stays the reading), so that what the model of the
+  // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading), so that what the model of the
   // robot misses is not magnified into a force that is missing
   [[nodiscard]] double borne() const { return borne_; }
   [[nodiscard]] double stiffness() const;  // [N/m] given or learnt
@@ -73,6 +79,7 @@ class ForceTask : public PositionTask {
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] double wish(Mode mode);  // of the row, without the blend
   [[nodiscard]] double blended() const;  // what the blend adds
+  void release(const Robot& robot);      // no contact, at rest where the frame is
   void show();                           // the row as the controller sees it
 
   ForceTaskOptions options_;
@@ -87,8 +94,12 @@ class ForceTask : public PositionTask {
   double offset_ = 0.0, age_ = 0.0;
   double entry_ = 0.0;  // [N] read when the mode changed
   double borne_ = 0.0;
-  double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
-  double last_ = 0.0;  // [m] s at the last sense
+  double filter_ = 0.0;  // [s]
+  double told_ = 0.0;    // [N] filtered
+  double zero_ = 0.0;    // [N] reading that counts as none
+  bool tares_ = false;   // by the next reading
+  double rate_ = 0.0;    // [m/s] of the frame, by the robot's velocity or by differences
+  double last_ = 0.0;    // [m] s at the last sense
   bool sensed_ = false;
 };
 

@@ -300,13 +300,13 @@ TEST(ForceTask, TorquesCarryWhatIsRead) {
   controller.compute(robot);
   Vector without(robot.size()), with(robot.size());
   controller.torque(robot, without);
-  force.sense(robot, -7.0);
+  force.sense(robot, -4.0);
   ASSERT_EQ(force.state(), ContactState::Contact);
   controller.torque(robot, with);
-  // the tip presses down with 7 N
+  // the tip presses down with 4 N
   Matrix J(3, robot.size());
   robot.position_jacobian(robot.frame("tip"), J);
-  EXPECT_TRUE(near(with - without, -7.0 * J.row(2).transpose(), 1e-12));
+  EXPECT_TRUE(near(with - without, -4.0 * J.row(2).transpose(), 1e-12));
 }
 
 TEST(ForceTask, AccelerationLawsAreNothingForAVelocityController) {
