@@ -197,11 +197,13 @@ constexpr const char* kSense = R"(What a force task reads, each tick.
 Args:
   task: ForceTask of the controller.
   source: SpringForce, or the name of a sensor of the model.
-  row: of the sensor.
-  sign: of the sensor: its reading times this is what the robot exerts along the task's axis.
+  row: of the sensor; None: of a force sensor the part along the task's axis, however hand and axis
+    are turned, else row 0.
+  sign: of the sensor: its reading times this is what the robot exerts along the task's axis. Without
+    a row 1 is right for a force sensor on the body of the tool.
 
 Raises:
-  Error: an unknown sensor.
+  Error: an unknown sensor, a task that is in no stack of the controller, or a sign of 0.
 )";
 
 struct ChannelSpec {
@@ -305,8 +307,8 @@ std::shared_ptr<WholeBodyController> make(
   return {held, held->controller.get()};
 }
 
-void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source, int row,
-           double sign) {
+void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source,
+           std::optional<int> asked, double sign) {
   if (py::isinstance<SpringForce>(source)) {
     return self.sense(task, std::make_unique<SpringForce>(source.cast<const SpringForce&>()));
   }
@@ -319,6 +321,11 @@ void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source, 
     names.emplace_back(one ? one : "");
   }
   if (sensor < 0) throw Error(unknown_name("sensor", name, names));
+  if (!asked && m->sensor_type[sensor] == mjSENS_FORCE) {
+    const Frame site{mjOBJ_SITE, m->sensor_objid[sensor]};
+    return self.sense(task, m->sensor_adr[sensor], site, sign);
+  }
+  const int row = asked.value_or(0);
   require(row >= 0 && row < m->sensor_dim[sensor],
           "sensor '" + name + "' has " + std::to_string(m->sensor_dim[sensor]) + " rows, row " +
               std::to_string(row) + " was asked for");
@@ -465,7 +472,7 @@ void bind_whole_body(py::module_& module) {
       .def("task", &WholeBodyController::task, "name"_a,
            py::return_value_policy::reference_internal,
            "A task of its stacks, by name. Raises Error with the names that exist.")
-      .def("sense", &sense, "task"_a, "source"_a, "row"_a = 0, "sign"_a = 1.0,
+      .def("sense", &sense, "task"_a, "source"_a, "row"_a = py::none(), "sign"_a = 1.0,
            py::keep_alive<1, 2>(), kSense)
       .def("state", &state<WholeBodyController>, kState)
       .def("restore", &restore<WholeBodyController>, "state"_a, kRestore)

@@ -912,6 +912,14 @@ class PoseTask(Task):
             or moves it; None: at rest."""
 
     @property
+    def max_lead(self) -> float:
+        """Distance [m], and three times as many [rad], that advance leads the target from the frame at most.
+
+        inf for any. From a fifth of it on the target goes slower; a velocity that leads back is never held."""
+
+    @max_lead.setter
+    def max_lead(self, arg1: float) -> None: ...
+    @property
     def orientation(self) -> NDArray[np.float64]:
         """R_RF (3, 3)"""
 
@@ -966,6 +974,14 @@ class OrientationTask(Task):
           velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
             moves it; None: at rest."""
 
+    @property
+    def max_lead(self) -> float:
+        """Distance [task unit] that advance leads the target from the value at most, inf for any.
+
+        From a fifth of it on the target goes slower; a velocity that leads back is never held."""
+
+    @max_lead.setter
+    def max_lead(self, arg1: float) -> None: ...
     @property
     def orientation(self) -> NDArray[np.float64]:
         """R_RF (3, 3)"""
@@ -2660,10 +2676,11 @@ class WholeBodyController:
       base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
         now: targets in the world stay where they are while the robot drives).
       support: body that stands on the ground; by default the robot's own, see Robot.stand_on.
-      servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; by
-        default reckoned from the model, and decoupled by the mass matrix where feed_forward is on.
+      servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; of
+        the joints that are left out reckoned from the model. A driven wheel may roll the robot.
       feed_forward: servos are told the torques that the model says.
-      decoupled: what the servos ask for is given by the mass matrix; None: where `servo` is not given.
+      decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
+        `servo` is not given, and no wheel is driven.
       torque_scaling: the motion slows down where a motor would be asked for more than its peak.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.
       belts: names of the left and right joint of the driven belts.

@@ -394,8 +394,27 @@ void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> sp
 
 void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
   constexpr double kFilter = 3e-3;  // [s]
+  require(contains(tasks_, static_cast<const Task*>(&task)),
+          "force task '" + task.name() + "' is in no stack of the controller");
+  require(
+      std::isfinite(sign) && sign != 0.0,
+      "the sign of a sensor wants a finite number other than 0, " + number_text(sign) + " came");
   task.set_filter(kFilter);
   forces_.push_back({&task, nullptr, sensor_row, sign});
+}
+
+void WholeBodyController::sense(ForceTask& task, int sensor_row, Frame site, double sign) {
+  sense(task, sensor_row, sign);
+  forces_.back().site = site;
+}
+
+double WholeBodyController::read(const ForceReading& reading, const double* sensors) const {
+  if (!reading.site) return reading.sign * sensors[reading.row];
+  const Eigen::Map<const Vector3> force(sensors + reading.row);
+  Vector3 axis = reading.task->options().axis;
+  if (const auto reference = reading.task->reference_frame())
+    axis = plan_.pose(*reference).R * axis;
+  return reading.sign * axis.dot(plan_.pose(*reading.site).R * force);
 }
 
 // the reference configuration, on its support
@@ -589,7 +608,7 @@ void WholeBodyController::read_forces(const RobotState& state) {
       const double along = reading.spring->direction().dot(reading.task->options().axis);
       force = -reading.spring->force() / along;  // the force along the axis that bends it so
     } else if (state.sensors) {
-      force = reading.sign * state.sensors[reading.row];
+      force = read(reading, state.sensors);
     }
     reading.task->sense(plan_, force);
   }

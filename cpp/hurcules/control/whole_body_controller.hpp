@@ -107,6 +107,9 @@ class WholeBodyController {
   // with a low-pass of 3 ms: a servo's damping times the compliance is the gain of a loop with a tick
   // of delay, which may swing
   void sense(ForceTask& task, int sensor_row, double sign = 1.0);
+  // the same of a force sensor (3 rows from that one) in the axes of its site: their part along the
+  // task's axis, however both are turned
+  void sense(ForceTask& task, int sensor_row, Frame site, double sign = 1.0);
 
   // One tick of a loop of one's own: from what is sensed, qpos (nq) and qvel (nv), to the controls
   // (nu) of the actuators, whose motors give what the model says. Command and `first` as for `apply`;
@@ -174,7 +177,9 @@ class WholeBodyController {
     std::shared_ptr<SpringForce> spring;
     int row = -1;
     double sign = 1.0;
+    std::optional<Frame> site = {};  // in the axes of this
   };
+  [[nodiscard]] double read(const ForceReading& reading, const double* sensors) const;
   void collect_tasks();
   void check_channels();
   [[nodiscard]] bool reaches(std::size_t channel) const;
