@@ -1482,8 +1482,22 @@ class ForceTask(PositionTask):
           robot: Robot where the controller will see it.
           force: f [N], NaN for none."""
 
+    def set_filter(self, seconds: float) -> None:
+        """A low-pass of what the force law is told; contact is judged by the reading itself.
+
+        Args:
+          seconds: its time constant, 0 for none. `WholeBodyController.sense` sets 3 ms for a sensor.
+
+        Raises:
+          Error: below 0 or not finite."""
+
     def set_force(self, force_des: float) -> None:
         """f_d [N]."""
+
+    def tare(self) -> None:
+        """What is read next is zero from then on, until a reset.
+
+        The weight of a tool behind the sensor, say. A contact that was none ends, at rest."""
 
     @property
     def contact(self) -> ContactState:
@@ -2752,17 +2766,21 @@ class WholeBodyController:
     def restore(self, state: collections.abc.Sequence[float]) -> None:
         """Goes on from what state() gave."""
 
-    def sense(self, task: ForceTask, source: Any, row: int = 0, sign: float = 1.0) -> None:
+    def sense(
+        self, task: ForceTask, source: Any, row: int | None = None, sign: float = 1.0
+    ) -> None:
         """What a force task reads, each tick.
 
         Args:
           task: ForceTask of the controller.
           source: SpringForce, or the name of a sensor of the model.
-          row: of the sensor.
-          sign: of the sensor: its reading times this is what the robot exerts along the task's axis.
+          row: of the sensor; None: of a force sensor the part along the task's axis, however hand and axis
+            are turned, else row 0.
+          sign: of the sensor: its reading times this is what the robot exerts along the task's axis. Without
+            a row 1 is right for a force sensor on the body of the tool.
 
         Raises:
-          Error: an unknown sensor."""
+          Error: an unknown sensor, a task that is in no stack of the controller, or a sign of 0."""
 
     def stand_on(self, body: str) -> None:
         """The plan stands on another body, where it is now.

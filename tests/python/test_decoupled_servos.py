@@ -72,5 +72,5 @@ def test_joint_by_joint_the_same_gains_never_rest() -> None:
 
 def test_a_table_of_ones_own_may_leave_joints_out_and_names_none_that_is_not_there() -> None:
     swing({"turn": (0.2, 30.0), "swing": (0.2, 30.0)})
-    with pytest.raises(hurcules.Error, match="'elbow' does not exist; there are: .*wrist"):
+    with pytest.raises(hurcules.Error, match=r"'elbow' does not exist; there are: .*wrist"):
         swing({"elbow": (0.2, 30.0)})

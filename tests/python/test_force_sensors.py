@@ -1,7 +1,7 @@
 """Force sensors of the model: turned sites, tools behind them, impacts.
 
-Strategy: a tool on three slides and a table; what is read and kept is compared with the contact force
-of the physics.
+Strategy: a tool on three slides and a table; what is read and kept is compared with the contact
+force of the physics.
 """
 
 from __future__ import annotations

@@ -48,9 +48,9 @@ FLOORS: tuple[set[str], ...] = (
         "motors", "output", "postures", "rendering", "rhqp", "sensors", "start_checks", "support",
     )},
     {"hurcules." + name for name in (
-        "cameras", "drawing", "mjcf", "transfer_bed", "urdf", "video",
+        "cameras", "drawing", "mjcf", "urdf", "video",
     )},
-    {"hurcules.scenes"},
+    {"hurcules.scenes", "hurcules.transfer_bed"},
     {"hurcules.disposal", "hurcules.lift"},
     {"hurcules.models", "hurcules.table_missions"},
     {"hurcules.doctor", "hurcules.export", "hurcules.simulation"},
