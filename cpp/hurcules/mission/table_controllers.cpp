@@ -143,8 +143,8 @@ std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model,
   channels.push_back(tracks());
   const std::vector<ServoGains> servo = with_rims(robot, rescue_servo());
   channels.push_back(joints_but(servo, {"_belt"}));
-  auto controller = make(robot, servo, std::move(stacks), std::move(channels),
-                         std::move(limits), tasks, method);
+  auto controller =
+      make(robot, servo, std::move(stacks), std::move(channels), std::move(limits), tasks, method);
   controller->sense(left_press, std::make_unique<SpringForce>(model, "LEBS", "L_tcp"));
   controller->sense(right_press, std::make_unique<SpringForce>(model, "REBS", "R_tcp"));
   return controller;
