@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -81,7 +82,7 @@ def evaluate(
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess = 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
-    with eyes:
+    with closing(eyes):
         for _ in range(steps_of_episode(environment, options) or sys.maxsize):
             parts = eyes.look(seen.observation, running)
             batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still
@@ -138,10 +139,7 @@ class _Eyes:
                 self._views[name][i] = view
         return parts | self._views
 
-    def __enter__(self) -> None:
-        """Draws from here on."""
-
-    def __exit__(self, *_: object) -> None:
+    def close(self) -> None:
         """Gives the renderer back."""
         if self._pictures is not None:
             self._pictures.close()

@@ -35,8 +35,7 @@ Array numbers_of(const std::string& what, const py::handle& values) {
 void hold(const WholeBodyController& controller, Matrix& all) {
   Index column = 0;
   for (const Channel& channel : controller.channels()) {
-    const bool sets = channel.kind() == ChannelKind::Target || channel.kind() == ChannelKind::Force;
-    if (!sets) all.middleCols(column, channel.size()).setZero();
+    if (!channel.sets()) all.middleCols(column, channel.size()).setZero();
     column += channel.size();
   }
 }

@@ -31,6 +31,10 @@ class Channel {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] ChannelKind kind() const { return kind_; }
+  // a value is set, and zero would be one of its own: what is not given stays
+  [[nodiscard]] bool sets() const {
+    return kind_ == ChannelKind::Target || kind_ == ChannelKind::Force;
+  }
   [[nodiscard]] Index size() const { return scale_.size(); }
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (size)
   [[nodiscard]] Task* task() const { return task_; }            // null for Drive, Joint, Joints

@@ -133,14 +133,9 @@ std::vector<Task*> tasks_of(const Stack& stack) {
   return all;
 }
 
-// zero would be a value of its own
-bool sets(ChannelKind kind) {
-  return kind == ChannelKind::Target || kind == ChannelKind::Force;
-}
-
 // in the first tick of a command alone
-bool acts_once(ChannelKind kind) {
-  return sets(kind) || kind == ChannelKind::Delta;
+bool acts_once(const Channel& channel) {
+  return channel.sets() || channel.kind() == ChannelKind::Delta;
 }
 
 }  // namespace
@@ -493,13 +488,13 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     const ChannelKind kind = channels_[i].kind();
     auto part = command_.segment(row, size);
     const bool moved = !part.isZero(0.0);
-    const bool given =
-        command && !std::isnan((*command)[row]) && reaches(i) && (first || !acts_once(kind));
+    const bool given = command && !std::isnan((*command)[row]) && reaches(i) &&
+                       (first || !acts_once(channels_[i]));
     if (given) {
       const auto scale = scale_.segment(row, size);
       part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
     } else {
-      part.setConstant(sets(kind) ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+      part.setConstant(channels_[i].sets() ? std::numeric_limits<double>::quiet_NaN() : 0.0);
     }
     row += size;
     if (kind == ChannelKind::Joints) {
