@@ -34,8 +34,10 @@ template <class Named>
 void require_distinct(const std::vector<Named>& all, const char* kind) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      require(name_of(all[i]) != name_of(all[k]),
-              std::string("two ") + kind + " are called '" + name_of(all[i]) + "'");
+      if (name_of(all[i]) != name_of(all[k])) continue;
+      std::string text = "two ";  // appended: GCC 12 takes a sum for an overlap
+      text.append(kind).append(" are called '").append(name_of(all[i])).append("'");
+      throw Error(text);
     }
   }
 }

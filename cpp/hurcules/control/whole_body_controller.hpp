@@ -204,7 +204,7 @@ class WholeBodyController {
   std::vector<JointLimits*> limits_;          // that they name
   std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
   std::vector<Channel> channels_;
-  std::vector<CarryingJoint> carrying_;
+  std::vector<CarryingJoint> carrying_;      // no coordinate moves them
   std::vector<std::vector<Index>> moved_;    // (channels) joints of Joints channels
   std::vector<bool> led_;                    // (joints of the servo) by a channel of their own
   std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack

@@ -182,9 +182,8 @@ class Roaming {
       const Vector3 axis(model_.jnt_axis + 3 * joint);
       ways_.push_back({body, robot.pose({mjOBJ_BODY, body}).R * axis});
     }
-    for (const JointActuator& actuator : joint_actuators(robot)) {
-      if (actuator.rolling_inertia == 0.0) continue;
-      const int root = model_.body_rootid[model_.jnt_bodyid[actuator.joint_id]];
+    for (const int wheel : driven_wheels(model_)) {
+      const int root = model_.body_rootid[model_.jnt_bodyid[wheel]];
       ways_.push_back({root, Vector3::UnitX()});
       ways_.push_back({root, Vector3::UnitY()});
     }

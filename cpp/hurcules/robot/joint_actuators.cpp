@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
@@ -90,8 +88,8 @@ double radius_about(const mjModel* m, int geom, const Vector3& point, const Vect
 }
 
 // [m] of a wheel, see JointActuator::rolling_inertia; 0: none
-double wheel_radius(const mjModel* m, const JointActuator& actuator) {
-  const int joint = actuator.joint_id, body = m->jnt_bodyid[joint], root = m->body_rootid[body];
+double wheel_radius(const mjModel* m, int joint) {
+  const int body = m->jnt_bodyid[joint], root = m->body_rootid[body];
   if (m->jnt_type[joint] != mjJNT_HINGE || m->jnt_limited[joint] || root == body ||
       m->body_dofnum[root] == 0)
     return 0.0;
@@ -110,17 +108,15 @@ double wheel_radius(const mjModel* m, const JointActuator& actuator) {
 
 // the mass of each robot is shared out among its driven wheels
 void read_wheels(const mjModel* m, std::vector<JointActuator>& actuators) {
-  std::map<int, std::set<int>> wheels;  // joints by the root of their robot
-  const auto root_of = [m](const JointActuator& own) {
-    return m->body_rootid[m->jnt_bodyid[own.joint_id]];
-  };
-  for (const JointActuator& own : actuators)
-    if (wheel_radius(m, own) > 0.0) wheels[root_of(own)].insert(own.joint_id);
+  const std::vector<int> wheels = driven_wheels(*m);
+  const auto root_of = [m](int joint) { return m->body_rootid[m->jnt_bodyid[joint]]; };
   for (JointActuator& own : actuators) {
-    const double r = wheel_radius(m, own);
-    if (r == 0.0) continue;
-    const auto shares = static_cast<double>(wheels[root_of(own)].size());
-    own.rolling_inertia = own.most_inertia + m->body_subtreemass[root_of(own)] * r * r / shares;
+    const int root = root_of(own.joint_id);
+    if (std::find(wheels.begin(), wheels.end(), own.joint_id) == wheels.end()) continue;
+    const auto shares = static_cast<double>(std::count_if(
+        wheels.begin(), wheels.end(), [&](int other) { return root_of(other) == root; }));
+    const double r = wheel_radius(m, own.joint_id);
+    own.rolling_inertia = own.most_inertia + m->body_subtreemass[root] * r * r / shares;
   }
 }
 
@@ -145,6 +141,13 @@ void require_three(const mjModel* m, const std::vector<JointActuator>& actuators
 double JointActuator::position(const Vector& all) const {
   if (part < 0) return all[qpos];
   return rotation_log(rotation_of(all.data() + qpos))[part - kTurns];
+}
+
+std::vector<int> driven_wheels(const mjModel& m) {
+  std::vector<int> found;
+  for (int joint = 0; joint < m.njnt; ++joint)
+    if (actuator_of(m, joint) >= 0 && wheel_radius(&m, joint) > 0.0) found.push_back(joint);
+  return found;
 }
 
 std::vector<JointActuator> joint_actuators(const Robot& robot) {

@@ -69,5 +69,7 @@ struct JointActuator {
 // affine function of its control (muscles, actuators with a state of their own), and for a ball joint
 // that has others than one about each axis of its body.
 [[nodiscard]] std::vector<JointActuator> joint_actuators(const Robot& robot);
+// joints of a model that are driven wheels, see JointActuator::rolling_inertia; of any actuators
+[[nodiscard]] std::vector<int> driven_wheels(const mjModel_& model);
 
 }  // namespace hurcules
