@@ -207,7 +207,7 @@ FORCE = (
             "lower_bandwidth": least(
                 "the same with 0.4 times the bandwidth, over it",
                 1.0,
-                ours=(0.05, 1.0),
+                ours=(0.01, 1.0),
                 why="the servo is told the speed of its reference (5.5.49) and the reading is not "
                 "late: then servo, mass, ground and force loop have no unstable pole in any of "
                 "27,000 combinations, the swing is contact that is lost and met again, and a "
