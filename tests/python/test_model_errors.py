@@ -50,7 +50,9 @@ def test_a_motor_that_the_servo_does_not_know_is_named():
     for actuator in spec.actuators:
         if actuator.target == "bed_lift":
             actuator.target = "crane"
-    with pytest.raises(hurcules.Error, match="actuator 'bed_lift' does not exist; there are.* crane"):
+    with pytest.raises(
+        hurcules.Error, match=r"actuator 'bed_lift' does not exist; there are.* crane"
+    ):
         simulate(spec)
 
 

@@ -403,3 +403,39 @@ def test_a_target_whose_acceleration_is_told_is_followed_without_lag(control: st
         worst.append(off)
     assert worst[1] < 0.1 * worst[0]
     assert worst[0] > 1e-3
+
+
+SHARED = """
+<mujoco>
+  <default>
+    <joint axis="0 1 0" range="-110 110" armature="0.05"/>
+    <geom type="capsule" size="0.04" fromto="0 0 0 0.4 0 0" mass="1" contype="0" conaffinity="0"/>
+  </default>
+  <worldbody>
+    <body><joint name="a"/><geom/>
+      <body pos="0.4 0 0"><joint name="b"/><geom/>
+        <body pos="0.4 0 0"><joint name="c"/><geom/><site name="tip" pos="0.4 0 0"/></body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="a"/><motor joint="b"/><motor joint="c"/></actuator>
+</mujoco>
+"""
+
+
+def test_errors_of_tasks_that_stacks_share_are_in_their_own_columns() -> None:
+    model = mujoco.MjModel.from_xml_string(SHARED)
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.3, 0.5, 0.4])
+    x = hurcules.PositionTask("x", robot, "tip", axes=[[1, 0, 0]])
+    z = hurcules.PositionTask("z", robot, "tip", axes=[[0, 0, 1]])
+    posture = hurcules.PostureTask("posture", robot)
+    stacks = {"one": [[x, z], posture], "other": [[z, x], posture]}
+    controller = hurcules.WholeBodyController(robot, stacks=stacks)
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    controller.use("other")
+    x.set_target(x.target + 0.5)  # far: an error along x alone
+    simulation.step(5)
+    names = ["task_error/x/0", "task_error/z/0"]
+    along, up = simulation.read(hurcules.Quantities(simulation, names))
+    assert abs(along) > 0.3 and abs(up) < 0.05

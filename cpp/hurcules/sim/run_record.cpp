@@ -71,14 +71,11 @@ RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::str
     for (const StackLevel& level : controller.law(i).stack().levels()) {
       places.level.push_back(find(names_.levels, level.name));
       places.tasks.emplace_back();
-      places.first_row.push_back(0);
       for (const Task* task : level.tasks) {
         const auto at = std::find(planned_.begin(), planned_.end(), task);
         if (at == planned_.end()) continue;
-        if (places.tasks.back().empty()) {
-          places.first_row.back() = find(names_.task_rows, task->name() + "/0");
-        }
-        places.tasks.back().push_back(static_cast<std::size_t>(at - planned_.begin()));
+        places.tasks.back().push_back({static_cast<std::size_t>(at - planned_.begin()),
+                                       find(names_.task_rows, task->name() + "/0")});
       }
     }
     places_.push_back(std::move(places));
@@ -174,12 +171,10 @@ void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const T
                             Vector& levels, Vector& rows) const {
   for (std::size_t k = 0; k < places.level.size(); ++k) {
     double square = 0.0;
-    Index row = places.first_row[k];
-    for (const std::size_t number : places.tasks[k]) {
-      const Task& task = *tasks[number];
+    for (const TaskPlace& place : places.tasks[k]) {
+      const Task& task = *tasks[place.task];
       square += task.error().squaredNorm();
-      rows.segment(row, task.rows()) = task.error();
-      row += task.rows();
+      rows.segment(place.first_row, task.rows()) = task.error();
     }
     levels[places.level[k]] = std::sqrt(square);
   }

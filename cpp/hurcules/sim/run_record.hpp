@@ -52,11 +52,14 @@ class RunRecord {
   Vector stage_seconds;  // (kStages)
 
  private:
-  // where the telemetry keeps the levels of a stack, and the first of their task rows
+  // where the telemetry keeps the levels of a stack, and the rows of their tasks
+  struct TaskPlace {
+    std::size_t task = 0;  // number among the controller's
+    Index first_row = 0;
+  };
   struct StackPlaces {
-    std::vector<Index> level, first_row;
-    std::vector<std::vector<std::size_t>>
-        tasks;  // of each level, numbers of the controller's tasks
+    std::vector<Index> level;
+    std::vector<std::vector<TaskPlace>> tasks;  // of each level
   };
   void copy_errors(const StackPlaces& places, const std::vector<const Task*>& tasks, Vector& levels,
                    Vector& rows) const;
