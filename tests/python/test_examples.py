@@ -119,6 +119,12 @@ def rolls(said: str) -> None:
     assert ahead > 0.0 and left > 0.8  # the goal is 0.5 m behind: it has turned
 
 
+def wipes(said: str) -> None:
+    comes, wipes, harder, leaves = numbers(r" (\S+) N", said)
+    assert abs(comes - 15.0) < 0.5 and abs(wipes - 15.0) < 1.0 and abs(harder - 30.0) < 0.5
+    assert leaves == 0.0 and "leaves Free" in said
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -138,6 +144,7 @@ RESULTS = {
     "15": is_led_by_hand,
     "16": walks,
     "17": rolls,
+    "18": wipes,
 }
 
 
