@@ -52,7 +52,7 @@ SHEETS = {
         follows="casualty_pelvis",
     ),
     "crossing": Sheet(
-        ("half way: cross", "arms down", "carry", "arms free", "half way: home", "hand over"),
+        ("half way: cross", "carry", "arms free", "rims up", "half way: home", "hand over"),
         follows="upper_legs",
     ),
     "disposal": Sheet(
