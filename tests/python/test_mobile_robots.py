@@ -192,3 +192,22 @@ def test_a_hand_stays_while_a_base_that_no_coordinate_moves_drives() -> None:
         # v / K = 20 mm before
         assert simulation.data.site("tcp").xpos[0] == pytest.approx(0.0, abs=3e-3)
     assert simulation.data.joint("base").qpos[0] > 0.1
+
+
+def test_a_pose_is_led_no_further_than_its_lead() -> None:
+    model, robot = gantry(MOTORS + THUMB)
+    pose = hurcules.PoseTask("pose", robot, "tcp")
+    assert pose.max_lead == np.inf
+    controller = hurcules.WholeBodyController(robot, [pose], {"pose": hurcules.Twist(pose, 2.0)})
+    simulation = hurcules.Simulation(model=model, controller=controller, physics=False)
+    led = {}
+    for lead in (np.inf, 0.05):  # z and turns are out of reach: the slides go along x and y
+        pose.max_lead = lead
+        simulation.reset()
+        simulation.step(2000, {"pose": [0.0, 0.0, 0.3, 0.0, 0.0, 0.3]})
+        turned = np.arctan2(pose.target_orientation[1, 0], pose.target_orientation[0, 0])
+        led[lead] = (pose.target_position[2], turned)
+    assert led[np.inf] == pytest.approx((1.2, 1.2), abs=0.01)
+    assert 0.03 < led[0.05][0] <= 0.05 and 0.09 < led[0.05][1] <= 0.15
+    with pytest.raises(Error, match="max_lead of 'pose' wants a positive distance"):
+        pose.max_lead = 0.0
