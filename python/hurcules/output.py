@@ -40,13 +40,19 @@ def write_whole(path: Path, contents: bytes) -> None:
     Raises:
         WriteError: the file could not be written; one of this name is as it was.
     """
-    part = path.with_name(f"part-{os.getpid()}-{path.name}")
-    with writing(path):
-        try:
-            part.write_bytes(contents)
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
+    with writing(path), _whole(path) as part:
+        part.write_bytes(contents)
+
+
+@contextmanager
+def _whole(path: Path) -> Iterator[Path]:
+    """Another name beside a file, renamed to it in the end; after an error nothing is left."""
+    part = path.with_name(f"part-{os.getpid()}-{path.name}")  # two runs may share a folder
+    try:
+        yield part
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 class Output:
@@ -90,16 +96,13 @@ class Output:
             WriteError: disk full, no permission, ...
         """
         path = self.folder / name
-        part = self.folder / f"part-{os.getpid()}-{name}"  # two runs may share a folder
         try:
-            writer(part)
-            part.replace(path)
+            with _whole(path) as part:
+                writer(part)
         except OSError as error:
             # an encoder's failure has no strerror but many lines, the last of which tells
             reason = error.strerror or str(error).strip().splitlines()[-1]
             raise WriteError(f"cannot write {path}: {reason}; {self.told()}") from error
-        finally:
-            part.unlink(missing_ok=True)
         self.saved.append(path)
         return path
 

@@ -11,6 +11,7 @@ import pytest
 
 import hurcules
 from hurcules import ContactState
+from test_force_sensors import on_the_table
 
 WANTED, MASS = 20.0, 2.0  # [N], [kg]
 MODEL = f"""
@@ -31,14 +32,6 @@ MODEL = f"""
 </mujoco>
 """
 CONTROLS = ("velocity", "acceleration", "torque")
-
-
-def on_the_table(simulation: hurcules.Simulation) -> float:
-    """[N] by the physics."""
-    force = np.zeros(6)
-    if simulation.data.ncon:
-        mujoco.mj_contactForce(simulation.model, simulation.data, 0, force)
-    return float(force[0])
 
 
 def pressing(control: str) -> tuple[hurcules.Simulation, hurcules.ForceTask]:

@@ -114,11 +114,12 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
     // the decoupling knows of coordinates alone
     const double slowest = decoupled && all ? 1.0 : std::min(1.0, low / rated);
     const double bandwidth = std::min(kBandwidth, kFastest * slowest / (3.0 * dt));
-    require(rated > 0.0 && std::isfinite(rated),
-            "no servo can be made for joint '" + actuator.joint +
-                "': the inertia that it turns cannot be reckoned, as where a loop ties more "
-                "coordinates than it leaves free. " +
-                left_out(robot));
+    if (!(rated > 0.0 && std::isfinite(rated))) {
+      throw Error("no servo can be made for joint '" + actuator.joint +
+                  "': the inertia that it turns cannot be reckoned, as where a loop ties more "
+                  "coordinates than it leaves free. " +
+                  left_out(robot));
+    }
     table.push_back({actuator.joint, rated, bandwidth});
   }
   return table;

@@ -68,8 +68,8 @@ class ForceTask : public PositionTask {
   [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
   // [N] what torques bear of the contact: the reading; under force control it goes over from the
-  // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading), so that what the model of the
-  // robot misses is not magnified into a force that is missing
+  // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading), so that
+  // what the model of the robot misses is not magnified into a force that is missing
   [[nodiscard]] double borne() const { return borne_; }
   [[nodiscard]] double stiffness() const;  // [N/m] given or learnt
   [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
