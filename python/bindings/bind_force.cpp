@@ -83,7 +83,7 @@ void bind_force(py::module_& module) {
            "environment"_a = d.environment, "max_rate"_a = d.max_rate, "gains"_a = d.gains,
            "contact"_a = d.contact, "stiffness"_a = d.stiffness)
       .def("sense", &ForceTask::sense, "robot"_a, "force"_a, kSense)
-      .def("tare", &ForceTask::tare, kTare)
+      .def("tare", &ForceTask::tare, "seconds"_a = 0.1, kTare)
       .def("set_filter", &ForceTask::set_filter, "seconds"_a, kSetFilter)
       .def("set_force", &ForceTask::set_force, "force_des"_a, "f_d [N].")
       .def("enable", &ForceTask::enable, "on"_a, kEnable)

@@ -82,9 +82,17 @@ Args:
   robot: Robot where the controller will see it.
   force: f [N], NaN for none.
 )";
-inline constexpr const char* kTare = R"(What is read next is zero from then on, until a reset.
+inline constexpr const char* kTare =
+    R"(The mean of what is read next is zero from then on: the weight of a tool behind the sensor, say.
 
-The weight of a tool behind the sensor, say. A contact that was none ends, at rest.
+Until then readings count as none and nothing leads the task: a contact ends, at rest. A reset of the
+simulation forgets it.
+
+Args:
+  seconds: for how long it is read; 0 takes one reading.
+
+Raises:
+  Error: a time below 0 or not finite.
 )";
 inline constexpr const char* kSetFilter =
     R"(A low-pass of what the force law is told; contact is judged by the reading itself.

@@ -87,6 +87,16 @@ Args:
   joints: names of joints with an actuator.
   scale: full scale [rad/s] or [m/s].
 )";
+constexpr const char* kControlChannel =
+    R"(A channel that leads the control of an actuator that no servo commands: a gripper on tendons.
+
+It starts where a position servo holds what it moves, at 0 with others, and stays within the
+actuator's ctrlrange. Without physics it moves nothing.
+
+Args:
+  actuator: its name.
+  scale: full scale [1/s] of its control.
+)";
 constexpr const char* kController =
     R"(The controller of a whole robot: named commands in, controls of the actuators out.
 
@@ -100,7 +110,7 @@ Args:
   robot: Robot where it starts; any MJCF robot.
   levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
   channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate,
-    JointRates.
+    JointRates, ControlRate.
   stacks: by name further stacks for `use`, each levels as above or (levels, control); the first one
     rules at the start if no `levels` are given.
   control: by what `levels` rule: "velocity", "acceleration", or "torque": then the accelerations are
@@ -210,7 +220,7 @@ struct ChannelSpec {
   ChannelKind kind;
   py::object task = py::none();
   Vector scale;
-  std::vector<std::string> joints = {};
+  std::vector<std::string> names = {};
 };
 
 Vector scale_of(const py::object& scale) {
@@ -230,8 +240,10 @@ ChannelSpec task_channel(const TaskObject& task, const ScaleObject& scale) {
 
 Channel channel_of(const std::string& name, const ChannelSpec& spec) {
   if (spec.kind == ChannelKind::Drive) return Channel::drive(name, spec.scale[0], spec.scale[1]);
-  if (spec.kind == ChannelKind::Joint) return Channel::joint(name, spec.joints[0], spec.scale[0]);
-  if (spec.kind == ChannelKind::Joints) return Channel::joints(name, spec.joints, spec.scale[0]);
+  if (spec.kind == ChannelKind::Joint) return Channel::joint(name, spec.names[0], spec.scale[0]);
+  if (spec.kind == ChannelKind::Joints) return Channel::joints(name, spec.names, spec.scale[0]);
+  if (spec.kind == ChannelKind::Control)
+    return Channel::control(name, spec.names[0], spec.scale[0]);
   return {name, spec.kind, *spec.task.cast<Task*>(), spec.scale};
 }
 
@@ -287,7 +299,8 @@ std::shared_ptr<WholeBodyController> make(
     const auto text = name.cast<std::string>();
     require(py::isinstance<ChannelSpec>(spec),
             "channel '" + text +
-                "' wants Twist, Delta, Target, ForceReference, Drive, JointRate or JointRates");
+                "' wants Twist, Delta, Target, ForceReference, Drive, JointRate, JointRates or " +
+                "ControlRate");
     made.push_back(channel_of(text, spec.cast<const ChannelSpec&>()));
   }
   WholeBodyControllerOptions options;
@@ -307,8 +320,28 @@ std::shared_ptr<WholeBodyController> make(
   return {held, held->controller.get()};
 }
 
+bool reads_effort(int type) {
+  switch (type) {
+    case mjSENS_FORCE:
+    case mjSENS_TORQUE:
+    case mjSENS_TOUCH:
+    case mjSENS_CONTACT:
+    case mjSENS_TACTILE:
+    case mjSENS_ACTUATORFRC:
+    case mjSENS_JOINTACTFRC:
+    case mjSENS_TENDONACTFRC:
+    case mjSENS_JOINTLIMITFRC:
+    case mjSENS_TENDONLIMITFRC:
+    case mjSENS_USER:
+    case mjSENS_PLUGIN:
+      return true;
+    default:
+      return false;
+  }
+}
+
 void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source,
-           std::optional<int> asked, double sign) {
+           std::optional<int> asked, std::optional<double> told) {
   if (py::isinstance<SpringForce>(source)) {
     return self.sense(task, std::make_unique<SpringForce>(source.cast<const SpringForce&>()));
   }
@@ -321,6 +354,13 @@ void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source,
     names.emplace_back(one ? one : "");
   }
   if (sensor < 0) throw Error(unknown_name("sensor", name, names));
+  require(reads_effort(m->sensor_type[sensor]),
+          "sensor '" + name +
+              "' reads no force: a force task wants one of MuJoCo's force, touch, " +
+              "torque, contact, actuatorfrc, jointactuatorfrc, tendonactuatorfrc, user or plugin");
+  // a touch is never below 0, whichever way it is pressed
+  const bool touch = m->sensor_type[sensor] == mjSENS_TOUCH;
+  const double sign = told.value_or(touch && task.force_des() < 0.0 ? -1.0 : 1.0);
   if (!asked && m->sensor_type[sensor] == mjSENS_FORCE) {
     const Frame site{mjOBJ_SITE, m->sensor_objid[sensor]};
     return self.sense(task, m->sensor_adr[sensor], site, sign);
@@ -384,12 +424,28 @@ void bind_channels(py::module_& module) {
         return ChannelSpec{ChannelKind::Joints, py::none(), Vector::Constant(1, scale), joints};
       },
       "joints"_a, "scale"_a = std::numeric_limits<double>::infinity(), kJointsChannel);
+  module.def(
+      "ControlRate",
+      [](const std::string& actuator, double scale) {
+        return ChannelSpec{
+            ChannelKind::Control, py::none(), Vector::Constant(1, scale), {actuator}};
+      },
+      "actuator"_a, "scale"_a, kControlChannel);
 }
 
 std::vector<std::pair<std::string, Index>> sizes(const WholeBodyController& self) {
   std::vector<std::pair<std::string, Index>> all;
   for (const Channel& channel : self.channels()) all.emplace_back(channel.name(), channel.size());
   return all;
+}
+
+std::vector<std::string> unfed_forces(const WholeBodyController& self) {
+  std::vector<std::string> names;
+  for (const Task* const task : self.tasks()) {
+    const auto* const force = dynamic_cast<const ForceTask*>(task);
+    if (force && !force->is_told() && !self.feeds(*force)) names.push_back(task->name());
+  }
+  return names;
 }
 
 // the frames that hold their place in the plan while they move in the world
@@ -464,6 +520,9 @@ void bind_whole_body(py::module_& module) {
       .def("move_joints", &WholeBodyController::move_joints,
            "No stack rules until `use`: joints stay where they are, JointRates moves them.")
       .def("stand_on", &WholeBodyController::stand_on, "body"_a, kStandOn)
+      .def_property_readonly("unfed_forces", &unfed_forces,
+                             "Names of the force tasks that no `sense` feeds and that were never "
+                             "told a force.")
       .def_property_readonly("unseen_references", &unseen_references,
                              "(task, frame, whether by mocap) where a task is measured in a frame "
                              "that may move and whose motion the plan does not see")
@@ -472,7 +531,7 @@ void bind_whole_body(py::module_& module) {
       .def("task", &WholeBodyController::task, "name"_a,
            py::return_value_policy::reference_internal,
            "A task of its stacks, by name. Raises Error with the names that exist.")
-      .def("sense", &sense, "task"_a, "source"_a, "row"_a = py::none(), "sign"_a = 1.0,
+      .def("sense", &sense, "task"_a, "source"_a, "row"_a = py::none(), "sign"_a = py::none(),
            py::keep_alive<1, 2>(), kSense)
       .def("state", &state<WholeBodyController>, kState)
       .def("restore", &restore<WholeBodyController>, "state"_a, kRestore)

@@ -26,7 +26,7 @@ from hurcules._core import (
     WholeBodyController,
 )
 from hurcules.mission_table import Mission
-from hurcules.start_checks import warn_of_physics
+from hurcules.start_checks import warn_of_forces, warn_of_physics
 from hurcules.table_missions import TABLE_MISSIONS, table_mission
 from hurcules.urdf import load_urdf
 from hurcules.validation import require_known, told_at
@@ -140,6 +140,7 @@ class Simulation(_core.Simulation):
         if rows is not None:
             table, model = rows.table(), rows.spec(parameters or {}).compile()
             controller = _core.table_controller(rows.controller, model, method)
+        self._may_be_blind = False
         self.mission: str | None  # last: nothing asks a simulation that is not made
         if controller is not None:
             if not isinstance(controller, WholeBodyController):
@@ -155,6 +156,7 @@ class Simulation(_core.Simulation):
             self.mission = table.setup.name if table else None
             if physics:
                 warn_of_physics(self.model, controller)
+            self._may_be_blind = physics and table is None
             return
         name = str(mission or "stretch")
         require_known("mission", name, missions())
@@ -193,6 +195,9 @@ class Simulation(_core.Simulation):
         """
         if not isinstance(n, int | np.integer):
             raise Error(f"step wants a whole number of ticks, got {n!r}")
+        if self._may_be_blind:  # now: `sense` may come after the simulation is made
+            self._may_be_blind = False
+            warn_of_forces(self.controller)
         return super().step(n, command)
 
     def replay(self, log: Mapping[str, Array] | str | Path) -> int:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hurcules._core import WholeBodyController
 
-__all__ = ["warn_of_physics"]
+__all__ = ["warn_of_forces", "warn_of_physics"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
@@ -30,6 +30,16 @@ def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> N
     """Warns of settings with which tracks go wrong, and of robots that will fall or sink."""
     for text in _doubts(model, controller):
         warnings.warn(text, stacklevel=3)
+
+
+def warn_of_forces(controller: WholeBodyController) -> None:
+    """Warns of force tasks to which nothing tells a force: they press with all that motors have."""
+    if blind := ", ".join(controller.unfed_forces):
+        warnings.warn(
+            f"force task {blind}: nothing tells it a force, so that it never meets a contact and "
+            "presses on; controller.sense(TASK, SENSOR), or TASK.sense(robot, force) each tick",
+            stacklevel=3,
+        )
 
 
 def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:

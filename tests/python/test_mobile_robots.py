@@ -211,3 +211,94 @@ def test_a_pose_is_led_no_further_than_its_lead() -> None:
     assert 0.03 < led[0.05][0] <= 0.05 and 0.09 < led[0.05][1] <= 0.15
     with pytest.raises(Error, match="max_lead of 'pose' wants a positive distance"):
         pose.max_lead = 0.0
+
+
+def squeezing(actuator: str) -> hurcules.Simulation:
+    """A finger of 60 N before a block that is 20 mm away."""
+    model = mujoco.MjModel.from_xml_string(f"""
+<mujoco>
+  <option timestep="0.002" gravity="0 0 0"/>
+  <worldbody>
+    <body pos="0 0 0"><joint name="arm" type="slide" axis="0 1 0"/><geom size="0.05" mass="2"/></body>
+    <geom type="box" size="0.02 0.02 0.02" pos="0.04 0 0.2"/>
+    <body pos="0 0 0.2"><joint name="finger" type="slide" axis="-1 0 0" range="-0.05 0.05"/>
+      <geom type="box" size="0.01 0.01 0.01" mass="0.5" pos="-0.01 0 0"/></body>
+  </worldbody>
+  <actuator><motor joint="arm"/>{actuator}</actuator>
+</mujoco>""")
+    robot = hurcules.Robot(model, joints=["arm"])
+    posture = hurcules.PostureTask("posture", robot)
+    channels = {"grip": hurcules.JointRate("finger", 0.05)}
+    controller = hurcules.WholeBodyController(robot, [posture], channels)
+    return hurcules.Simulation(model=model, controller=controller)
+
+
+@pytest.mark.parametrize(
+    "actuator",
+    [
+        '<motor joint="finger" ctrlrange="-60 60"/>',
+        '<position joint="finger" kp="2000" ctrlrange="-0.05 0.05" forcerange="-60 60"/>',
+    ],
+)
+def test_a_finger_that_squeezes_opens_at_once(actuator: str) -> None:
+    simulation = squeezing(actuator)
+    for seconds in (1.0, 5.0):  # 0.9 and 1.3 s before
+        simulation.step(round(seconds / simulation.dt), {"grip": [-0.05]})
+        pressed = simulation.data.joint("finger").qpos[0]
+        assert -simulation.data.actuator_force[1] > 20.0
+        simulation.step(round(0.4 / simulation.dt), {"grip": [0.05]})
+        assert simulation.data.joint("finger").qpos[0] - pressed > 0.01
+
+
+TENDON = """
+<mujoco>
+  <compiler angle="radian"/>
+  <worldbody>
+    <body><joint name="arm" axis="0 0 1"/><geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/>
+      <body pos="0.3 0.02 0"><joint name="left" type="slide" axis="0 1 0" range="0 0.04"/>
+        <geom size="0.01" mass="0.1"/></body>
+      <body pos="0.3 -0.02 0"><joint name="right" type="slide" axis="0 -1 0" range="0 0.04"/>
+        <geom size="0.01" mass="0.1"/></body></body>
+  </worldbody>
+  <tendon><fixed name="split">
+    <joint joint="left" coef="0.5"/><joint joint="right" coef="0.5"/></fixed></tendon>
+  <equality><joint joint1="left" joint2="right"/></equality>
+  <actuator>
+    <motor name="turn" joint="arm"/>
+    <general name="grip" tendon="split" ctrlrange="0 255" gainprm="0.0157" biastype="affine"
+      biasprm="0 -100 -10" forcerange="-100 100"/>
+  </actuator>
+</mujoco>"""
+
+
+def test_a_gripper_on_tendons_is_led_by_the_rate_of_its_control() -> None:
+    model = mujoco.MjModel.from_xml_string(TENDON)
+    robot = hurcules.Robot(model, joints=["arm"])
+    start = robot.qpos
+    start[1:] = 0.02
+    robot.set_qpos(start)
+    posture = hurcules.PostureTask("posture", robot)
+
+    def controlled(actuator: str, scale: float = 255.0) -> hurcules.WholeBodyController:
+        channels = {"grip": hurcules.ControlRate(actuator, scale)}
+        return hurcules.WholeBodyController(robot, [posture], channels)
+
+    controller = controlled("grip")
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(200)  # nothing is commanded: it stays
+    assert simulation.data.joint("left").qpos[0] == pytest.approx(0.02, abs=1e-4)
+    assert simulation.data.ctrl[1] == pytest.approx(0.02 * 100.0 / 0.0157, rel=1e-6)
+    simulation.step(250, {"grip": [-1e9]})  # held to its scale: 0.5 s at 255 1/s
+    assert simulation.data.ctrl[1] == pytest.approx(0.0, abs=1e-9)
+    simulation.step(250)
+    assert simulation.data.joint("left").qpos[0] < 2e-3
+    saved = simulation.state()
+    simulation.step(500, {"grip": [100.0]})
+    assert simulation.data.ctrl[1] == pytest.approx(100.0)
+    simulation.restore(saved)
+    simulation.step(1)
+    assert simulation.data.ctrl[1] == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(Error, match="actuator 'grap' does not exist; there are: turn, grip"):
+        controlled("grap")
+    with pytest.raises(Error, match="which the servo of joint 'arm' commands"):
+        controlled("turn")

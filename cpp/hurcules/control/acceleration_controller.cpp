@@ -69,7 +69,7 @@ AccelerationController::AccelerationController(const Robot& robot,
       scaling_(robot.size()) {
   check(options_);
   if (options_.law == Law::Arrive && !robot.floating()) probe_.emplace(robot);
-  acceleration_ = braked_ = speed_ = next_ = step_ = Vector::Zero(robot.size());
+  acceleration_ = braked_ = speed_ = next_ = step_ = borne_ = Vector::Zero(robot.size());
   inertia_ = Matrix::Zero(robot.size(), robot.size());
   active_limits_ = Eigen::VectorXi::Zero(robot.size());
   intervals_.resize(static_cast<std::size_t>(robot.size()));
@@ -85,6 +85,12 @@ void AccelerationController::set_stack(const Stack& stack) {
   Index rows = 0;
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
+  torque_limits_.clear();
+  for (const StackLevel& level : problem_.stack().levels()) {
+    for (Task* const task : level.tasks) {
+      if (auto* const limits = dynamic_cast<TorqueLimits*>(task)) torque_limits_.push_back(limits);
+    }
+  }
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
   if (has_zone_) {
@@ -117,6 +123,12 @@ void AccelerationController::measure(const Robot& robot) {
     } else {
       fill_rates(k);
     }
+  }
+  if (!torque_limits_
+           .empty()) {  // the root of a robot that floats is one that bears nothing itself
+    borne_.setZero();
+    add_borne(borne_);
+    for (TorqueLimits* const limits : torque_limits_) limits->bear(borne_);
   }
   if (has_zone_) {
     probe_->look_at(robot, stack());
@@ -170,6 +182,13 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
   require(!stack().levels().empty(), "a controller wants a stack before it computes");
   require(torque.size() == acceleration_.size(), "torque wants room for one number a coordinate");
   robot.inverse_dynamics(acceleration_, torque);
+  add_borne(torque);
+  contacts_.relieve(torque);
+  add_friction(robot, torque);
+  clamp_torque(stack(), robot.root_size(), torque);
+}
+
+void AccelerationController::add_borne(VectorRef torque) const {
   for (const StackLevel& level : stack().levels()) {
     for (const Task* task : level.tasks) {
       const auto* const force = dynamic_cast<const ForceTask*>(task);
@@ -177,9 +196,6 @@ void AccelerationController::torque(const Robot& robot, VectorRef torque) const 
         torque += force->borne() * force->jacobian().row(0).transpose();
     }
   }
-  contacts_.relieve(torque);
-  add_friction(robot, torque);
-  clamp_torque(stack(), robot.root_size(), torque);
 }
 
 // towards the velocity that the levels want: a joint that friction holds has none that tells where

@@ -102,6 +102,8 @@ class AccelerationController {
   void fill_rates(std::size_t k);
   void fill_rows(const Robot& robot, const StackLevel& source, Level& level);
   void add_friction(const Robot& robot, VectorRef torque) const;
+  // J' f of the stack's force tasks in contact (n) [N m]
+  void add_borne(VectorRef torque) const;
 
   AccelerationControllerOptions options_;
   RateLimits rates_;  // of a row, which has no speed limit
@@ -124,6 +126,8 @@ class AccelerationController {
   Vector braked_, speed_;                        // D qdot and qdot, of the last measure
   Vector rate_;                                  // scratch, de/dt of a level
   std::vector<AccelerationInterval> intervals_;  // (n), of the last measure
+  std::vector<TorqueLimits*> torque_limits_;     // of the stack
+  Vector borne_;                                 // [N m] (n) scratch
   mutable Matrix inertia_;                       // scratch (n, n)
   Eigen::VectorXi active_limits_;
 };

@@ -86,6 +86,12 @@ Channel Channel::joints(std::string name, std::vector<std::string> joints, doubl
   return channel;
 }
 
+Channel Channel::control(std::string name, std::string actuator, double scale) {
+  Channel channel(std::move(name), ChannelKind::Control, Vector::Constant(1, scale), {});
+  channel.actuator_ = std::move(actuator);
+  return channel;
+}
+
 std::vector<std::string> Channel::entries() const {
   if (size() == 1) return {name_};
   std::vector<std::string> names;

@@ -8,6 +8,7 @@
 //   Drive   speed [m/s] and yaw rate [rad/s] of the tracks
 //   Joint   the place of a joint that no coordinate moves (gripper, bed), as a velocity
 //   Joints  the places of joints while no stack rules, as velocities
+//   Control the control of an actuator that no servo commands (a gripper on tendons), as a rate
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@
 
 namespace hurcules {
 
-enum class ChannelKind { Twist, Delta, Target, Force, Drive, Joint, Joints };
+enum class ChannelKind { Twist, Delta, Target, Force, Drive, Joint, Joints, Control };
 
 class Channel {
  public:
@@ -28,6 +29,7 @@ class Channel {
   static Channel drive(std::string name, double speed, double yaw_rate);
   static Channel joint(std::string name, std::string joint, double scale);
   static Channel joints(std::string name, std::vector<std::string> joints, double scale);
+  static Channel control(std::string name, std::string actuator, double scale);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] ChannelKind kind() const { return kind_; }
@@ -37,8 +39,9 @@ class Channel {
   }
   [[nodiscard]] Index size() const { return scale_.size(); }
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (size)
-  [[nodiscard]] Task* task() const { return task_; }            // null for Drive, Joint, Joints
+  [[nodiscard]] Task* task() const { return task_; }            // null where it moves none
   [[nodiscard]] const std::vector<std::string>& joint_names() const { return joints_; }
+  [[nodiscard]] const std::string& actuator() const { return actuator_; }  // of Control
   // "hand_x", "hand_y", ...: one a number; the name itself for a single one
   [[nodiscard]] std::vector<std::string> entries() const;
   // the same for another task of the same kind, that of a copied controller
@@ -51,6 +54,7 @@ class Channel {
   ChannelKind kind_;
   Task* task_ = nullptr;
   std::vector<std::string> joints_;
+  std::string actuator_;
   Vector scale_;
   std::vector<std::string> components_;
 };

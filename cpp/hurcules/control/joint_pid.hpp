@@ -70,6 +70,8 @@ class JointPid {
   [[nodiscard]] const Vector& torque() const { return torque_; }  // [N m], (m), of the last compute
   [[nodiscard]] const Vector& demand() const { return demand_; }  // [N m], (m), before saturation
   [[nodiscard]] const Vector& integral() const { return integral_; }  // [rad s], (m)
+  // joint i's integral is 0 from now on
+  void forget(Index i) { integral_[i] = 0.0; }
   // at rest, without memory
   void reset();
   void save(StateWriter& writer) const;

@@ -249,6 +249,17 @@ void JointServo::move(Index joint, double position, double velocity) {
   velocity_[joint] = velocity;
 }
 
+void JointServo::let_go(Index joint, double velocity, const RobotState& state) {
+  constexpr double kSettled = 3.0, kStands = 0.1;  // in time constants, of the velocity
+  const JointActuator& own = actuator(joint);
+  const double place = own.position(state.qpos), lead = position_[joint] - place;
+  const double follows = kSettled * std::abs(velocity) / pid_.options().K_P[joint];
+  const bool stands = std::abs(state.qvel[own.dof]) < kStands * std::abs(velocity);
+  if (lead * velocity >= 0.0 || std::abs(lead) < follows || !stands) return;
+  position_[joint] = place;
+  pid_.forget(joint);
+}
+
 void JointServo::release(VectorRef q, VectorRef velocity) {
   for (Index i = coordinate_joints_ - 1; i >= 0; --i) {  // the first joint of a coordinate is last
     const Motor& motor = motors_[static_cast<std::size_t>(i)];

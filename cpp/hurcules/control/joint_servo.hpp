@@ -67,6 +67,10 @@ class JointServo {
   [[nodiscard]] const std::vector<Tie>& ties(Index joint) const {
     return ties_[static_cast<std::size_t>(joint)];
   }
+  // What a joint squeezes it lets go where it is led the other way, at `velocity` [rad/s]: its
+  // reference is where the joint is, its integral 0. It squeezes while it stands, and its reference
+  // is further beyond it than a servo that is free to follow ever is.
+  void let_go(Index joint, double velocity, const RobotState& state);
   // an actuator that somebody else commands from now on: no control is written for it
   void leave(Index joint) { left_[static_cast<std::size_t>(joint)] = true; }
   // from here on a coordinate's joints keep the distance from it that they have now; q and velocity

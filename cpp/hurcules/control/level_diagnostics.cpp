@@ -9,6 +9,7 @@
 #include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/custom_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"
+#include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/manipulability_task.hpp"
 #include "hurcules/tasks/point_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
@@ -137,6 +138,22 @@ bool says_something(const Task& task) {
          !task.lower().hasNaN() && !task.upper().hasNaN();
 }
 
+// [N] that a force task lacks of what is wanted, negative: has too much; 0 in the air
+double lacking(const ForceTask& task) {
+  if (task.state() == ContactState::Free) return 0.0;
+  const double wanted = std::abs(task.force_des());
+  const double lacks = wanted - std::abs(task.force());
+  const double small = std::max(kShare * wanted, task.options().contact.f_min);
+  return std::abs(lacks) > small ? lacks : 0.0;
+}
+
+// of a force task that does what it wants to no more
+std::string stop_of(const ForceTask* task) {
+  if (task && task->state() == ContactState::Stopped) return "its stop above f_max";
+  if (task && task->state() == ContactState::SensorLost) return "the loss of its sensor";
+  return "";
+}
+
 LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
   const StackLevel& source = solved.problem.stack().levels()[k];
   LevelDiagnostics made;
@@ -165,6 +182,18 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
                                    holders(solved, static_cast<int>(k), report), false});
       continue;
     }
+    const auto* const force = dynamic_cast<const ForceTask*>(task);
+    const double lacks = force ? lacking(*force) : 0.0;
+    if (const std::string stop = stop_of(force); !stop.empty()) {
+      made.shortfalls.push_back({task->name(), std::abs(lacks), "N", {stop}, false, lacks < 0.0});
+      continue;
+    }
+    if (lacks != 0.0 && is_kept_from(solved.problem.hierarchy()[k], solved.solution.violations[k],
+                                     first, task->rows())) {
+      made.shortfalls.push_back({task->name(), std::abs(lacks), "N",
+                                 holders(solved, static_cast<int>(k), report), false, lacks < 0.0});
+      continue;
+    }
     const double short_by = outside(*task);
     const bool shortened = solved.zone && solved.zone->share(k) < 1.0 - kShare;
     if (short_by < kSmall) continue;
@@ -184,7 +213,8 @@ std::string Shortfall::text() const {
   if (invalid) return task + ": its numbers are not finite, the controller brakes";
   char number[32];
   std::snprintf(number, sizeof number, "%.3g", short_by);
-  std::string line = task + ": " + number + (unit.empty() ? "" : " " + unit) + " short";
+  std::string line = task + ": " + number + (unit.empty() ? "" : " " + unit);
+  line += too_much ? " too much" : " short";
   for (std::size_t i = 0; i < held_by.size(); ++i) {
     line += i == 0 ? ", held by " : i + 1 < held_by.size() ? ", " : " and ";
     line += held_by[i];

@@ -218,6 +218,7 @@ void WholeBodyController::check_channels() {
       moved_.back().push_back(joint);
       if (channel.kind() == ChannelKind::Joint) led_[static_cast<std::size_t>(joint)] = true;
     }
+    if (channel.kind() == ChannelKind::Control) add_led_control(channel);
     if (!channel.task()) continue;
     const auto found = std::find(tasks_.begin(), tasks_.end(), channel.task());
     require(found != tasks_.end(), "channel '" + channel.name() + "' moves task '" +
@@ -226,6 +227,17 @@ void WholeBodyController::check_channels() {
     twins_[static_cast<std::size_t>(found - tasks_.begin())] = channel.task()->clone();
     if (!sensed_) sensed_ = std::make_unique<Robot>(plan_.model(), plan_.coordinate_names());
   }
+}
+
+void WholeBodyController::add_led_control(const Channel& channel) {
+  const ActuatorControl control = actuator_control(*plan_.model(), channel.actuator());
+  for (Index i = 0; i < servo_.size(); ++i) {
+    require(servo_.actuator(i).actuator != control.actuator,
+            "channel '" + channel.name() + "' leads the control of '" + channel.actuator() +
+                "', which the servo of joint '" + servo_.actuator(i).joint +
+                "' commands: it wants a JointRate, or a task");
+  }
+  led_controls_.push_back({&channel, control});
 }
 
 Task& WholeBodyController::task(const std::string& name) const {
@@ -255,12 +267,8 @@ std::unique_ptr<WholeBodyController> WholeBodyController::clone(const Robot& rob
   }
   auto copy = std::make_unique<WholeBodyController>(robot, std::move(stacks), std::move(channels),
                                                     options_);
-  for (const ForceReading& reading : forces_) {
-    ForceReading other = reading;
-    other.task = static_cast<ForceTask*>(tasks.of(reading.task));
-    if (reading.spring) other.spring = std::make_shared<SpringForce>(*reading.spring);
-    copy->forces_.push_back(std::move(other));
-  }
+  copy->forces_ =
+      forces_.of([&](ForceTask& task) { return static_cast<ForceTask*>(tasks.of(&task)); });
   copy->kept_ = std::move(tasks.kept);
   copy->kept_limits_ = std::move(limits.kept);
   return copy;
@@ -286,12 +294,16 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
       task->reset(plan_);
     }
     auto* const force = dynamic_cast<ForceTask*>(task);
-    if (force) force->set_force(force->options().force_des);
+    if (!force) continue;
+    force->set_force(force->options().force_des);
+    force->forget_tare();
   }
   for (const auto& law : laws_) law->reset();
   if (drive_) drive_->reset();
   last_qd_.setZero();
   servo_.reset(start_);
+  for (LedControl& led : led_controls_)
+    led.value = resting_control(*plan_.model(), led.control, start_);
   feed_forward(nullptr);
 }
 
@@ -386,43 +398,32 @@ void WholeBodyController::stand_on(const std::string& body) {
 }
 
 void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> spring) {
-  forces_.push_back({&task, std::move(spring), -1, 1.0});
+  require_member(task);
+  forces_.add(task, std::move(spring));
 }
 
 void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
-  constexpr double kFilter = 3e-3;  // [s]
-  require(contains(tasks_, static_cast<const Task*>(&task)),
-          "force task '" + task.name() + "' is in no stack of the controller");
-  require(
-      std::isfinite(sign) && sign != 0.0,
-      "the sign of a sensor wants a finite number other than 0, " + number_text(sign) + " came");
-  task.set_filter(kFilter);
-  forces_.push_back({&task, nullptr, sensor_row, sign});
+  require_member(task);
+  forces_.add(task, sensor_row, sign);
 }
 
 void WholeBodyController::sense(ForceTask& task, int sensor_row, Frame site, double sign) {
-  sense(task, sensor_row, sign);
-  forces_.back().site = site;
+  require_member(task);
+  forces_.add(task, sensor_row, sign, site);
 }
 
-double WholeBodyController::read(const ForceReading& reading, const double* sensors) const {
-  if (!reading.site) return reading.sign * sensors[reading.row];
-  const Eigen::Map<const Vector3> force(sensors + reading.row);
-  Vector3 axis = reading.task->options().axis;
-  if (const auto reference = reading.task->reference_frame())
-    axis = plan_.pose(*reference).R * axis;
-  return reading.sign * axis.dot(plan_.pose(*reading.site).R * force);
+void WholeBodyController::require_member(const ForceTask& task) const {
+  require(contains(tasks_, static_cast<const Task*>(&task)),
+          "force task '" + task.name() + "' is in no stack of the controller");
 }
 
-// the reference configuration, on its support
 void WholeBodyController::tick(const Vector& qpos, const Vector& qvel, const Vector* command,
                                bool first, VectorRef ctrl, const double* sensors) {
   require_values("qpos", qpos, start_.size());
   require_values("qvel", qvel, plan_.nv());
   require_size("ctrl", ctrl.size(), plan_.nu());
   if (command) require_command(*command);
-  const auto wants = [](const ForceReading& reading) { return !reading.spring; };
-  require(sensors || std::none_of(forces_.begin(), forces_.end(), wants),
+  require(sensors || !forces_.want_sensors(),
           "a force task reads a sensor of the model, and no sensors came");
   if (!begun_) require_start(qpos);
   begun_ = true;
@@ -483,7 +484,7 @@ void WholeBodyController::kinematics(const RobotState& state) {
 }
 
 void WholeBodyController::apply(const Vector* command, bool first, const RobotState& state) {
-  read_forces(state);
+  forces_.tell(plan_, state.qpos, state.qvel, state.sensors);
   Index row = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Index size = channels_[i].size();
@@ -553,6 +554,7 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
     case ChannelKind::Joint: {
       const Index joint = servo_.find(channel.joint_names().front());
       const JointActuator& actuator = servo_.actuator(joint);
+      servo_.let_go(joint, command[0], state);
       const double place = servo_.position()[joint] + command[0] * dt();
       const double held = std::clamp(place, actuator.lower, actuator.upper);
       const double rate = held == place ? command[0] : 0.0;
@@ -560,6 +562,13 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
       for (const JointServo::Tie& tie : servo_.ties(joint)) {
         if (tie.follower >= 0 && !led_[static_cast<std::size_t>(tie.follower)])
           servo_.move(tie.follower, tie.slope * held + tie.shift, tie.slope * rate);
+      }
+      return;
+    }
+    case ChannelKind::Control: {
+      for (LedControl& led : led_controls_) {
+        if (led.channel != &channel) continue;
+        led.value = std::clamp(led.value + command[0] * dt(), led.control.lower, led.control.upper);
       }
       return;
     }
@@ -595,20 +604,6 @@ void WholeBodyController::set_delta(Task& task, const ConstVectorRef& delta,
   velocity.setZero();
   twin.advance(velocity, dt());
   copy_memory(twin, task, scratch_);
-}
-
-void WholeBodyController::read_forces(const RobotState& state) {
-  for (const ForceReading& reading : forces_) {
-    double force = 0.0;
-    if (reading.spring) {
-      reading.spring->update(state.qpos, state.qvel);
-      const double along = reading.spring->direction().dot(reading.task->options().axis);
-      force = -reading.spring->force() / along;  // the force along the axis that bends it so
-    } else if (state.sensors) {
-      force = read(reading, state.sensors);
-    }
-    reading.task->sense(plan_, force);
-  }
 }
 
 // tasks become levels  [T 4.3.2]
@@ -656,6 +651,7 @@ void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
     feed_forward(&state);
   }
   servo_.compute(state, ctrl);
+  for (const LedControl& led : led_controls_) ctrl[led.control.actuator] = led.value;
   if (drive_) drive_->compute(state, ctrl);
 }
 
@@ -677,6 +673,7 @@ void WholeBodyController::save(StateWriter& writer) const {
   for (const JointLimits* limits : limits_) limits->save(writer);
   for (const auto& law : laws_) law->save(writer);
   servo_.save(writer);
+  for (const LedControl& led : led_controls_) writer.put(led.value);
   if (drive_) drive_->save(writer);
 }
 
@@ -693,6 +690,7 @@ void WholeBodyController::restore(StateReader& reader) {
   for (JointLimits* limits : limits_) limits->restore(reader);
   for (const auto& law : laws_) law->restore(reader);
   servo_.restore(reader);
+  for (LedControl& led : led_controls_) led.value = reader.get();
   if (drive_) drive_->restore(reader);
   if (support != support_.id) plan_.stand_on(Frame{support_.type, support});
   support_ = plan_.support();

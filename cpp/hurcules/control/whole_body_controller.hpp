@@ -22,11 +22,12 @@
 #include <vector>
 
 #include "hurcules/control/channel.hpp"
+#include "hurcules/control/force_readings.hpp"
 #include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/motion_law.hpp"
 #include "hurcules/control/track_drive.hpp"
 #include "hurcules/control/yielding_targets.hpp"
-#include "hurcules/robot/spring_force.hpp"
+#include "hurcules/robot/actuator_control.hpp"
 #include "hurcules/robot/trees.hpp"
 #include "hurcules/tasks/force_task.hpp"
 
@@ -101,15 +102,14 @@ class WholeBodyController {
   // of the servos take over the difference, so that no torque jumps (decoupled servos: it may, by
   // what the plan's weight and inertia differ). Until `reset`.
   void stand_on(const std::string& body);
-  // a force task that reads the deflection of a spring, or a row of the model's sensors (its
-  // reading is `sign` times the force that the robot exerts along the task's axis)
+  // A force task that reads the deflection of a spring, or a row of the model's sensors, or three of
+  // them in the axes of a site: force_readings.hpp. With a low-pass of 3 ms (not of a spring): a
+  // servo's damping times the compliance is the gain of a loop with a tick of delay, which may swing.
+  // Throws Error for a task that stands in no stack.
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
-  // with a low-pass of 3 ms: a servo's damping times the compliance is the gain of a loop with a tick
-  // of delay, which may swing
   void sense(ForceTask& task, int sensor_row, double sign = 1.0);
-  // the same of a force sensor (3 rows from that one) in the axes of its site: their part along the
-  // task's axis, however both are turned
   void sense(ForceTask& task, int sensor_row, Frame site, double sign = 1.0);
+  [[nodiscard]] bool feeds(const ForceTask& task) const { return forces_.feed(task); }
 
   // One tick of a loop of one's own: from what is sensed, qpos (nq) and qvel (nv), to the controls
   // (nu) of the actuators, whose motors give what the model says. Command and `first` as for `apply`;
@@ -172,14 +172,13 @@ class WholeBodyController {
   void restore(StateReader& reader);
 
  private:
-  struct ForceReading {
-    ForceTask* task = nullptr;
-    std::shared_ptr<SpringForce> spring;
-    int row = -1;
-    double sign = 1.0;
-    std::optional<Frame> site = {};  // in the axes of this
+  struct LedControl {
+    const Channel* channel = nullptr;
+    ActuatorControl control = {};
+    double value = 0.0;
   };
-  [[nodiscard]] double read(const ForceReading& reading, const double* sensors) const;
+  void require_member(const ForceTask& task) const;
+  void add_led_control(const Channel& channel);
   void collect_tasks();
   void check_channels();
   [[nodiscard]] bool reaches(std::size_t channel) const;
@@ -187,7 +186,6 @@ class WholeBodyController {
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
-  void read_forces(const RobotState& state);
   void require_start(const Vector& qpos) const;
   void take_over();
   void refer();
@@ -207,9 +205,10 @@ class WholeBodyController {
   std::vector<CarryingJoint> carrying_;      // no coordinate moves them
   std::vector<std::vector<Index>> moved_;    // (channels) joints of Joints channels
   std::vector<bool> led_;                    // (joints of the servo) by a channel of their own
+  std::vector<LedControl> led_controls_;     // of Control channels
   std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack
   std::vector<std::string> command_names_;
-  std::vector<ForceReading> forces_;
+  ForceReadings forces_;
   JointServo servo_;
   std::vector<ActuatorStatus> motors_;  // (nu) for `tick`
   std::optional<TrackDrive> drive_;

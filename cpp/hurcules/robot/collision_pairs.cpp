@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
@@ -24,10 +26,9 @@ class Shapes {
       : robot_(robot),
         model_(*robot.model()),
         driven_(static_cast<std::size_t>(model_.nbody), false) {
-    for (const Coordinate& coordinate : robot.coordinates()) {
-      for (const DrivenJoint& joint : coordinate.joints)
-        driven_[static_cast<std::size_t>(model_.jnt_bodyid[joint.joint])] = true;
-    }
+    const std::vector<bool> joints = joints_of_coordinates(robot);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (joints[j]) driven_[static_cast<std::size_t>(model_.jnt_bodyid[j])] = true;
   }
 
   [[nodiscard]] int body(int geom) const { return model_.geom_bodyid[geom]; }
@@ -131,6 +132,15 @@ std::vector<GeomPair> moving(const std::vector<GeomPair>& pairs, const Robot& ro
   return found;
 }
 
+// how far apart they are now, `near` where it is further
+std::vector<CollisionPair> measured(GeomDistance& distance, const Robot& probe, double near) {
+  std::vector<CollisionPair> found;
+  for (const GeomPair& pair : distance.pairs()) found.push_back({pair, near});
+  for (const GeomDistance::Near& one : distance.measure(probe))
+    if (one.pair >= 0) found[static_cast<std::size_t>(one.pair)].distance = one.distance;
+  return found;
+}
+
 // those that come near, and are not in contact by construction
 std::vector<CollisionPair> selected(const std::vector<GeomPair>& candidates, const Robot& robot,
                                     const CollisionSampling& sampling) {
@@ -141,16 +151,9 @@ std::vector<CollisionPair> selected(const std::vector<GeomPair>& candidates, con
   std::vector<GeomPair> apart = moving(candidates, robot, postures);
   const std::size_t count = apart.size();
   GeomDistance distance(probe, std::move(apart), sampling.near, count);
-
-  std::vector<CollisionPair> found;
-  for (const GeomPair& pair : distance.pairs()) found.push_back({pair, sampling.near});
+  std::vector<CollisionPair> found = measured(distance, probe, sampling.near);
   std::vector<int> near(found.size(), 0), touches(found.size(), 0);
-  for (const GeomDistance::Near& one : distance.measure(probe)) {
-    if (one.pair < 0) continue;
-    const auto i = static_cast<std::size_t>(one.pair);
-    found[i].distance = one.distance;
-    near[i] = 1;
-  }
+  for (std::size_t i = 0; i < found.size(); ++i) near[i] = found[i].distance < sampling.near;
   for (int i = 0; i < sampling.postures; ++i) {
     probe.set_configuration(postures.next());
     for (const GeomDistance::Near& one : distance.measure(probe)) {
@@ -231,10 +234,7 @@ std::vector<CollisionPair> met(const std::vector<GeomPair>& candidates, const Ro
     if (roaming.meets(pair)) pairs.push_back(pair);
   const std::size_t count = pairs.size();
   GeomDistance distance(probe, std::move(pairs), sampling.near, count);
-  std::vector<CollisionPair> found;
-  for (const GeomPair& pair : distance.pairs()) found.push_back({pair, sampling.near});
-  for (const GeomDistance::Near& one : distance.measure(probe))
-    if (one.pair >= 0) found[static_cast<std::size_t>(one.pair)].distance = one.distance;
+  std::vector<CollisionPair> found = measured(distance, probe, sampling.near);
   std::erase_if(found, [](const CollisionPair& pair) { return pair.distance <= 0.0; });
   return found;
 }
@@ -286,13 +286,10 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
     }
   }
   std::vector<CollisionPair> found = selected(still, robot, sampling);
-  const auto is_new = [&found](const CollisionPair& pair) {
-    return std::none_of(found.begin(), found.end(), [&pair](const CollisionPair& other) {
-      return other.geoms.first == pair.geoms.first && other.geoms.second == pair.geoms.second;
-    });
-  };
+  std::set<std::pair<int, int>> known;
+  for (const CollisionPair& pair : found) known.emplace(pair.geoms.first, pair.geoms.second);
   for (const CollisionPair& pair : met(still, robot, sampling))
-    if (is_new(pair)) found.push_back(pair);
+    if (known.emplace(pair.geoms.first, pair.geoms.second).second) found.push_back(pair);
   for (const GeomPair& pair : moving(told, robot, Postures(robot, sampling.seed)))
     found.push_back({pair, sampling.near});
   return found;

@@ -7,6 +7,7 @@
 
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -33,15 +34,10 @@ class Kept {
   explicit Kept(const Robot& robot)
       : m_(*robot.model()),
         closures_(robot.closures()),
-        joints_(static_cast<std::size_t>(m_.njnt), false) {
+        robot_(robot),
+        joints_(joints_of_coordinates(robot)) {
     for (Index f = 0; closures_ && f < closures_->size(); ++f)
       joints_[static_cast<std::size_t>(m_.dof_jntid[closures_->dof(f)])] = true;
-    for (const Coordinate& coordinate : robot.coordinates()) {
-      for (const DrivenJoint& joint : coordinate.joints) {
-        joints_[static_cast<std::size_t>(joint.joint)] = true;
-        trees_.push_back(m_.body_rootid[m_.jnt_bodyid[joint.joint]]);
-      }
-    }
   }
 
   [[nodiscard]] std::vector<std::string> joints() const {
@@ -62,9 +58,7 @@ class Kept {
 
  private:
   [[nodiscard]] bool has(int joint) const { return joints_[static_cast<std::size_t>(joint)]; }
-  [[nodiscard]] bool moves(int body) const {
-    return std::find(trees_.begin(), trees_.end(), m_.body_rootid[body]) != trees_.end();
-  }
+  [[nodiscard]] bool moves(int body) const { return in_own_tree(robot_, body); }
   // or it has nothing to do with the coordinates
   [[nodiscard]] bool keeps(int equality) const {
     if (closures_ && closures_->keeps(equality)) return closures_->slack() < kTight;
@@ -90,8 +84,8 @@ class Kept {
 
   const mjModel& m_;
   const Closures* closures_;
+  const Robot& robot_;
   std::vector<bool> joints_;
-  std::vector<int> trees_;
 };
 
 }  // namespace

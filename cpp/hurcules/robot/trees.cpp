@@ -27,6 +27,14 @@ int body_of(const mjModel& m, Frame frame) {
   }
 }
 
+std::vector<bool> joints_of_coordinates(const Robot& robot) {
+  std::vector<bool> found(static_cast<std::size_t>(robot.model()->njnt), false);
+  for (const Coordinate& coordinate : robot.coordinates())
+    for (const DrivenJoint& joint : coordinate.joints)
+      found[static_cast<std::size_t>(joint.joint)] = true;
+  return found;
+}
+
 bool in_own_tree(const Robot& robot, int body) {
   const mjModel& m = *robot.model();
   const std::vector<Coordinate>& all = robot.coordinates();
@@ -46,10 +54,7 @@ bool may_move(const mjModel& m, int body) {
 
 std::vector<CarryingJoint> carrying_joints(const Robot& robot) {
   const mjModel& m = *robot.model();
-  std::vector<bool> moved(static_cast<std::size_t>(m.njnt), false);
-  for (const Coordinate& coordinate : robot.coordinates())
-    for (const DrivenJoint& joint : coordinate.joints)
-      moved[static_cast<std::size_t>(joint.joint)] = true;
+  const std::vector<bool> moved = joints_of_coordinates(robot);
   std::vector<CarryingJoint> found;
   int body = robot.root_body(), next = body;
   while (next >= 0) {  // down the tree, as long as it has one branch and no coordinate

@@ -10,6 +10,8 @@
 namespace hurcules {
 
 [[nodiscard]] int body_of(const mjModel_& model, Frame frame);  // that carries it
+// (njnt) whether some coordinate has that joint
+[[nodiscard]] std::vector<bool> joints_of_coordinates(const Robot& robot);
 [[nodiscard]] bool in_own_tree(const Robot& robot, int body);
 // it, or a body below it, has a joint or is moved by mocap
 [[nodiscard]] bool may_move(const mjModel_& model, int body);

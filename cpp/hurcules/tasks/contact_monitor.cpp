@@ -56,7 +56,7 @@ void ContactMonitor::learn_step(double reading) {
 }
 
 ContactState ContactMonitor::look(double reading, double position) {
-  if (state_ == ContactState::Stopped || state_ == ContactState::SensorLost) return state_;
+  if (state_ == ContactState::SensorLost) return state_;
   const double dt = options_.dt;
   if (!std::isfinite(reading)) {
     missing_ += dt;
@@ -78,6 +78,7 @@ ContactState ContactMonitor::look(double reading, double position) {
   const bool pressed = size >= release_;
   if (pressed && !coarse_ && options_.frozen_move > 0.0 && moved > options_.frozen_move)
     return state_ = ContactState::SensorLost;
+  if (state_ == ContactState::Stopped) return state_;
   quiet_ = size < release_ ? quiet_ + dt : 0.0;
   if (quiet_ > options_.release_time) state_ = ContactState::Free;
   return state_;

@@ -3,9 +3,9 @@
 //   Free -> Contact       at |f| >= f_min                                    [T 5.7.64]
 //   Contact -> Free       after |f| < f_min / 2 for release_time, or < |f_d| / 2 where a force f_d
 //                         below f_min is wanted
-//   any -> Stopped        at |f| > f_max, until reset                        [T 5.7.64]
-//   any -> SensorLost     no finite reading for patience, or in contact a reading that keeps its
-//                         bits while the frame moves by frozen_move; until reset
+//   any -> Stopped        at |f| > f_max, until reset; readings go on        [T 5.7.64]
+//   any -> SensorLost     no finite reading for patience, or where it presses a reading that keeps
+//                         its bits while the frame moves by frozen_move; until reset
 // A sensor that reads a constant 0 in the air cannot be told from no contact. One with coarse steps
 // may well keep its bits: where, after 20 changes, readings are multiples of the smallest of
 // them, and that is no small part of f_min, kept bits say nothing.
@@ -38,7 +38,8 @@ class ContactMonitor {
   // the force that is wanted [N], of any sign
   void expect(double force_des);
   [[nodiscard]] ContactState state() const { return state_; }
-  [[nodiscard]] double force() const { return force_; }  // [N] the last one that was read
+  [[nodiscard]] double force() const { return force_; }      // [N] the last one that was read
+  [[nodiscard]] double release() const { return release_; }  // [N] where a contact ends
   // out of Stopped and SensorLost
   void reset();
   void save(StateWriter& writer) const;

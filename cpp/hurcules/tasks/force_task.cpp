@@ -10,12 +10,16 @@ namespace hurcules {
 
 namespace {
 
-PositionTaskOptions along_axis(const ForceTaskOptions& options, const std::string& name) {
+PositionTaskOptions along_axis(const ForceTaskOptions& options, const Robot& robot,
+                               const std::string& frame, const std::string& name) {
   require(options.axis.allFinite() && options.axis.norm() > 0.0,
           "axis of force task '" + name + "' wants a finite direction, not of length 0");
   PositionTaskOptions position;
-  position.reference = options.reference;
   position.axes = options.axis.normalized().transpose();
+  if (options.reference == frame)
+    position.axes *= robot.orientation(robot.frame(frame)).transpose();
+  else
+    position.reference = options.reference;
   return position;
 }
 
@@ -35,12 +39,14 @@ double fade(double age, double blend) {
 
 ForceTask::ForceTask(std::string name, const Robot& robot, const std::string& frame,
                      const ForceTaskOptions& options)
-    : PositionTask(name, robot, frame, along_axis(options, name)),
+    : PositionTask(name, robot, frame, along_axis(options, robot, frame, name)),
       options_(options),
+      axis_(1, 3),
       law_(options.gains),
       monitor_(timed(options.contact, options.gains.dt), name),
       estimate_(options.stiffness),
       force_des_(options.force_des) {
+  if (options.reference == frame) own_ = robot.frame(frame);
   check_force_gains(options.gains, options.environment, name);
   require(std::isfinite(options.blend) && options.blend >= 0.0,
           "blend of force task '" + name + "' wants a time >= 0 [s]");
@@ -67,6 +73,12 @@ ForceTask::Mode ForceTask::mode() const {
   return enabled_ && state == ContactState::Contact ? Mode::Force : Mode::Motion;
 }
 
+Vector3 ForceTask::world_axis(const Robot& robot) const {
+  const std::optional<Frame> frame = own_ ? own_ : reference_frame();
+  const Vector3 axis = options_.axis.normalized();
+  return frame ? Vector3(robot.orientation(*frame) * axis) : axis;
+}
+
 void ForceTask::set_filter(double seconds) {
   require(std::isfinite(seconds) && seconds >= 0.0,
           "filter of force task '" + name_ + "' wants a time of 0 or more [s]");
@@ -74,12 +86,12 @@ void ForceTask::set_filter(double seconds) {
 }
 
 void ForceTask::sense(const Robot& robot, double force) {
-  if (tares_ && std::isfinite(force)) {
-    zero_ = force;
-    tares_ = false;
-    release(robot);
+  force = tared(robot, force);
+  if (own_) {
+    ValueTask::update(robot);
+    axis_ = world_axis(robot).transpose();
+    turn_axes(axis_);
   }
-  force -= zero_;
   ValueTask::update(robot);
   const double s = value_[0], dt = options_.gains.dt;
   if (law_.commands_acceleration()) {
@@ -102,6 +114,8 @@ void ForceTask::sense(const Robot& robot, double force) {
   if (follows || (now == Mode::Hold && mode_ != Mode::Hold)) target_[0] = s;
   if (now == Mode::Hold && mode_ != Mode::Hold) motion_ = 0.0;
   const double before = law_.commands_acceleration() ? wish_ : rate_;
+  relief_ = now == Mode::Hold && std::isfinite(force) ? relief() : 0.0;
+  target_[0] += relief_ * dt;
   wish_ = wish(now);
   if (now != mode_) {
     offset_ = now == Mode::Hold ? 0.0 : before - wish_;  // a stop is at once
@@ -111,15 +125,65 @@ void ForceTask::sense(const Robot& robot, double force) {
   } else {
     age_ = std::min(age_ + dt, options_.blend);
   }
-  if (now != Mode::Force || options_.blend == 0.0)
-    borne_ = told_;
-  else if (mode_ != Mode::Force)  // no more than is wanted: an impact is not pushed on
-    borne_ = std::clamp(told_, std::min(force_des_, 0.0), std::max(force_des_, 0.0));
-  else
-    borne_ += std::min(1.0, dt / options_.blend) * (force_des_ - borne_);
+  bear(now);
   mode_ = now;
   wish_ += blended();
   show();
+}
+
+double ForceTask::tared(const Robot& robot, double force) {
+  if (tare_readings_ > 0.0 && std::isfinite(force)) {
+    if (tare_readings_ == tare_size_) release(robot);
+    tare_sum_ += force;
+    tare_readings_ -= 1.0;
+    zero_ = tare_sum_ / (tare_size_ - tare_readings_);
+    return 0.0;
+  }
+  return force - zero_;
+}
+
+// what torques bear, before it fades with the reading
+void ForceTask::bear(Mode now) {
+  constexpr double kIntegral = 5.0, kNear = 0.02;  // [1/s], of the wanted force
+  const double dt = options_.gains.dt;
+  if (now != Mode::Force || options_.blend == 0.0) {
+    borne_ = told_;
+    return;
+  }
+  if (mode_ != Mode::Force) {  // no more than is wanted: an impact is not pushed on
+    borne_ = std::clamp(told_, std::min(force_des_, 0.0), std::max(force_des_, 0.0));
+    missed_ = 0.0;
+    most_ = pressed();
+    return;
+  }
+  most_ = std::max(most_, pressed());
+  borne_ += std::min(1.0, dt / options_.blend) * (force_des_ - borne_);
+  const double most = std::max(std::abs(force_des_), options_.contact.f_min);
+  if (std::abs(force_des_ - borne_) > kNear * most) return;
+  missed_ = std::clamp(missed_ + kIntegral * dt * (force_des_ - told_), -most, most);
+}
+
+double ForceTask::share() const {
+  const bool known = options_.environment > 0.0 || law_.has_reference();
+  return known ? 1.0 : std::min(1.0, options_.max_rate / law_.rate(stiffness()));
+}
+
+double ForceTask::relief() const {
+  const double f = monitor_.force(), most = options_.contact.f_min;
+  // pulled where it should press: a sensor of the wrong sign would be led into what it presses
+  if (monitor_.state() != ContactState::Stopped || f * force_des_ < 0.0) return 0.0;
+  return share() * law_.rate(1.0) * (std::clamp(f, -most, most) - f);
+}
+
+double ForceTask::pressed() const {
+  return force_des_ < 0.0 ? -told_ : told_;
+}
+
+double ForceTask::borne() const {
+  if (mode_ != Mode::Force || options_.blend == 0.0) return borne_;
+  const double most = std::min(std::abs(force_des_), most_);
+  return std::clamp(pressed() / std::max(0.5 * most, monitor_.release()), 0.0, 1.0) *
+         (borne_ + missed_);
 }
 
 // what is left of the way that the frame came: where it presses on, none from the wanted force on
@@ -136,14 +200,12 @@ double ForceTask::wish(Mode mode) {
   switch (mode) {
     case Mode::Motion:
       return law_.commands_acceleration() ? law_.free(moving) : motion_;
-    case Mode::Force: {
-      const double G = stiffness(), most = options_.max_rate;
-      const bool known = options_.environment > 0.0 || law_.has_reference();
-      const double share = known ? 1.0 : std::min(1.0, most / law_.rate(G));
-      return law_.step(law_.has_reference() ? moving : motion, force_des_ - told_, share);
+    case Mode::Force:
+      return law_.step(law_.has_reference() ? moving : motion, force_des_ - told_, share());
+    default: {
+      const ForceLaw::Motion led{motion.position, moving.velocity - relief_};
+      return law_.commands_acceleration() ? law_.free(led) : motion_ + relief_;
     }
-    default:
-      return law_.commands_acceleration() ? law_.free(moving) : motion_;
   }
 }
 
@@ -176,16 +238,26 @@ void ForceTask::hold(const Robot& robot) {
 void ForceTask::advance(const ConstVectorRef& velocity, double dt) {
   ValueTask::advance(velocity, dt);
   motion_ = velocity_des_[0];
-  if (mode_ != Mode::Hold || motion_ * force() < 0.0) return;
-  // stopped: only away from the contact
+  // stopped: only away from the contact, and from what is wanted; a tare wants rest
+  const bool away = motion_ * entry_ < 0.0 && motion_ * force_des_ <= 0.0;
+  if (tare_readings_ == 0.0 && (mode_ != Mode::Hold || away)) return;
   target_[0] -= motion_ * dt;
   motion_ = velocity_des_[0] = 0.0;
 }
 
 void ForceTask::reset(const Robot& robot) {
-  zero_ = 0.0;
-  tares_ = false;
   release(robot);
+}
+
+void ForceTask::tare(double seconds) {
+  require(std::isfinite(seconds) && seconds >= 0.0,
+          "tare of force task '" + name_ + "' wants a time of 0 or more [s]");
+  tare_size_ = tare_readings_ = std::max(1.0, std::round(seconds / options_.gains.dt));
+  tare_sum_ = 0.0;
+}
+
+void ForceTask::forget_tare() {
+  zero_ = tare_readings_ = 0.0;
 }
 
 void ForceTask::release(const Robot& robot) {
@@ -198,30 +270,31 @@ void ForceTask::release(const Robot& robot) {
 
 void ForceTask::save(StateWriter& writer) const {
   ValueTask::save(writer);
+  if (own_) save_axes(writer);
   law_.save(writer);
   monitor_.save(writer);
   estimate_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, entry_, borne_, told_, rate_, last_, zero_, tares_ ? 1.0 : 0.0,
-        sensed_ ? 1.0 : 0.0}) {
+        wish_, offset_, age_, entry_, borne_, told_, rate_, last_, zero_, tare_readings_, tare_sum_,
+        tare_size_, missed_, most_, sensed_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
 
 void ForceTask::restore(StateReader& reader) {
   ValueTask::restore(reader);
+  if (own_) restore_axes(reader);
   law_.restore(reader);
   monitor_.restore(reader);
   estimate_.restore(reader);
   force_des_ = reader.get();
   enabled_ = reader.get_count(1) > 0;
   mode_ = static_cast<Mode>(reader.get_count(2));
-  for (double* value :
-       {&motion_, &wish_, &offset_, &age_, &entry_, &borne_, &told_, &rate_, &last_, &zero_}) {
+  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &borne_, &told_, &rate_, &last_,
+                        &zero_, &tare_readings_, &tare_sum_, &tare_size_, &missed_, &most_}) {
     *value = reader.get();
   }
-  tares_ = reader.get_count(1) > 0;
   sensed_ = reader.get_count(1) > 0;
 }
 

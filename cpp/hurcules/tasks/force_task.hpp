@@ -7,7 +7,8 @@
 // time, so that no joint speed jumps as in [T Fig. 5.17]; with blend = 0 it jumps. What still presses
 // on fades with the force that is missing too: on hard ground a blend is no impact of its own. When
 // f_max is passed or the sensor is lost the row holds its place until reset, and lets itself be led away from
-// the contact only; the mission decides what else stops.
+// the contact only; the mission decides what else stops. As long as it reads more than f_min there, it gives way
+// with the law's compliance: a servo with an integral would press on, ever harder.
 //
 // Each tick: sense(robot, f), then the controller. FirstOrder is a row for both controllers, the
 // other laws for one of accelerations.
@@ -21,7 +22,9 @@
 namespace hurcules {
 
 struct ForceTaskOptions {
-  std::string reference = "";       // frame that the axis belongs to, "" = the world
+  // frame that the axis belongs to, "" = the world; the task's own frame: the axis turns with it, over
+  // a curved surface, and the value counts the way along it
+  std::string reference = "";
   Vector3 axis = Vector3::UnitZ();  // made a unit vector
   double force_des = -5.0;          // [N] f_d [T §5.6.2]
   double blend = 0.1;               // [s] from motion to force and back; 0: at once
@@ -58,31 +61,46 @@ class ForceTask : public PositionTask {
   // time constant [s] of a low-pass of what the force law is told, 0: none; contact is judged by the
   // reading itself. Throws Error unless it is finite and >= 0
   void set_filter(double seconds);
-  // What is read next is zero from then on, until a reset: the weight of a tool behind the sensor,
-  // say. A contact that was none ends.
-  void tare() { tares_ = true; }
-  // out of Stopped and SensorLost, at rest where the frame is
+  // The mean of what is read next, for so long [s] (0: of one reading), is zero from then on: the
+  // weight of a tool behind the sensor, say. Until then readings count as none, and it stays; a contact ends.
+  // Throws Error unless it is finite and >= 0
+  void tare(double seconds = 0.1);
+  void forget_tare();  // zero is what the sensor says
+  // out of Stopped and SensorLost, at rest where the frame is; the tare stays
   void reset(const Robot& robot) override;
 
+  [[nodiscard]] bool is_told() const { return sensed_; }  // of a force, since the last reset
   [[nodiscard]] ContactState state() const { return monitor_.state(); }
   [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
   // [N] what torques bear of the contact: the reading; under force control it goes over from the
-  // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading), so that
-  // what the model of the robot misses is not magnified into a force that is missing
-  [[nodiscard]] double borne() const { return borne_; }
+  // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading) and on,
+  // by 5 1/s of the force that is still missing, to what friction beside the axis takes, so that
+  // what the model of the robot misses is not magnified into a force that is missing. Below half of
+  // what it has pressed, or of f_des, it fades with the reading: air bears nothing, and a tool behind
+  // the sensor that is thrown reads as if it pressed
+  [[nodiscard]] double borne() const;
   [[nodiscard]] double stiffness() const;  // [N/m] given or learnt
   [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
+  [[nodiscard]] Vector3 world_axis(const Robot& robot) const;  // the axis now, in W
 
  private:
   enum class Mode { Motion, Force, Hold };
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] double wish(Mode mode);  // of the row, without the blend
   [[nodiscard]] double blended() const;  // what the blend adds
-  void release(const Robot& robot);      // no contact, at rest where the frame is
-  void show();                           // the row as the controller sees it
+  [[nodiscard]] double tared(const Robot& robot, double force);
+  void bear(Mode now);
+  [[nodiscard]] double pressed() const;  // [N] told, towards f_des
+  [[nodiscard]] double relief() const;   // [m/s] away from what is pressed while stopped
+  // 0 to 1, of the compliance: a force error vanishes no faster than max_rate where G is learnt
+  [[nodiscard]] double share() const;
+  void release(const Robot& robot);  // no contact, at rest where the frame is
+  void show();                       // the row as the controller sees it
 
   ForceTaskOptions options_;
+  std::optional<Frame> own_;  // frame with which the axis turns
+  Matrix axis_;               // (1, 3) scratch, in W
   ForceLaw law_;
   ContactMonitor monitor_;
   StiffnessEstimate estimate_;
@@ -90,16 +108,20 @@ class ForceTask : public PositionTask {
   bool enabled_ = true;
   Mode mode_ = Mode::Motion;
   double motion_ = 0.0;  // [m/s] of the reference
+  double relief_ = 0.0;  // [m/s] of this tick
   double wish_ = 0.0;    // [m/s] or [m/s^2], blend included
   double offset_ = 0.0, age_ = 0.0;
   double entry_ = 0.0;  // [N] read when the mode changed
   double borne_ = 0.0;
-  double filter_ = 0.0;  // [s]
-  double told_ = 0.0;    // [N] filtered
-  double zero_ = 0.0;    // [N] reading that counts as none
-  bool tares_ = false;   // by the next reading
-  double rate_ = 0.0;    // [m/s] of the frame, by the robot's velocity or by differences
-  double last_ = 0.0;    // [m] s at the last sense
+  double filter_ = 0.0;                          // [s]
+  double told_ = 0.0;                            // [N] filtered
+  double zero_ = 0.0;                            // [N] reading that counts as none
+  double tare_readings_ = 0.0, tare_sum_ = 0.0;  // of a tare: still to come, so far [N]
+  double tare_size_ = 0.0;                       // readings of a tare
+  double missed_ = 0.0;                          // [N] beyond f_des that torques bear
+  double most_ = 0.0;                            // [N] pressed since the contact began
+  double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
+  double last_ = 0.0;  // [m] s at the last sense
   bool sensed_ = false;
 };
 

@@ -11,6 +11,7 @@ namespace hurcules {
 PointTask::PointTask(std::string name, const Robot& robot, PointTaskOptions options)
     : ValueTask(std::move(name), options.axes.rows(), robot),
       axes_(std::move(options.axes)),
+      shift_(Vector::Zero(rows())),
       reference_(robot, options.reference),
       point_(robot) {
   const std::string came = std::to_string(axes_.rows()) + " x " + std::to_string(axes_.cols());
@@ -41,11 +42,30 @@ double PointTask::lever() const {
   return std::sqrt(most) * weights().maxCoeff();
 }
 
+void PointTask::turn_axes(const Matrix& axes) {
+  for (Index row = 0; row < rows(); ++row)
+    shift_[row] += (axes_.row(row) - axes.row(row)).dot(point_.position);
+  axes_ = axes;
+}
+
+void PointTask::save_axes(StateWriter& writer) const {
+  for (Index row = 0; row < rows(); ++row)
+    for (Index i = 0; i < 3; ++i) writer.put(axes_(row, i));
+  writer.put(shift_);
+}
+
+void PointTask::restore_axes(StateReader& reader) {
+  for (Index row = 0; row < rows(); ++row)
+    for (Index i = 0; i < 3; ++i) axes_(row, i) = reader.get();
+  reader.get(shift_);
+}
+
 void PointTask::measure(const Robot& robot) {
   reference_.measure(robot);
   measure_point(robot, point_);
   reference_.express(point_);
   value_.noalias() = axes_ * point_.position;
+  value_ += shift_;
   const Matrix& J = point_.jacobian;
   for (Index row = 0; row < rows(); ++row)
     jacobian_.row(row) =

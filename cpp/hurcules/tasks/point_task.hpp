@@ -32,11 +32,16 @@ class PointTask : public ValueTask {
   virtual void measure_point(const Robot& robot, PointMotion& point) = 0;
 
   [[nodiscard]] const Reference& reference() const { return reference_; }
+  // other directions from now on, (m, 3) of length 1 in the axes of the reference; the value stays
+  void turn_axes(const Matrix& axes);
+  void save_axes(StateWriter& writer) const;
+  void restore_axes(StateReader& reader);
 
  private:
   void measure(const Robot& robot) final;
 
   Matrix axes_;
+  Vector shift_;  // [m] (m) of the value, by axes that were turned
   Reference reference_;
   PointMotion point_;
 };

@@ -1,7 +1,7 @@
 // What the drives of the coordinates can give, as rows of a level: for controllers of acceleration.
 //
 //   lower <= M qddot + h <= upper  [N m] or [N] (n)        M qddot + h: Robot::inverse_dynamics
-// jacobian = M, drift = h. Contacts beside the support, and dry friction, are not in it.
+// jacobian = M, drift = h. Contacts beside the support are in it where `bear` says so, dry friction is not.
 #pragma once
 
 #include "hurcules/tasks/task.hpp"
@@ -18,6 +18,8 @@ class TorqueLimits : public Task {
 
   // at the robot's configuration and velocity; error() is the torque at constant velocity, h
   void update(const Robot& robot) override;
+  // what the drives give beside, (n) [N m] or [N], until the next update
+  void bear(const ConstVectorRef& efforts) { drift_ += efforts; }
   void hold(const Robot& robot) override { update(robot); }
   void advance(const ConstVectorRef& velocity, double dt) override;
   [[nodiscard]] bool commands_acceleration() const override { return true; }
