@@ -63,7 +63,8 @@ Args:
   name: shown in plots and messages.
   robot: Robot.
   frame: name of a site, body, camera or geom.
-  reference: frame that the axis belongs to, '' for the world.
+  reference: frame that the axis belongs to, '' for the world; `frame` itself: the axis turns with it,
+    over a curved surface.
   axis: (3,), made a unit vector.
   force_des: f_d [N].
   blend: [s].
@@ -86,7 +87,8 @@ inline constexpr const char* kTare =
     R"(The mean of what is read next is zero from then on: the weight of a tool behind the sensor, say.
 
 Until then readings count as none and nothing leads the task: a contact ends, at rest. A reset of the
-simulation forgets it.
+simulation forgets it, but for one that is asked for before the simulation is made: that is taken
+anew at each start.
 
 Args:
   seconds: for how long it is read; 0 takes one reading.

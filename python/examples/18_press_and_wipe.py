@@ -48,7 +48,7 @@ controller.sense(press, "cell")  # what the robot exerts along the task's axis
 simulation = hurcules.Simulation(model=model, controller=controller)
 press.enable(False)  # motion alone: the arm rests
 simulation.step(200)
-press.tare()  # what is read next, the weight of the tool, is zero from then on
+press.tare()  # the weight of the tool, read in the next 0.1 s, is zero from then on
 simulation.step(1)
 press.enable(True)
 down = [-0.03]  # [m/s] all along: in contact it moves nothing, one that was lost is found

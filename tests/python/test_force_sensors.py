@@ -109,7 +109,7 @@ def test_the_weight_of_a_tool_is_tared() -> None:
     simulation.step(200)
     assert press.contact == hurcules.ContactState.Contact  # by 2.9 N that are none
     press.tare()
-    simulation.step(101)
+    simulation.step(102)
     assert press.contact == hurcules.ContactState.Free and press.force == pytest.approx(0, abs=0.1)
     press.reset(simulation.controller.plan)  # out of a stop, say
     simulation.step(1)
@@ -169,7 +169,7 @@ def test_a_contact_that_is_lost_by_torques_is_not_borne() -> None:
     simulation, press = pressing("torque", tool=0.5)
     simulation.step(300)
     press.tare()
-    simulation.step(101)
+    simulation.step(102)
     land(simulation, press, 0.02)
     simulation.model.geom("table").pos[2] -= 0.03
     fastest, most = 0.0, 0.0
@@ -234,7 +234,7 @@ def test_friction_beside_the_axis_is_no_error_of_the_force_by_torques() -> None:
     press.enable(False)
     simulation.step(300)
     press.tare()
-    simulation.step(101)
+    simulation.step(102)
     press.enable(True)
     simulation.step(2000, {"press": [-0.02]})
     forces = []
@@ -264,7 +264,7 @@ def wiped(control: str, own: bool) -> tuple[hurcules.Simulation, float]:
     press.enable(False)
     simulation.step(300)
     press.tare()
-    simulation.step(101)
+    simulation.step(102)
     press.enable(True)
     simulation.step(2000, {"press": [0.02]})
     forces, turned = [], 0.0
@@ -297,6 +297,7 @@ def test_a_tare_is_the_mean_of_what_is_read() -> None:
     press = hurcules.ForceTask("press", robot, "tip")
     noise = np.random.default_rng(0).normal(5.0, 1.0, 100)
     press.tare(0.1)
+    press.sense(robot, 99.0)  # of before: a simulation that starts has none
     for reading in noise:
         press.sense(robot, float(reading))
         assert press.force == 0.0 and press.contact == hurcules.ContactState.Free
@@ -379,3 +380,15 @@ def test_a_robot_on_feet_presses_and_its_feet_push_back() -> None:
     assert press.force == pytest.approx(WANTED, abs=0.5)
     assert wanted[0] == pytest.approx(WANTED, abs=1.5)
     assert simulation.data.body("trunk").xpos[2] > 0.35
+
+
+def test_a_tare_that_is_asked_for_beforehand_is_taken_at_each_start() -> None:
+    simulation, press = pressing("velocity", tool=0.3)
+    press.tare()
+    again = hurcules.Simulation(model=simulation.model, controller=simulation.controller)
+    for _ in range(2):
+        again.step(102)
+        assert press.contact == hurcules.ContactState.Free
+        again.step(100)
+        assert press.force == pytest.approx(0.0, abs=0.05)
+        again.reset()

@@ -132,14 +132,15 @@ void ForceTask::sense(const Robot& robot, double force) {
 }
 
 double ForceTask::tared(const Robot& robot, double force) {
-  if (tare_readings_ > 0.0 && std::isfinite(force)) {
-    if (tare_readings_ == tare_size_) release(robot);
+  if (tare_readings_ == 0.0 || !std::isfinite(force)) return force - zero_;
+  if (tare_readings_ > tare_size_) {
+    release(robot);  // the reading of now is of before: at a start there was none
+  } else {
     tare_sum_ += force;
-    tare_readings_ -= 1.0;
-    zero_ = tare_sum_ / (tare_size_ - tare_readings_);
-    return 0.0;
+    zero_ = tare_sum_ / (tare_size_ - tare_readings_ + 1.0);
   }
-  return force - zero_;
+  tare_readings_ -= 1.0;
+  return 0.0;
 }
 
 // what torques bear, before it fades with the reading
@@ -252,12 +253,16 @@ void ForceTask::reset(const Robot& robot) {
 void ForceTask::tare(double seconds) {
   require(std::isfinite(seconds) && seconds >= 0.0,
           "tare of force task '" + name_ + "' wants a time of 0 or more [s]");
-  tare_size_ = tare_readings_ = std::max(1.0, std::round(seconds / options_.gains.dt));
+  tare_size_ = std::max(1.0, std::round(seconds / options_.gains.dt));
+  tare_readings_ = tare_size_ + 1.0;
   tare_sum_ = 0.0;
 }
 
-void ForceTask::forget_tare() {
-  zero_ = tare_readings_ = 0.0;
+void ForceTask::reset_tare() {
+  if (tare_readings_ > tare_size_) start_tare_ = tare_size_;
+  zero_ = tare_sum_ = 0.0;
+  tare_size_ = start_tare_;
+  tare_readings_ = start_tare_ > 0.0 ? start_tare_ + 1.0 : 0.0;
 }
 
 void ForceTask::release(const Robot& robot) {

@@ -65,7 +65,8 @@ class ForceTask : public PositionTask {
   // weight of a tool behind the sensor, say. Until then readings count as none, and it stays; a contact ends.
   // Throws Error unless it is finite and >= 0
   void tare(double seconds = 0.1);
-  void forget_tare();  // zero is what the sensor says
+  // a start: zero is what the sensor says, until the tare that was asked for before the first start
+  void reset_tare();
   // out of Stopped and SensorLost, at rest where the frame is; the tare stays
   void reset(const Robot& robot) override;
 
@@ -117,7 +118,7 @@ class ForceTask : public PositionTask {
   double told_ = 0.0;                            // [N] filtered
   double zero_ = 0.0;                            // [N] reading that counts as none
   double tare_readings_ = 0.0, tare_sum_ = 0.0;  // of a tare: still to come, so far [N]
-  double tare_size_ = 0.0;                       // readings of a tare
+  double tare_size_ = 0.0, start_tare_ = 0.0;    // readings of a tare, of one at each start
   double missed_ = 0.0;                          // [N] beyond f_des that torques bear
   double most_ = 0.0;                            // [N] pressed since the contact began
   double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
