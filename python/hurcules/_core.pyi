@@ -1440,7 +1440,8 @@ class ForceTask(PositionTask):
       name: shown in plots and messages.
       robot: Robot.
       frame: name of a site, body, camera or geom.
-      reference: frame that the axis belongs to, '' for the world.
+      reference: frame that the axis belongs to, '' for the world; `frame` itself: the axis turns with it,
+        over a curved surface.
       axis: (3,), made a unit vector.
       force_des: f_d [N].
       blend: [s].
@@ -1494,10 +1495,18 @@ class ForceTask(PositionTask):
     def set_force(self, force_des: float) -> None:
         """f_d [N]."""
 
-    def tare(self) -> None:
-        """What is read next is zero from then on, until a reset.
+    def tare(self, seconds: float = 0.1) -> None:
+        """The mean of what is read next is zero from then on: the weight of a tool behind the sensor, say.
 
-        The weight of a tool behind the sensor, say. A contact that was none ends, at rest."""
+        Until then readings count as none and nothing leads the task: a contact ends, at rest. A reset of the
+        simulation forgets it, but for one that is asked for before the simulation is made: that is taken
+        anew at each start.
+
+        Args:
+          seconds: for how long it is read; 0 takes one reading.
+
+        Raises:
+          Error: a time below 0 or not finite."""
 
     @property
     def contact(self) -> ContactState:
@@ -2680,7 +2689,7 @@ class WholeBodyController:
       robot: Robot where it starts; any MJCF robot.
       levels: Stack, or a sequence of Task, StackLevel and lists of tasks, in decreasing priority.
       channels: by name what a command moves: Twist, Delta, Target, ForceReference, Drive, JointRate,
-        JointRates.
+        JointRates, ControlRate.
       stacks: by name further stacks for `use`, each levels as above or (levels, control); the first one
         rules at the start if no `levels` are given.
       control: by what `levels` rule: "velocity", "acceleration", or "torque": then the accelerations are
@@ -2767,7 +2776,7 @@ class WholeBodyController:
         """Goes on from what state() gave."""
 
     def sense(
-        self, task: ForceTask, source: Any, row: int | None = None, sign: float = 1.0
+        self, task: ForceTask, source: Any, row: int | None = None, sign: float | None = None
     ) -> None:
         """What a force task reads, each tick.
 
@@ -2921,6 +2930,10 @@ class WholeBodyController:
     @property
     def torque(self) -> NDArray[np.float64]:
         """(m,) [N m] or [N] of the servos"""
+
+    @property
+    def unfed_forces(self) -> list[str]:
+        """Names of the force tasks that no `sense` feeds and that were never told a force."""
 
     @property
     def unseen_references(self) -> list[tuple[str, str, bool]]:
@@ -4281,6 +4294,16 @@ def BoundsStack(lower: ArrayLike, upper: ArrayLike) -> LevelStack:
 
     Args:
       lower, upper: (B, n) float64, or (n,) when all have the same."""
+
+def ControlRate(actuator: str, scale: float) -> Channel:
+    """A channel that leads the control of an actuator that no servo commands: a gripper on tendons.
+
+    It starts where a position servo holds what it moves, at 0 with others, and stays within the
+    actuator's ctrlrange. Without physics it moves nothing.
+
+    Args:
+      actuator: its name.
+      scale: full scale [1/s] of its control."""
 
 def Delta(task: Task, scale: float | ArrayLike) -> Channel:
     """A channel that puts the target of a task at its measured value plus an increment.

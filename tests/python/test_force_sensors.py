@@ -245,7 +245,7 @@ def test_friction_beside_the_axis_is_no_error_of_the_force_by_torques() -> None:
 
 
 def wiped(control: str, own: bool) -> tuple[hurcules.Simulation, float]:
-    """Over a drum, 0.4 rad: along the tool's axis, or along the one that it had at first; mean [N]."""
+    """Over a drum, 0.4 rad, along the tool's axis or the one that it had at first; mean [N]."""
     model, robot = above(DRUM, friction=0.1)
     axis = {"reference": "tip", "axis": [1, 0, 0]} if own else {"axis": [0, 0, -1]}
     press = hurcules.ForceTask("press", robot, "tip", force_des=WANTED, max_rate=20.0, **axis)
@@ -312,7 +312,8 @@ def test_what_reads_no_force_is_refused_and_a_touch_has_its_sign() -> None:
         '<force name="cell" site="cell"/>',
         '<framepos name="place" objtype="site" objname="cell"/><touch name="touch" site="pad"/>',
     )
-    text = text.replace('<site name="tip"', '<site name="pad" pos="0 0 -0.05" size="0.04"/>\n<site name="tip"')
+    pad = '<site name="pad" pos="0 0 -0.05" size="0.04"/>'
+    text = text.replace('<site name="tip"', pad + '<site name="tip"')
     model = mujoco.MjModel.from_xml_string(text)
     robot = hurcules.Robot(model)
     press = hurcules.ForceTask("press", robot, "tip", force_des=-WANTED)

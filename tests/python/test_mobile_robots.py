@@ -219,7 +219,7 @@ def squeezing(actuator: str) -> hurcules.Simulation:
 <mujoco>
   <option timestep="0.002" gravity="0 0 0"/>
   <worldbody>
-    <body pos="0 0 0"><joint name="arm" type="slide" axis="0 1 0"/><geom size="0.05" mass="2"/></body>
+    <body><joint name="arm" type="slide" axis="0 1 0"/><geom size="0.05" mass="2"/></body>
     <geom type="box" size="0.02 0.02 0.02" pos="0.04 0 0.2"/>
     <body pos="0 0 0.2"><joint name="finger" type="slide" axis="-1 0 0" range="-0.05 0.05"/>
       <geom type="box" size="0.01 0.01 0.01" mass="0.5" pos="-0.01 0 0"/></body>
