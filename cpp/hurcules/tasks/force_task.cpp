@@ -160,7 +160,7 @@ void ForceTask::bear(Mode now) {
   most_ = std::max(most_, pressed());
   borne_ += std::min(1.0, dt / options_.blend) * (force_des_ - borne_);
   const double most = std::max(std::abs(force_des_), options_.contact.f_min);
-  if (std::abs(force_des_ - borne_) > kNear * most) return;
+  if (law_.has_reference() || std::abs(force_des_ - borne_) > kNear * most) return;
   missed_ = std::clamp(missed_ + kIntegral * dt * (force_des_ - told_), -most, most);
 }
 

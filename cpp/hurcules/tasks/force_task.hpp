@@ -76,7 +76,8 @@ class ForceTask : public PositionTask {
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
   // [N] what torques bear of the contact: the reading; under force control it goes over from the
   // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading) and on,
-  // by 5 1/s of the force that is still missing, to what friction beside the axis takes, so that
+  // by 5 1/s of the force that is still missing, to what friction beside the axis takes (not of laws
+  // with a reference, which keep a force of their own), so that
   // what the model of the robot misses is not magnified into a force that is missing. Below half of
   // what it has pressed, or of f_des, it fades with the reading: air bears nothing, and a tool behind
   // the sensor that is thrown reads as if it pressed
