@@ -133,6 +133,36 @@ def test_a_hand_follows_a_pull_at_the_compliance(control: str) -> None:
     np.testing.assert_allclose(tip.xpos, start, atol=5e-4)
 
 
+@pytest.mark.parametrize("control", ["velocity", "acceleration"])
+def test_a_surface_that_comes_adds_its_speed_over_the_compliance(control: str) -> None:
+    table = '<body name="table" mocap="true"><geom type="box" size="1 1 0.1"/></body>'
+    model = hands("H", (0.0,), table)
+    robot = hurcules.Robot(model)
+    gains = hurcules.ForceGains(compliance=1e-3)
+    press = hurcules.ForceTask(
+        "press", robot, "Htip", force_des=-20.0, environment=2e3, gains=gains
+    )
+    beside = hurcules.PositionTask("beside", robot, "Htip", axes=AXES[:2])
+    channels = {"press": hurcules.Twist(press, 0.3)}
+    controller = hurcules.WholeBodyController(robot, [press, beside], channels, control=control)
+    controller.sense(press, "H")
+    simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+    data = simulation.data
+    press.enable(False)
+    simulation.step(200)
+    press.tare()
+    simulation.step(200)
+    press.enable(True)
+    simulation.step(6000, {"press": [-0.05]})
+    forces = []
+    for _ in range(1500):
+        data.mocap_pos[0, 2] += 5e-6  # [m] a tick: 5 mm/s
+        simulation.step(1, {"press": [-0.05]})
+        forces.append(exerted(model, data, "Hpad")[2])
+    assert np.mean(forces[:10]) == pytest.approx(-20.0, abs=1.0)
+    assert np.mean(forces[-300:]) == pytest.approx(-20.0 - 5e-3 / 1e-3, abs=0.5)
+
+
 def hole(half: float, chamfer: float) -> str:
     """A square hole about the origin, half as wide as `half` [m], its edge at z = 0."""
     walls = ""
