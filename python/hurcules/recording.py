@@ -28,6 +28,7 @@ CHANNELS = (
     ("error/L, measured_error/L", "[m] or [rad] norm of the task errors of level L"),
     ("active_rows/L", "rows that hold level L back"),
     ("command/K", "[m/s], [rad/s], [m], [N] what command K did; NaN: no target or force set"),
+    ("force/T, contact/T", "[N] read by force task T; number of its ContactState"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("base_velocity/x", "[m/s] of the support as the sensors say, along the world's axes"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),

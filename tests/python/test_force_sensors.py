@@ -67,7 +67,7 @@ def pressing(
         robot, [press, place], {"press": hurcules.Twist(press, 0.3)}, control=control
     )
     controller.sense(press, "cell", **sense)
-    return hurcules.Simulation(model=model, controller=controller, record=False), press
+    return hurcules.Simulation(model=model, controller=controller), press
 
 
 def on_the_table(simulation: hurcules.Simulation) -> float:
@@ -102,6 +102,9 @@ def test_a_force_is_read_along_the_axis_however_the_cell_is_turned(
     land(simulation, press, 0.02)
     assert on_the_table(simulation) == pytest.approx(WANTED, abs=0.4)
     assert press.force == pytest.approx(-WANTED, abs=0.4)
+    log = simulation.log()
+    assert log["force/press"][-1] == press.force
+    assert log["contact/press"][-1] == int(hurcules.ContactState.Contact)
 
 
 def test_the_weight_of_a_tool_is_tared() -> None:

@@ -34,6 +34,14 @@ void add_names(const Stack& stack, const std::vector<Task*>& tasks, TelemetryNam
   }
 }
 
+std::vector<const ForceTask*> force_tasks(const WholeBodyController& controller) {
+  std::vector<const ForceTask*> found;
+  for (const Task* task : controller.tasks()) {
+    if (const auto* const force = dynamic_cast<const ForceTask*>(task)) found.push_back(force);
+  }
+  return found;
+}
+
 TelemetryNames names_of(const WholeBodyController& controller) {
   TelemetryNames names;
   names.coordinates = controller.plan().coordinate_names();
@@ -42,6 +50,7 @@ TelemetryNames names_of(const WholeBodyController& controller) {
     add_names(controller.law(i).stack(), controller.tasks(), names);
   }
   names.commands = controller.command_names();
+  for (const ForceTask* task : force_tasks(controller)) names.forces.push_back(task->name());
   return names;
 }
 
@@ -60,6 +69,7 @@ RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::str
       names_(names_of(controller)),
       phases_(std::move(phases)),
       planned_(controller.tasks().begin(), controller.tasks().end()),
+      forces_(force_tasks(controller)),
       previous_active_(Vector::Zero(controller.plan().size())),
       previous_alarm_(Vector::Zero(Monitors::kQuantities)) {
   telemetry.add_log_channels(names_, timed, log);
@@ -134,6 +144,10 @@ void RunRecord::note_solution(const WholeBodyController& controller) {
   t.qd_des = controller.qd_des();
   t.command = controller.command();
   t.yielding = controller.scaled() ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    t.force[static_cast<Index>(i)] = forces_[i]->force();
+    t.contact[static_cast<Index>(i)] = static_cast<double>(static_cast<int>(forces_[i]->state()));
+  }
   if (controller.moves_joints()) {
     t.active.setZero();
     t.level_active.setZero();

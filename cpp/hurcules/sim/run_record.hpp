@@ -68,6 +68,7 @@ class RunRecord {
   std::vector<std::string> phases_;
   std::vector<StackPlaces> places_;          // one for each stack
   std::vector<const Task*> planned_;         // the controller's tasks
+  std::vector<const ForceTask*> forces_;     // of them
   Vector previous_active_, previous_alarm_;  // (n), (Monitors::kQuantities)
 };
 

@@ -30,6 +30,7 @@ Telemetry::Telemetry(const TelemetryNames& names) {
     *values = zeros(axes());
   }
   command = zeros(names.commands);
+  for (Vector* values : {&force, &contact}) *values = zeros(names.forces);
 }
 
 void Telemetry::clear() {
@@ -54,6 +55,8 @@ void Telemetry::clear() {
                          &task_error,
                          &task_error_measured,
                          &command,
+                         &force,
+                         &contact,
                          &base_position,
                          &base_rotation,
                          &seen_base_position,
@@ -86,6 +89,8 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
   recorder.add("measured_error", names.levels, level_error_measured);
   recorder.add("active_rows", names.levels, level_active);
   recorder.add("command", names.commands, command);
+  recorder.add("force", names.forces, force);
+  recorder.add("contact", names.forces, contact);
   recorder.add("base", axes(), base_position);
   recorder.add("base_rotation", axes(), base_rotation);
   recorder.add("base_velocity", axes(), base_velocity);

@@ -17,6 +17,7 @@ struct TelemetryNames {
   std::vector<std::string> levels;       // (p)
   std::vector<std::string> task_rows;    // (r) "lhpos/0", all tasks of all levels but the limits
   std::vector<std::string> commands;     // (k)
+  std::vector<std::string> forces;       // (f) of the force tasks
 };
 
 struct Telemetry {
@@ -42,6 +43,7 @@ struct Telemetry {
   Vector level_active;                       // (p) rows of any level that this one pushes against
   Vector task_error, task_error_measured;    // (r)
   Vector command;                            // [m/s] or [rad/s] (k)
+  Vector force, contact;                     // [N] read; number of the ContactState (f)
   Vector base_position, base_rotation;       // [m], rotation vector [rad] (3) of the support in W
   Vector seen_base_position, seen_base_rotation;  // the same as the sensors say
   Vector base_velocity, base_spin;                // [m/s], [rad/s] (3) as the sensors say
