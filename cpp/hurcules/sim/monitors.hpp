@@ -26,8 +26,8 @@ namespace hurcules {
 // An infinite threshold never alarms.
 struct MonitorOptions {
   bool on = true;
-  SelfDistanceOptions distance = {};
-  MotorThermalOptions windings = {};
+  SelfDistanceOptions distance;
+  MotorThermalOptions windings;
   double min_distance = 0.01;        // [m] self-collision; the acquisition posture has 0.02
   double min_margin = 0.05;          // [m] static margin; 0.06 is kept in [robot#postures]
   double min_pressure_margin = 0.0;  // [m] below zero it is never: off

@@ -13,7 +13,7 @@ struct mjData_;
 namespace hurcules {
 
 struct PowerOptions {
-  MotorLosses motors = {};
+  MotorLosses motors;
   double standby = 300.0;  // [W] three computers, sensors, radio; assumed
 };
 

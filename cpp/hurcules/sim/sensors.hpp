@@ -32,10 +32,10 @@ struct SensorFault {
 };
 
 struct SensorOptions {
-  std::map<std::string, SensorModel> models = {};  // by sensor; the others are ideal
-  RangeFinderOptions range = {};
-  std::vector<SensorFault> faults = {};
-  SensorMonitorOptions monitor = {};
+  std::map<std::string, SensorModel> models;  // by sensor; the others are ideal
+  RangeFinderOptions range;
+  std::vector<SensorFault> faults;
+  SensorMonitorOptions monitor;
   double hold_seconds = 1.0;  // [s] that a robot which lost a joint's encoder is held and watched
 };
 
