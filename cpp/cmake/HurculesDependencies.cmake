@@ -13,8 +13,8 @@ function(hurcules_python_package name folder)
   set(${folder} "${found}" PARENT_SCOPE)
 endfunction()
 
-hurcules_python_package(cmeel cmeel)
-list(APPEND CMAKE_PREFIX_PATH "${cmeel}.prefix" ${HURCULES_HINTS})
+hurcules_python_package(cmeel HURCULES_CMEEL)
+list(APPEND CMAKE_PREFIX_PATH "${HURCULES_CMEEL}.prefix" ${HURCULES_HINTS})
 find_package(Eigen3 3.4 QUIET NO_MODULE)
 if(NOT Eigen3_FOUND)
   message(FATAL_ERROR "Eigen 3.4 is missing. Remedy: pip install cmeel-eigen, or apt-get install libeigen3-dev, "

@@ -6,7 +6,9 @@ set(rooms hurcules_base hurcules_solver hurcules_robot hurcules_tasks hurcules_c
 
 install(TARGETS hurcules ${rooms} EXPORT hurculesTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT cpp)
-install(DIRECTORY hurcules DESTINATION include COMPONENT cpp FILES_MATCHING PATTERN "*.hpp")
+# but the inner loops of the kernels, which only kernels/impl.hpp's two sources can read
+install(DIRECTORY hurcules DESTINATION include COMPONENT cpp FILES_MATCHING PATTERN "*.hpp"
+  REGEX "/kernels/(impl|limits|rotations|rows|vectors)\\.hpp$" EXCLUDE)
 install(EXPORT hurculesTargets NAMESPACE hurcules:: DESTINATION "${package_dir}" COMPONENT cpp)
 
 # the MuJoCo and Eigen that we were built with, for users whose Python has none

@@ -19,7 +19,12 @@ import hurcules
 CMAKE = """\
 cmake_minimum_required(VERSION 3.24)
 project(consumer LANGUAGES CXX)
+set(library mine)
 find_package(hurcules {version} REQUIRED)
+find_package(hurcules REQUIRED COMPONENTS solver mission)
+if(NOT library STREQUAL mine)
+  message(FATAL_ERROR "a variable of the user's is now ${{library}}")
+endif()
 add_executable(consumer consumer.cpp)
 target_link_libraries(consumer PRIVATE hurcules::hurcules)
 """

@@ -36,7 +36,7 @@ double StateReader::get_any() {
 
 double StateReader::get() {
   const double value = get_any();
-  require(!std::isnan(value), "a snapshot has NaN where a number is wanted");
+  require(any_ || !std::isnan(value), "a snapshot has NaN where a number is wanted");
   return value;
 }
 

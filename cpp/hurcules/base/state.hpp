@@ -23,9 +23,10 @@ class StateWriter {
 
 class StateReader {
  public:
-  explicit StateReader(const std::vector<double>& in) : in_(in) {}
+  // any: what somebody holds now and not a snapshot, so that every number may be NaN
+  explicit StateReader(const std::vector<double>& in, bool any = false) : in_(in), any_(any) {}
   // each throws Error when the snapshot is too short for what is asked, or holds no such number
-  [[nodiscard]] double get();                 // not NaN
+  [[nodiscard]] double get();                 // not NaN, but with any
   [[nodiscard]] double get_any();             // NaN too: a figure that has not happened
   [[nodiscard]] Index get_count(Index most);  // a whole number from 0 to most
   void get(VectorRef values);
@@ -34,6 +35,7 @@ class StateReader {
 
  private:
   const std::vector<double>& in_;
+  bool any_;
   std::size_t next_ = 0;
 };
 

@@ -13,6 +13,15 @@ void require_size(std::string_view what, Index size, Index wanted) {
               std::to_string(size) + " came");
 }
 
+void require_shape(std::string_view what, const MatrixRef& matrix, Index rows, Index columns) {
+  if (matrix.rows() == rows && matrix.cols() == columns) return;
+  const auto shape = [](Index m, Index n) {
+    return "(" + std::to_string(m) + ", " + std::to_string(n) + ")";
+  };
+  throw Error(std::string(what) + " wants a matrix of " + shape(rows, columns) + ", " +
+              shape(matrix.rows(), matrix.cols()) + " came");
+}
+
 void require_values(std::string_view what, const ConstVectorRef& values, Index wanted) {
   require_size(what, values.size(), wanted);
   for (Index i = 0; i < wanted; ++i) {

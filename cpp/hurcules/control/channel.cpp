@@ -26,7 +26,14 @@ Index numbers_of(ChannelKind kind, const Task& task) {
   return kind == ChannelKind::Target ? task.target_size() : task.rows();
 }
 
+bool leads_task(ChannelKind kind) {
+  return kind == ChannelKind::Twist || kind == ChannelKind::Delta || kind == ChannelKind::Target ||
+         kind == ChannelKind::Force;
+}
+
 void require_target(const std::string& name, ChannelKind kind, const Task& task) {
+  require(leads_task(kind), "channel '" + name + "' is of a kind that leads no task, '" +
+                                task.name() + "' came: Channel::drive, joint, joints make it");
   if (kind == ChannelKind::Force) {
     require(dynamic_cast<const ForceTask*>(&task),
             "channel '" + name + "' wants a ForceTask, '" + task.name() + "' is none");

@@ -25,7 +25,7 @@ void SaddleProbe::set_stack(const Stack& stack) {
   for (const StackLevel& level : stack.levels()) {
     tasks_.emplace_back();
     for (const Task* task : level.tasks) {
-      tasks_.back().push_back(task->clone());
+      tasks_.back().push_back(copy_of(*task));
       copy_memory(*task, *tasks_.back().back(), scratch_);  // so that it has grown
     }
   }

@@ -8,6 +8,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -225,6 +226,7 @@ void VelocityController::reset() {
 }
 
 void VelocityController::take_over(const Vector& velocity) {
+  require_values("take_over", velocity, velocity_.size());
   reset();
   velocity_ = velocity;
   begin_transition();

@@ -94,9 +94,6 @@ std::unique_ptr<MotionLaw> law_of(const Robot& plan, const NamedStack& stack,
   return make_law(plan, stack.stack, options.acceleration);
 }
 
-std::unique_ptr<Task> copy_of(const Task& task) {
-  return task.clone();
-}
 std::unique_ptr<JointLimits> copy_of(const JointLimits& limits) {
   return std::make_unique<JointLimits>(limits);
 }
@@ -368,7 +365,11 @@ void WholeBodyController::take_over() {
 }
 
 void WholeBodyController::move(const std::string& joint, double position, double velocity) {
-  servo_.move(servo_.find(joint), position, velocity);
+  const Index place = servo_.find(joint);
+  require(std::isfinite(position) && std::isfinite(velocity),
+          "move wants a finite position and velocity of joint '" + joint + "', " +
+              number_text(position) + " and " + number_text(velocity) + " came");
+  servo_.move(place, position, velocity);
   moves_joints_ = true;
 }
 

@@ -8,9 +8,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cassert>
+#include <string>
 #include <utility>
 
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/robot/each_dof.hpp"
 #include "hurcules/robot/momentum.hpp"
 #include "hurcules/robot/trees.hpp"
@@ -60,6 +62,12 @@ void add_joints(const mjModel& m, int body, Skeleton::Pose pose, const double* q
   }
 }
 
+void require_body(const mjModel& m, int body) {
+  if (body >= 0 && body < m.nbody) return;
+  throw Error("a point wants a body from 0 to " + std::to_string(m.nbody - 1) + ", got " +
+              std::to_string(body));
+}
+
 }  // namespace
 
 Skeleton::Pose Robot::pose(Frame frame) const {
@@ -90,7 +98,7 @@ Matrix3 Robot::view_orientation(Frame frame) const {
 }
 
 Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
-  assert(qvel.size() == model_->nv);
+  require_size("twist: qvel", qvel.size(), model_->nv);
   const mjModel& m = *model_;
   const Vector3 at = position(frame);
   Twist twist;
@@ -100,17 +108,18 @@ Twist Robot::twist(Frame frame, const ConstVectorRef& qvel) const {
 }
 
 void Robot::position_jacobian(Frame frame, MatrixRef J) const {
-  assert(J.rows() == 3 && J.cols() == size());
+  require_shape("position_jacobian", J, 3, size());
   screws().point_jacobian(position(frame), body_of(*model_, frame), J);
 }
 
 void Robot::rotation_jacobian(Frame frame, MatrixRef J) const {
-  assert(J.rows() == 3 && J.cols() == size());
+  require_shape("rotation_jacobian", J, 3, size());
   screws().rotation_jacobian(body_of(*model_, frame), J);
 }
 
 void Robot::point_jacobian(const Vector3& point, int body, MatrixRef J) const {
-  assert(J.rows() == 3 && J.cols() == size());
+  require_body(*model_, body);
+  require_shape("point_jacobian", J, 3, size());
   screws().point_jacobian(point, body, J);
 }
 
@@ -131,12 +140,13 @@ Vector3 Robot::rotation_drift(Frame frame) const {
 }
 
 Vector3 Robot::point_drift(const Vector3& point, int body) const {
+  require_body(*model_, body);
   return screws().point_drift(point, body);
 }
 
 void Robot::separation(const BodyPoint& first, const BodyPoint& second, const Vector3& direction,
                        Eigen::Ref<Eigen::RowVectorXd> row) const {
-  assert(row.size() == size());
+  require_size("separation", row.size(), size());
   screws().separation(first, second, direction, row);
 }
 
@@ -145,7 +155,7 @@ Vector3 Robot::com() const {
 }
 
 void Robot::com_jacobian(MatrixRef J) const {
-  assert(J.rows() == 3 && J.cols() == size());
+  require_shape("com_jacobian", J, 3, size());
   momentum().com_jacobian(screws(), J);
 }
 
@@ -166,7 +176,7 @@ Vector3 Robot::gravity() const {
 }
 
 void Robot::angular_momentum_jacobian(MatrixRef A) const {
-  assert(A.rows() == 3 && A.cols() == size());
+  require_shape("angular_momentum_jacobian", A, 3, size());
   momentum().angular_jacobian(screws(), A);
 }
 
@@ -175,7 +185,7 @@ Vector3 Robot::angular_momentum_drift() const {
 }
 
 void Robot::mass_matrix(MatrixRef M) const {
-  assert(M.rows() == size() && M.cols() == size());
+  require_shape("mass_matrix", M, size(), size());
   need_mujoco();
   mj_crb(model_.get(), data_.get());
   mj_fullM(model_.get(), data_.get(), inertia_.data());
@@ -196,7 +206,8 @@ void Robot::mass_matrix(MatrixRef M) const {
 }
 
 void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const {
-  assert(acceleration.size() == size() && torque.size() == size());
+  require_size("inverse_dynamics: acceleration", acceleration.size(), size());
+  require_size("inverse_dynamics: torque", torque.size(), size());
   const mjModel& m = *model_;
   mjData* const d = data_.get();
   std::fill_n(d->qacc, m.nv, 0.0);
@@ -231,7 +242,9 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
 }
 
 void Robot::floating_inertia(const ConstVectorRef& acceleration, VectorRef torque) const {
-  assert(floats() && acceleration.size() == size() && torque.size() == size());
+  require(floats(), "floating_inertia wants a robot whose root is free and stands on nothing");
+  require_size("floating_inertia: acceleration", acceleration.size(), size());
+  require_size("floating_inertia: torque", torque.size(), size());
   const mjModel& m = *model_;
   mjData* const d = data_.get();
   need_mujoco();

@@ -19,6 +19,7 @@ constexpr int kState = mjSTATE_INTEGRATION;
 using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
 
 Data own_or_borrow(const mjModel* model, mjData* borrowed) {
+  require(model != nullptr, "a simulation wants a model, none came");
   if (borrowed) return {borrowed, [](mjData*) {}};
   Data data(mj_makeData(model), mj_deleteData);
   require(data != nullptr, "MuJoCo has no memory for this model");

@@ -1,7 +1,7 @@
 #include "hurcules/sim/recorder.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <string>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -36,7 +36,7 @@ void Recorder::reserve(std::size_t rows) {
 }
 
 void Recorder::record() {
-  assert((rows_ + 1) * columns() <= values_.size());
+  require((rows_ + 1) * columns() <= values_.size(), "record wants room for a row: reserve it");
   double* const row = values_.data() + rows_ * columns();
   for (std::size_t i = 0; i < columns(); ++i) row[i] = *sources_[i];
   ++rows_;
@@ -53,6 +53,11 @@ Vector Recorder::series(std::size_t channel) const {
 }
 
 double Recorder::at(std::size_t row, std::size_t channel) const {
+  if (row >= rows_ || channel >= columns()) {
+    throw Error("a log of " + std::to_string(rows_) + " rows and " + std::to_string(columns()) +
+                " channels has no row " + std::to_string(row) + " of channel " +
+                std::to_string(channel));
+  }
   return values_[row * columns() + channel];
 }
 

@@ -31,7 +31,7 @@ class Recorder {
   [[nodiscard]] const std::vector<std::string>& channels() const { return channels_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
   [[nodiscard]] std::size_t columns() const { return channels_.size(); }
-  // one channel over time, (rows)
+  // one channel over time, (rows); these two throw Error for what is not there
   [[nodiscard]] Vector series(std::size_t channel) const;
   [[nodiscard]] double at(std::size_t row, std::size_t channel) const;
   // what a source holds now

@@ -135,6 +135,8 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       summed_(Vector::Zero(controller_->scale().size())),
       wished_(Vector::Zero(world_.size())),
       support_(controller_->plan().support()) {
+  require(options_.max_seconds > 0.0,
+          "max_seconds wants a time above 0 [s], " + number_text(options_.max_seconds) + " came");
   const FallOptions& fall = options_.fall;
   if (!fall.frame.empty()) fall_frame_ = world_.frame(fall.frame);
   require(fall_frame_ || !std::isfinite(fall.min_height), "fall: min_height wants a frame");
@@ -149,7 +151,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   }
   for (const Task* const task : controller_->tasks()) {
     planned_tasks_.push_back(task);
-    measured_.push_back(task->clone());
+    measured_.push_back(copy_of(*task));
     measured_tasks_.push_back(measured_.back().get());
     fresh_.push_back(false);
   }

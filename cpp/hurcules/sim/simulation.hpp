@@ -50,11 +50,11 @@ struct SimulationOptions {
   bool loaded_springs = false;
   Clock clock = nullptr;  // [s] for timings; null: none are taken
   double max_seconds = std::numeric_limits<double>::infinity();
-  FallOptions fall;
-  PowerOptions power;      // what the robot takes
-  BatteryOptions battery;  // from where
-  SensorOptions sensors;   // ideal without models
-  MonitorOptions monitors;
+  FallOptions fall = {};
+  PowerOptions power = {};      // what the robot takes
+  BatteryOptions battery = {};  // from where
+  SensorOptions sensors = {};   // ideal without models
+  MonitorOptions monitors = {};
 };
 
 // Why a run is over.

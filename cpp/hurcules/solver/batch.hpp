@@ -17,7 +17,7 @@ struct BatchProblem {
 };
 
 struct BatchOptions {
-  SolverOptions solver;
+  SolverOptions solver = {};
   int threads = 0;  // 0: one a processor
 };
 

@@ -37,9 +37,12 @@ void Solver::read(const Hierarchy& hierarchy) {
   for (const Level& level : hierarchy) views_.push_back(view(level));
 }
 
-const Solution& Solver::solve(const Hierarchy& hierarchy) {
+const Solution& Solver::solve(const Hierarchy& hierarchy) & {
   read(hierarchy);
   return method_->solve(views_);
+}
+Solution Solver::solve(const Hierarchy& hierarchy) && {
+  return solve(hierarchy);  // *this has a name here
 }
 
 const Solution& Solver::solve_views(HierarchyView hierarchy) {

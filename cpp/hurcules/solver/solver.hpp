@@ -30,7 +30,9 @@ class Solver {
   // sizes the memory for problems of this shape
   void reserve(const Hierarchy& hierarchy);
   // the reference stays valid until the next solve
-  const Solution& solve(const Hierarchy& hierarchy);
+  const Solution& solve(const Hierarchy& hierarchy) &;
+  // of a solver that nobody keeps: Solver(3).solve(hierarchy)
+  [[nodiscard]] Solution solve(const Hierarchy& hierarchy) &&;
   // the same on numbers that lie elsewhere, without a copy
   const Solution& solve_views(HierarchyView hierarchy);
   [[nodiscard]] const Solution& solution() const;

@@ -12,7 +12,8 @@ namespace hurcules {
 class CustomTask : public ValueTask {
  public:
   // fills value (m), Jacobian (m, n) and drift (m) at the robot's configuration and velocity; all three
-  // come as zeros
+  // come as zeros. Copies of the task (the measured robot, batches on threads) call copies of it: what it
+  // captures by reference they share.
   using Measure =
       std::function<void(const Robot& robot, VectorRef value, MatrixRef jacobian, VectorRef drift)>;
   // throws Error without rows or without a function

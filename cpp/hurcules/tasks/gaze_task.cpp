@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hurcules/base/values.hpp"
 #include "hurcules/tasks/angle.hpp"
 
 namespace hurcules {
@@ -82,6 +83,11 @@ void GazeTask::turn(double by_yaw, double by_pitch) {
 void GazeTask::lead_target(const ConstVectorRef& step, double /*dt*/) {
   target_ += step;
   velocity_des_.setZero();
+}
+
+void GazeTask::assign_target(const ConstVectorRef& target) {
+  require_size("target of task '" + name_ + "'", target.size(), target_size());
+  set_target(Vector3(target));
 }
 
 void GazeTask::set_target(const Vector3& target) {

@@ -36,7 +36,7 @@ class GazeTask : public Task {
   // nothing is fed forward: the target is a point, the rows are angles
   void lead_target(const ConstVectorRef& step, double dt) override;
   [[nodiscard]] Index target_size() const override { return 3; }
-  void assign_target(const ConstVectorRef& target) override { set_target(Vector3(target)); }
+  void assign_target(const ConstVectorRef& target) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 

@@ -4,6 +4,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -59,6 +60,7 @@ void OrientationTask::set_target(const Matrix3& target) {
 }
 
 void OrientationTask::assign_target(const ConstVectorRef& target) {
+  require_size("target of task '" + name_ + "'", target.size(), target_size());
   set_target(rotation_exp(Vector3(target)));
 }
 

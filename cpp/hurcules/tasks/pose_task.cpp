@@ -4,6 +4,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -97,6 +98,7 @@ void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
 }
 
 void PoseTask::assign_target(const ConstVectorRef& target) {
+  require_size("target of task '" + name_ + "'", target.size(), target_size());
   set_target(target.head<3>(), rotation_exp(Vector3(target.tail<3>())));
 }
 

@@ -1,6 +1,7 @@
 #include "hurcules/tasks/task.hpp"
 
 #include <cmath>
+#include <typeinfo>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
@@ -78,7 +79,7 @@ void Task::save(StateWriter& writer) const {
 }
 
 void Task::restore(StateReader& reader) {
-  reader.get(error_);
+  for (double& error : error_) error = reader.get_any();  // where nothing could be measured
   reader.get(velocity_des_);
   reader.get(acceleration_des_);
   reader.get(lower_);
@@ -130,11 +131,20 @@ void Task::require_values(const ConstVectorRef& values, const char* what) const 
                 number_text(values.cwiseAbs().maxCoeff()) + " came");
 }
 
+std::unique_ptr<Task> copy_of(const Task& task) {
+  std::unique_ptr<Task> copy = task.clone();
+  const Task& made = *copy;
+  require(typeid(made) == typeid(task),
+          "the clone of task '" + task.name() +
+              "' is of another class: its class wants a clone of its own");
+  return copy;
+}
+
 void copy_memory(const Task& from, Task& to, std::vector<double>& scratch) {
   scratch.clear();
   StateWriter writer(scratch);
   from.save(writer);
-  StateReader reader(scratch);
+  StateReader reader(scratch, true);
   to.restore(reader);
 }
 

@@ -130,8 +130,10 @@ class Task {
   Vector gains_;  // (m), none: the controller's
 };
 
+// its clone; throws Error where that is of another class: a derived one wants a clone of its own
+[[nodiscard]] std::unique_ptr<Task> copy_of(const Task& task);
 // `to`, a copy of `from` on another robot of its model, gets what `from` keeps between ticks: target,
-// feed-forwards, interval. Allocates nothing once `scratch` has grown.
+// feed-forwards, interval; numbers that are none too. Allocates nothing once `scratch` has grown.
 void copy_memory(const Task& from, Task& to, std::vector<double>& scratch);
 
 }  // namespace hurcules

@@ -222,6 +222,7 @@ TEST_F(Controller, WantsAStackAndNumbersForAllCoordinates) {
   EXPECT_TRUE(contains(error_text([&] { bare.compute(robot_); }), "wants a stack"));
   Vector q = Vector::Zero(2);
   EXPECT_TRUE(contains(error_text([&] { controller_.integrate(q); }), "each coordinate"));
+  EXPECT_TRUE(contains(error_text([&] { controller_.take_over(q); }), "take_over wants"));
 }
 
 TEST_F(Controller, AllocatesNothingInATick) {

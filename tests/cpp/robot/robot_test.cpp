@@ -419,6 +419,30 @@ TEST(Robot, WrongSizesAndNumbersThatAreNoneAreErrors) {
   EXPECT_TRUE(near(robot.configuration(), Vector::Zero(7), 0));
 }
 
+TEST(Robot, AnswersWantRoomOfTheirShape) {
+  Robot robot(load_model_text(kArm));
+  const Frame tip = robot.frame("tip");
+  Matrix none, six = Matrix::Zero(3, 6), square = Matrix::Zero(6, 6), J = Matrix::Zero(3, 7);
+  Vector short_one = Vector::Zero(6), whole = Vector::Zero(7);
+  EXPECT_EQ(error_text([&] { robot.position_jacobian(tip, none); }),
+            "position_jacobian wants a matrix of (3, 7), (0, 0) came");
+  EXPECT_EQ(error_text([&] { robot.rotation_jacobian(tip, six); }),
+            "rotation_jacobian wants a matrix of (3, 7), (3, 6) came");
+  EXPECT_TRUE(contains(error_text([&] { robot.com_jacobian(six); }), "(3, 6) came"));
+  EXPECT_TRUE(contains(error_text([&] { robot.angular_momentum_jacobian(six); }), "(3, 6) came"));
+  EXPECT_EQ(error_text([&] { robot.mass_matrix(square); }),
+            "mass_matrix wants a matrix of (7, 7), (6, 6) came");
+  EXPECT_EQ(error_text([&] { robot.inverse_dynamics(short_one, whole); }),
+            "inverse_dynamics: acceleration wants 7 numbers, 6 came");
+  EXPECT_EQ(error_text([&] { robot.inverse_dynamics(whole, short_one); }),
+            "inverse_dynamics: torque wants 7 numbers, 6 came");
+  EXPECT_TRUE(contains(error_text([&] { (void)robot.twist(tip, short_one); }), "6 came"));
+  EXPECT_TRUE(contains(error_text([&] { robot.point_jacobian(Vector3::Zero(), -1, J); }),
+                       "a point wants a body from 0 to"));
+  EXPECT_TRUE(contains(error_text([&] { (void)robot.point_drift(Vector3::Zero(), 99); }),
+                       "a point wants a body from 0 to"));
+}
+
 TEST(Robot, OfOneNameTheSiteComesFirst) {
   const Robot robot(
       load_model_text("<mujoco><worldbody><body name='hand' pos='1 0 0'>"

@@ -39,6 +39,13 @@ TEST_F(RecorderTest, KeepsEveryRowOverManyReservations) {
   const Vector a = recorder_.series(1);
   for (Index i = 0; i < a.size(); ++i) EXPECT_EQ(a[i], 2.0 * static_cast<double>(i));
   EXPECT_EQ(recorder_.at(209, 2), -209.0);
+  EXPECT_EQ(error_text([&] { (void)recorder_.at(210, 2); }),
+            "a log of 210 rows and 3 channels has no row 210 of channel 2");
+  EXPECT_TRUE(contains(error_text([&] { (void)recorder_.series(3); }), "of channel 3"));
+}
+
+TEST_F(RecorderTest, RefusesARowWithoutRoom) {
+  EXPECT_TRUE(contains(error_text([&] { recorder_.record(); }), "wants room"));
 }
 
 TEST_F(RecorderTest, SnapshotIsWhatTheSourcesHoldNow) {

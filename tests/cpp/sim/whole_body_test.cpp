@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "hurcules/sim/simulation_batch.hpp"
+#include "hurcules/tasks/custom_task.hpp"
 #include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/orientation_task.hpp"
 #include "hurcules/tasks/position_task.hpp"
@@ -407,6 +408,43 @@ TEST(WholeBody, SeesABallComeAndAllocatesNothing) {
   EXPECT_NEAR(moved.pose.p.y(), 0.5 - 0.2 * 0.4, 1e-9);
 }
 
+// a camera that loses what it looks at
+TEST(WholeBody, EndsWithAReasonWhereATaskMeasuresNoNumber) {
+  const ModelPtr model = load_model_text(arm(kMotors));
+  Robot robot(model, {"j1", "j2", "j3"});
+  for (const ControlOrder order :
+       {ControlOrder::Velocity, ControlOrder::Acceleration, ControlOrder::Torque}) {
+    double lost = 0.0;
+    CustomTask seen("seen", robot, 1,
+                    [&lost](const Robot& at, VectorRef value, MatrixRef J, VectorRef /*drift*/) {
+                      value[0] = at.configuration()[0] + lost;
+                      J(0, 0) = 1.0;
+                    });
+    PostureTask posture("posture", robot);
+    WholeBodyControllerOptions options;
+    options.dt = 0.002;
+    const auto controller = std::make_shared<WholeBodyController>(
+        robot, std::vector<NamedStack>{{"look", Stack({seen, posture}), order}},
+        std::vector<Channel>{}, options);
+    Simulation simulation(model, controller);
+    simulation.step(20);
+    lost = std::nan("");
+    simulation.step(20);
+    EXPECT_EQ(simulation.ending(), Ending::SolverFailed);
+    std::string invalid;
+    for (const LevelDiagnostics& level : controller->law().diagnostics(controller->plan()))
+      for (const Shortfall& shortfall : level.shortfalls)
+        if (shortfall.invalid) invalid += shortfall.task;
+    EXPECT_EQ(invalid, "seen");
+    EXPECT_TRUE(simulation.clone()->finished());
+  }
+}
+
+class NoCloneOfItsOwn : public PostureTask {
+ public:
+  using PostureTask::PostureTask;
+};
+
 TEST(WholeBody, RefusesWhatCannotBe) {
   const ModelPtr model = load_model_text(arm(kMotors));
   EXPECT_TRUE(contains(error_text([&] { Simulation(model, make(model, 0.003)); }), "whole number"));
@@ -415,6 +453,11 @@ TEST(WholeBody, RefusesWhatCannotBe) {
   EXPECT_TRUE(contains(error_text([&] { controller->move("j9", 0.0, 0.0); }), "j9"));
   EXPECT_TRUE(
       contains(error_text([&] { (void)Robot(model, {"j1", "jx"}); }), "'jx' does not exist"));
+  EXPECT_EQ(error_text([&] { controller->move("j1", std::nan(""), 0.0); }),
+            "move wants a finite position and velocity of joint 'j1', nan and 0 came");
+  EXPECT_TRUE(contains(error_text([&] { Simulation(nullptr, controller); }), "wants a model"));
+  EXPECT_TRUE(contains(error_text([&] { Simulation(model, controller, {.max_seconds = NAN}); }),
+                       "max_seconds wants a time above 0 [s], nan came"));
   const ModelPtr other = load_model_text("<mujoco/>");
   EXPECT_TRUE(contains(error_text([&] { Simulation(other, controller); }), "another model"));
   Robot robot(model, {"j1", "j2", "j3"});
@@ -425,6 +468,13 @@ TEST(WholeBody, RefusesWhatCannotBe) {
                              {{"s", ChannelKind::Twist, stranger, Vector::Constant(1, 1.0)}});
                        }),
                        "which is in no stack"));
+  NoCloneOfItsOwn derived("derived", robot);
+  EXPECT_TRUE(contains(error_text([&] { WholeBodyController(robot, {{"a", Stack({derived})}}); }),
+                       "'derived' is of another class"));
+  for (const ChannelKind kind : {ChannelKind::Joint, ChannelKind::Joints, ChannelKind::Drive}) {
+    EXPECT_TRUE(contains(error_text([&] { Channel("p", kind, posture, Vector::Constant(1, 1.0)); }),
+                         "of a kind that leads no task, 'posture' came"));
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -209,6 +210,14 @@ TEST(Solver, AChangedPatternStartsCold) {
   std::swap(other[1], other[2]);  // rows that were equalities are intervals now
   Solver fresh(12);
   EXPECT_EQ(solver.solve(other).x, fresh.solve(other).x);
+}
+
+TEST(Solver, TheSolutionOfASolverThatNobodyKeepsIsNoReferenceIntoIt) {
+  Solver kept(1);
+  const Hierarchy levels{equal(Matrix::Ones(1, 1), vector({0.5}))};
+  static_assert(std::is_same_v<decltype(Solver(1).solve(levels)), Solution>);
+  static_assert(std::is_same_v<decltype(kept.solve(levels)), const Solution&>);
+  EXPECT_EQ(Solver(1).solve(levels).x, kept.solve(levels).x);
 }
 
 TEST(Solver, SameInputSameBits) {

@@ -232,6 +232,8 @@ TEST_P(EveryTask, WrongCommandsAndIntervalsAreErrors) {
   EXPECT_TRUE(contains(error_text([&] { task_->advance(few, 0.1); }), name));
   EXPECT_TRUE(contains(error_text([&] { task_->advance(none, 0.1); }), "finite"));
   EXPECT_TRUE(contains(error_text([&] { task_->set_interval(few, high); }), name));
+  const Vector more = Vector::Zero(task_->target_size() + 1);
+  EXPECT_TRUE(contains(error_text([&] { task_->assign_target(more); }), name));
   EXPECT_TRUE(contains(error_text([&] { task_->set_interval(high, fine); }), "lower <= upper"));
   EXPECT_TRUE(contains(error_text([&] { task_->set_interval(none, fine); }), "lower <= upper"));
 }
