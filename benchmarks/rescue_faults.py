@@ -23,7 +23,7 @@ CARRIED = ("raise", "carry", "sit down", "fold the right leg", "turn to the righ
 SEATED = ("lay down", "home")
 STANDING = ("lift", "raise", "carry")
 MOTORS = ("LEB", "REB", "HIP", "LKN", "LSP")
-DEAD_CELL = "casualty_force_skull"  # a force that stays at 0
+CELL = "casualty_force_skull"  # some force
 
 
 def simulate(
@@ -64,7 +64,7 @@ def weak(random: np.random.Generator, share: float = 0.7) -> Trial:
 def deafen(simulation: hurcules.Simulation, side: str) -> None:
     """The force sensor of the arm "L" or "R" reads 0 from now on."""
     controller = simulation.controller
-    controller.sense(controller.task(f"{side}_press"), DEAD_CELL)
+    controller.sense(controller.task(f"{side}_press"), CELL, sign=1e-9)
 
 
 def deaf(random: np.random.Generator) -> Trial:

@@ -405,12 +405,21 @@ void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> sp
 
 void WholeBodyController::sense(ForceTask& task, int sensor_row, double sign) {
   require_member(task);
+  require_rows(sensor_row, 1);
   forces_.add(task, sensor_row, sign);
 }
 
 void WholeBodyController::sense(ForceTask& task, int sensor_row, Frame site, double sign) {
   require_member(task);
+  require_rows(sensor_row, 3);
   forces_.add(task, sensor_row, sign, site);
+}
+
+void WholeBodyController::require_rows(int first, int count) const {
+  if (first >= 0 && first + count <= plan_.sensor_rows()) return;
+  throw Error("sense wants " + std::to_string(count) + " of " +
+              std::to_string(plan_.sensor_rows()) + " rows of sensors, from row " +
+              std::to_string(first) + " there are none");
 }
 
 void WholeBodyController::require_member(const ForceTask& task) const {
@@ -555,7 +564,9 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
     case ChannelKind::Joint: {
       const Index joint = servo_.find(channel.joint_names().front());
       const JointActuator& actuator = servo_.actuator(joint);
-      servo_.let_go(joint, command[0], state);
+      // more than half of full scale opens a grip; less may be what keeps its force
+      if (std::abs(command[0]) > 0.5 * channel.scale()[0])
+        servo_.let_go(joint, command[0], state);
       const double place = servo_.position()[joint] + command[0] * dt();
       const double held = std::clamp(place, actuator.lower, actuator.upper);
       const double rate = held == place ? command[0] : 0.0;

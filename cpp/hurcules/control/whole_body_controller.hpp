@@ -105,7 +105,7 @@ class WholeBodyController {
   // A force task that reads the deflection of a spring, or a row of the model's sensors, or three of
   // them in the axes of a site: force_readings.hpp. With a low-pass of 3 ms (not of a spring): a
   // servo's damping times the compliance is the gain of a loop with a tick of delay, which may swing.
-  // Throws Error for a task that stands in no stack.
+  // Throws Error for a task that stands in no stack, and rows that no sensor has.
   void sense(ForceTask& task, std::unique_ptr<SpringForce> spring);
   void sense(ForceTask& task, int sensor_row, double sign = 1.0);
   void sense(ForceTask& task, int sensor_row, Frame site, double sign = 1.0);
@@ -178,6 +178,7 @@ class WholeBodyController {
     double value = 0.0;
   };
   void require_member(const ForceTask& task) const;
+  void require_rows(int first, int count) const;  // of the model's sensors
   void add_led_control(const Channel& channel);
   void collect_tasks();
   void check_channels();

@@ -171,6 +171,10 @@ Index Robot::nu() const {
   return model_->nu;
 }
 
+Index Robot::sensor_rows() const {
+  return model_->nsensordata;
+}
+
 void Robot::set_qpos(const ConstVectorRef& qpos) {
   require_values("set_qpos", qpos, model_->nq);
   qpos_ = qpos;

@@ -123,8 +123,9 @@ class Robot {
   [[nodiscard]] Frame support() const;
   [[nodiscard]] std::string support_name() const;  // that of stand_on, "" for the root
   [[nodiscard]] Index size() const { return static_cast<Index>(coordinates_.size()); }  // n
-  [[nodiscard]] Index nv() const;  // velocities of the whole model
-  [[nodiscard]] Index nu() const;  // its actuators
+  [[nodiscard]] Index nv() const;           // velocities of the whole model
+  [[nodiscard]] Index nu() const;           // its actuators
+  [[nodiscard]] Index sensor_rows() const;  // nsensordata
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] std::vector<std::string> coordinate_names() const;
   // index of a coordinate; throws Error with the names that exist

@@ -171,8 +171,9 @@ double ForceTask::share() const {
 
 double ForceTask::relief() const {
   const double f = monitor_.force(), most = options_.contact.f_min;
+  if (monitor_.state() != ContactState::Stopped || options_.blend == 0.0) return 0.0;
   // pulled where it should press: a sensor of the wrong sign would be led into what it presses
-  if (monitor_.state() != ContactState::Stopped || f * force_des_ < 0.0) return 0.0;
+  if (f * force_des_ < 0.0) return 0.0;
   return share() * law_.rate(1.0) * (std::clamp(f, -most, most) - f);
 }
 

@@ -8,7 +8,8 @@
 // on fades with the force that is missing too: on hard ground a blend is no impact of its own. When
 // f_max is passed or the sensor is lost the row holds its place until reset, and lets itself be led away from
 // the contact only; the mission decides what else stops. As long as it reads more than f_min there, it gives way
-// with the law's compliance: a servo with an integral would press on, ever harder.
+// with the law's compliance: a servo with an integral would press on, ever harder. With blend = 0 it
+// holds, as in the thesis.
 //
 // Each tick: sense(robot, f), then the controller. FirstOrder is a row for both controllers, the
 // other laws for one of accelerations.
