@@ -102,3 +102,20 @@ def test_options_of_a_reset_hold_in_a_vector_of_stable_baselines3() -> None:
     with pytest.raises(hurcules.Error, match="reset option 'delay' does not exist"):
         vector.set_options({"delay": 1})
         vector.reset()
+
+
+@pytest.mark.parametrize("name", ["Reach", "Drive"])
+def test_infos_of_stable_baselines3_give_the_reward_of_the_step(name: str) -> None:
+    vector = training.make_sb3(f"Hurcules/{name}-v0", 2, **OPTIONS)
+    vector.seed(0)
+    vector.reset()
+    generator = np.random.default_rng(0)
+    for _ in range(120):  # beyond the end of an episode of Reach
+        action = generator.uniform(-1, 1, (2, *vector.action_space.shape))
+        seen, rewards, dones, infos = vector.step(action)
+        for i in range(2):
+            last = infos[i]["terminal_observation"] if dones[i] else {n: seen[n][i] for n in seen}
+            (again,) = vector.env_method(
+                "compute_reward", last["achieved_goal"], last["desired_goal"], infos[i]
+            )
+            assert np.float32(again) == rewards[i]
