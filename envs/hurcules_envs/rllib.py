@@ -40,6 +40,7 @@ class Runner(SingleAgentEnvRunner):
 
     def __init__(self, *, config: Any, **kwargs: Any) -> None:
         super().__init__(config=config, **kwargs)
+        self._seed: int | None
         if self._seed is None or not self.worker_index:
             return
         self._seed += self.worker_index * (config.num_envs_per_env_runner - 1)
@@ -222,8 +223,9 @@ def _save(algorithm: Algorithm, checkpoint: Path) -> None:
 
 def _export(algorithm: Algorithm, path: Path, about: Mapping[str, Any]) -> None:
     """The means of the actions, cut to [-1, 1]."""
-    module = algorithm.get_module()
-    *hidden, last = [*module.encoder.actor_encoder.net.mlp, *module.pi.net.mlp]
+    module: Any = algorithm.get_module()
+    layers: list[Any] = [*module.encoder.actor_encoder.net.mlp, *module.pi.net.mlp]
+    *hidden, last = layers
     size = module.action_space.shape[0]
     means = nn.Linear(last.in_features, size)  # behind them stand the spreads
     with torch.no_grad():
