@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import asdict
 from hashlib import sha256
 from itertools import chain, count
@@ -81,7 +82,10 @@ def train(
     if ray is not None:
         if demonstrations:
             raise hurcules.Error("--demonstrations: not with --ray")
-        return _on_cluster(ray, name, steps, folder, options, envs, seed)
+        if algo != "ppo":
+            raise hurcules.Error(f"--ray: wanted --algo ppo, got {algo}")
+        _on_cluster(ray, name, steps, folder, options, envs, seed)
+        return _judge(str(folder), None, judge, {"fidelity": "exact"}, None, Console())
     training = _training()
     wanted = training.TrainOptions(
         environment=name, algorithm=algo, steps=steps, episodes=envs, seed=seed, options=options,
@@ -110,13 +114,22 @@ def _on_cluster(
     try:
         from hurcules_envs import rllib
     except ImportError as error:
-        raise hurcules.Error(f"--ray wants RLlib: pip install 'ray[rllib]' ({error})") from error
+        remedy = "pip install 'ray[rllib]' torch"
+        raise hurcules.Error(f"--ray wants RLlib: {remedy} ({error})") from error
     console = Console()
-    checkpoint = rllib.train(
-        name, address, steps, folder, options, episodes=envs, seed=seed,
-        progress=lambda done, mean: console.print(f"{done:>9,} steps   mean return {mean:.2f}"),
-    )  # fmt: skip
-    console.print(f"{checkpoint}")
+
+    def tell(done: int, mean: float) -> None:
+        words = "no episode is over yet" if math.isnan(mean) else f"mean return {mean:.2f}"
+        console.print(f"{done:>9,} steps   {words}")
+
+    try:
+        rllib.train(
+            name, address, steps, folder, options, episodes=envs, seed=seed, progress=tell
+        )  # fmt: skip
+    except KeyboardInterrupt:
+        if (folder / "rllib").exists():
+            console.print(f"{folder}: the same command goes on from here")
+        raise
 
 
 def evaluate(

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 from stable_baselines3.common.base_class import BaseAlgorithm
-from torch import nn
 
-import hurcules
 from hurcules_envs.onnx_file import Graph, Node, write
 from hurcules_envs.sb3 import SCALE, GoalFeatures, Standardised
+from hurcules_envs.torch_layers import add_layers, add_limits
 
 __all__ = ["export_policy"]
-
-_ACTIVATIONS = {nn.Tanh: "Tanh", nn.ReLU: "Relu"}
 
 
 def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any]) -> None:
@@ -70,31 +66,11 @@ def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any])
             Node("Div", ("centred", "spread"), ("seen",)),
         ]
         last = "seen"
-    last = _add_layers(layers, last, nodes, weights)
+    last = add_layers(layers, last, nodes, weights)
     if squashed:
         nodes.append(Node("Tanh", (last,), ("action",)))
     else:
-        weights |= {"least": np.float32(-1.0), "most": np.float32(1.0)}
-        nodes.append(Node("Clip", (last, "least", "most"), ("action",)))
+        add_limits(last, nodes, weights)
     texts = {n: v if isinstance(v, str) else json.dumps(v) for n, v in metadata.items()}
     action = {"action": model.action_space.shape[0]}
     write(path, Graph(tuple(nodes), weights, inputs, action, texts))
-
-
-def _add_layers(
-    layers: Iterable[nn.Module], last: str, nodes: list[Node], weights: dict[str, Any]
-) -> str:
-    """Adds the nodes of a network behind `last`; gives the name of what comes out."""
-    for i, layer in enumerate(layers):
-        out = f"layer_{i}"
-        if isinstance(layer, nn.Linear):
-            for name, values in (("weight", layer.weight), ("bias", layer.bias)):
-                weights[f"{name}_{i}"] = values.detach().to(torch.float32).numpy()
-            inputs = (last, f"weight_{i}", f"bias_{i}")
-            nodes.append(Node("Gemm", inputs, (out,), {"transB": 1}))
-        elif type(layer) in _ACTIVATIONS:
-            nodes.append(Node(_ACTIVATIONS[type(layer)], (last,), (out,)))
-        else:
-            raise hurcules.Error(f"ONNX: the layer {type(layer).__name__} is not known")
-        last = out
-    return last

@@ -32,10 +32,11 @@ TILT = 0.35  # [rad] of what it stands on: it falls
 class Reach(Environment):
     """The hands reach goals that some posture without contact has.
 
-    All goals can be reached at once from where the robot stands, and are 1.2 m away at most. An
-    action moves the references of the hands; limits come before them, the posture gives way to
-    them. Positions are in the world, whose axes are x forward, y left, z up at the start. h is the
-    number of hands, 2 for Hurcules.
+    All goals can be reached at once from where the robot stands, and are 1.2 m away at most. Start
+    and goal are two of 256 postures that a robot always has, so goals come again, and episodes too:
+    of 800 seeds 242 goals and 790 episodes differ. An action moves the references of the hands;
+    limits come before them, the posture gives way to them. Positions are in the world, whose axes
+    are x forward, y left, z up at the start. h is the number of hands, 2 for Hurcules.
 
     Action: Box(-1, 1, (3 h,), float32), x, y, z of each hand. Zero holds.
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
+import hurcules
 from hurcules_envs.registry import native_options, steps_of_episode
 from hurcules_envs.vector import NativeVectorEnv
 
@@ -27,7 +28,8 @@ LEAST = 1e-3  # standard deviation of a number that does not change
 class Sb3VecEnv(VecEnv):
     """A `NativeVectorEnv` in mode SAME_STEP as a VecEnv of Stable-Baselines3.
 
-    The info of an episode is whole in its last step; before that it holds `is_success` alone.
+    The info of an episode is whole in its last step; before that it holds `is_success`, and in goal
+    environments what `compute_reward` takes from it (`HerReplayBuffer(copy_info_dict=True)`).
     """
 
     def __init__(self, environment: NativeVectorEnv) -> None:
@@ -36,6 +38,7 @@ class Sb3VecEnv(VecEnv):
         self.environment = environment
         self.render_mode = environment.render_mode
         self._seeds: list[int] | None = None
+        self._names: list[str] = []  # of what stands in each info
         self._returns = np.zeros(environment.num_envs)
         self._lengths = np.zeros(environment.num_envs, dtype=int)
         super().__init__(
@@ -45,9 +48,22 @@ class Sb3VecEnv(VecEnv):
         )
 
     def reset(self) -> Any:
-        """Starts all episodes."""
-        observation, _ = self.environment.reset(seed=self._seeds)
+        """Starts all episodes; what `set_options` was given holds from then on.
+
+        Raises:
+            hurcules.Error: options that differ between the episodes: ranges do that.
+        """
+        options = self._options[0] if self._options else {}
+        if any(other != options for other in self._options):
+            raise hurcules.Error("set_options: wanted the same options for all episodes")
+        observation, info = self.environment.reset(seed=self._seeds, options=options)
+        self._names = ["is_success"]
+        if self.environment.environment.goal:
+            self._names += [name for name in info if name.startswith("reward_")]
+            self._names += self.environment.environment.tell(self.environment.numbers)
+        self.reset_infos = [self._one(info, i) for i in range(self.num_envs)]
         self._seeds = None
+        self._reset_options()
         self._returns[:], self._lengths[:] = 0.0, 0
         return observation
 
@@ -68,10 +84,10 @@ class Sb3VecEnv(VecEnv):
         done = terminated | truncated
         self._returns += reward
         self._lengths += 1
-        success = info["is_success"]
-        infos: list[dict[str, Any]] = [{"is_success": bool(one)} for one in success]
+        rows = zip(*(info[name].tolist() for name in self._names), strict=True)
+        infos: list[dict[str, Any]] = [dict(zip(self._names, row, strict=True)) for row in rows]
         for i in np.flatnonzero(done):
-            infos[i] = self._last(info, int(i)) | {
+            infos[i] = self._one(info["final_info"], int(i)) | {
                 "terminal_observation": info["final_obs"][i],
                 "TimeLimit.truncated": bool(truncated[i] and not terminated[i]),
                 "episode": {"r": float(self._returns[i]), "l": int(self._lengths[i]), "t": 0.0},
@@ -109,9 +125,8 @@ class Sb3VecEnv(VecEnv):
         return [wrapper_class.__name__ == "Monitor" for _ in self._get_indices(indices)]
 
     @staticmethod
-    def _last(info: dict[str, Any], i: int) -> dict[str, Any]:
-        final = info["final_info"]
-        return {n: v[i].item() for n, v in final.items() if not n.startswith("_")}
+    def _one(info: dict[str, Any], i: int) -> dict[str, Any]:
+        return {n: v[i].item() for n, v in info.items() if not n.startswith("_")}
 
 
 class GoalFeatures(BaseFeaturesExtractor):

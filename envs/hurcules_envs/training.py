@@ -24,6 +24,7 @@ from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
 from hurcules_envs.imitation import demonstrate
+from hurcules_envs.run_folder import open_run, write_settings
 from hurcules_envs.sb3 import PARTS, SCALE, GoalFeatures, Standardised, make_sb3
 
 __all__ = ["TrainOptions", "make_model", "train"]
@@ -136,26 +137,12 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     environment = make_sb3(options.environment, options.episodes, **options.options)
     out, checkpoint = options.out, options.out / "checkpoint.zip"
     settings = json.loads(json.dumps(asdict(options) | {"out": str(out)}))
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise hurcules.Error(f"--out: {out}: {error.strerror}") from error
-    written = out / "settings.json"
-    if written.exists() and checkpoint.exists():  # else nothing is lost
-        earlier = json.loads(written.read_text())
-        differing = [
-            f"{name} (there {earlier.get(name)!r}, now {value!r})"
-            for name, value in settings.items()
-            if name != "steps" and earlier.get(name) != value
-        ]
-        if differing:
-            raise hurcules.Error(
-                f"{out} holds a run with another {', '.join(differing)}: give another folder"
-            )
+    open_run(out, settings)
     model = make_model(options, environment)
-    written.write_text(json.dumps(settings, indent=2) + "\n")
+    write_settings(out, settings)
     if checkpoint.exists():
         model = type(model).load(checkpoint, environment, device="cpu")
+        environment.seed(options.seed + model.num_timesteps)  # else the first episodes come again
     elif options.demonstrations:
         _imitate(model, options)
         _save(model, checkpoint)

@@ -237,3 +237,8 @@ def test_two_runs_may_write_to_one_folder(tmp_path: Path, monkeypatch: pytest.Mo
     first.write("log.txt", write)
     assert (tmp_path / "log.txt").read_text() == "first"
     assert [path.name for path in tmp_path.iterdir()] == ["log.txt"]
+
+
+def test_a_cluster_trains_by_ppo_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["train", "Reach-v0", "--ray", "local", "--algo", "sac"]) == 2
+    assert "--ray: wanted --algo ppo, got sac" in capsys.readouterr().err

@@ -7,6 +7,7 @@ docs/environments.md.
 import signal
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import hurcules
@@ -53,3 +54,68 @@ def test_a_vector_draws_for_its_videos() -> None:
     assert [picture.shape for picture in vector.get_images()] == [(368, 640, 3)] * 2
     assert vector.render().shape == (736, 640, 3)  # tiled
     vector.close()
+
+
+def test_a_run_that_goes_on_has_other_episodes(tmp_path: Path, monkeypatch) -> None:
+    first = []
+    reset = training.make_sb3("Hurcules/Reach-v0", 4, **OPTIONS).__class__.reset
+
+    def noted(self):
+        observation = reset(self)
+        first.append({goal.tobytes() for goal in observation["observation"]})
+        return observation
+
+    monkeypatch.setattr("hurcules_envs.sb3.Sb3VecEnv.reset", noted)
+    training.train(options(tmp_path, 128))
+    training.train(options(tmp_path, 256))
+    assert len(first) == 2 and not first[0] & first[1]
+
+
+def test_a_folder_that_was_moved_holds_the_same_run(tmp_path: Path) -> None:
+    training.train(options(tmp_path / "here", 128))
+    (tmp_path / "here").rename(tmp_path / "there")
+    done = []
+    training.train(options(tmp_path / "there", 256), lambda steps, share: done.append(steps))
+    assert done[0] == 132
+    with pytest.raises(hurcules.Error, match=r"holds a run with another seed \(there 0, now 1\)"):
+        training.train(options(tmp_path / "there", 256, seed=1))
+
+
+def test_options_of_a_reset_hold_in_a_vector_of_stable_baselines3() -> None:
+    ones = np.ones((2, 6), dtype=np.float32)
+
+    def seen(**given):
+        vector = training.make_sb3("Hurcules/Reach-v0", 2, **OPTIONS)
+        vector.seed(3)
+        vector.set_options(given)
+        vector.reset()
+        assert [info["drawn_action_delay"] for info in vector.reset_infos] == 2 * [
+            given.get("action_delay", 0)
+        ]
+        return vector.step(ones)[0]["observation"]
+
+    assert not np.array_equal(seen(), seen(action_delay=3))
+    vector = training.make_sb3("Hurcules/Reach-v0", 2, **OPTIONS)
+    vector.set_options([{"action_delay": 1}, {}])
+    with pytest.raises(hurcules.Error, match="set_options: wanted the same options"):
+        vector.reset()
+    with pytest.raises(hurcules.Error, match="reset option 'delay' does not exist"):
+        vector.set_options({"delay": 1})
+        vector.reset()
+
+
+@pytest.mark.parametrize("name", ["Reach", "Drive"])
+def test_infos_of_stable_baselines3_give_the_reward_of_the_step(name: str) -> None:
+    vector = training.make_sb3(f"Hurcules/{name}-v0", 2, **OPTIONS)
+    vector.seed(0)
+    vector.reset()
+    generator = np.random.default_rng(0)
+    for _ in range(120):  # beyond the end of an episode of Reach
+        action = generator.uniform(-1, 1, (2, *vector.action_space.shape))
+        seen, rewards, dones, infos = vector.step(action)
+        for i in range(2):
+            last = infos[i]["terminal_observation"] if dones[i] else {n: seen[n][i] for n in seen}
+            (again,) = vector.env_method(
+                "compute_reward", last["achieved_goal"], last["desired_goal"], infos[i]
+            )
+            assert np.float32(again) == rewards[i]

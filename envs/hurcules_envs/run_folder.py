@@ -1,0 +1,48 @@
+"""The folder of a training: which run it holds, so that another never takes its place."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import hurcules
+
+__all__ = ["open_run", "write_settings"]
+
+CHECKPOINTS = ("checkpoint.zip", "rllib")  # of Stable-Baselines3, of RLlib
+
+
+def open_run(out: Path, settings: Mapping[str, Any]) -> None:
+    """Makes the folder; refuses one in which a run of other settings was begun.
+
+    Args:
+        out: the folder.
+        settings: of the run, as JSON has them; `steps` and `out` may differ from the earlier run's.
+
+    Raises:
+        hurcules.Error: the folder holds another run, or cannot be made.
+    """
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise hurcules.Error(f"--out: {out}: {error.strerror}") from error
+    written = out / "settings.json"
+    if not written.exists() or not any((out / name).exists() for name in CHECKPOINTS):
+        return  # nothing is lost
+    earlier = json.loads(written.read_text())
+    differing = [
+        f"{name} (there {earlier.get(name)!r}, now {settings.get(name)!r})"
+        for name in dict.fromkeys([*settings, *earlier])
+        if name not in ("steps", "out") and earlier.get(name) != settings.get(name)
+    ]
+    if differing:
+        raise hurcules.Error(
+            f"{out} holds a run with another {', '.join(differing)}: give another folder"
+        )
+
+
+def write_settings(out: Path, settings: Mapping[str, Any]) -> None:
+    """Writes settings.json."""
+    (out / "settings.json").write_text(json.dumps(settings, indent=2) + "\n")
