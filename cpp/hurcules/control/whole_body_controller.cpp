@@ -565,8 +565,7 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
       const Index joint = servo_.find(channel.joint_names().front());
       const JointActuator& actuator = servo_.actuator(joint);
       // more than half of full scale opens a grip; less may be what keeps its force
-      if (std::abs(command[0]) > 0.5 * channel.scale()[0])
-        servo_.let_go(joint, command[0], state);
+      if (std::abs(command[0]) > 0.5 * channel.scale()[0]) servo_.let_go(joint, command[0], state);
       const double place = servo_.position()[joint] + command[0] * dt();
       const double held = std::clamp(place, actuator.lower, actuator.upper);
       const double rate = held == place ? command[0] : 0.0;
