@@ -293,7 +293,7 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
     auto* const force = dynamic_cast<ForceTask*>(task);
     if (!force) continue;
     force->set_force(force->options().force_des);
-    force->reset_tare();
+    force->restart_tare();
   }
   for (const auto& law : laws_) law->reset();
   if (drive_) drive_->reset();

@@ -45,6 +45,7 @@ ForceTask::ForceTask(std::string name, const Robot& robot, const std::string& fr
       law_(options.gains),
       monitor_(timed(options.contact, options.gains.dt), name),
       estimate_(options.stiffness),
+      borne_(options.blend, options.gains.dt, !law_.has_reference()),
       force_des_(options.force_des) {
   if (options.reference == frame) own_ = robot.frame(frame);
   check_force_gains(options.gains, options.environment, name);
@@ -86,7 +87,8 @@ void ForceTask::set_filter(double seconds) {
 }
 
 void ForceTask::sense(const Robot& robot, double force) {
-  force = tared(robot, force);
+  if (tare_.begins() && std::isfinite(force)) reset(robot);
+  force = tare_.off(force);
   if (own_) {
     ValueTask::update(robot);
     axis_ = world_axis(robot).transpose();
@@ -125,43 +127,13 @@ void ForceTask::sense(const Robot& robot, double force) {
   } else {
     age_ = std::min(age_ + dt, options_.blend);
   }
-  bear(now);
+  if (now == Mode::Force && mode_ == Mode::Force)
+    borne_.go_on(told_, force_des_, options_.contact.f_min);
+  else
+    borne_.begin(told_, force_des_);
   mode_ = now;
   wish_ += blended();
   show();
-}
-
-double ForceTask::tared(const Robot& robot, double force) {
-  if (tare_readings_ == 0.0 || !std::isfinite(force)) return force - zero_;
-  if (tare_readings_ > tare_size_) {
-    release(robot);  // the reading of now is of before: at a start there was none
-  } else {
-    tare_sum_ += force;
-    zero_ = tare_sum_ / (tare_size_ - tare_readings_ + 1.0);
-  }
-  tare_readings_ -= 1.0;
-  return 0.0;
-}
-
-// what torques bear, before it fades with the reading
-void ForceTask::bear(Mode now) {
-  constexpr double kIntegral = 5.0, kNear = 0.02;  // [1/s], of the wanted force
-  const double dt = options_.gains.dt;
-  if (now != Mode::Force || options_.blend == 0.0) {
-    borne_ = told_;
-    return;
-  }
-  if (mode_ != Mode::Force) {  // no more than is wanted: an impact is not pushed on
-    borne_ = std::clamp(told_, std::min(force_des_, 0.0), std::max(force_des_, 0.0));
-    missed_ = 0.0;
-    most_ = pressed();
-    return;
-  }
-  most_ = std::max(most_, pressed());
-  borne_ += std::min(1.0, dt / options_.blend) * (force_des_ - borne_);
-  const double most = std::max(std::abs(force_des_), options_.contact.f_min);
-  if (law_.has_reference() || std::abs(force_des_ - borne_) > kNear * most) return;
-  missed_ = std::clamp(missed_ + kIntegral * dt * (force_des_ - told_), -most, most);
 }
 
 double ForceTask::share() const {
@@ -177,15 +149,9 @@ double ForceTask::relief() const {
   return share() * law_.rate(1.0) * (std::clamp(f, -most, most) - f);
 }
 
-double ForceTask::pressed() const {
-  return force_des_ < 0.0 ? -told_ : told_;
-}
-
 double ForceTask::borne() const {
-  if (mode_ != Mode::Force || options_.blend == 0.0) return borne_;
-  const double most = std::min(std::abs(force_des_), most_);
-  return std::clamp(pressed() / std::max(0.5 * most, monitor_.release()), 0.0, 1.0) *
-         (borne_ + missed_);
+  if (mode_ != Mode::Force || options_.blend == 0.0) return told_;
+  return borne_.value(told_, force_des_, monitor_.release());
 }
 
 // what is left of the way that the frame came: where it presses on, none from the wanted force on
@@ -242,31 +208,18 @@ void ForceTask::advance(const ConstVectorRef& velocity, double dt) {
   motion_ = velocity_des_[0];
   // stopped: only away from the contact, and from what is wanted; a tare wants rest
   const bool away = motion_ * entry_ < 0.0 && motion_ * force_des_ <= 0.0;
-  if (tare_readings_ == 0.0 && (mode_ != Mode::Hold || away)) return;
+  if (!tare_.runs() && (mode_ != Mode::Hold || away)) return;
   target_[0] -= motion_ * dt;
   motion_ = velocity_des_[0] = 0.0;
-}
-
-void ForceTask::reset(const Robot& robot) {
-  release(robot);
 }
 
 void ForceTask::tare(double seconds) {
   require(std::isfinite(seconds) && seconds >= 0.0,
           "tare of force task '" + name_ + "' wants a time of 0 or more [s]");
-  tare_size_ = std::max(1.0, std::round(seconds / options_.gains.dt));
-  tare_readings_ = tare_size_ + 1.0;
-  tare_sum_ = 0.0;
+  tare_.begin(std::max(1.0, std::round(seconds / options_.gains.dt)));
 }
 
-void ForceTask::reset_tare() {
-  if (tare_readings_ > tare_size_) start_tare_ = tare_size_;
-  zero_ = tare_sum_ = 0.0;
-  tare_size_ = start_tare_;
-  tare_readings_ = start_tare_ > 0.0 ? start_tare_ + 1.0 : 0.0;
-}
-
-void ForceTask::release(const Robot& robot) {
+void ForceTask::reset(const Robot& robot) {
   monitor_.reset();
   told_ = 0.0;
   law_.reset();
@@ -280,10 +233,11 @@ void ForceTask::save(StateWriter& writer) const {
   law_.save(writer);
   monitor_.save(writer);
   estimate_.save(writer);
+  tare_.save(writer);
+  borne_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, entry_, borne_, told_, rate_, last_, zero_, tare_readings_, tare_sum_,
-        tare_size_, missed_, most_, sensed_ ? 1.0 : 0.0}) {
+        wish_, offset_, age_, entry_, told_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -294,11 +248,12 @@ void ForceTask::restore(StateReader& reader) {
   law_.restore(reader);
   monitor_.restore(reader);
   estimate_.restore(reader);
+  tare_.restore(reader);
+  borne_.restore(reader);
   force_des_ = reader.get();
   enabled_ = reader.get_count(1) > 0;
   mode_ = static_cast<Mode>(reader.get_count(2));
-  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &borne_, &told_, &rate_, &last_,
-                        &zero_, &tare_readings_, &tare_sum_, &tare_size_, &missed_, &most_}) {
+  for (double* value : {&motion_, &wish_, &offset_, &age_, &entry_, &told_, &rate_, &last_}) {
     *value = reader.get();
   }
   sensed_ = reader.get_count(1) > 0;

@@ -15,10 +15,12 @@
 // other laws for one of accelerations.
 #pragma once
 
+#include "hurcules/tasks/borne_force.hpp"
 #include "hurcules/tasks/contact_monitor.hpp"
 #include "hurcules/tasks/force_law.hpp"
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/stiffness_estimate.hpp"
+#include "hurcules/tasks/tare.hpp"
 
 namespace hurcules {
 
@@ -62,12 +64,11 @@ class ForceTask : public PositionTask {
   // time constant [s] of a low-pass of what the force law is told, 0: none; contact is judged by the
   // reading itself. Throws Error unless it is finite and >= 0
   void set_filter(double seconds);
-  // The mean of what is read next, for so long [s] (0: of one reading), is zero from then on: the
-  // weight of a tool behind the sensor, say. Until then readings count as none, and it stays; a contact ends.
-  // Throws Error unless it is finite and >= 0
+  // The mean of what is read for so long [s] (0: of one reading) is zero from then on: tare.hpp. Until
+  // then readings count as none, and it stays; a contact ends. Throws Error unless it is finite and
+  // >= 0
   void tare(double seconds = 0.1);
-  // a start: zero is what the sensor says, until the tare that was asked for before the first start
-  void reset_tare();
+  void restart_tare() { tare_.restart(); }
   // out of Stopped and SensorLost, at rest where the frame is; the tare stays
   void reset(const Robot& robot) override;
 
@@ -75,13 +76,8 @@ class ForceTask : public PositionTask {
   [[nodiscard]] ContactState state() const { return monitor_.state(); }
   [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
-  // [N] what torques bear of the contact: the reading; under force control it goes over from the
-  // first one, between 0 and f_des, to f_des with the blend time (0: it stays the reading) and on,
-  // by 5 1/s of the force that is still missing, to what friction beside the axis takes (not of laws
-  // with a reference, which keep a force of their own), so that
-  // what the model of the robot misses is not magnified into a force that is missing. Below half of
-  // what it has pressed, or of f_des, it fades with the reading: air bears nothing, and a tool behind
-  // the sensor that is thrown reads as if it pressed
+  // [N] what torques bear of the contact: the reading; under force control with a blend that of
+  // borne_force.hpp
   [[nodiscard]] double borne() const;
   [[nodiscard]] double stiffness() const;  // [N/m] given or learnt
   [[nodiscard]] const ForceTaskOptions& options() const { return options_; }
@@ -92,14 +88,10 @@ class ForceTask : public PositionTask {
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] double wish(Mode mode);  // of the row, without the blend
   [[nodiscard]] double blended() const;  // what the blend adds
-  [[nodiscard]] double tared(const Robot& robot, double force);
-  void bear(Mode now);
-  [[nodiscard]] double pressed() const;  // [N] told, towards f_des
   [[nodiscard]] double relief() const;   // [m/s] away from what is pressed while stopped
   // 0 to 1, of the compliance: a force error vanishes no faster than max_rate where G is learnt
   [[nodiscard]] double share() const;
-  void release(const Robot& robot);  // no contact, at rest where the frame is
-  void show();                       // the row as the controller sees it
+  void show();  // the row as the controller sees it
 
   ForceTaskOptions options_;
   std::optional<Frame> own_;  // frame with which the axis turns
@@ -107,6 +99,8 @@ class ForceTask : public PositionTask {
   ForceLaw law_;
   ContactMonitor monitor_;
   StiffnessEstimate estimate_;
+  Tare tare_;
+  BorneForce borne_;
   double force_des_;
   bool enabled_ = true;
   Mode mode_ = Mode::Motion;
@@ -114,17 +108,11 @@ class ForceTask : public PositionTask {
   double relief_ = 0.0;  // [m/s] of this tick
   double wish_ = 0.0;    // [m/s] or [m/s^2], blend included
   double offset_ = 0.0, age_ = 0.0;
-  double entry_ = 0.0;  // [N] read when the mode changed
-  double borne_ = 0.0;
-  double filter_ = 0.0;                          // [s]
-  double told_ = 0.0;                            // [N] filtered
-  double zero_ = 0.0;                            // [N] reading that counts as none
-  double tare_readings_ = 0.0, tare_sum_ = 0.0;  // of a tare: still to come, so far [N]
-  double tare_size_ = 0.0, start_tare_ = 0.0;    // readings of a tare, of one at each start
-  double missed_ = 0.0;                          // [N] beyond f_des that torques bear
-  double most_ = 0.0;                            // [N] pressed since the contact began
-  double rate_ = 0.0;  // [m/s] of the frame, by the robot's velocity or by differences
-  double last_ = 0.0;  // [m] s at the last sense
+  double entry_ = 0.0;   // [N] read when the mode changed
+  double filter_ = 0.0;  // [s]
+  double told_ = 0.0;    // [N] filtered
+  double rate_ = 0.0;    // [m/s] of the frame, by the robot's velocity or by differences
+  double last_ = 0.0;    // [m] s at the last sense
   bool sensed_ = false;
 };
 
