@@ -108,8 +108,8 @@ def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Itera
     if moved:
         yield (
             f"{', '.join(moved)}: moved by actuators of tendons alone, which no servo commands: "
-            "the plan moves, the robot does not. hurcules.with_motors gives each joint a motor; of a "
-            "gripper whose joints are left out ControlRate(ACTUATOR, scale) leads the tendon"
+            "the plan moves, the robot does not. hurcules.with_motors gives each joint a motor; a "
+            "gripper whose joints are left out is led by ControlRate(ACTUATOR, scale)"
         )
 
 
