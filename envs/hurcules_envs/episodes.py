@@ -295,6 +295,10 @@ class Episodes:
         for name, value in start.info.items():
             self._info.setdefault(name, np.zeros(self.n))[i] = value
 
+    def model(self, i: int) -> mujoco.MjModel:
+        """Of episode i, with what was drawn for it; one for all where nothing is drawn."""
+        return self._models[i] if self._models else self.environment.simulation.model
+
     def _configure(self, i: int) -> None:
         if not self._models:
             return

@@ -110,6 +110,20 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         return self._episodes.batch[0]
 
     @property
+    def model(self) -> mujoco.MjModel:
+        """Of the physics, with the masses and friction of this episode."""
+        return self._episodes.model(0)
+
+    @property
+    def data(self) -> mujoco.MjData:
+        """The physics as it is now, contacts and their forces too; a copy, each time anew."""
+        data = mujoco.MjData(self.model)
+        state = self._episodes.batch.physics[0]
+        mujoco.mj_setState(self.model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+        mujoco.mj_forward(self.model, data)
+        return data
+
+    @property
     def qpos(self) -> NDArray[np.float64]:
         """(nq,) positions of everything in the model, now."""
         return self._episodes.batch.qpos[0].copy()

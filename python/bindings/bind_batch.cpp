@@ -1,4 +1,5 @@
 // sim: many simulations on threads.
+#include <mujoco/mujoco.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -218,6 +219,17 @@ void bind_batch(py::module_& module) {
       .def("__getitem__", item, py::return_value_policy::reference_internal)
       .def("__len__", &Batch::size)
       .def_property_readonly("threads", &Batch::threads)
+      .def_property_readonly(
+          "physics",
+          [](const Batch& self) {
+            return rows_of(self, [](const Simulation& one) {
+              const mjModel* const m = one.plant().model();
+              Vector state(mj_stateSize(m, mjSTATE_INTEGRATION));
+              mj_getState(m, one.plant().data(), state.data(), mjSTATE_INTEGRATION);
+              return state;
+            });
+          },
+          "(n, s) for mujoco.mj_setState with mjSTATE_INTEGRATION: time, qpos, qvel, ctrl, ...")
       .def_property_readonly(
           "qpos",
           [](const Batch& self) {

@@ -4211,6 +4211,10 @@ class SimulationBatch:
         """(n,) bool"""
 
     @property
+    def physics(self) -> NDArray[np.float64]:
+        """(n, s) for mujoco.mj_setState with mjSTATE_INTEGRATION: time, qpos, qvel, ctrl, ..."""
+
+    @property
     def qpos(self) -> NDArray[np.float64]:
         """(n, nq) of the physics"""
 

@@ -10,6 +10,7 @@ import warnings
 from typing import Any
 
 import gymnasium as gym
+import mujoco
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
@@ -180,3 +181,23 @@ def test_the_twin_that_commands_joints_is_the_same_but_for_its_action(name: str)
     moved = (twin.numbers["q"] - before)[0]
     assert abs(moved[3]) > 0.2 * twin.action_scale[3] and abs(moved).argmax() == 3
     assert info["commanded_excess"] == 0.0
+
+
+def test_the_physics_of_an_episode_can_be_read_with_mujoco() -> None:
+    env = single("Hurcules/Press-v0")
+    env.reset(seed=0)
+    for _ in range(10):
+        env.step(expert(env))
+    model, data = env.model, env.data
+    assert np.array_equal(data.qpos, env.qpos)
+    borne, force = 0.0, np.zeros(6)
+    for i in range(data.ncon):
+        if "floor" in (model.geom(geom).name for geom in data.contact[i].geom):
+            mujoco.mj_contactForce(model, data, i, force)
+            borne += force[0]
+    root = model.body_rootid[model.body("pelvis").id]
+    weight = -model.opt.gravity[2] * model.body_subtreemass[root]
+    assert borne == pytest.approx(weight, rel=0.05)
+    before = env.get_state()
+    data.qpos[:] = 0.0  # a copy
+    assert np.array_equal(env.get_state(), before)
