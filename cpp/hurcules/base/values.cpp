@@ -15,11 +15,11 @@ void require_size(std::string_view what, Index size, Index wanted) {
 
 void require_shape(std::string_view what, const MatrixRef& matrix, Index rows, Index columns) {
   if (matrix.rows() == rows && matrix.cols() == columns) return;
-  const auto shape = [](Index m, Index n) {
-    return "(" + std::to_string(m) + ", " + std::to_string(n) + ")";
-  };
-  throw Error(std::string(what) + " wants a matrix of " + shape(rows, columns) + ", " +
-              shape(matrix.rows(), matrix.cols()) + " came");
+  std::string text(what);  // appended: GCC 12 takes a sum for an overlap
+  text.append(" wants a matrix of (").append(std::to_string(rows)).append(", ");
+  text.append(std::to_string(columns)).append("), (").append(std::to_string(matrix.rows()));
+  text.append(", ").append(std::to_string(matrix.cols())).append(") came");
+  throw Error(text);
 }
 
 void require_values(std::string_view what, const ConstVectorRef& values, Index wanted) {
