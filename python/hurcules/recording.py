@@ -28,7 +28,6 @@ CHANNELS = (
     ("error/L, measured_error/L", "[m] or [rad] norm of the task errors of level L"),
     ("active_rows/L", "rows that hold level L back"),
     ("command/K", "[m/s], [rad/s], [m], [N] what command K did; NaN: no target or force set"),
-    ("force/T, contact/T", "[N] read by force task T; number of its ContactState"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("base_velocity/x", "[m/s] of the support as the sensors say, along the world's axes"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
@@ -38,6 +37,8 @@ CHANNELS = (
     ("monitor/M", "what monitor M saw, its unit in its name: self_collision_distance_m, ..."),
     ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
 )
+# and where force tasks press
+FORCE_CHANNELS = (("force/T, contact/T", "[N] read by force task T; number of its ContactState"),)
 # and where a person is lifted
 PERSON_CHANNELS = (
     ("casualty/Q", "quantity Q of the person, unit in its name; shares are of his weight"),

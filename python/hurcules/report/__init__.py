@@ -14,6 +14,7 @@ from hurcules.figures import describe, readable, wanted
 from hurcules.legend import event_words, joint_words, level_words, region_words
 from hurcules.recording import (
     CHANNELS,
+    FORCE_CHANNELS,
     LOAD_CHANNELS,
     PERSON_CHANNELS,
     STAGES,
@@ -69,6 +70,7 @@ def write(
         plots=_plots(recording, summary),
         channels=[
             *CHANNELS,
+            *(FORCE_CHANNELS if any(name.startswith("force/") for name in recording.log) else ()),
             *(PERSON_CHANNELS if "casualty/contact_share" in recording.log else ()),
             *(LOAD_CHANNELS if "load/off_m" in recording.log else ()),
         ],
