@@ -15,19 +15,18 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 import hurcules
-import hurcules_envs
 from hurcules.cli import results_in
 from hurcules.output import Output
-from hurcules.validation import require_known
 from hurcules_envs import evaluation
 from hurcules_envs.imitation import ask_expert
-from hurcules_envs.policy import Policy, full_id
-from hurcules_envs.registry import fastest_fidelity
+from hurcules_envs.policy import Policy
+from hurcules_envs.registry import fidelities_of, full_id, spec_of
 from hurcules_envs.running import environment_of
 
 __all__ = ["evaluate", "record", "train"]
 
 MISSING = "training wants Stable-Baselines3 and PyTorch: pip install 'hurcules[train]'"
+ENVIRONMENT = "Reach-v0, Drive-v0, ... or module:Own/Name-v0."
 
 Fidelity = Annotated[
     str | None,
@@ -40,7 +39,7 @@ Frame = Annotated[
 
 
 def train(
-    environment: Annotated[str, typer.Argument(help="Reach-v0, Drive-v0, ...")],
+    environment: Annotated[str, typer.Argument(help=ENVIRONMENT)],
     algo: Annotated[str, typer.Option(help="ppo, sac or her.")] = "ppo",
     steps: Annotated[int, typer.Option(help="Of all episodes together.", min=0)] = 100_000,
     envs: Annotated[int, typer.Option(help="Episodes side by side.", min=1)] = 16,
@@ -74,9 +73,10 @@ def train(
     name = _known(environment)
     if steps == 0 and not demonstrations:
         raise hurcules.Error("--steps: wanted 1 or more, or --demonstrations to clone; got 0")
+    fastest = next(reversed(fidelities_of(name)), None)
     options = _given(
-        fidelity=fidelity or fastest_fidelity(name), robot=robot, frames=frame or None,
-        action=action, sparse=sparse or None, rate=rate,
+        fidelity=fidelity or fastest, robot=robot, frames=frame or None, action=action,
+        sparse=sparse or None, rate=rate,
     )  # fmt: skip
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
@@ -160,7 +160,7 @@ def evaluate(
 
 
 def record(
-    environment: Annotated[str, typer.Argument(help="Reach-v0, Drive-v0, ...")],
+    environment: Annotated[str, typer.Argument(help=ENVIRONMENT)],
     policy: Annotated[
         str, typer.Option(help="expert, an ONNX file, a folder, or Reach-v0.")
     ] = "expert",
@@ -190,7 +190,7 @@ def record(
 
     name, kind, source = _known(environment), "expert", ""
     options = _given(
-        fidelity=fidelity or ("exact" if fastest_fidelity(name) else None), cameras=camera or None,
+        fidelity=fidelity or ("exact" if fidelities_of(name) else None), cameras=camera or None,
         robot=robot, frames=frame or None,
     )  # fmt: skip
     act: Any = _expert
@@ -278,7 +278,7 @@ def _free(folder: Path, judged: dict[str, Any]) -> str:
 def _known(environment: str) -> str:
     """The id of an environment that exists."""
     name = full_id(environment)
-    require_known("environment", name, hurcules_envs.ENVIRONMENTS)
+    spec_of(name)
     return name
 
 

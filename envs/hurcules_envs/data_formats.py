@@ -12,12 +12,12 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs.episode_data import Episode, Recording
+from hurcules_envs.registry import spec_of
 
 __all__ = ["FORMATS", "Format"]
 
@@ -86,7 +86,7 @@ def _minari(recording: Recording, env: Any, episodes: Iterable[Episode], out: Pa
                 _minari_place(recording),
                 [buffer],
                 env=env,
-                eval_env=gymnasium.spec(recording.environment),
+                eval_env=spec_of(recording.environment),
                 algorithm_name=recording.author,
                 description=env.unwrapped.task_description,
                 author="The Hurcules developers",

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.pictures import SIZE, Pictures
-from hurcules_envs.policy import Policy, full_id
-from hurcules_envs.registry import make_episodes, steps_of_episode
+from hurcules_envs.policy import Policy
+from hurcules_envs.registry import full_id, make_episodes, steps_of_episode
 
 __all__ = ["Evaluation", "evaluate", "wilson"]
 

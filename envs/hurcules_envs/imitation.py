@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules_envs.policy import full_id
-from hurcules_envs.registry import make_episodes, steps_of_episode
+from hurcules_envs.registry import full_id, make_episodes, steps_of_episode
 
 __all__ = ["Demonstrations", "ask_expert", "demonstrate"]
 

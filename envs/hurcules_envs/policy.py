@@ -8,15 +8,15 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import gymnasium
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs import onnx_file
+from hurcules_envs.registry import full_id
 
-__all__ = ["Policy", "full_id", "shipped"]
+__all__ = ["Policy", "shipped"]
 
 Array = NDArray[np.float32]
 
@@ -202,12 +202,6 @@ def shipped() -> dict[str, Path]:
     """The policies that are part of the package, by the id of their environment."""
     folder = Path(str(files("hurcules_envs") / "policies"))
     return {f"Hurcules/{path.stem}": path for path in sorted(folder.glob("*.onnx"))}
-
-
-def full_id(name: str) -> str:
-    """The id of an environment: Reach-v0 is Hurcules/Reach-v0, where no other has that name."""
-    name = name.removeprefix("hurcules_envs:")
-    return name if "/" in name or name in gymnasium.registry else f"Hurcules/{name}"
 
 
 def _file(source: str) -> Path:

@@ -23,8 +23,7 @@ import hurcules
 from hurcules.validation import require_known
 from hurcules_envs.data_formats import FORMATS
 from hurcules_envs.episode_data import Episode, Recording
-from hurcules_envs.policy import full_id
-from hurcules_envs.registry import steps_of_episode
+from hurcules_envs.registry import full_id, steps_of_episode
 
 __all__ = ["Act", "Again", "record", "record_episode"]
 

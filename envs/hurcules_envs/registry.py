@@ -18,11 +18,13 @@ from hurcules_envs.episodes import Episodes
 from hurcules_envs.randomisation import NAMES, split
 
 __all__ = [
-    "fastest_fidelity",
+    "fidelities_of",
+    "full_id",
     "make_environment",
     "make_episodes",
     "native_options",
     "register",
+    "spec_of",
     "steps_of_episode",
     "warn_of_rate",
 ]
@@ -114,21 +116,62 @@ def native_options(name: str, options: Mapping[str, Any]) -> dict[str, Any]:
     Raises:
         hurcules.Error: it has no native vector.
     """
-    given = {**gymnasium.spec(name).kwargs, **options}
+    given = {**spec_of(name).kwargs, **options}
     if "environment" not in given:
         raise hurcules.Error(f"{name} has no native vector")
     return given
 
 
-def fastest_fidelity(name: str) -> str | None:
-    """The fastest fidelity of an environment; None: it is not registered, or has no choice.
+def full_id(name: str) -> str:
+    """The id of an environment: Reach-v0 is Hurcules/Reach-v0, where no other has that name.
+
+    Args:
+        name: as Gymnasium takes it; one of one's own with the module that registers it,
+            "module:Own/Circle-v0".
+    """
+    name = name.removeprefix("hurcules_envs:")
+    return name if "/" in name or name in gymnasium.registry else f"Hurcules/{name}"
+
+
+def spec_of(name: str) -> EnvSpec:
+    """How an environment is registered; the module that its id names is imported first.
+
+    Args:
+        name: its id, from `full_id`.
+
+    Raises:
+        hurcules.Error: no such module, or no such environment; the text lists those of this
+            package, or those that the module's import registered.
+    """
+    module, _, plain = name.rpartition(":")
+    if module:
+        try:
+            import_module(module)
+        except ModuleNotFoundError as error:
+            raise hurcules.Error(
+                f"environment '{name}': {error}; wanted module:Namespace/Name-v0, a module in this "
+                "folder or on Python's path whose import registers the environment"
+            ) from error
+    if plain not in gymnasium.registry:
+        space = plain.split("/")[0] if module else "Hurcules"
+        known = sorted(
+            one.split("/")[1] for one in gymnasium.registry if one.startswith(f"{space}/")
+        )
+        raise hurcules.Error(
+            f"environment '{name}' does not exist; there are: {', '.join(known) or 'none'}"
+        )
+    return gymnasium.spec(plain)
+
+
+def fidelities_of(name: str) -> tuple[str, ...]:
+    """The fidelities of an environment, the fastest last; none where it has no choice.
 
     Args:
         name: its id.
     """
-    spec = gymnasium.registry.get(name)
-    path = spec.kwargs.get("environment") if spec else None
-    return _class_of(path).fidelities[-1] if path else None
+    path = spec_of(name).kwargs.get("environment")
+    kind = _class_of(path) if path else None
+    return kind.fidelities if kind and "fidelity" in inspect.signature(kind).parameters else ()
 
 
 def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:
@@ -138,7 +181,7 @@ def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:
         name: its id.
         options: of the environment, by keyword.
     """
-    known = gymnasium.spec(name)
+    known = spec_of(name)
     if known.max_episode_steps is None or "rate" not in options:
         return known.max_episode_steps
     return round(known.max_episode_steps * options["rate"] / _usual_rate(known, options["rate"]))

@@ -18,8 +18,8 @@ from hurcules.plugins import PolicyOptions
 from hurcules.rendering import RendererError
 from hurcules.run import DONE, FAILED, INTERRUPTED, progress_bar
 from hurcules.video import encode
-from hurcules_envs.policy import Policy, full_id
-from hurcules_envs.registry import steps_of_episode
+from hurcules_envs.policy import Policy
+from hurcules_envs.registry import fidelities_of, full_id, steps_of_episode
 
 __all__ = ["environment_of", "run_policy"]
 
@@ -55,10 +55,10 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
         raise hurcules.Error(
             f"{policy.path}: wanted a policy of {name}, got one of {policy.environment}"
         )
-    if name not in gymnasium.registry:
-        known = sorted(one.split("/")[1] for one in gymnasium.registry if "Hurcules/" in one)
-        raise hurcules.Error(f"environment '{name}' does not exist; there are: {', '.join(known)}")
+    known = fidelities_of(name)
     chosen = {option: value for option, value in others.items() if value}
+    if not known and chosen.get("fidelity") == "exact":  # there is no other
+        del chosen["fidelity"]
     own = {
         option: value
         for option, value in policy.options.items()
@@ -187,7 +187,7 @@ def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
     if summary["success_s"] is not None:
         table.add_row("succeeded after", f"{summary['success_s']:.1f} s")
     table.add_row("return", f"{summary['return']:.2f}")
-    known = summary["options"]["fidelity"] != "kinematic"  # what only the physics says
+    known = summary["options"].get("fidelity") != "kinematic"  # what only the physics says
     for key, label, unit, factor, _ in FIGURES:
         if key in PHYSICAL and not known:
             continue

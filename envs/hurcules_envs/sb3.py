@@ -14,7 +14,7 @@ from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
 import hurcules
-from hurcules_envs.registry import native_options, steps_of_episode
+from hurcules_envs.registry import native_options, spec_of, steps_of_episode
 from hurcules_envs.vector import NativeVectorEnv
 
 __all__ = ["GoalFeatures", "Sb3VecEnv", "Standardised", "make_sb3"]
@@ -199,7 +199,7 @@ def make_sb3(
     """Makes a vector of environments for Stable-Baselines3.
 
     Args:
-        name: id of an environment of this package, "Hurcules/Reach-v0".
+        name: id, "Hurcules/Reach-v0", or of one's own, "module:Own/Circle-v0".
         num_envs: how many episodes side by side.
         threads: 0 for one a processor.
         max_episode_steps: None: that of the environment, in proportion to `rate`.
@@ -217,5 +217,5 @@ def make_sb3(
         autoreset_mode=AutoresetMode.SAME_STEP,
         **given,
     )
-    vector.spec = gymnasium.spec(name)
+    vector.spec = spec_of(name)
     return Sb3VecEnv(vector)

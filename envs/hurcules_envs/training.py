@@ -18,7 +18,6 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
 import hurcules
-import hurcules_envs
 from hurcules.interrupts import Interrupts
 from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
@@ -90,7 +89,7 @@ class TrainOptions:
     """What is trained, and for how long.
 
     Attributes:
-        environment: id, "Hurcules/Reach-v0".
+        environment: id, "Hurcules/Reach-v0", or of one's own, "module:Own/Circle-v0".
         algorithm: "ppo", "sac" or "her" (SAC with hindsight, goal environments only).
         steps: of all episodes together.
         episodes: side by side.
@@ -131,7 +130,6 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         hurcules.Error: an unknown environment, algorithm or option, or a folder with another run.
         KeyboardInterrupt: after Ctrl-C or SIGTERM; all is written, and the next call goes on.
     """
-    require_known("environment", options.environment, hurcules_envs.ENVIRONMENTS)
     require_known("algorithm", options.algorithm, ALGORITHMS)
     torch.set_num_threads(1)  # small networks: more threads only wait for each other
     environment = make_sb3(options.environment, options.episodes, **options.options)

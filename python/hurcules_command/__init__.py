@@ -26,6 +26,7 @@ def main() -> int:
         print(f"hurcules: error: {error}", file=sys.stderr)
         return 1
     signal.signal(signal.SIGINT, before)
+    sys.path.append("")  # a user's own modules in this folder, after all that is installed
     return cli.main()
 
 

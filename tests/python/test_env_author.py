@@ -7,7 +7,10 @@ Strategy: a cart on a rail, right but for one attribute or method. Not tested: w
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -19,6 +22,8 @@ import hurcules
 import hurcules_envs
 from hurcules_envs.environment import Environment, Group, Start
 from hurcules_envs.episodes import Episodes
+from hurcules_envs.evaluation import evaluate
+from hurcules_envs.onnx_file import Graph, Node, write
 
 CART = """
 <mujoco>
@@ -204,3 +209,48 @@ def test_an_environment_is_registered_by_a_text() -> None:
     for wrong in (Cart, "no_class", "module:"):
         with pytest.raises(hurcules.Error, match="wanted 'module:Class' of an Environment, got"):
             hurcules_envs.register("Own/Cart-v0", wrong, max_episode_steps=10)  # type: ignore
+
+
+OWN = "own_rail:Own/Rail-v0"
+
+
+def own_module(folder: Path) -> None:
+    """A user's file that registers the cart."""
+    (folder / "own_rail.py").write_text(
+        "import hurcules_envs\n"
+        f"import sys; sys.path.append({str(Path(__file__).parent)!r})\n"
+        "from test_env_author import Cart as Rail\n"
+        "hurcules_envs.register('Own/Rail-v0', 'own_rail:Rail', max_episode_steps=100)\n"
+    )
+
+
+def command(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """The console script, which has not its folder on Python's path."""
+    start = "import sys; sys.path.remove(''); from hurcules_command import main; sys.exit(main())"
+    line = [sys.executable, "-c", start, *words]
+    return subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_the_module_of_an_id_is_imported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own_module(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    judged = evaluate(lambda seen: np.clip(5.0 * seen[:, :1], -1.0, 1.0), OWN, 3)
+    assert (judged.episodes, judged.success) == (3, 1.0)
+
+
+def test_commands_take_an_environment_of_ones_own(tmp_path: Path) -> None:
+    own_module(tmp_path)
+    nodes = (Node("Gemm", ("observation", "weight"), ("action",), {"transB": 1}),)
+    weights = {"weight": np.array([[5.0, 0.0, 0.0, 0.0]])}
+    graph = Graph(nodes, weights, {"observation": 4}, {"action": 1}, {"environment": OWN})
+    write(tmp_path / "policy.onnx", graph)
+    ran = command(tmp_path, "evaluate", "policy.onnx", "--episodes", "3")
+    assert "success        100%" in ran.stdout, ran.stderr
+    for words, told in (
+        ("own_rail:Own/Road-v0", "'own_rail:Own/Road-v0' does not exist; there are: Rail-v0"),
+        ("own_road:Own/Rail-v0", "No module named 'own_road'; wanted module:Namespace/Name-v0"),
+        ("Road-v0", "'Hurcules/Road-v0' does not exist; there are: Carry-v0, "),
+    ):
+        assert told in command(tmp_path, "record", words).stderr
+    told = command(tmp_path, "evaluate", "policy.onnx", "--fidelity", "fast").stderr
+    assert "option 'fidelity' does not exist" in told

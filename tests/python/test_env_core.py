@@ -20,7 +20,7 @@ from gymnasium.vector import AutoresetMode
 import hurcules
 import hurcules_envs  # noqa: F401  registers
 from hurcules_envs.evaluation import evaluate
-from hurcules_envs.registry import fastest_fidelity, make_environment, steps_of_episode
+from hurcules_envs.registry import fidelities_of, make_environment, steps_of_episode
 
 FAST = {"fidelity": "kinematic"}
 IDS = [
@@ -518,19 +518,18 @@ def test_the_table_of_the_observation_is_that_of_the_space(path):
 
 
 @pytest.mark.parametrize(
-    ("name", "fastest"),
+    ("name", "known"),
     [
-        ("Reach-v0", "kinematic"),
-        ("Stretch-v1", "kinematic"),
-        ("Valve-v0", "fast"),  # without physics nothing is touched
-        ("PressJoint-v0", "fast"),
-        ("Rescue-v0", "fast"),
-        ("Stretch-v0", None),  # no choice
-        ("Nothing-v0", None),
+        ("Reach-v0", ("exact", "fast", "kinematic")),
+        ("Stretch-v1", ("exact", "fast", "kinematic")),
+        ("Valve-v0", ("exact", "fast")),  # without physics nothing is touched
+        ("PressJoint-v0", ("exact", "fast")),
+        ("Rescue-v0", ("exact", "fast")),
+        ("Stretch-v0", ()),  # no choice
     ],
 )
-def test_the_fastest_fidelity_is_what_training_takes(name: str, fastest: str | None) -> None:
-    assert fastest_fidelity(f"Hurcules/{name}") == fastest
+def test_the_last_fidelity_is_what_training_takes(name: str, known: tuple[str, ...]) -> None:
+    assert fidelities_of(f"Hurcules/{name}") == known
 
 
 def test_a_vector_that_was_closed_is_not_stepped() -> None:
