@@ -184,6 +184,9 @@ Args:
   joint: name of a joint with an actuator.
   position: [rad] or [m].
   velocity: [rad/s] or [m/s].
+
+Raises:
+  Error: no such joint, or a position outside its range.
 )";
 constexpr const char* kStandOn = R"(The plan stands on another body, where it is now.
 

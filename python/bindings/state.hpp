@@ -9,7 +9,8 @@ namespace hurcules_bindings {
 
 inline constexpr const char* kState =
     "What must be kept between ticks, as a flat list; see restore.";
-inline constexpr const char* kRestore = "Goes on from what state() gave.";
+inline constexpr const char* kRestore =
+    "Goes on from what state() gave. Raises Error for a list of another length.";
 
 template <typename Object>
 std::vector<double> state(const Object& object) {
@@ -23,6 +24,8 @@ template <typename Object>
 void restore(Object& object, const std::vector<double>& values) {
   hurcules::StateReader reader(values);
   object.restore(reader);
+  hurcules::require(reader.at_end(),
+                    "restore: the state is too long: it belongs to something else");
 }
 
 }  // namespace hurcules_bindings

@@ -95,3 +95,58 @@ def test_what_cannot_be_is_refused_and_changes_nothing(case: str) -> None:
     with pytest.raises(hurcules.Error, match=text):
         tick(controller, data)
     assert controller.state() == before
+
+
+LENGTHS, MASSES = (0.15, 0.15, 0.2, 0.2, 0.15, 0.1, 0.08), (3, 3, 2.5, 2.5, 1.5, 1, 0.5)
+ARM_7 = "".join(
+    f'<body pos="0 0 {LENGTHS[i - 1] if i else 0.8}"><joint name="j{i}" damping="1" armature="0.1"'
+    f' axis="{"0 1 0" if i % 2 else "0 0 1"}" range="{"-2 2" if i % 2 else "-2.9 2.9"}"/>'
+    f'<geom type="capsule" size="0.035" fromto="0 0 0 0 0 {length}" mass="{MASSES[i]}"/>'
+    for i, length in enumerate(LENGTHS)
+)
+MOTORS = "".join(
+    f'<motor joint="j{i}" ctrlrange="-{most} {most}" forcerange="-{most} {most}"/>'
+    for i, most in enumerate([150, 150, 100, 100, 40, 40, 20])
+)
+
+
+@pytest.mark.parametrize("wrong", [0.3, 0.6, 2.0])
+def test_a_reading_that_was_wrong_once_dies_away(wrong: float) -> None:
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><compiler angle='radian'/><option timestep='0.001' integrator='implicitfast'/>"
+        f"<worldbody>{ARM_7}<site name='hand' pos='0 0 0.08'/>{'</body>' * 7}</worldbody>"
+        f"<actuator>{MOTORS}</actuator></mujoco>"
+    )
+    robot = hurcules.Robot(model)
+    robot.set_configuration([0.0, 0.6, 0.0, 1.2, 0.0, 0.6, 0.0])
+    hand = hurcules.PositionTask("hand", robot, "hand")
+    tasks = [hand, hurcules.PostureTask("posture", robot)]
+    controller = hurcules.WholeBodyController(robot, tasks, {"hand": hurcules.Twist(hand, 0.3)})
+    data = mujoco.MjData(model)
+    data.qpos[:] = robot.qpos
+    steps = []
+    for tick in range(8000):
+        before = controller.qd_des if tick else np.zeros(7)
+        data.ctrl[:] = controller.tick(data.qpos + wrong * (tick == 700), data.qvel)
+        steps.append(np.abs(controller.qd_des - before).max())
+        mujoco.mj_step(model, data)
+    assert max(steps[7500:]) < 1e-4  # [rad/s] from tick to tick; it was 21, for good
+    assert np.abs(data.qvel).max() < 1e-3
+
+
+def test_a_joint_is_moved_within_its_range_alone() -> None:
+    controller, data = own_loop()
+    controller.tick(data.qpos, data.qvel)
+    state = controller.state()
+    for wrong in (9.0, -9.0):
+        with pytest.raises(hurcules.Error, match=r"joint 'finger' within its range, .* came"):
+            controller.move("finger", wrong)
+    assert controller.state() == state
+
+
+def test_a_state_of_another_length_is_refused() -> None:
+    controller, data = own_loop()
+    controller.tick(data.qpos, data.qvel)
+    for wrong in ([*controller.state(), 0.0], controller.state()[:-1]):
+        with pytest.raises(hurcules.Error, match=r"too long|ends early"):
+            controller.restore(wrong)

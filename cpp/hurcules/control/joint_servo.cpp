@@ -304,7 +304,16 @@ void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef 
   }
 }
 
-const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotState& state) {
+void JointServo::rated_inertia(VectorRef inertia) const {
+  inertia.setZero();
+  for (Index i = 0; i < coordinate_joints_; ++i) {
+    const Motor& motor = motors_[static_cast<std::size_t>(i)];
+    inertia[motor.coordinate] += motor.factor * motor.factor * motor.inertia;
+  }
+}
+
+const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotState& state,
+                                                  const Vector& growth) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   bounds_.lower.setConstant(-kNone);
   bounds_.upper.setConstant(kNone);
@@ -319,9 +328,9 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kOfPeak * pid_.options().max_torque[i];
     const EffortRange range = within({-peak, peak}, motor.actuator, state);
-    const double beside = feed_forward_[i];
-    const double a = pid_.rate_at(i, error_, range.lower - beside) / motor.factor;
-    const double b = pid_.rate_at(i, error_, range.upper - beside) / motor.factor;
+    const double beside = feed_forward_[i], grown = growth[motor.coordinate];
+    const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;
+    const double b = pid_.rate_at(i, error_, (range.upper - beside) / grown) / motor.factor;
     double& lower = bounds_.lower[motor.coordinate];
     double& upper = bounds_.upper[motor.coordinate];
     lower = std::max(lower, std::min(a, b));

@@ -78,8 +78,10 @@ class JointServo {
   void release(VectorRef q, VectorRef velocity);
   // velocities of the coordinates from this reference on at which no motor is asked for more than
   // its peak; no side where it rests behind a brake, the middle where two joints of one coordinate
-  // exclude each other
-  const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state);
+  // exclude each other. A motor is asked for growth (n) times its own feedback, and for what is fed
+  // forward.
+  const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state,
+                                        const Vector& growth);
   // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
   void feed_forward(const Vector& efforts);
   // as much more effort of the coordinates from now on, (n) [N m], for feed-forward that falls away
@@ -103,6 +105,8 @@ class JointServo {
   [[nodiscard]] const JointActuator& actuator(Index joint) const {
     return motors_[static_cast<std::size_t>(joint)].actuator;
   }
+  // that the coordinates' joints are rated for, (n) [kg m^2]
+  void rated_inertia(VectorRef inertia) const;
   [[nodiscard]] Index coordinate_of(Index joint) const {  // -1 for none
     return motors_[static_cast<std::size_t>(joint)].coordinate;
   }

@@ -170,7 +170,10 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
     row += channel.size();
   }
   q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
-  feedback_ = feedback_acceleration_ = efforts_;
+  feedback_ = feedback_acceleration_ = rated_ = efforts_;
+  servo_.rated_inertia(rated_);
+  growth_ = Vector::Ones(plan_.size());
+  inertia_.resize(plan_.size(), plan_.size());
   delta_ = Vector::Zero(scale_.size());
   carrying_ = carrying_joints(plan_);
   reset(robot.qpos(), true);
@@ -325,17 +328,37 @@ void WholeBodyController::feed_forward(const RobotState* state) {
   }
   last_qd_ = qd_;
   plan_.set_velocity(qd_);
-  const bool decoupled = *options_.decoupled && state;
-  if (decoupled) {
-    servo_.feedback(*state, feedback_, feedback_acceleration_);
-    if (!plan_.floats()) qdd_ += feedback_acceleration_;
+  if (*options_.decoupled && state) {
+    decouple(*state);
+    efforts_ -= feedback_;
+  } else {
+    plan_.inverse_dynamics(qdd_, efforts_);
   }
+  servo_.feed_forward(efforts_);
+}
+
+// efforts = M (qdd + a) + h, feedback included
+void WholeBodyController::decouple(const RobotState& state) {
+  servo_.feedback(state, feedback_, feedback_acceleration_);
+  if (!plan_.floats()) qdd_ += feedback_acceleration_;
   plan_.inverse_dynamics(qdd_, efforts_);
-  if (decoupled) efforts_ -= feedback_;
-  if (decoupled && plan_.floats()) {
-    plan_.floating_inertia(feedback_acceleration_, feedback_);
-    efforts_ += feedback_;
+  if (!plan_.floats()) return;
+  plan_.floating_inertia(feedback_acceleration_, qdd_);
+  efforts_ += qdd_;
+}
+
+// What decoupled servos ask for as the reference of one coordinate moves and the others stay: at
+// most D_kk / J_k times its own feedback, D the sums of the rows' magnitudes of M. D >= M, so that
+// all of them together, each within what is left to its motor, do not ask for more and swing.
+void WholeBodyController::find_growth(const RobotState& state) {
+  qdd_.setZero();
+  plan_.set_velocity(qd_);
+  decouple(state);
+  plan_.mass_matrix(inertia_);
+  for (Index k = 0; k < growth_.size(); ++k) {
+    if (rated_[k] > 0.0) growth_[k] = inertia_.row(k).lpNorm<1>() / rated_[k];
   }
+  efforts_ -= growth_.cwiseProduct(feedback_);
   servo_.feed_forward(efforts_);
 }
 
@@ -365,10 +388,15 @@ void WholeBodyController::take_over() {
 }
 
 void WholeBodyController::move(const std::string& joint, double position, double velocity) {
+  constexpr double kInside = 1e-6;  // [rad] or [m]
   const Index place = servo_.find(joint);
   require(std::isfinite(position) && std::isfinite(velocity),
           "move wants a finite position and velocity of joint '" + joint + "', " +
               number_text(position) + " and " + number_text(velocity) + " came");
+  const JointActuator& actuator = servo_.actuator(place);
+  require(position >= actuator.lower - kInside && position <= actuator.upper + kInside,
+          "move wants joint '" + joint + "' within its range, " + number_text(actuator.lower) +
+              " to " + number_text(actuator.upper) + ", " + number_text(position) + " came");
   servo_.move(place, position, velocity);
   moves_joints_ = true;
 }
@@ -630,7 +658,14 @@ void WholeBodyController::solve(const RobotState& state) {
   MotionLaw& law = *laws_[active_];
   law.solve();
   wished_ = law.next_velocity(qd_);
-  if (options_.torque_scaling) scaled_ = law.scale(servo_.velocity_bounds(q_, state), qd_);
+  if (options_.torque_scaling) {
+    if (*options_.decoupled && !by_torques()) {
+      find_growth(state);
+    } else {
+      growth_.setOnes();
+    }
+    scaled_ = law.scale(servo_.velocity_bounds(q_, state, growth_), qd_);
+  }
   if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
   yielding_.update(scaled_, law.rate(), dt());
   law.integrate(q_, qd_);

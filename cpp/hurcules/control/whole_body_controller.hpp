@@ -191,6 +191,8 @@ class WholeBodyController {
   void take_over();
   void refer();
   void feed_forward(const RobotState* state);
+  void decouple(const RobotState& state);
+  void find_growth(const RobotState& state);
 
   WholeBodyControllerOptions options_;
   Robot plan_;
@@ -226,6 +228,9 @@ class WholeBodyController {
   Vector delta_;                             // scratch
   Vector last_qd_, qdd_, efforts_;           // (n) for the feed-forward
   Vector feedback_, feedback_acceleration_;  // (n) of the servos
+  Vector growth_;                            // (n) what they ask for in all by their own
+  Vector rated_;                             // (n) inertia
+  Matrix inertia_;                           // (n, n) scratch
   Frame support_;
   std::vector<double> scratch_;
 };

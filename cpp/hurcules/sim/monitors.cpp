@@ -41,6 +41,7 @@ Monitors::Monitors(const mjModel_* m, int robot_root, const MotorLosses& losses,
       distance_(m, robot_root, options.distance),
       support_(m, robot_root),
       windings_(m, losses, options.windings),
+      dt_(m->opt.timestep),
       threshold_(thresholds()),
       alarm_(Vector::Zero(kQuantities)) {
   for (Index i = 0; i < kQuantities; ++i) {
@@ -96,14 +97,16 @@ void Monitors::note(Index quantity, double value) {
   if (std::isnan(worst_[quantity]) || is_worse(quantity, value, worst_[quantity])) {
     worst_[quantity] = value;
   }
-  // a tenth of the threshold between rising and falling: an alarm does not chatter
+  constexpr double kLasts = 0.5;  // [s] after the last trouble: an alarm does not chatter
   const double limit = threshold_[quantity];
   const double back =
       falls(quantity) ? limit + 0.1 * std::abs(limit) : limit - 0.1 * std::abs(limit);
   if (is_worse(quantity, value, limit)) {
-    alarm_[quantity] = 1.0;
-  } else if (!is_worse(quantity, value, back)) {
-    alarm_[quantity] = 0.0;
+    alarm_[quantity] = kLasts;
+  } else if (is_worse(quantity, value, back)) {
+    if (alarm_[quantity] > 0.0) alarm_[quantity] = kLasts;
+  } else {
+    alarm_[quantity] = std::max(0.0, alarm_[quantity] - dt_);
   }
 }
 

@@ -22,7 +22,8 @@ struct mjData_;
 
 namespace hurcules {
 
-// An alarm is raised beyond its threshold, and falls when the value is back by a tenth of it.
+// An alarm is raised beyond its threshold, and falls when the value has been back by a tenth of it
+// for half a second.
 // An infinite threshold never alarms.
 struct MonitorOptions {
   bool on = true;
@@ -77,7 +78,9 @@ class Monitors {
   SelfDistance distance_;
   Support support_;
   MotorThermalModel windings_;
-  Vector threshold_, value_, worst_, alarm_;  // (kQuantities)
+  double dt_;
+  Vector threshold_, value_, worst_;  // (kQuantities)
+  Vector alarm_;                      // [s] it still lasts
 };
 
 }  // namespace hurcules

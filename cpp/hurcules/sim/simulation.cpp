@@ -384,8 +384,9 @@ void Simulation::record() {
 // [m] of the frame that falls
 double Simulation::height() const {
   if (!fall_frame_) return std::numeric_limits<double>::infinity();
-  const double ground = controller_->plan().floating() ? 0.0 : world_.position(support_).z();
-  return world_.position(*fall_frame_).z() - ground;
+  const Vector3 place = world_.position(*fall_frame_);
+  if (controller_->plan().floating()) return place.z();
+  return fall_monitor_.height(world_.orientation(support_), place - world_.position(support_));
 }
 
 // what the tick means for the run; the clock goes on
@@ -482,7 +483,8 @@ std::string Simulation::reason() const {
     case Ending::TimeUp:
       return "time is up at " + seconds(ending_time_);
     case Ending::Fell:
-      return "fell over at " + seconds(ending_time_);
+      return "fell over at " + seconds(ending_time_) + ": " +
+             fall_monitor_.text(world_.orientation(support_), height());
     case Ending::Diverged:
       return "diverged at " + seconds(ending_time_);
     case Ending::SolverFailed:
