@@ -112,3 +112,15 @@ def test_what_carries_the_person_is_watched_as_in_the_rescue_on_the_flat() -> No
     assert {"casualty/head_mps2", "casualty/on_ground", "base_rotation/y"} <= watched
     measures = {one.name for one in lift.mission("casualty").rows.measures} - {"way_home_m"}
     assert {one.name for one in rows.measures} == measures | {"home_x_m"}
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_seated_robot_that_pitches_is_judged_by_its_tilt_not_by_its_height(way: float) -> None:
+    setup = lift.mission("crossing").setup
+    data = mujoco.MjData(model := lift.model(lift.Away()))
+    mujoco.mj_forward(model, data)
+    legs, pelvis = data.body("upper_legs"), data.body("pelvis")
+    seated = legs.xmat.reshape(3, 3).T @ (pelvis.xpos - legs.xpos)  # no joint moves it
+    pitch = way * setup.max_tilt
+    height = np.cos(pitch) * seated[2] - np.sin(pitch) * seated[0]
+    assert height > setup.min_height
