@@ -205,3 +205,34 @@ def test_what_is_pictured_can_be_drawn_as_depth_and_segmentation() -> None:
     heights = (eye + depth[y, x, None] * ways)[near, 2]
     assert np.abs(heights - heights[0]).max() < 0.02
     env.close()
+
+
+@pytest.mark.skipif(bool(render_with("egl")), reason="EGL does not draw here")
+def test_another_thread_is_told_who_draws(tmp_path: Path) -> None:
+    """It got `EGLError(err=EGL_BAD_ACCESS, ...)`."""
+    program = (
+        "from concurrent.futures import ThreadPoolExecutor\n"
+        "import gymnasium, hurcules_envs, numpy\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', cameras=['auxiliary'])\n"
+        "env.reset(seed=0)\n"
+        "step = lambda: env.step(numpy.zeros(6, 'float32'))[0]['auxiliary'].shape\n"
+        "with ThreadPoolExecutor(1) as pool:\n"
+        "    try:\n"
+        "        pool.submit(step).result()\n"
+        "    except Exception as error:\n"
+        "        print(type(error).__name__, error)\n"
+        "print(step())\n"
+        "env.close()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=tmp_path,
+        env=os.environ | {"MUJOCO_GL": "egl"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    told, shape = done.stdout.splitlines()
+    assert told.startswith("RendererError pictures are drawn by the thread that drew the first one")
+    assert shape == "(96, 128, 3)"
