@@ -130,28 +130,66 @@ class Policy:
         Pictures are (n, height, width, 3).
 
         Raises:
-            hurcules.Error: observations of another shape, or the network gave numbers that are not
-                finite.
+            hurcules.Error: observations that lack an input of the network, of another shape or not
+                of finite numbers; or the network gave numbers that are not finite.
         """
-        names = list(self._graph.inputs)
-        given = observation if isinstance(observation, Mapping) else {names[0]: observation}
-        fed = {name: np.asarray(given[name], dtype=self._type(name)) for name in names}
+        fed = self._fed(observation)
         for name, values in fed.items():
             if values.ndim not in (2, 4):
                 raise hurcules.Error(
                     f"{self.path}: wanted observations (n, m), got '{name}' of shape "
                     f"{values.shape}; one() takes a single one"
                 )
+            wanted = self._graph.inputs[name]
+            if values.ndim == 2 and wanted not in (0, values.shape[1]):
+                raise hurcules.Error(
+                    f"{self.path}: wanted {wanted} numbers in '{name}', got {values.shape[1]}"
+                )
+        if len({len(values) for values in fed.values()}) > 1:
+            shapes = ", ".join(f"'{name}' {values.shape}" for name, values in fed.items())
+            raise hurcules.Error(f"{self.path}: wanted as many rows in each input, got {shapes}")
         result = self._computed(fed) if self._session is None else self._ran(fed)
         if not np.isfinite(result).all():
+            for name, values in fed.items():
+                if not np.isfinite(values).all():
+                    raise hurcules.Error(f"{self.path}: the numbers in '{name}' are not finite")
             raise hurcules.Error(f"{self.path}: the network gave numbers that are not finite")
         return np.clip(result, -1.0, 1.0).astype(np.float32)
 
     def one(self, observation: Any) -> Array:
         """The action (k,) for a single observation, an array (m,) or a dictionary of them."""
-        named = isinstance(observation, Mapping)
-        rows = {n: v[None] for n, v in observation.items()} if named else observation[None]
+        rows = {name: values[None] for name, values in self._fed(observation).items()}
         return self(rows)[0]
+
+    def __repr__(self) -> str:
+        """Where it acts, what goes in and how many numbers come out."""
+        acts = f"{self.environment}: " if self.environment else ""
+        return f"Policy({acts}{_listed(self._graph.inputs)} to {_listed(self._graph.outputs)})"
+
+    def _fed(self, observation: Any) -> dict[str, Any]:
+        """By input of the network, its numbers."""
+        names = list(self._graph.inputs)
+        given = observation
+        if not isinstance(observation, Mapping):
+            if len(names) > 1:
+                raise hurcules.Error(
+                    f"{self.path}: wanted a dictionary of {', '.join(names)}, "
+                    f"got one {type(observation).__name__}"
+                )
+            given = {names[0]: observation}
+        if missing := ", ".join(name for name in names if name not in given):
+            raise hurcules.Error(
+                f"{self.path}: wanted the inputs {', '.join(names)}; not there: {missing}"
+            )
+        fed = {}
+        for name in names:
+            try:
+                fed[name] = np.asarray(given[name], dtype=self._type(name))
+            except (TypeError, ValueError) as error:
+                raise hurcules.Error(
+                    f"{self.path}: wanted an array of numbers in '{name}', got {given[name]!r}"
+                ) from error
+        return fed
 
     def _computed(self, values: dict[str, Any]) -> Any:
         known: dict[str, Any] = {**self._graph.weights, **values}

@@ -127,6 +127,8 @@ def train(
         "algorithm": "ppo",
         "seed": seed,
         "action_names": vector.action_names,
+        "action_scale": vector.action_scale.tolist(),
+        "rate": vector.environment.rate,
     }
     vector.close()
     settings = {

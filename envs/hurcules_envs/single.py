@@ -124,6 +124,19 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         return data
 
     @property
+    def pictured(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """What pictures are drawn of: a model with lights and visual parts, and the episode now.
+
+        The data are drawn over by the next picture. `hurcules.cameras.picture(*env.pictured, name,
+        depth=True)` is the depth of what `cameras` observes; MuJoCo's renderer makes segmentations.
+
+        Raises:
+            gymnasium.error.ResetNeeded: no episode has begun.
+        """
+        self._require_begun("pictured")
+        return self.environment.pictured(self._episodes, 0)
+
+    @property
     def qpos(self) -> NDArray[np.float64]:
         """(nq,) positions of everything in the model, now."""
         return self._episodes.batch.qpos[0].copy()

@@ -154,6 +154,8 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         "seed": options.seed,
         "demonstrations": options.demonstrations,
         "action_names": environment.environment.action_names,
+        "action_scale": environment.environment.action_scale.tolist(),
+        "rate": environment.environment.environment.rate,
     }
     export_policy(model, out / "policy.onnx", about)
     environment.close()

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import atexit
+import threading
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -38,6 +40,7 @@ class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the pa
 
     def __init__(self, model: mujoco.MjModel, height: int, width: int) -> None:
         super().__init__(model, height, width)
+        self._thread = threading.get_ident()
         self._gear = RunningGear(model)
 
     def update_scene(
@@ -49,6 +52,22 @@ class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the pa
         """As MuJoCo's, then the tracks."""
         super().update_scene(data, camera, scene_option)
         self._gear.show(data, self.scene)
+
+    def render(self, *, out: NDArray[Any] | None = None) -> NDArray[Any]:
+        """As MuJoCo's.
+
+        Raises:
+            RendererError: it was made in another thread, and this OpenGL draws in that one alone.
+        """
+        try:
+            return super().render(out=out)
+        except Exception as error:  # each OpenGL has its own
+            if threading.get_ident() == self._thread:
+                raise
+            raise RendererError(
+                "pictures are drawn by the thread that drew the first one; make the environment or "
+                "the simulation, and reset it, in the thread that steps it"
+            ) from error
 
     def close(self) -> None:
         """Gives back what it has, in its own context: in another one these would be another's."""

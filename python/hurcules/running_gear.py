@@ -103,6 +103,8 @@ class RunningGear:
             scene.ngeom += 1
             mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_MESH, size, place, turn, rgba)
             geom.dataid = 2 * pad
+            # a segmentation shows it as the belt; mjv_initGeom leaves what was there
+            geom.objtype, geom.objid, geom.segid = still.objtype, still.objid, scene.ngeom - 1
             _paint_like(geom, still)
 
     def _frame(

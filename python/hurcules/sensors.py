@@ -8,7 +8,7 @@ cpp/hurcules/sim/realistic_sensors.cpp.
 from __future__ import annotations
 
 from hurcules import _core
-from hurcules._core import Robot, SensorOptions
+from hurcules._core import Error, Robot, SensorOptions
 
 __all__ = ["realistic"]
 
@@ -23,5 +23,10 @@ def realistic(robot: Robot | None = None) -> SensorOptions:
     Returns:
         SensorOptions; change what you know better, e.g.
         `options.models = options.models | {"imu_rate": hurcules.SensorModel(noise=0.01)}`.
+
+    Raises:
+        Error: it is no robot.
     """
+    if not isinstance(robot, Robot | None):
+        raise Error(f"sensors.realistic wants a Robot, or nothing; got {robot!r}")
     return _core.realistic_sensors() if robot is None else _core.realistic_sensors(robot)

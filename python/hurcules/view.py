@@ -240,7 +240,8 @@ def require_display() -> None:
     if sys.platform == "linux" and not has_display:
         raise Error(
             "the viewer needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set; remedy: "
-            "run it at a desktop or with ssh -X; without a display, hurcules run films a mission"
+            "run it at a desktop or with ssh -X; without a display, hurcules run films a mission, "
+            "simulation.picture() and hurcules.film(simulation, ...) draw one of your own"
         )
     import glfw
 

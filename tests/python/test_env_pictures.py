@@ -10,13 +10,16 @@ import sys
 from pathlib import Path
 
 import gymnasium as gym
+import mujoco
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from hurcules import cameras
 from hurcules.doctor import render_with
+from hurcules.rendering import open_renderer
 from hurcules_envs.episode_data import Episode
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, write
@@ -171,3 +174,65 @@ def test_a_native_vector_draws_what_the_single_ones_do() -> None:
     vector.close()
     with pytest.raises(hurcules.Error, match="render mode 'human' does not exist"):
         gym.make_vec("Hurcules/Reach-v0", num_envs=2, render_mode="human")
+
+
+def test_what_is_pictured_can_be_drawn_as_depth_and_segmentation() -> None:
+    """The model of the physics has no visual parts and no lights: its depth is another one."""
+    env = gym.make("Hurcules/Reach-v0", fidelity="kinematic", cameras=CAMERAS, camera_size=(64, 48))
+    with pytest.raises(gym.error.ResetNeeded):
+        _ = env.unwrapped.pictured
+    env.reset(seed=0)
+    for _ in range(10):
+        seen, *_ = env.step(np.full(6, 0.5, np.float32))
+    model, data = env.unwrapped.pictured
+    with open_renderer(model, 64, 48) as renderer:
+        renderer.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
+        renderer.update_scene(data, "head_wide")
+        assert np.array_equal(renderer.render(), seen["head_wide"])
+        renderer.enable_segmentation_rendering()
+        renderer.update_scene(data, "head_wide")
+        kinds = renderer.render()
+    floor = kinds[..., 0] == model.geom("floor").id
+    depth = cameras.picture(model, data, "head_wide", depth=True, size=(64, 48))
+    # the rays through the pixels of the floor meet it where the depth says
+    eye, axes = data.cam("head_wide").xpos, data.cam("head_wide").xmat.reshape(3, 3)
+    field = np.tan(np.radians(model.cam("head_wide").fovy[0]) / 2)
+    y, x = np.nonzero(floor)
+    across, up = (x + 0.5 - 32) / 24 * field, -(y + 0.5 - 24) / 24 * field
+    ways = np.stack([across, up, -np.ones(len(x))], axis=1) @ axes.T
+    near = depth[y, x] < 5.0
+    assert near.sum() > 500
+    heights = (eye + depth[y, x, None] * ways)[near, 2]
+    assert np.abs(heights - heights[0]).max() < 0.02
+    env.close()
+
+
+@pytest.mark.skipif(bool(render_with("egl")), reason="EGL does not draw here")
+def test_another_thread_is_told_who_draws(tmp_path: Path) -> None:
+    """It got `EGLError(err=EGL_BAD_ACCESS, ...)`."""
+    program = (
+        "from concurrent.futures import ThreadPoolExecutor\n"
+        "import gymnasium, hurcules_envs, numpy\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', fidelity='kinematic', cameras=['auxiliary'])\n"
+        "env.reset(seed=0)\n"
+        "step = lambda: env.step(numpy.zeros(6, 'float32'))[0]['auxiliary'].shape\n"
+        "with ThreadPoolExecutor(1) as pool:\n"
+        "    try:\n"
+        "        pool.submit(step).result()\n"
+        "    except Exception as error:\n"
+        "        print(type(error).__name__, error)\n"
+        "print(step())\n"
+        "env.close()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=tmp_path,
+        env=os.environ | {"MUJOCO_GL": "egl"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    told, shape = done.stdout.splitlines()
+    assert told.startswith("RendererError pictures are drawn by the thread that drew the first one")
+    assert shape == "(96, 128, 3)"

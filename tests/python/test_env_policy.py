@@ -207,3 +207,26 @@ def test_networks_of_another_runtime_take_rows_as_they_were_exported(tmp_path, r
 def test_a_file_is_judged_by_its_name(tmp_path: Path) -> None:
     path = linear(tmp_path / "a.onnx", gain=8.0)
     assert evaluate(path, "Reach-v0", 2, fidelity="kinematic").success == 1.0
+
+
+def test_a_policy_says_what_it_wants_and_got(tmp_path: Path) -> None:
+    """A key that lacks was a KeyError, a shape numpy's ValueError, a list a TypeError."""
+    policy = Policy(linear(tmp_path / "a.onnx"))
+    assert repr(policy) == (
+        "Policy(Hurcules/Reach-v0: desired_goal (6), achieved_goal (6) to action (6))"
+    )
+    good = {"desired_goal": [0.1] * 6, "achieved_goal": np.zeros(6)}
+    assert np.allclose(policy.one(good), np.tanh(0.3))
+    for change, said in (
+        ({"achieved_goal": np.zeros(3)}, "wanted 6 numbers in 'achieved_goal', got 3"),
+        ({"achieved_goal": np.full(6, np.nan)}, "the numbers in 'achieved_goal' are not finite"),
+        ({"achieved_goal": "here"}, "wanted an array of numbers in 'achieved_goal', got 'here'"),
+    ):
+        with pytest.raises(hurcules.Error, match=said):
+            policy.one(good | change)
+    with pytest.raises(hurcules.Error, match="not there: desired_goal"):
+        policy.one({"achieved_goal": np.zeros(6)})
+    with pytest.raises(hurcules.Error, match=r"a dictionary of desired_goal, .* got one ndarray"):
+        policy.one(np.zeros(12))
+    with pytest.raises(hurcules.Error, match="as many rows in each input"):
+        policy({"desired_goal": np.zeros((3, 6)), "achieved_goal": np.zeros((2, 6))})

@@ -4,6 +4,7 @@ Strategy: a few hundred steps without physics. Whether a policy learns is measur
 docs/environments.md.
 """
 
+import json
 import signal
 from pathlib import Path
 
@@ -36,7 +37,9 @@ def test_a_signal_leaves_a_policy_and_the_next_call_goes_on(tmp_path: Path, numb
     with pytest.raises(KeyboardInterrupt):
         training.train(options(tmp_path, 256), stop)
     assert done[-1] == 40
-    assert Policy(tmp_path).environment == "Hurcules/Reach-v0"
+    about = Policy(tmp_path).metadata
+    assert about["environment"] == "Hurcules/Reach-v0"
+    assert json.loads(about["action_scale"]) == [0.3] * 6 and float(about["rate"]) == 20.0
     training.train(options(tmp_path, 256), lambda steps, share: done.append(steps))
     assert done[10] == 44 and done[-1] >= 256
 

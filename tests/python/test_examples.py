@@ -125,6 +125,12 @@ def wipes(said: str) -> None:
     assert leaves == 0.0 and "leaves Free" in said
 
 
+def follows_a_policy(said: str) -> None:
+    silent, there, sagged, again = numbers(r"(\S+) mm", said)
+    assert silent < 10.0 and there < 3.0 and again < 3.0
+    assert sagged > 300.0
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -145,6 +151,7 @@ RESULTS = {
     "16": walks,
     "17": rolls,
     "18": wipes,
+    "19": follows_a_policy,
 }
 
 

@@ -111,3 +111,22 @@ def test_a_full_scene_takes_no_more_pads(robot):
     )
     gear.show(data, scene)
     assert scene.ngeom == scene.maxgeom
+
+
+def test_a_segmentation_has_a_number_for_each_pad(robot) -> None:
+    """They had what their memory held: an IndexError of MuJoCo's renderer, now and then."""
+    model, data, gear = robot
+    mujoco.mj_forward(model, data)
+    scene, everything = mujoco.MjvScene(model, 2000), mujoco.mjtCatBit.mjCAT_ALL
+    for geom in scene.geoms:
+        geom.segid = -12345
+    mujoco.mjv_updateScene(
+        model, data, mujoco.MjvOption(), None, mujoco.MjvCamera(), everything, scene
+    )
+    before = scene.ngeom
+    gear.show(data, scene)
+    pads = scene.geoms[before : scene.ngeom]
+    assert [geom.segid for geom in pads] == list(range(before, scene.ngeom))
+    bodies = {model.body(model.geom_bodyid[geom.objid]).name for geom in pads}
+    assert len(bodies) == 4
+    assert {geom.objtype for geom in pads} == {mujoco.mjtObj.mjOBJ_GEOM}

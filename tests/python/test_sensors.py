@@ -159,3 +159,8 @@ def test_a_run_that_loses_an_encoder_says_so(
     assert summary["reason"] == "held since 0.100 s: encoder_position/LEB is not a number"
     assert summary["simulated_seconds"] == pytest.approx(0.3)
     assert summary["figures"]["static_margin_m"] > 0
+
+
+def test_typical_sensors_want_a_robot() -> None:
+    with pytest.raises(hurcules.Error, match="wants a Robot, or nothing; got 'stretch'"):
+        hurcules.sensors.realistic("stretch")  # type: ignore[arg-type]

@@ -439,3 +439,23 @@ def test_errors_of_tasks_that_stacks_share_are_in_their_own_columns() -> None:
     names = ["task_error/x/0", "task_error/z/0"]
     along, up = simulation.read(hurcules.Quantities(simulation, names))
     assert abs(along) > 0.3 and abs(up) < 0.05
+
+
+def test_drives_with_servos_of_their_own_do_not_lead_the_reference_astray() -> None:
+    """Without torque scaling: with it their sag counted as a load (docs/loop.md)."""
+    model = mujoco.MjModel.from_xml_string(
+        ARM.replace("<motor ", '<position kp="1500" dampratio="1" ')
+    )
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=PLANE)
+    levels, channels = [tip, hurcules.PostureTask("posture", robot)], twist(tip)
+    controller = hurcules.WholeBodyController(robot, levels, channels, torque_scaling=False)
+    data = mujoco.MjData(model)
+    data.qpos[:] = robot.qpos
+    start = controller.plan.position("tip")
+    for tick in range(3000):
+        controller.tick(data.qpos, data.qvel, {"tip": [-0.1, 0.1]} if tick < 500 else None)
+        data.ctrl[:3] = controller.q_des
+        mujoco.mj_step(model, data)
+    assert np.allclose(controller.plan.position("tip") - start, [-0.1, 0.0, 0.1], atol=1e-4)
