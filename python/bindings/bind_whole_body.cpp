@@ -125,7 +125,8 @@ Args:
   feed_forward: servos are told the torques that the model says.
   decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
     `servo` is not given, and no wheel is driven.
-  torque_scaling: the motion slows down where a motor would be asked for more than its peak.
+  torque_scaling: the motion slows down where a motor would be asked for more than its peak. False
+    where drives with servos of their own follow q_des: their sag would be taken for a load.
   drive: DriveOptions of a robot on tracks; needed for a Drive channel.
   belts: names of the left and right joint of the driven belts.
   velocity: VelocityControllerOptions; its dt is not read.

@@ -164,3 +164,43 @@ def test_a_run_that_loses_an_encoder_says_so(
 def test_typical_sensors_want_a_robot() -> None:
     with pytest.raises(hurcules.Error, match="wants a Robot, or nothing; got 'stretch'"):
         hurcules.sensors.realistic("stretch")  # type: ignore[arg-type]
+
+
+def side_by_side() -> hurcules.Simulation:
+    """Two arms of three joints that stand in the world for themselves, towards each other."""
+    link = (
+        '<body name="{s}{i}" pos="{x} 0 {z}"><joint name="{s}j{i}" axis="0 1 0" range="-180 180"/>'
+        '<geom type="capsule" size="0.03" fromto="0 0 0 0 0 0.3" mass="1"/>'
+    )
+    arms = "".join(
+        "".join(link.format(s=s, i=i, x=x if i == 0 else 0, z=0.3 if i else 0) for i in range(3))
+        + "</body>" * 3
+        for s, x in (("L", -0.3), ("R", 0.3))
+    )
+    motors = "".join(f'<motor joint="{s}j{i}"/>' for s in "LR" for i in range(3))
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody>{arms}</worldbody><actuator>{motors}</actuator></mujoco>"
+    )
+    robot = hurcules.Robot(model)
+    posture = hurcules.PostureTask("posture", robot)
+    channels = {"lead": hurcules.Twist(posture, 1.0)}
+    controller = hurcules.WholeBodyController(robot, [posture], channels)
+    sensors = hurcules.sensors.realistic(robot)
+    return hurcules.Simulation(model=model, controller=controller, sensors=sensors)
+
+
+def test_all_trees_of_a_robot_have_sensors_and_are_watched() -> None:
+    simulation = side_by_side()
+    joints = [f"{s}j{i}" for s in "LR" for i in range(3)]
+    assert simulation.sensor_entries()["encoder_position"] == ("rad", joints)
+    pairs = {
+        frozenset(geom.split()[-1] for geom in pair) for pair in simulation.self_collision_pairs()
+    }
+    assert frozenset("25") in pairs  # both last links
+    contacts = hurcules.Quantities(simulation, ["self_contacts"])
+    batch = hurcules.SimulationBatch(simulation, 1)
+    touched = 0
+    for _ in range(60):  # they lean towards each other
+        batch.step_and_read(20, contacts, [[1.0, 0.0, 0.0, -1.0, 0.0, 0.0]])
+        touched = max(touched, int(batch.read(contacts)[0, 0]))
+    assert touched >= 1

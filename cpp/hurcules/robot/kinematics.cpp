@@ -164,7 +164,7 @@ Vector3 Robot::com_drift() const {
 }
 
 double Robot::mass() const {
-  return model_->body_subtreemass[tree_];
+  return model_->body_subtreemass[root_body()];
 }
 
 double Robot::weight() const {
@@ -221,7 +221,7 @@ void Robot::inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torqu
     qacc[closures_->dof(f)] += closures_->drift()[f];
   if (support_ >= 0 && screws().moving()) {
     // what the root accelerates with when the coordinates do not
-    const Frame root{mjOBJ_BODY, tree_};
+    const Frame root{mjOBJ_BODY, root_body()};
     qacc.segment<3>(root_dof_) += position_drift(root);
     qacc.segment<3>(root_dof_ + 3) += orientation(root).transpose() * rotation_drift(root);
   }

@@ -104,8 +104,9 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   inertia_ = Matrix::Zero(m.nv, m.nv);
   column_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);
-  if (size() > 0) tree_ = m.body_rootid[m.jnt_bodyid[coordinates_[0].joints[0].joint]];
-  const int joint = m.body_jntnum[tree_] > 0 ? m.body_jntadr[tree_] : -1;
+  find_trees();
+  const int root = root_body();
+  const int joint = m.body_jntnum[root] > 0 ? m.body_jntadr[root] : -1;
   if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
     root_qpos_ = m.jnt_qposadr[joint];
     root_dof_ = m.jnt_dofadr[joint];
@@ -116,12 +117,22 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
 
 Robot::~Robot() = default;
 
+void Robot::find_trees() {
+  if (size() > 0) trees_.clear();
+  for (const Coordinate& coordinate : coordinates_) {
+    for (const DrivenJoint& joint : coordinate.joints) {
+      const int root = model_->body_rootid[model_->jnt_bodyid[joint.joint]];
+      if (std::find(trees_.begin(), trees_.end(), root) == trees_.end()) trees_.push_back(root);
+    }
+  }
+}
+
 double Robot::timestep() const {
   return model_->opt.timestep;
 }
 
 Frame Robot::support() const {
-  return {mjOBJ_BODY, support_ < 0 ? tree_ : support_};
+  return {mjOBJ_BODY, support_ < 0 ? root_body() : support_};
 }
 
 std::string Robot::support_name() const {
@@ -256,7 +267,7 @@ void Robot::stand_on(Frame frame) {
   const char* const text = mj_id2name(&m, mjOBJ_BODY, frame.id);
   const std::string body = text ? text : "";
   const int root = m.body_rootid[frame.id];
-  require(size() > 0 && root == tree_,
+  require(size() > 0 && root == root_body(),
           "'" + body + "' belongs to another tree than the coordinates");
   require(!floating_, "a robot whose root is a coordinate stands by its contacts (ContactTask); '" +
                           body + "' cannot hold it");
@@ -284,7 +295,7 @@ void Robot::note_support() {
 
 void Robot::keep_support() {
   if (support_ < 0) return;
-  const Skeleton::Pose RS = Skeleton::between(*model_, tree_, support_, qpos_.data());
+  const Skeleton::Pose RS = Skeleton::between(*model_, root_body(), support_, qpos_.data());
   const Matrix3 R = R_WS_ * RS.R.transpose();
   const Eigen::Quaterniond turn(R);
   qpos_.segment<3>(root_qpos_) = p_WS_ - R * RS.p;
@@ -303,8 +314,8 @@ void Robot::find_rotations() {
 }
 
 void Robot::find_screws() {
-  screws_ = std::make_unique<Screws>(*model_, coordinates_, closures_.get(), tree_, support_);
-  momentum_ = std::make_unique<Momentum>(*model_, tree_, screws_->skeleton());
+  screws_ = std::make_unique<Screws>(*model_, coordinates_, closures_.get(), root_body(), support_);
+  momentum_ = std::make_unique<Momentum>(*model_, root_body(), screws_->skeleton());
 }
 
 void Robot::read_qpos() {

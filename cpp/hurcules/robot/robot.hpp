@@ -118,7 +118,9 @@ class Robot {
   // the free joint at the root of the coordinates' tree: its addresses in qpos and qvel, -1 without
   [[nodiscard]] int root_qpos() const { return root_qpos_; }
   [[nodiscard]] int root_dof() const { return root_dof_; }
-  [[nodiscard]] int root_body() const { return tree_; }  // of the coordinates' tree
+  [[nodiscard]] int root_body() const { return trees_.front(); }  // of the first coordinate's tree
+  // of all trees in which coordinates lie, that one first
+  [[nodiscard]] const std::vector<int>& root_bodies() const { return trees_; }
   // the body that stands where it is: that of stand_on, else the root
   [[nodiscard]] Frame support() const;
   [[nodiscard]] std::string support_name() const;  // that of stand_on, "" for the root
@@ -218,6 +220,7 @@ class Robot {
   [[nodiscard]] mjData_& geom_poses() const { return *data_; }
 
  private:
+  void find_trees();
   void find_rotations();
   void find_screws();   // where another body comes to stand
   void read_qpos();     // all of it, after a change
@@ -246,9 +249,9 @@ class Robot {
   std::vector<Coordinate> coordinates_;
   std::vector<RotationVector> rotations_;
   Vector q_, v_, qpos_;
-  Vector dry_friction_, change_;  // (n), the latter scratch
-  int tree_ = 0;                  // body at the root of the tree that holds the first coordinate
-  int support_ = -1;              // body that stands, -1 for the root
+  Vector dry_friction_, change_;        // (n), the latter scratch
+  std::vector<int> trees_ = {0};        // bodies at the roots of the coordinates' trees
+  int support_ = -1;                    // body that stands, -1 for the root
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
   bool floating_ = false;
   Vector3 p_WS_ = Vector3::Zero();  // [m] where the support stands

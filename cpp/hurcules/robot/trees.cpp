@@ -35,15 +35,12 @@ std::vector<bool> joints_of_coordinates(const Robot& robot) {
   return found;
 }
 
+bool in_trees(const mjModel& m, int body, const std::vector<int>& roots) {
+  return std::find(roots.begin(), roots.end(), m.body_rootid[body]) != roots.end();
+}
+
 bool in_own_tree(const Robot& robot, int body) {
-  const mjModel& m = *robot.model();
-  const std::vector<Coordinate>& all = robot.coordinates();
-  return std::any_of(all.begin(), all.end(), [&](const Coordinate& coordinate) {
-    const std::vector<DrivenJoint>& joints = coordinate.joints;
-    return std::any_of(joints.begin(), joints.end(), [&](const DrivenJoint& joint) {
-      return m.body_rootid[m.jnt_bodyid[joint.joint]] == m.body_rootid[body];
-    });
-  });
+  return in_trees(*robot.model(), body, robot.root_bodies());
 }
 
 bool may_move(const mjModel& m, int body) {

@@ -12,6 +12,8 @@ namespace hurcules {
 [[nodiscard]] int body_of(const mjModel_& model, Frame frame);  // that carries it
 // (njnt) whether some coordinate has that joint
 [[nodiscard]] std::vector<bool> joints_of_coordinates(const Robot& robot);
+// whether a body lies in a tree with one of these roots
+[[nodiscard]] bool in_trees(const mjModel_& model, int body, const std::vector<int>& roots);
 [[nodiscard]] bool in_own_tree(const Robot& robot, int body);
 // it, or a body below it, has a joint or is moved by mocap
 [[nodiscard]] bool may_move(const mjModel_& model, int body);

@@ -34,12 +34,12 @@ const std::vector<std::string>& Monitors::names() {
   return names;
 }
 
-Monitors::Monitors(const mjModel_* m, int robot_root, const MotorLosses& losses,
-                   const MonitorOptions& options)
+Monitors::Monitors(const mjModel_* m, const std::vector<int>& robot_roots,
+                   const MotorLosses& losses, const MonitorOptions& options)
     : options_(options),
-      stands_(is_free(m, robot_root)),
-      distance_(m, robot_root, options.distance),
-      support_(m, robot_root),
+      stands_(is_free(m, robot_roots.front())),
+      distance_(m, robot_roots, options.distance),
+      support_(m, robot_roots.front()),
       windings_(m, losses, options.windings),
       dt_(m->opt.timestep),
       threshold_(thresholds()),

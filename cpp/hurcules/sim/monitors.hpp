@@ -48,7 +48,7 @@ class Monitors {
   [[nodiscard]] static bool falls(Index quantity) { return quantity <= Energy; }
 
   // throws Error for options out of range
-  Monitors(const mjModel_* model, int robot_root, const MotorLosses& losses,
+  Monitors(const mjModel_* model, const std::vector<int>& robot_roots, const MotorLosses& losses,
            const MonitorOptions& options = {});
   // null: nothing is known until the first look
   void reset(const mjModel_* model = nullptr, mjData_* data = nullptr);

@@ -8,6 +8,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/control/tasks.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -63,13 +64,13 @@ double force_below(const mjModel* m, const mjData* d, int body) {
   return sum;
 }
 
-int self_contacts(const mjModel* m, const mjData* d, int root) {
+int self_contacts(const mjModel* m, const mjData* d, const std::vector<int>& roots) {
   int count = 0;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.geom[0] < 0 || contact.geom[1] < 0 || contact.dist > 0.0) continue;
-    const bool own = m->body_rootid[m->geom_bodyid[contact.geom[0]]] == root &&
-                     m->body_rootid[m->geom_bodyid[contact.geom[1]]] == root;
+    const bool own = in_trees(*m, m->geom_bodyid[contact.geom[0]], roots) &&
+                     in_trees(*m, m->geom_bodyid[contact.geom[1]], roots);
     count += own ? 1 : 0;
   }
   return count;
@@ -257,7 +258,7 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       out[0] = force_below(m, d, static_cast<int>(quantity.places.front()));
       return;
     case Kind::SelfContacts:
-      out[0] = self_contacts(m, d, world.root_body());
+      out[0] = self_contacts(m, d, world.root_bodies());
       return;
     case Kind::Scaled:
       out[0] = simulation.controller().scaled() ? 1.0 : 0.0;

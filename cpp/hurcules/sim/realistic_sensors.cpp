@@ -55,7 +55,8 @@ SensorOptions realistic_sensors(const Robot& robot) {
   SensorOptions options = realistic_sensors();
   const mjModel* const model = robot.model().get();
   std::set<std::string> there;
-  for (const SensorSetup& setup : find_sensors(model, robot.root_body())) there.insert(setup.name);
+  for (const SensorSetup& setup : find_sensors(model, robot.root_bodies()))
+    there.insert(setup.name);
   std::erase_if(options.models, [&](const auto& named) { return !there.contains(named.first); });
   if (mj_name2id(model, mjOBJ_SITE, options.range.site.c_str()) < 0) options.range.rays = 0;
   return options;

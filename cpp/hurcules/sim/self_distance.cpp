@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/geom_bounds.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -47,7 +48,8 @@ std::string name_of(const mjModel* m, int geom) {
 
 }  // namespace
 
-SelfDistance::SelfDistance(const mjModel* m, int root, const SelfDistanceOptions& options)
+SelfDistance::SelfDistance(const mjModel* m, const std::vector<int>& roots,
+                           const SelfDistanceOptions& options)
     : options_(options) {
   require(options_.joints >= 1, "self-collision: joints wants a number >= 1");
   require(std::isfinite(options_.near) && options_.near >= 0.0,
@@ -58,9 +60,9 @@ SelfDistance::SelfDistance(const mjModel* m, int root, const SelfDistanceOptions
   require(data != nullptr, "MuJoCo has no memory for this model");
   mj_kinematics(m, data.get());
   for (int a = 0; a < m->ngeom; ++a) {
-    if (m->body_rootid[m->geom_bodyid[a]] != root) continue;
+    if (!in_trees(*m, m->geom_bodyid[a], roots)) continue;
     for (int b = a + 1; b < m->ngeom; ++b) {
-      if (m->body_rootid[m->geom_bodyid[b]] != root || !collides(m, a, b)) continue;
+      if (!in_trees(*m, m->geom_bodyid[b], roots) || !collides(m, a, b)) continue;
       const int joints = joints_between(m, m->geom_bodyid[a], m->geom_bodyid[b]);
       const auto is_near = [&] {
         return mj_geomDistance(m, data.get(), a, b, 2.0 * options_.near, nullptr) < options_.near;

@@ -29,7 +29,8 @@ struct SelfDistanceOptions {
 class SelfDistance {
  public:
   // throws Error for options out of range
-  SelfDistance(const mjModel_* model, int robot_root, const SelfDistanceOptions& options = {});
+  SelfDistance(const mjModel_* model, const std::vector<int>& robot_roots,
+               const SelfDistanceOptions& options = {});
   // after a step: of the posture at its beginning. [m], negative where shapes meet
   double measure(const mjModel_* model, mjData_* data);
 

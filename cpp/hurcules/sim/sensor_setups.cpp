@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "hurcules/robot/trees.hpp"
+
 namespace hurcules {
 
 namespace {
@@ -30,9 +32,9 @@ void add_axes(SensorSetup& setup, const std::string& name, Array array, int addr
   }
 }
 
-SensorSetup encoders(const mjModel* m, int root, bool speed) {
+SensorSetup encoders(const mjModel* m, const std::vector<int>& roots, bool speed) {
   SensorSetup setup{speed ? kEncoderSpeed : kEncoderPosition, speed ? "rad/s" : "rad", {}, {}};
-  for (const int joint : encoder_joints(m, root)) {
+  for (const int joint : encoder_joints(m, roots)) {
     const SensorSource source = speed ? SensorSource{Array::Velocity, m->jnt_dofadr[joint], 1.0}
                                       : SensorSource{Array::Position, m->jnt_qposadr[joint], 1.0};
     add(setup, name_of(m, mjOBJ_JOINT, joint), source);
@@ -56,14 +58,14 @@ int body_of(const mjModel* m, int sensor) {
   }
 }
 
-bool is_on(const mjModel* m, int sensor, int root) {
+bool is_on(const mjModel* m, int sensor, const std::vector<int>& roots) {
   const int body = body_of(m, sensor);
-  return body >= 0 && m->body_rootid[body] == root;
+  return body >= 0 && in_trees(*m, body, roots);
 }
 
-SensorSetup inertial(const mjModel* m, int root, int type, SensorSetup setup) {
+SensorSetup inertial(const mjModel* m, const std::vector<int>& roots, int type, SensorSetup setup) {
   for (int s = 0; s < m->nsensor; ++s) {
-    if (m->sensor_type[s] != type || !is_on(m, s, root)) continue;
+    if (m->sensor_type[s] != type || !is_on(m, s, roots)) continue;
     if (!name_of(m, mjOBJ_SENSOR, s).ends_with(setup.name)) continue;
     add_axes(setup, "", Array::Sensor, m->sensor_adr[s]);
     break;
@@ -71,11 +73,11 @@ SensorSetup inertial(const mjModel* m, int root, int type, SensorSetup setup) {
   return setup;
 }
 
-SensorSetup loads(const mjModel* m, int root) {
+SensorSetup loads(const mjModel* m, const std::vector<int>& roots) {
   SensorSetup setup{"load", "N", {}, {}};
   for (int s = 0; s < m->nsensor; ++s) {
     const int data = m->sensor_intprm[s * mjNSENS];
-    if (m->sensor_type[s] != mjSENS_CONTACT || !is_on(m, s, root)) continue;
+    if (m->sensor_type[s] != mjSENS_CONTACT || !is_on(m, s, roots)) continue;
     if (!(data & (1 << mjCONDATA_FORCE)) || m->sensor_intprm[s * mjNSENS + 2] != 1) continue;
     const int skipped = data & (1 << mjCONDATA_FOUND) ? 1 : 0;
     add_axes(setup, name_of(m, mjOBJ_SENSOR, s), Array::Sensor, m->sensor_adr[s] + skipped);
@@ -95,7 +97,7 @@ double track_radius(const mjModel* m, int tuple) {
   return cylinder;
 }
 
-SensorSetup track_speeds(const mjModel* m, int root) {
+SensorSetup track_speeds(const mjModel* m, const std::vector<int>& roots) {
   SensorSetup setup{"track_speed", "m/s", {}, {}};
   for (int tuple = 0; tuple < m->ntuple; ++tuple) {
     const std::string name = name_of(m, mjOBJ_TUPLE, tuple);
@@ -103,7 +105,7 @@ SensorSetup track_speeds(const mjModel* m, int root) {
     const int first = m->tuple_adr[tuple];
     if (at == std::string::npos || m->tuple_objtype[first] != mjOBJ_JOINT) continue;
     const int joint = m->tuple_objid[first];
-    if (m->body_rootid[m->jnt_bodyid[joint]] != root) continue;
+    if (!in_trees(*m, m->jnt_bodyid[joint], roots)) continue;
     add(setup, name.substr(at + 6),
         {Array::Velocity, m->jnt_dofadr[joint], track_radius(m, tuple)});
   }
@@ -130,27 +132,26 @@ void add_pose(const mjModel* m, int root, std::vector<SensorSetup>& setups) {
 
 }  // namespace
 
-std::vector<int> encoder_joints(const mjModel* m, int robot_root) {
+std::vector<int> encoder_joints(const mjModel* m, const std::vector<int>& roots) {
   std::vector<int> joints;
   for (int a = 0; a < m->nu; ++a) {
     const int joint = m->actuator_trnid[2 * a];
     if (m->actuator_trntype[a] != mjTRN_JOINT || m->jnt_type[joint] < mjJNT_SLIDE) continue;
-    if (m->body_rootid[m->jnt_bodyid[joint]] != robot_root) continue;
+    if (!in_trees(*m, m->jnt_bodyid[joint], roots)) continue;
     if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
   }
   return joints;
 }
 
-std::vector<SensorSetup> find_sensors(const mjModel* m, int robot_root) {
+std::vector<SensorSetup> find_sensors(const mjModel* m, const std::vector<int>& roots) {
   std::vector<SensorSetup> setups;
-  setups.push_back(encoders(m, robot_root, false));
-  setups.push_back(encoders(m, robot_root, true));
-  setups.push_back(
-      inertial(m, robot_root, mjSENS_ACCELEROMETER, {"imu_acceleration", "m/s^2", {}, {}}));
-  setups.push_back(inertial(m, robot_root, mjSENS_GYRO, {"imu_rate", "rad/s", {}, {}}));
-  setups.push_back(loads(m, robot_root));
-  setups.push_back(track_speeds(m, robot_root));
-  add_pose(m, robot_root, setups);
+  setups.push_back(encoders(m, roots, false));
+  setups.push_back(encoders(m, roots, true));
+  setups.push_back(inertial(m, roots, mjSENS_ACCELEROMETER, {"imu_acceleration", "m/s^2", {}, {}}));
+  setups.push_back(inertial(m, roots, mjSENS_GYRO, {"imu_rate", "rad/s", {}, {}}));
+  setups.push_back(loads(m, roots));
+  setups.push_back(track_speeds(m, roots));
+  add_pose(m, roots.front(), setups);
   std::erase_if(setups, [](const SensorSetup& setup) { return setup.sources.empty(); });
   return setups;
 }

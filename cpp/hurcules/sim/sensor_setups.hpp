@@ -26,9 +26,11 @@ inline constexpr const char* kEncoderPosition = "encoder_position";
 inline constexpr const char* kEncoderSpeed = "encoder_speed";
 inline constexpr const char* kPoseRotation = "pose_rotation";
 
-// those that the model has, of the robot whose tree begins at this body
-[[nodiscard]] std::vector<SensorSetup> find_sensors(const mjModel_* model, int robot_root);
+// those that the model has, of the robot whose trees begin at these bodies; its pose is the first's
+[[nodiscard]] std::vector<SensorSetup> find_sensors(const mjModel_* model,
+                                                    const std::vector<int>& robot_roots);
 // joint ids in the order of the encoders' entries
-[[nodiscard]] std::vector<int> encoder_joints(const mjModel_* model, int robot_root);
+[[nodiscard]] std::vector<int> encoder_joints(const mjModel_* model,
+                                              const std::vector<int>& robot_roots);
 
 }  // namespace hurcules

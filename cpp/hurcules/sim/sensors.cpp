@@ -17,9 +17,9 @@ namespace {
 // apart from one sensor to the next, and from the seed that varies the scene
 constexpr std::uint64_t kStream = 0x9e3779b97f4a7c15ULL;
 
-std::vector<EncoderReference> references_of(const Robot& robot, int root) {
+std::vector<EncoderReference> references_of(const Robot& robot) {
   std::vector<EncoderReference> references;
-  for (const int joint : encoder_joints(robot.model().get(), root)) {
+  for (const int joint : encoder_joints(robot.model().get(), robot.root_bodies())) {
     EncoderReference reference;
     for (Index i = 0; i < robot.size(); ++i) {
       for (const DrivenJoint& driven : robot.coordinates()[static_cast<std::size_t>(i)].joints) {
@@ -37,14 +37,14 @@ bool is_state(const SensorSetup& setup) {
 
 }  // namespace
 
-Sensors::Sensors(const Robot& robot, int root, const SensorOptions& options)
+Sensors::Sensors(const Robot& robot, const SensorOptions& options)
     : options_(options),
       range_(robot.model().get(), options.range),
-      monitor_(references_of(robot, root), robot.model()->opt.timestep, options.monitor) {
+      monitor_(references_of(robot), robot.model()->opt.timestep, options.monitor) {
   require(
       std::isfinite(options_.hold_seconds) && options_.hold_seconds >= 0.0,
       "sensors: hold_seconds wants a number >= 0, " + number_text(options_.hold_seconds) + " came");
-  for (SensorSetup& setup : find_sensors(robot.model().get(), root)) {
+  for (SensorSetup& setup : find_sensors(robot.model().get(), robot.root_bodies())) {
     const auto found = options_.models.find(setup.name);
     const SensorModel model = found == options_.models.end() ? SensorModel{} : found->second;
     sensors_.emplace_back(std::move(setup), model, robot.model()->opt.timestep);

@@ -43,7 +43,7 @@ class Sensors {
  public:
   // of the robot whose coordinates `robot` has. Throws Error for a sensor or an entry that does not
   // exist, and numbers out of range.
-  Sensors(const Robot& robot, int robot_root, const SensorOptions& options);
+  Sensors(const Robot& robot, const SensorOptions& options);
   // readings start as the truth; draws biases
   void reset(const mjData_* data, std::uint64_t seed);
   // after a step; time [s] at its end

@@ -47,7 +47,7 @@ struct World {
 
 TEST(SelfDistance, MeasuresWhatIsFarEnoughAlongTheChain) {
   const World world(load_model_text(kChain));
-  SelfDistance three(world.model.get(), 1), two(world.model.get(), 1, {.joints = 2});
+  SelfDistance three(world.model.get(), {1}), two(world.model.get(), {1}, {.joints = 2});
   const std::vector<std::pair<std::string, std::string>> ends = {{"a", "d"}};
   EXPECT_EQ(three.names(world.model.get()), ends);  // neither floor nor what touches nothing
   EXPECT_EQ(two.pairs(), 3);
@@ -62,10 +62,10 @@ TEST(SelfDistance, MeasuresWhatIsFarEnoughAlongTheChain) {
 
 TEST(SelfDistance, TheNearestOneLookedAtFirstChangesNothing) {
   const World world(load_model_text(kChain));
-  SelfDistance kept(world.model.get(), 1, {.joints = 2, .near = 0.05, .cutoff = 9.0});
+  SelfDistance kept(world.model.get(), {1}, {.joints = 2, .near = 0.05, .cutoff = 9.0});
   for (double bend = 0.0; bend < 3.0; bend += 0.1) {
     world.bend(bend, 2.0 - bend);
-    SelfDistance fresh(world.model.get(), 1, {.joints = 2, .near = 0.05, .cutoff = 9.0});
+    SelfDistance fresh(world.model.get(), {1}, {.joints = 2, .near = 0.05, .cutoff = 9.0});
     EXPECT_EQ(kept.measure(world.model.get(), world.data.get()),
               fresh.measure(world.model.get(), world.data.get()));
   }
@@ -98,7 +98,7 @@ TEST(SelfDistance, BoxesAreNeverFurtherThanTheirShapes) {
 
 TEST(SelfDistance, WatchesArmsTrunkAndLegsOfTheRobot) {
   const mjModel* const m = stretch_scene().get();
-  const SelfDistance distance(m, mj_name2id(m, mjOBJ_BODY, "upper_legs"));
+  const SelfDistance distance(m, {mj_name2id(m, mjOBJ_BODY, "upper_legs")});
   const auto names = distance.names(m);
   const auto watched = [&](const char* a, const char* b) {
     return std::any_of(names.begin(), names.end(), [&](const auto& pair) {
@@ -117,7 +117,7 @@ TEST(SelfDistance, WatchesArmsTrunkAndLegsOfTheRobot) {
 TEST(SelfDistance, RefusesWhatCannotBe) {
   const mjModel* const m = stretch_scene().get();
   const auto text = [&](const SelfDistanceOptions& options) {
-    return error_text([&] { SelfDistance(m, 1, options); });
+    return error_text([&] { SelfDistance(m, {1}, options); });
   };
   EXPECT_TRUE(contains(text({.joints = 0}), "joints wants a number >= 1"));
   EXPECT_TRUE(contains(text({.near = -1.0}), "near wants a distance >= 0"));

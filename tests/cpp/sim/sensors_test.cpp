@@ -18,15 +18,10 @@ using namespace hurcules_test;
 
 class SensorsTest : public testing::Test {
  protected:
-  SensorsTest()
-      : physics_(stretch_scene()),
-        robot_(stretch_scene()),
-        root_(mj_name2id(physics_.model(), mjOBJ_BODY, "upper_legs")) {
+  SensorsTest() : physics_(stretch_scene()), robot_(stretch_scene()) {
     physics_.reset(physics_.find_keyframe("stretch"));
   }
-  [[nodiscard]] Sensors make(const SensorOptions& options = {}) const {
-    return {robot_, root_, options};
-  }
+  [[nodiscard]] Sensors make(const SensorOptions& options = {}) const { return {robot_, options}; }
   void run(Sensors& sensors, int ticks) {
     for (int i = 0; i < ticks; ++i) {
       physics_.step();
@@ -48,7 +43,6 @@ class SensorsTest : public testing::Test {
 
   Plant physics_;
   Robot robot_;
-  int root_;
 };
 
 TEST_F(SensorsTest, AreThoseOfTheRobotAndNotOfTheCasualty) {
