@@ -660,7 +660,7 @@ class Task:
         """Makes the present value the target, at rest, and updates."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     @overload
     def set_gain(self, gain: float) -> None:
@@ -1542,7 +1542,7 @@ class JointLimits:
         """The ranges of the robot again."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
         """Narrows the ranges of all coordinates (n,); never wider than the robot's."""
@@ -1832,7 +1832,7 @@ class VelocityController:
         """At rest, cold."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def set_stack(
         self,
@@ -2032,7 +2032,7 @@ class AccelerationController:
         """At rest, cold."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def set_stack(
         self,
@@ -2178,7 +2178,7 @@ class JointPid:
         """At rest, without memory."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -2585,7 +2585,7 @@ class DriveController:
         """Stands, braked, knows nothing of the ground."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -2704,7 +2704,8 @@ class WholeBodyController:
       feed_forward: servos are told the torques that the model says.
       decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
         `servo` is not given, and no wheel is driven.
-      torque_scaling: the motion slows down where a motor would be asked for more than its peak.
+      torque_scaling: the motion slows down where a motor would be asked for more than its peak. False
+        where drives with servos of their own follow q_des: their sag would be taken for a load.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.
       belts: names of the left and right joint of the driven belts.
       velocity: VelocityControllerOptions; its dt is not read.
@@ -2751,7 +2752,10 @@ class WholeBodyController:
         Args:
           joint: name of a joint with an actuator.
           position: [rad] or [m].
-          velocity: [rad/s] or [m/s]."""
+          velocity: [rad/s] or [m/s].
+
+        Raises:
+          Error: no such joint, or a position outside its range."""
 
     def move_all(self, positions: ArrayLike, velocities: ArrayLike) -> None:
         """The same for all joints with a servo, in the order of `joints`.
@@ -2773,7 +2777,7 @@ class WholeBodyController:
           Error: another shape, or numbers that are not finite."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def sense(
         self, task: ForceTask, source: Any, row: int | None = None, sign: float | None = None
@@ -3018,7 +3022,7 @@ class Plant:
           Error: none has it, with the names that exist."""
 
     def restore(self, state: collections.abc.Sequence[float]) -> None:
-        """Goes on from what state() gave."""
+        """Goes on from what state() gave. Raises Error for a list of another length."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
