@@ -20,6 +20,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/values.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 #include "in_use.hpp"
 #include "solver_levels.hpp"
@@ -165,7 +166,9 @@ Returns:
 
 Raises:
   Error: another shape, numbers that are not finite, an unknown channel, no sensors where a force
-    task reads one; in the first tick a robot more than 0.05 rad from where the plan starts.
+    task reads one; in the first tick a robot more than 0.05 rad from where the plan starts, later a
+    joint that is elsewhere than a tick ago by more than 0.05 rad (or m) and 100 rad/s: a wrong
+    reading, or the robot was moved or not heard of for long (`reset`). Nothing has changed then.
 )";
 constexpr const char* kUse = R"(Lets another stack rule from the next tick on.
 
@@ -351,13 +354,7 @@ void sense(WholeBodyController& self, ForceTask& task, const AnyObject& source,
   }
   const auto name = source.cast<std::string>();
   const mjModel* const m = self.plan().model().get();
-  const int sensor = mj_name2id(m, mjOBJ_SENSOR, name.c_str());
-  std::vector<std::string> names;
-  for (int i = 0; i < m->nsensor; ++i) {
-    const char* const one = mj_id2name(m, mjOBJ_SENSOR, i);
-    names.emplace_back(one ? one : "");
-  }
-  if (sensor < 0) throw Error(unknown_name("sensor", name, names));
+  const int sensor = find_object(*m, mjOBJ_SENSOR, name);
   require(reads_effort(m->sensor_type[sensor]),
           "sensor '" + name +
               "' reads no force: a force task wants one of MuJoCo's force, touch, " +

@@ -2841,7 +2841,9 @@ class WholeBodyController:
 
         Raises:
           Error: another shape, numbers that are not finite, an unknown channel, no sensors where a force
-            task reads one; in the first tick a robot more than 0.05 rad from where the plan starts."""
+            task reads one; in the first tick a robot more than 0.05 rad from where the plan starts, later a
+            joint that is elsewhere than a tick ago by more than 0.05 rad (or m) and 100 rad/s: a wrong
+            reading, or the robot was moved or not heard of for long (`reset`). Nothing has changed then."""
 
     def use(self, stack: str) -> None:
         """Lets another stack rule from the next tick on.

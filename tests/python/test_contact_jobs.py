@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import hurcules
+from taring import rest_and_tare
 
 AXES = np.eye(3)
 SLIDES = "".join(
@@ -112,14 +113,7 @@ def test_a_hand_follows_a_pull_at_the_compliance(control: str) -> None:
         controller.sense(task, "H")
     simulation = hurcules.Simulation(model=model, controller=controller, record=False)
     data = simulation.data
-    for task in follows:
-        task.enable(False)
-    simulation.step(100)
-    for task in follows:
-        task.tare()
-    simulation.step(200)
-    for task in follows:
-        task.enable(True)
+    rest_and_tare(simulation, *follows)
     tool, tip = int(model.site("Htip").bodyid[0]), data.site("Htip")
     data.xfrc_applied[tool, :3] = [15.0, 0.0, -8.0]
     simulation.step(1000)
@@ -148,11 +142,7 @@ def test_a_surface_that_comes_adds_its_speed_over_the_compliance(control: str) -
     controller.sense(press, "H")
     simulation = hurcules.Simulation(model=model, controller=controller, record=False)
     data = simulation.data
-    press.enable(False)
-    simulation.step(200)
-    press.tare()
-    simulation.step(200)
-    press.enable(True)
+    rest_and_tare(simulation, press)
     simulation.step(6000, {"press": [-0.05]})
     forces = []
     for _ in range(1500):
@@ -214,14 +204,8 @@ def test_a_peg_finds_its_hole_by_two_forces_of_none_and_one_along() -> None:
     controller = hurcules.WholeBodyController(robot, [[down, *aside]], channels)
     for task in (down, *aside):
         controller.sense(task, "cell")
-        task.enable(False)
     simulation = hurcules.Simulation(model=model, controller=controller, record=False)
-    simulation.step(200)
-    for task in (down, *aside):
-        task.tare()
-    simulation.step(200)
-    for task in (down, *aside):
-        task.enable(True)
+    rest_and_tare(simulation, down, *aside)
     most = 0.0
     for _ in range(5000):
         simulation.step(1, {"down": [-0.02]})

@@ -14,6 +14,7 @@ import pytest
 
 import hurcules
 from hurcules import Error
+from taring import rest_and_tare
 
 DT = 1e-3  # [s]
 WANTED = 20.0  # [N]
@@ -234,11 +235,7 @@ def test_friction_beside_the_axis_is_no_error_of_the_force_by_torques() -> None:
     )
     controller.sense(press, "cell")
     simulation = hurcules.Simulation(model=model, controller=controller)
-    press.enable(False)
-    simulation.step(300)
-    press.tare()
-    simulation.step(102)
-    press.enable(True)
+    rest_and_tare(simulation, press)
     simulation.step(2000, {"press": [-0.02]})
     forces = []
     for _ in range(2000):  # the tool sticks, and is drawn aside ever more
@@ -264,11 +261,7 @@ def wiped(control: str, own: bool) -> tuple[hurcules.Simulation, float]:
     )
     controller.sense(press, "cell")
     simulation = hurcules.Simulation(model=model, controller=controller)
-    press.enable(False)
-    simulation.step(300)
-    press.tare()
-    simulation.step(102)
-    press.enable(True)
+    rest_and_tare(simulation, press)
     simulation.step(2000, {"press": [0.02]})
     forces, turned = [], 0.0
     for _ in range(2000):
@@ -373,11 +366,7 @@ def test_a_robot_on_feet_presses_and_its_feet_push_back() -> None:
     )
     controller.sense(press, "cell")
     simulation = hurcules.Simulation(model=model, controller=controller)
-    press.enable(False)
-    simulation.step(round(0.5 / simulation.dt))
-    press.tare()
-    simulation.step(round(0.15 / simulation.dt))
-    press.enable(True)
+    rest_and_tare(simulation, press)
     simulation.step(round(4.0 / simulation.dt), {"press": [0.03]})
     wanted = sum(controller.contact_force(leg) for leg in legs)
     assert press.contact == hurcules.ContactState.Contact

@@ -110,8 +110,8 @@ MOTORS = "".join(
 )
 
 
-@pytest.mark.parametrize("wrong", [0.3, 0.6, 2.0])
-def test_a_reading_that_was_wrong_once_dies_away(wrong: float) -> None:
+@pytest.mark.parametrize(("angle", "speed"), [(0.14, 0.0), (0.0, 10.0), (0.0, 100.0)])
+def test_a_reading_that_was_wrong_once_dies_away(angle: float, speed: float) -> None:
     model = mujoco.MjModel.from_xml_string(
         "<mujoco><compiler angle='radian'/><option timestep='0.001' integrator='implicitfast'/>"
         f"<worldbody>{ARM_7}<site name='hand' pos='0 0 0.08'/>{'</body>' * 7}</worldbody>"
@@ -127,7 +127,8 @@ def test_a_reading_that_was_wrong_once_dies_away(wrong: float) -> None:
     steps = []
     for tick in range(8000):
         before = controller.qd_des if tick else np.zeros(7)
-        data.ctrl[:] = controller.tick(data.qpos + wrong * (tick == 700), data.qvel)
+        wrong = tick == 700
+        data.ctrl[:] = controller.tick(data.qpos + angle * wrong, data.qvel + speed * wrong)
         steps.append(np.abs(controller.qd_des - before).max())
         mujoco.mj_step(model, data)
     assert max(steps[7500:]) < 1e-4  # [rad/s] from tick to tick; it was 21, for good
@@ -150,3 +151,19 @@ def test_a_state_of_another_length_is_refused() -> None:
     for wrong in ([*controller.state(), 0.0], controller.state()[:-1]):
         with pytest.raises(hurcules.Error, match=r"too long|ends early"):
             controller.restore(wrong)
+
+
+def test_a_joint_that_is_suddenly_elsewhere_is_refused_and_nothing_changes() -> None:
+    controller, data = own_loop()
+    for _ in range(3):
+        controller.tick(data.qpos, data.qvel, {"tip": [0.1, 0.0]})
+    state = controller.state()
+    for wrong in (np.rad2deg(data.qpos), data.qpos + 0.5):
+        with pytest.raises(hurcules.Error, match=r"joint 'j1' is at .*, in the tick before at"):
+            controller.tick(wrong, data.qvel, {"tip": [-0.1, 0.0]})
+    assert controller.state() == state
+    controller.tick(data.qpos + 0.05, data.qvel)
+    controller.restore(state)
+    controller.tick(data.qpos + 0.5, data.qvel)  # who restores says where it is
+    controller.reset(data.qpos)
+    controller.tick(data.qpos, data.qvel)

@@ -175,6 +175,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   growth_ = Vector::Ones(plan_.size());
   inertia_.resize(plan_.size(), plan_.size());
   delta_ = Vector::Zero(scale_.size());
+  seen_ = Vector::Zero(servo_.size());
   carrying_ = carrying_joints(plan_);
   reset(robot.qpos(), true);
 }
@@ -463,8 +464,9 @@ void WholeBodyController::tick(const Vector& qpos, const Vector& qvel, const Vec
   if (command) require_command(*command);
   require(sensors || !forces_.want_sensors(),
           "a force task reads a sensor of the model, and no sensors came");
-  if (!begun_) require_start(qpos);
+  require_near(qpos);
   begun_ = true;
+  for (Index i = 0; i < servo_.size(); ++i) seen_[i] = servo_.actuator(i).position(qpos);
   loop_ = nullptr;
   for (Index i = 0; i < servo_.size(); ++i) {
     const JointActuator& one = servo_.actuator(i);
@@ -478,14 +480,21 @@ void WholeBodyController::tick(const Vector& qpos, const Vector& qvel, const Vec
   actuate(state, ctrl);
 }
 
-// a robot that stands elsewhere than the plan would jump there
-void WholeBodyController::require_start(const Vector& qpos) const {
-  constexpr double kFar = 0.05;  // [rad] or [m]
-  for (Index i = 0; i < servo_.size() && !by_torques(); ++i) {
-    const double there = servo_.actuator(i).position(qpos), here = servo_.position()[i];
-    if (std::abs(there - here) <= kFar) continue;
-    throw Error("joint '" + servo_.actuator(i).joint + "' is at " + number_text(there) +
-                ", the plan starts at " + number_text(here) + ": reset(qpos) first");
+// A robot that stands elsewhere than the plan would jump there; one that is elsewhere than a tick ago
+// was moved, or is misread.
+void WholeBodyController::require_near(const Vector& qpos) const {
+  constexpr double kFar = 0.05, kFast = 100.0;  // [rad] or [m], a second
+  if (!begun_ && by_torques()) return;
+  const double far = begun_ ? kFar + kFast * dt() : kFar;
+  for (Index i = 0; i < servo_.size(); ++i) {
+    const double there = servo_.actuator(i).position(qpos);
+    const double here = begun_ ? seen_[i] : servo_.position()[i];
+    if (!(std::abs(there - here) > far)) continue;
+    std::string text = "joint '" + servo_.actuator(i).joint + "' is at " + number_text(there);
+    text += begun_ ? ", in the tick before at " : ", the plan starts at ";
+    text += number_text(here);
+    text += begun_ ? ": a wrong reading, or it was moved: then reset(qpos)" : ": reset(qpos) first";
+    throw Error(text);
   }
 }
 
@@ -727,6 +736,7 @@ void WholeBodyController::restore(StateReader& reader) {
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
   begun_ = true;
+  seen_.setConstant(std::numeric_limits<double>::quiet_NaN());  // nobody knows
   const auto support = static_cast<int>(reader.get_count(kMostBodies));
   for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
     reader.get(*vector);

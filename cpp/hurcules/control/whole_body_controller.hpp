@@ -114,8 +114,9 @@ class WholeBodyController {
   // One tick of a loop of one's own: from what is sensed, qpos (nq) and qvel (nv), to the controls
   // (nu) of the actuators, whose motors give what the model says. Command and `first` as for `apply`;
   // `sensors` (nsensordata) of the model where force tasks read them, else null. A simulation calls
-  // the stages below instead. Throws Error for other sizes, numbers that are not finite, and in the first
-  // tick for a robot that is not where the plan starts.
+  // the stages below instead. Throws Error, and changes nothing, for other sizes, numbers that are not
+  // finite, in the first tick a robot that is not where the plan starts, and later a joint that is
+  // elsewhere than a tick ago by more than 0.05 rad (or m) and 100 rad/s.
   void tick(const Vector& qpos, const Vector& qvel, const Vector* command, bool first,
             VectorRef ctrl, const double* sensors = nullptr);
   // One tick in its stages. command (k) or null: every target holds, drives stand; a channel of NaN
@@ -187,7 +188,7 @@ class WholeBodyController {
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
-  void require_start(const Vector& qpos) const;
+  void require_near(const Vector& qpos) const;
   void take_over();
   void refer();
   void feed_forward(const RobotState* state);
@@ -223,6 +224,7 @@ class WholeBodyController {
   Vector q_, qd_, held_back_;
   YieldingTargets yielding_;
   Vector start_;                             // (nq) where the plan stands
+  Vector seen_;                              // (m) joints in the last `tick`
   Vector ahead_;                             // (nq) scratch
   Vector wished_;                            // (n) scratch
   Vector delta_;                             // scratch

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -25,13 +26,7 @@ double length_at(const mjModel& m, int actuator, const Vector& qpos) {
 
 ActuatorControl actuator_control(const mjModel& m, const std::string& name) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const int id = mj_name2id(&m, mjOBJ_ACTUATOR, name.c_str());
-  std::vector<std::string> names;
-  for (int a = 0; a < m.nu; ++a) {
-    const char* const one = mj_id2name(&m, mjOBJ_ACTUATOR, a);
-    names.emplace_back(one ? one : "");
-  }
-  if (id < 0) throw Error(unknown_name("actuator", name, names));
+  const int id = find_object(m, mjOBJ_ACTUATOR, name);
   if (!m.actuator_ctrllimited[id]) return {id, -kNone, kNone};
   return {id, m.actuator_ctrlrange[2 * id], m.actuator_ctrlrange[2 * id + 1]};
 }

@@ -17,35 +17,13 @@
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 #include "hurcules/robot/momentum.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-9;  // [rad] a ball joint that is so far beyond its range is at it
-
-int count(const mjModel& m, int type) {
-  switch (type) {
-    case mjOBJ_SITE:
-      return static_cast<int>(m.nsite);
-    case mjOBJ_BODY:
-      return static_cast<int>(m.nbody);
-    case mjOBJ_CAMERA:
-      return static_cast<int>(m.ncam);
-    case mjOBJ_GEOM:
-      return static_cast<int>(m.ngeom);
-    default:
-      return static_cast<int>(m.nkey);
-  }
-}
-
-std::vector<std::string> names(const mjModel& m, std::initializer_list<int> types) {
-  std::vector<std::string> found;
-  for (const int type : types)
-    for (int i = 0; i < count(m, type); ++i)
-      if (const char* name = mj_id2name(&m, type, i); name && *name) found.emplace_back(name);
-  return found;
-}
 
 // The struct alone, pointing into the model: MuJoCo's kinematics then leave the geoms out, which
 // are most of its work.
@@ -162,7 +140,7 @@ Frame Robot::frame(const std::string& name) const {
       throw Error("camera '" + name + "' follows something; a frame is fixed in a body");
     return {type, id};
   }
-  const auto existing = names(*model_, {mjOBJ_SITE, mjOBJ_BODY, mjOBJ_CAMERA, mjOBJ_GEOM});
+  const auto existing = names_of(*model_, {mjOBJ_SITE, mjOBJ_BODY, mjOBJ_CAMERA, mjOBJ_GEOM});
   throw Error(unknown_name("frame", name, existing));
 }
 
@@ -225,7 +203,8 @@ void Robot::set_velocity(const ConstVectorRef& velocity) {
 void Robot::set_keyframe(const std::string& name) {
   const mjModel& m = *model_;
   const int key = name.empty() ? -1 : mj_name2id(&m, mjOBJ_KEY, name.c_str());
-  if (key < 0 && !name.empty()) throw Error(unknown_name("keyframe", name, names(m, {mjOBJ_KEY})));
+  if (key < 0 && !name.empty())
+    throw Error(unknown_name("keyframe", name, names_of(m, {mjOBJ_KEY})));
   qpos_ = Eigen::Map<const Vector>(key < 0 ? m.qpos0 : m.key_qpos + key * m.nq, m.nq);
   read_qpos();
 }

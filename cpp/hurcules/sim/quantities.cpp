@@ -8,6 +8,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/control/tasks.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -15,17 +16,6 @@ namespace hurcules {
 namespace {
 
 enum Source { kPositions, kVelocities, kSensors };
-
-int find_object(const mjModel* m, int type, mjtSize count, const char* kind,
-                const std::string& name) {
-  const int found = mj_name2id(m, type, name.c_str());
-  if (found >= 0) return found;
-  std::vector<std::string> names;
-  for (int i = 0; i < static_cast<int>(count); ++i) {
-    if (const char* const one = mj_id2name(m, type, i)) names.emplace_back(one);
-  }
-  throw Error(unknown_name(kind, name, names));
-}
 
 // channels of this name, or all with this part before the "/"
 std::vector<Index> channels_of(const Recorder& recorder, const std::string& name) {
@@ -126,7 +116,7 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     return found;
   }
   if (group == "joint" || group == "joint_velocity") {
-    const int joint = find_object(m, mjOBJ_JOINT, m->njnt, "joint", rest);
+    const int joint = find_object(*m, mjOBJ_JOINT, rest);
     require(m->jnt_type[joint] == mjJNT_HINGE || m->jnt_type[joint] == mjJNT_SLIDE,
             "quantity '" + name + "' wants a hinge or a slide");
     found.kind = Kind::Data;
@@ -152,7 +142,7 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
   }
   if (group == "contact_force") {
     found.kind = Kind::ContactForce;
-    found.places = {find_object(m, mjOBJ_BODY, m->nbody, "body", rest)};
+    found.places = {find_object(*m, mjOBJ_BODY, rest)};
     return found;
   }
   for (const auto& [word, kind] : {std::pair{"self_contacts", Kind::SelfContacts},

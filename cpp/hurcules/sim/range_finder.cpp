@@ -9,6 +9,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -17,16 +18,6 @@ namespace {
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 constexpr double kTurn = 2.0 * 3.14159265358979323846;   // [rad]
 constexpr mjtByte kSeen[mjNGROUP] = {1, 1, 0, 1, 1, 1};  // group 2 is looks alone
-
-int find_site(const mjModel* m, const std::string& site) {
-  std::vector<std::string> names;
-  for (int i = 0; i < m->nsite; ++i) {
-    const char* const name = mj_id2name(m, mjOBJ_SITE, i);
-    names.emplace_back(name ? name : "");
-    if (names.back() == site) return i;
-  }
-  throw Error(unknown_name("site", site, names));
-}
 
 void check(const RangeFinderOptions& o) {
   require(o.rays >= 0 && o.rays <= 100000,
@@ -46,7 +37,7 @@ void check(const RangeFinderOptions& o) {
 RangeFinder::RangeFinder(const mjModel* m, const RangeFinderOptions& options) : options_(options) {
   check(options_);
   if (options_.rays == 0) return;
-  site_ = find_site(m, options_.site);
+  site_ = find_object(*m, mjOBJ_SITE, options_.site);
   scan_seconds_ = options_.period * m->opt.timestep;
   per_tick_ = (options_.rays + options_.period - 1) / options_.period;
   scan_ = reading_ = Vector::Constant(options_.rays, kNothing);

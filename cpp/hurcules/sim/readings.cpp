@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -18,10 +19,7 @@ int require_id(const mjModel* m, int kind, const std::string& name, const std::s
 int find_body(const mjModel* m, const std::string& name, const std::string& where) {
   const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
   if (id >= 0) return id;
-  std::vector<std::string> names;
-  for (int i = 1; i < m->nbody; ++i)
-    if (const char* const other = mj_id2name(m, mjOBJ_BODY, i)) names.emplace_back(other);
-  throw Error(where + ": " + unknown_name("body", name, names));
+  throw Error(where + ": " + unknown_name("body", name, names_of(*m, {mjOBJ_BODY})));
 }
 
 PlanarPose pose_on_ground(const mjData* d, int body) {
