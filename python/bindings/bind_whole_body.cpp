@@ -186,11 +186,11 @@ constexpr const char* kMove =
 
 Args:
   joint: name of a joint with an actuator.
-  position: [rad] or [m].
+  position: [rad] or [m]; beyond the joint's range it squeezes, as a finger does.
   velocity: [rad/s] or [m/s].
 
 Raises:
-  Error: no such joint, or a position outside its range.
+  Error: no such joint, or numbers that are not finite.
 )";
 constexpr const char* kStandOn = R"(The plan stands on another body, where it is now.
 

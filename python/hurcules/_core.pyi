@@ -2751,11 +2751,11 @@ class WholeBodyController:
 
         Args:
           joint: name of a joint with an actuator.
-          position: [rad] or [m].
+          position: [rad] or [m]; beyond the joint's range it squeezes, as a finger does.
           velocity: [rad/s] or [m/s].
 
         Raises:
-          Error: no such joint, or a position outside its range."""
+          Error: no such joint, or numbers that are not finite."""
 
     def move_all(self, positions: ArrayLike, velocities: ArrayLike) -> None:
         """The same for all joints with a servo, in the order of `joints`.

@@ -180,7 +180,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "disposal", "--friction", "-1"], "disposal: friction wants a number from"),
         (
             ["train", "Fly-v0"],
-            "environment 'Hurcules/Fly-v0' does not exist; there are: Hurcules/S",
+            "environment 'Hurcules/Fly-v0' does not exist; there are: Carry-v0, ",
         ),
         (["train", "Reach-v0", "--steps", "0"], "--steps: wanted 1 or more, or"),
         (["record", "Fly-v0"], "environment 'Hurcules/Fly-v0' does not exist"),

@@ -135,16 +135,6 @@ def test_a_reading_that_was_wrong_once_dies_away(angle: float, speed: float) -> 
     assert np.abs(data.qvel).max() < 1e-3
 
 
-def test_a_joint_is_moved_within_its_range_alone() -> None:
-    controller, data = own_loop()
-    controller.tick(data.qpos, data.qvel)
-    state = controller.state()
-    for wrong in (9.0, -9.0):
-        with pytest.raises(hurcules.Error, match=r"joint 'finger' within its range, .* came"):
-            controller.move("finger", wrong)
-    assert controller.state() == state
-
-
 def test_a_state_of_another_length_is_refused() -> None:
     controller, data = own_loop()
     controller.tick(data.qpos, data.qvel)

@@ -389,15 +389,10 @@ void WholeBodyController::take_over() {
 }
 
 void WholeBodyController::move(const std::string& joint, double position, double velocity) {
-  constexpr double kInside = 1e-6;  // [rad] or [m]
   const Index place = servo_.find(joint);
   require(std::isfinite(position) && std::isfinite(velocity),
           "move wants a finite position and velocity of joint '" + joint + "', " +
               number_text(position) + " and " + number_text(velocity) + " came");
-  const JointActuator& actuator = servo_.actuator(place);
-  require(position >= actuator.lower - kInside && position <= actuator.upper + kInside,
-          "move wants joint '" + joint + "' within its range, " + number_text(actuator.lower) +
-              " to " + number_text(actuator.upper) + ", " + number_text(position) + " came");
   servo_.move(place, position, velocity);
   moves_joints_ = true;
 }

@@ -19,7 +19,9 @@ int require_id(const mjModel* m, int kind, const std::string& name, const std::s
 int find_body(const mjModel* m, const std::string& name, const std::string& where) {
   const int id = mj_name2id(m, mjOBJ_BODY, name.c_str());
   if (id >= 0) return id;
-  throw Error(where + ": " + unknown_name("body", name, names_of(*m, {mjOBJ_BODY})));
+  std::vector<std::string> names = names_of(*m, {mjOBJ_BODY});
+  names.erase(names.begin());  // the world
+  throw Error(where + ": " + unknown_name("body", name, names));
 }
 
 PlanarPose pose_on_ground(const mjData* d, int body) {
