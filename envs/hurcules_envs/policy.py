@@ -133,7 +133,18 @@ class Policy:
             hurcules.Error: observations that lack an input of the network, of another shape or not
                 of finite numbers; or the network gave numbers that are not finite.
         """
-        fed = self._fed(observation)
+        return self._act(self._fed(observation))
+
+    def one(self, observation: Any) -> Array:
+        """The action (k,) for a single observation, an array (m,) or a dictionary of them."""
+        return self._act({name: one[None] for name, one in self._fed(observation).items()})[0]
+
+    def __repr__(self) -> str:
+        """Where it acts, what goes in and how many numbers come out."""
+        acts = f"{self.environment}: " if self.environment else ""
+        return f"Policy({acts}{_listed(self._graph.inputs)} to {_listed(self._graph.outputs)})"
+
+    def _act(self, fed: dict[str, Any]) -> Array:
         for name, values in fed.items():
             if values.ndim not in (2, 4):
                 raise hurcules.Error(
@@ -155,16 +166,6 @@ class Policy:
                     raise hurcules.Error(f"{self.path}: the numbers in '{name}' are not finite")
             raise hurcules.Error(f"{self.path}: the network gave numbers that are not finite")
         return np.clip(result, -1.0, 1.0).astype(np.float32)
-
-    def one(self, observation: Any) -> Array:
-        """The action (k,) for a single observation, an array (m,) or a dictionary of them."""
-        rows = {name: values[None] for name, values in self._fed(observation).items()}
-        return self(rows)[0]
-
-    def __repr__(self) -> str:
-        """Where it acts, what goes in and how many numbers come out."""
-        acts = f"{self.environment}: " if self.environment else ""
-        return f"Policy({acts}{_listed(self._graph.inputs)} to {_listed(self._graph.outputs)})"
 
     def _fed(self, observation: Any) -> dict[str, Any]:
         """By input of the network, its numbers."""
