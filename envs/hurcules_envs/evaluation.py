@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hurcules_envs.episodes import Episodes
-from hurcules_envs.pictures import SIZE, Pictures
+from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import full_id, make_episodes, steps_of_episode
 
@@ -73,7 +73,7 @@ def evaluate(
     environment = full_id(environment)
     drawn = {key: options.pop(key) for key in ("cameras", "camera_size") if key in options}
     batch = make_episodes(environment, episodes, seed, threads, **options)
-    eyes = _Eyes(batch, **drawn)
+    eyes = Eyes(batch, **drawn)
     if isinstance(act, Policy):
         act.check(environment, eyes.observation_space, batch.single_action_space)
     seen = batch.look(remember=None)
@@ -109,40 +109,6 @@ def evaluate(
         limit_excess=excess,
         self_contacts=touching / float(lengths.sum()),
     )
-
-
-class _Eyes:
-    """What episodes side by side observe, pictures included."""
-
-    def __init__(
-        self, batch: Episodes, cameras: Sequence[str] = (), camera_size: Sequence[int] = SIZE
-    ) -> None:
-        self.observation_space = batch.single_observation_space
-        self._batch, self._views = batch, {}
-        self._pictures: Pictures | None = None
-        if cameras:
-            self._pictures = Pictures(
-                batch.environment, cameras, camera_size, self.observation_space
-            )
-            self.observation_space = self._pictures.observation_space
-            self._views = {
-                name: np.zeros((batch.n, *space.shape), np.uint8)
-                for name, space in self._pictures.spaces.items()
-            }
-
-    def look(self, parts: dict[str, NDArray[Any]], running: NDArray[np.bool_]) -> Any:
-        """An array (n, m), or a dictionary of them; what is over is seen as it was."""
-        if self._pictures is None:
-            return parts if len(parts) > 1 else parts["observation"]
-        for i in np.flatnonzero(running):
-            for name, view in self._pictures.take(self._batch, int(i)).items():
-                self._views[name][i] = view
-        return parts | self._views
-
-    def close(self) -> None:
-        """Gives the renderer back."""
-        if self._pictures is not None:
-            self._pictures.close()
 
 
 def wilson(successes: int, n: int) -> tuple[float, float]:

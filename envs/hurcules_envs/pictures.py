@@ -15,8 +15,9 @@ import hurcules
 from hurcules import cameras
 from hurcules.rendering import make_renderer
 from hurcules_envs.environment import Environment
+from hurcules_envs.episodes import Episodes
 
-__all__ = ["SIZE", "Pictures", "Views"]
+__all__ = ["SIZE", "Eyes", "Pictures", "Views"]
 
 MOST = 2048  # [pixels] a side
 SIZE = (128, 96)  # [pixels] of what is observed, where nothing else is asked for
@@ -119,6 +120,57 @@ class Pictures:
         if self._renderer is not None:
             self._renderer.close()
         self._renderer = None
+
+
+class Eyes:
+    """What episodes side by side observe, pictures of cameras included.
+
+    Attributes:
+        observation_space: of one episode.
+    """
+
+    def __init__(
+        self, episodes: Episodes, cameras: Sequence[str] = (), camera_size: Sequence[int] = SIZE
+    ) -> None:
+        """Finds the cameras; see `Pictures`."""
+        self._episodes = episodes
+        self._pictures: Pictures | None = None
+        self._views: dict[str, NDArray[np.uint8]] = {}
+        self.observation_space = episodes.single_observation_space
+        if cameras:
+            self._pictures = Pictures(
+                episodes.environment, cameras, camera_size, self.observation_space
+            )
+            self.observation_space = self._pictures.observation_space
+            self._views = {
+                name: np.zeros((episodes.n, *(space.shape or ())), np.uint8)
+                for name, space in self._pictures.spaces.items()
+            }
+
+    def look(
+        self, parts: dict[str, NDArray[Any]], chosen: NDArray[np.bool_] | None = None
+    ) -> Any:
+        """An array (n, m), or a dictionary of them with pictures (n, height, width, 3), each new.
+
+        Args:
+            parts: what is observed beside them, by name.
+            chosen: (n,) of whom pictures are drawn, None: of all. The others are as they were.
+
+        Raises:
+            hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
+        """
+        if self._pictures is None:
+            return parts if len(parts) > 1 else parts["observation"]
+        self._views = {name: views.copy() for name, views in self._views.items()}
+        for i in range(self._episodes.n) if chosen is None else np.flatnonzero(chosen):
+            for name, view in self._pictures.take(self._episodes, int(i)).items():
+                self._views[name][i] = view
+        return parts | self._views
+
+    def close(self) -> None:
+        """Gives the renderer back."""
+        if self._pictures is not None:
+            self._pictures.close()
 
 
 def _is_side(side: object) -> bool:

@@ -20,7 +20,7 @@ from hurcules.view import opened
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
-from hurcules_envs.pictures import SIZE, Pictures, Views
+from hurcules_envs.pictures import SIZE, Eyes, Views
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
@@ -83,12 +83,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
         self.action_space = self._episodes.single_action_space
-        self._pictures: Pictures | None = None
-        self.observation_space = self._episodes.single_observation_space
-        if cameras:
-            space = self.observation_space
-            self._pictures = Pictures(self.environment, cameras, camera_size, space)
-            self.observation_space = self._pictures.observation_space
+        self._eyes = Eyes(self._episodes, cameras, camera_size)
+        self.observation_space = self._eyes.observation_space
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward
@@ -235,8 +231,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         """Gives the renderer and the window back."""
         self._views.close()
         self._window.close()
-        if self._pictures is not None:
-            self._pictures.close()
+        self._eyes.close()
         self._viewer = None
 
     def _went_on(self) -> dict[str, Any] | None:
@@ -256,10 +251,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
 
     def _seen(self, step: Step) -> Observation:
         """The observation of the one episode, pictures included."""
-        values = {name: rows[0] for name, rows in step.observation.items()}
-        if self._pictures is not None:
-            return values | self._pictures.take(self._episodes, 0)
-        return values["observation"] if len(values) == 1 else values
+        seen = self._eyes.look(step.observation)
+        return {name: rows[0] for name, rows in seen.items()} if isinstance(seen, dict) else seen[0]
 
     def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         if self._viewer is None:

@@ -127,10 +127,16 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         The folder.
 
     Raises:
-        hurcules.Error: an unknown environment, algorithm or option, or a folder with another run.
+        hurcules.Error: an unknown environment, algorithm or option, cameras, or a folder with
+            another run.
         KeyboardInterrupt: after Ctrl-C or SIGTERM; all is written, and the next call goes on.
     """
     require_known("algorithm", options.algorithm, ALGORITHMS)
+    if options.options.get("cameras"):
+        raise hurcules.Error(
+            "cameras: train learns from numbers; from pictures a policy of Stable-Baselines3 does, "
+            "in make_sb3(..., cameras=...)"
+        )
     torch.set_num_threads(1)  # small networks: more threads only wait for each other
     environment = make_sb3(options.environment, options.episodes, **options.options)
     out, checkpoint = options.out, options.out / "checkpoint.zip"

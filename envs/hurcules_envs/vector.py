@@ -18,7 +18,7 @@ import hurcules
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
-from hurcules_envs.pictures import Views
+from hurcules_envs.pictures import SIZE, Eyes, Views
 from hurcules_envs.randomisation import known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
@@ -34,6 +34,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
     """
 
     _views: Views | None = None  # Gymnasium closes what could not be made, too
+    _eyes: Eyes | None = None
 
     def __init__(
         self,
@@ -44,6 +45,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         render_mode: str | None = None,
         flat: bool = False,
+        cameras: Sequence[str] = (),
+        camera_size: Sequence[int] = SIZE,
         **options: Any,
     ) -> None:
         """Builds the environment once, and its episodes.
@@ -56,30 +59,27 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
             autoreset_mode: NextStep (default), SameStep or Disabled, see Gymnasium.
             render_mode: None or "rgb_array".
             flat: of a goal environment: one array, the observation and the way to the goal.
+            cameras: whose pictures are observed too, drawn one after the other: an observation is
+                then a dictionary, with (num_envs, height, width, 3) uint8 by camera.
+            camera_size: (width, height) of these pictures [pixels].
             options: of the environment, by keyword, and ranges of what differs between episodes:
                 see `randomisation`.
 
         Raises:
-            hurcules.Error: an unknown option or render mode, a bad value, or cameras, which it does
-                not observe.
+            hurcules.Error: an unknown option, render mode or camera, or a bad value.
         """
         Copied.__init__(
             self, environment, num_envs, max_episode_steps, threads, autoreset_mode, render_mode,
-            flat, **options,
+            flat, cameras, camera_size, **options,
         )  # fmt: skip
         hurcules.validation.require_known("render mode", render_mode or MODES[0], MODES)
         _require_whole("num_envs", num_envs, 1)
         _require_whole("threads", threads, 0)
         if max_episode_steps is not None:
             _require_whole("max_episode_steps", max_episode_steps, 1)
-        if options.pop("cameras", None):
-            raise hurcules.Error(
-                "cameras: a native vector observes no pictures; "
-                "gymnasium.make_vec(..., vectorization_mode='sync') does"
-            )
         self.num_envs = num_envs
         ranges, options = split(options)
-        known = ("flat", "threads", "autoreset_mode")
+        known = ("flat", "threads", "autoreset_mode", "cameras", "camera_size")
         self.environment = make_environment(environment, options, known)
         self._episodes = Episodes(self.environment, num_envs, threads, flat=flat, ranges=ranges)
         mode = str(getattr(autoreset_mode, "value", autoreset_mode))
@@ -94,10 +94,11 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         }
         self.render_mode = render_mode
         self._views = Views(self.environment)
+        self._eyes = Eyes(self._episodes, cameras, camera_size)
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
         self.single_action_space = self._episodes.single_action_space
-        self.single_observation_space = self._episodes.single_observation_space
+        self.single_observation_space = self._eyes.observation_space
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.task_description = self.environment.task_description
@@ -151,7 +152,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         self._begin(chosen)
         self._begun = bool((self._steps >= 0).all())
         step = self._episodes.look(remember=None)
-        return _observation(step), _info(step)
+        return self._seen(step), _info(step)
 
     def step(self, actions: NDArray[Any]) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Holds the commands of all episodes for one period.
@@ -182,7 +183,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         terminated = step.terminated & goes_on
         truncated = (self._steps >= self._limit) & goes_on & ~terminated
         ended = terminated | truncated
-        observation, info = _observation(step), _info(step)
+        observation, info = self._seen(step), _info(step)
         if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):
             self._begin(ended)
             observation, info = self._same_step(ended, observation, info)
@@ -216,7 +217,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
 
     def observe(self) -> Any:
         """The observations now, after `set_state` say."""
-        return _observation(self._episodes.look(remember=None))
+        return self._seen(self._episodes.look(remember=None))
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture (368, 640, 3) of each episode in render mode "rgb_array", one after the other.
@@ -231,9 +232,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         return tuple(self._views.take(self._episodes, i) for i in range(self.num_envs))
 
     def close_extras(self, **kwargs: Any) -> None:
-        """Gives the renderer back."""
-        if self._views is not None:
-            self._views.close()
+        """Gives the renderers back."""
+        for one in (self._views, self._eyes):
+            if one is not None:
+                one.close()
 
     def _require_open(self, call: str) -> None:
         if self.closed:
@@ -255,6 +257,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
             waiting = np.flatnonzero(self._steps < 0).tolist()
             raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before {call}()")
 
+    def _seen(self, step: Step, drawn: NDArray[np.bool_] | None = None) -> Any:
+        assert self._eyes is not None
+        return self._eyes.look(step.observation, drawn)
+
     def _begin(self, chosen: NDArray[np.bool_]) -> None:
         self._episodes.reset(chosen)
         self._steps[chosen] = 0
@@ -265,7 +271,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
     ) -> tuple[Any, dict[str, Any]]:
         """The first observations of new episodes; the last ones of the old under `final_`."""
         step = self._episodes.look(remember=None)
-        fresh, fresh_info = _observation(step), _info(step)
+        fresh, fresh_info = self._seen(step, ended), _info(step)
         final_obs = np.full(self.num_envs, None, dtype=object)
         for i in np.flatnonzero(ended):
             final_obs[i] = _row(observation, int(i))
@@ -300,10 +306,6 @@ def _row(observation: Any, i: int) -> Any:
     if isinstance(observation, dict):
         return {name: values[i].copy() for name, values in observation.items()}
     return observation[i].copy()
-
-
-def _observation(step: Step) -> Any:
-    return step.observation if len(step.observation) > 1 else step.observation["observation"]
 
 
 def _info(step: Step) -> dict[str, Any]:

@@ -150,11 +150,48 @@ def test_what_is_no_camera_is_refused(options: dict, says: str) -> None:
         gym.make("Hurcules/Reach-v0", fidelity="kinematic", **options)
 
 
-def test_a_native_vector_names_the_one_that_draws() -> None:
-    with pytest.raises(
-        hurcules.Error, match=r"cameras: a native vector observes no pictures; .*sync"
-    ):
-        gym.make_vec("Hurcules/Reach-v0", num_envs=2, cameras=CAMERAS)
+@pytest.mark.parametrize("name", ["Reach-v0", "Valve-v0"])
+def test_a_native_vector_observes_pictures(name: str) -> None:
+    options = {"fidelity": "fast", "cameras": CAMERAS, "camera_size": (64, 48)}
+    vector = gym.make_vec(f"Hurcules/{name}", num_envs=2, **options)
+    singles = [gym.make(f"Hurcules/{name}", **options) for _ in range(2)]
+    seen, _ = vector.reset(seed=3)
+    alone = [single.reset(seed=3 + i)[0] for i, single in enumerate(singles)]
+    for _ in range(3):
+        assert seen in vector.observation_space
+        for i, one in enumerate(alone):
+            assert all(np.array_equal(seen[part][i], values) for part, values in one.items())
+        actions = vector.action_space.sample()
+        before = seen["head_wide"].copy(), seen["head_wide"]
+        seen, *_ = vector.step(actions)
+        assert np.array_equal(*before)  # nothing is drawn over
+        alone = [single.step(a)[0] for single, a in zip(singles, actions, strict=True)]
+    vector.close()
+    for single in singles:
+        single.close()
+
+
+def test_an_episode_that_ends_shows_its_last_picture_and_the_first_of_the_next() -> None:
+    vector = gym.make_vec(
+        "Hurcules/Reach-v0", num_envs=2, fidelity="kinematic", cameras=("auxiliary",),
+        max_episode_steps=3, autoreset_mode="SameStep", camera_size=(64, 48),
+    )  # fmt: skip
+    single = gym.make(
+        "Hurcules/Reach-v0", fidelity="kinematic", cameras=("auxiliary",), camera_size=(64, 48)
+    )
+    vector.reset(seed=0)
+    vector.reset(options={"reset_mask": np.array([True, False])}, seed=[5, None])
+    single.reset(seed=5)
+    action = np.full((2, 6), 0.5, np.float32)
+    for _ in range(3):
+        seen, _, _, cut, info = vector.step(action)
+        last, *_ = single.step(action[0])
+    assert cut.all()
+    first, _ = single.reset()
+    assert np.array_equal(info["final_obs"][0]["auxiliary"], last["auxiliary"])
+    assert np.array_equal(seen["auxiliary"][0], first["auxiliary"])
+    vector.close()
+    single.close()
 
 
 def test_a_native_vector_draws_what_the_single_ones_do() -> None:
