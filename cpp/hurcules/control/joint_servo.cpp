@@ -313,7 +313,7 @@ void JointServo::rated_inertia(VectorRef inertia) const {
 }
 
 const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotState& state,
-                                                  const Vector& growth) {
+                                                  const Vector* growth) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   bounds_.lower.setConstant(-kNone);
   bounds_.upper.setConstant(kNone);
@@ -328,7 +328,8 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kOfPeak * pid_.options().max_torque[i];
     const EffortRange range = within({-peak, peak}, motor.actuator, state);
-    const double beside = feed_forward_[i], grown = growth[motor.coordinate];
+    const double beside = feed_forward_[i];
+    const double grown = growth ? (*growth)[motor.coordinate] : 1.0;
     const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;
     const double b = pid_.rate_at(i, error_, (range.upper - beside) / grown) / motor.factor;
     double& lower = bounds_.lower[motor.coordinate];

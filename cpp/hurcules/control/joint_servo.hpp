@@ -78,10 +78,10 @@ class JointServo {
   void release(VectorRef q, VectorRef velocity);
   // velocities of the coordinates from this reference on at which no motor is asked for more than
   // its peak; no side where it rests behind a brake, the middle where two joints of one coordinate
-  // exclude each other. A motor is asked for growth (n) times its own feedback, and for what is fed
-  // forward.
+  // exclude each other. A motor is asked for growth (n, null: 1) times its own feedback, and for what
+  // is fed forward.
   const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state,
-                                        const Vector& growth);
+                                        const Vector* growth);
   // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
   void feed_forward(const Vector& efforts);
   // as much more effort of the coordinates from now on, (n) [N m], for feed-forward that falls away

@@ -169,11 +169,8 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
     scale_.segment(row, channel.size()) = channel.scale();
     row += channel.size();
   }
-  q_ = qd_ = held_back_ = wished_ = last_qd_ = qdd_ = efforts_ = Vector::Zero(plan_.size());
-  feedback_ = feedback_acceleration_ = rated_ = efforts_;
-  servo_.rated_inertia(rated_);
-  growth_ = Vector::Ones(plan_.size());
-  inertia_.resize(plan_.size(), plan_.size());
+  q_ = qd_ = held_back_ = wished_ = efforts_ = Vector::Zero(plan_.size());
+  feed_forward_ = FeedForward(servo_, plan_.size(), *options_.decoupled, options_.dt);
   delta_ = Vector::Zero(scale_.size());
   seen_ = Vector::Zero(servo_.size());
   carrying_ = carrying_joints(plan_);
@@ -301,11 +298,11 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   }
   for (const auto& law : laws_) law->reset();
   if (drive_) drive_->reset();
-  last_qd_.setZero();
+  feed_forward_.reset();
   servo_.reset(start_);
   for (LedControl& led : led_controls_)
     led.value = resting_control(*plan_.model(), led.control, start_);
-  feed_forward(nullptr);
+  tell_servos(nullptr);
 }
 
 void WholeBodyController::hold_targets() {
@@ -313,54 +310,11 @@ void WholeBodyController::hold_targets() {
   for (Task* const task : tasks_) task->hold(plan_);
 }
 
-// What the plan takes at q* and qdot*, with the accelerations that a law or a move commands; a
-// velocity that is solved for or scaled down may jump: what that takes is left to the servos.
-//
-// Decoupled servos: what they ask for as accelerations a is given by the mass matrix,
-// tau = M(q*) (qdd* + a) + h(q*, qdot*); inverse dynamics control, Siciliano et al., Robotics (2009),
-// section 8.5.2.
-void WholeBodyController::feed_forward(const RobotState* state) {
+// with the accelerations that a law or a move commands
+void WholeBodyController::tell_servos(const RobotState* state) {
   if (!options_.feed_forward) return;
   const bool commanded = moves_joints_ || (law().order() == ControlOrder::Acceleration && !scaled_);
-  if (commanded) {
-    qdd_ = (qd_ - last_qd_) / dt();
-  } else {
-    qdd_.setZero();
-  }
-  last_qd_ = qd_;
-  plan_.set_velocity(qd_);
-  if (*options_.decoupled && state) {
-    decouple(*state);
-    efforts_ -= feedback_;
-  } else {
-    plan_.inverse_dynamics(qdd_, efforts_);
-  }
-  servo_.feed_forward(efforts_);
-}
-
-// efforts = M (qdd + a) + h, feedback included
-void WholeBodyController::decouple(const RobotState& state) {
-  servo_.feedback(state, feedback_, feedback_acceleration_);
-  if (!plan_.floats()) qdd_ += feedback_acceleration_;
-  plan_.inverse_dynamics(qdd_, efforts_);
-  if (!plan_.floats()) return;
-  plan_.floating_inertia(feedback_acceleration_, qdd_);
-  efforts_ += qdd_;
-}
-
-// What decoupled servos ask for as the reference of one coordinate moves and the others stay: at
-// most D_kk / J_k times its own feedback, D the sums of the rows' magnitudes of M. D >= M, so that
-// all of them together, each within what is left to its motor, do not ask for more and swing.
-void WholeBodyController::find_growth(const RobotState& state) {
-  qdd_.setZero();
-  plan_.set_velocity(qd_);
-  decouple(state);
-  plan_.mass_matrix(inertia_);
-  for (Index k = 0; k < growth_.size(); ++k) {
-    if (rated_[k] > 0.0) growth_[k] = inertia_.row(k).lpNorm<1>() / rated_[k];
-  }
-  efforts_ -= growth_.cwiseProduct(feedback_);
-  servo_.feed_forward(efforts_);
+  feed_forward_.tell(plan_, qd_, commanded, state, servo_);
 }
 
 void WholeBodyController::use(const std::string& name) {
@@ -410,16 +364,11 @@ void WholeBodyController::move(const Vector& position, const Vector& velocity) {
 void WholeBodyController::stand_on(const std::string& body) {
   plan_.set_configuration(q_);
   plan_.set_velocity(qd_);
-  qdd_.setZero();
-  plan_.inverse_dynamics(qdd_, efforts_);
-  feedback_ = efforts_;
+  feed_forward_.note(plan_);
   plan_.stand_on(body);
   support_ = plan_.support();
   start_ = plan_.qpos();
-  if (!options_.feed_forward || *options_.decoupled) return;
-  plan_.inverse_dynamics(qdd_, efforts_);
-  feedback_ -= efforts_;
-  servo_.add(feedback_);
+  if (options_.feed_forward && !*options_.decoupled) servo_.add(feed_forward_.noted_beyond(plan_));
 }
 
 void WholeBodyController::sense(ForceTask& task, std::unique_ptr<SpringForce> spring) {
@@ -663,12 +612,10 @@ void WholeBodyController::solve(const RobotState& state) {
   law.solve();
   wished_ = law.next_velocity(qd_);
   if (options_.torque_scaling) {
-    if (*options_.decoupled && !by_torques()) {
-      find_growth(state);
-    } else {
-      growth_.setOnes();
-    }
-    scaled_ = law.scale(servo_.velocity_bounds(q_, state, growth_), qd_);
+    const bool decoupled = *options_.decoupled && !by_torques();
+    const Vector* const growth =
+        decoupled ? &feed_forward_.tell_growth(plan_, qd_, state, servo_) : nullptr;
+    scaled_ = law.scale(servo_.velocity_bounds(q_, state, growth), qd_);
   }
   if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
   yielding_.update(scaled_, law.rate(), dt());
@@ -698,7 +645,7 @@ void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
     law().torque(plan_, efforts_);
     servo_.feed_forward(efforts_);
   } else {
-    feed_forward(&state);
+    tell_servos(&state);
   }
   servo_.compute(state, ctrl);
   for (const LedControl& led : led_controls_) ctrl[led.control.actuator] = led.value;
@@ -716,7 +663,9 @@ void WholeBodyController::save(StateWriter& writer) const {
   writer.put(static_cast<double>(support_.id));
   // joints that follow the coordinates go on from where they are
   writer.put(plan_.closures() ? plan_.qpos() : start_);
-  for (const Vector* vector : {&ahead_, &q_, &qd_, &last_qd_, &held_back_}) writer.put(*vector);
+  for (const Vector* vector : {&ahead_, &q_, &qd_}) writer.put(*vector);
+  feed_forward_.save(writer);
+  writer.put(held_back_);
   writer.put(Vector(command_.array().isNaN().select(0.0, command_)));
   for (const Task* task : tasks_) task->save(writer);
   yielding_.save(writer);
@@ -733,9 +682,9 @@ void WholeBodyController::restore(StateReader& reader) {
   begun_ = true;
   seen_.setConstant(std::numeric_limits<double>::quiet_NaN());  // nobody knows
   const auto support = static_cast<int>(reader.get_count(kMostBodies));
-  for (Vector* vector : {&start_, &ahead_, &q_, &qd_, &last_qd_, &held_back_, &command_}) {
-    reader.get(*vector);
-  }
+  for (Vector* vector : {&start_, &ahead_, &q_, &qd_}) reader.get(*vector);
+  feed_forward_.restore(reader);
+  for (Vector* vector : {&held_back_, &command_}) reader.get(*vector);
   for (Task* task : tasks_) task->restore(reader);
   yielding_.restore(reader);
   for (JointLimits* limits : limits_) limits->restore(reader);

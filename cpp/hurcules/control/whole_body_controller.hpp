@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "hurcules/control/channel.hpp"
+#include "hurcules/control/feed_forward.hpp"
 #include "hurcules/control/force_readings.hpp"
 #include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/motion_law.hpp"
@@ -191,9 +192,7 @@ class WholeBodyController {
   void require_near(const Vector& qpos) const;
   void take_over();
   void refer();
-  void feed_forward(const RobotState* state);
-  void decouple(const RobotState& state);
-  void find_growth(const RobotState& state);
+  void tell_servos(const RobotState* state);
 
   WholeBodyControllerOptions options_;
   Robot plan_;
@@ -223,16 +222,12 @@ class WholeBodyController {
   Vector scale_, command_;
   Vector q_, qd_, held_back_;
   YieldingTargets yielding_;
-  Vector start_;                             // (nq) where the plan stands
-  Vector seen_;                              // (m) joints in the last `tick`
-  Vector ahead_;                             // (nq) scratch
-  Vector wished_;                            // (n) scratch
-  Vector delta_;                             // scratch
-  Vector last_qd_, qdd_, efforts_;           // (n) for the feed-forward
-  Vector feedback_, feedback_acceleration_;  // (n) of the servos
-  Vector growth_;                            // (n) what they ask for in all by their own
-  Vector rated_;                             // (n) inertia
-  Matrix inertia_;                           // (n, n) scratch
+  FeedForward feed_forward_;
+  Vector start_;             // (nq) where the plan stands
+  Vector seen_;              // (m) joints in the last `tick`
+  Vector ahead_;             // (nq) scratch
+  Vector wished_, efforts_;  // (n) scratch
+  Vector delta_;             // scratch
   Frame support_;
   std::vector<double> scratch_;
 };
