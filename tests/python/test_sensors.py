@@ -204,3 +204,27 @@ def test_all_trees_of_a_robot_have_sensors_and_are_watched() -> None:
         batch.step_and_read(20, contacts, [[1.0, 0.0, 0.0, -1.0, 0.0, 0.0]])
         touched = max(touched, int(batch.read(contacts)[0, 0]))
     assert touched >= 1
+
+
+def test_windings_warm_by_the_period_of_the_controller() -> None:
+    """An arm that is held level for 20 s: the same temperature whatever the period is."""
+
+    def after(period: float) -> float:
+        model = mujoco.MjModel.from_xml_string(
+            '<mujoco><option timestep="1e-3"/><worldbody><body><joint name="j" axis="0 1 0"/>'
+            '<geom type="capsule" fromto="0 0 0 1 0 0" size="0.03" mass="2"/></body></worldbody>'
+            '<actuator><motor joint="j" forcerange="-20 20"/></actuator><custom>'
+            '<numeric name="velocity_limit_j" data="9"/><numeric name="power_limit_j" data="200"/>'
+            "</custom></mujoco>"
+        )
+        robot = hurcules.Robot(model)
+        controller = hurcules.WholeBodyController(
+            robot, [hurcules.PostureTask("posture", robot)], dt=period
+        )
+        simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+        simulation.step(round(20.0 / period))
+        return simulation.motor_temperatures()["j"]
+
+    slow, fast = after(5e-3), after(1e-3)
+    assert fast > 35.0  # from 25
+    assert slow - 25.0 == pytest.approx(fast - 25.0, rel=0.01)

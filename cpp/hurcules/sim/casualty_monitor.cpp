@@ -46,12 +46,12 @@ int row_of(const mjModel* m, const std::string& sensor) {
 
 const std::vector<std::string>& CasualtyMonitor::names() {
   static const std::vector<std::string> all = {
-      "on_ground",        "on_left_arm",   "on_right_arm", "on_bed",
-      "on_rest",          "behind_tips_m", "aside_m",      "height_m",
-      "moved_m",          "bed_ahead_m",   "bed_aside_m",  "sag_m",
-      "heading_rad",      "stand_ahead_m", "stand_rad",    "push_n",
-      "neck_flexion_rad", "neck_turn_rad", "head_mps2",    "contact_share",
-      "support_n",        "face_up"};
+      "on_ground",        "on_left_arm",      "on_right_arm",  "on_bed",
+      "on_rest",          "behind_tips_m",    "aside_m",       "height_m",
+      "moved_m",          "bed_ahead_m",      "bed_aside_m",   "sag_m",
+      "heading_rad",      "stand_ahead_m",    "stand_rad",     "push_n",
+      "neck_flexion_rad", "neck_bending_rad", "neck_turn_rad", "head_mps2",
+      "contact_share",    "support_n",        "face_up"};
   return all;
 }
 
@@ -75,6 +75,7 @@ CasualtyMonitor::CasualtyMonitor(const mjModel* m, const std::string& prefix, do
         i == bed_ || is_bed_[static_cast<std::size_t>(m->body_parentid[i])];
   }
   flexion_ = row_of(m, prefix + "neck_flexion");
+  bending_ = row_of(m, prefix + "neck_bending");
   turn_ = row_of(m, prefix + "neck_turn");
   head_ = row_of(m, prefix + "head_acceleration");
   std::vector<double> limits;
@@ -150,6 +151,7 @@ void CasualtyMonitor::look(const mjModel* m, const mjData* d) {
   values_[kStandAhead] = to_stand.dot(ahead);
   values_[kStandBearing] = std::atan2(to_stand.dot(aside), to_stand.dot(ahead));
   if (flexion_ >= 0) values_[kNeckFlexion] = d->sensordata[flexion_];
+  if (bending_ >= 0) values_[kNeckBending] = d->sensordata[bending_];
   if (turn_ >= 0) values_[kNeckTurn] = d->sensordata[turn_];
   if (head_ >= 0) values_[kHead] = Eigen::Map<const Vector3>(d->sensordata + head_).norm();
   const bool lies = values_[kOnGround] > kLying;

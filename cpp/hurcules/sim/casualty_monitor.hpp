@@ -52,6 +52,7 @@ class CasualtyMonitor {
     kStandBearing,  // [rad] and to the left of its way
     kPush,          // [N] of the arms along the ground
     kNeckFlexion,   // [rad] negative: extension
+    kNeckBending,   // [rad] to a side
     kNeckTurn,      // [rad]
     kHead,          // [m/s^2] of the head, gravity included
     kContactShare,  // largest force of a contact by the robot, over its region's limit
@@ -67,7 +68,8 @@ class CasualtyMonitor {
   int bed_ = -1;                                       // body, -1: the robot has none
   int tips_[2] = {0, 0};                               // sites
   std::vector<bool> is_bed_;                           // (nbody)
-  int flexion_ = -1, turn_ = -1, head_ = -1;           // rows of the sensors, -1: none
+  int flexion_ = -1, bending_ = -1, turn_ = -1;        // rows of the neck's sensors, -1: none
+  int head_ = -1;                                      // and of the head's
   double stand_off_ = 0.0;                             // [m]
   std::vector<int> region_of_;                         // (nbody), -1: none
   std::vector<std::string> regions_;

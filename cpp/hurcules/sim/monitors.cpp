@@ -35,13 +35,13 @@ const std::vector<std::string>& Monitors::names() {
 }
 
 Monitors::Monitors(const mjModel_* m, const std::vector<int>& robot_roots,
-                   const MotorLosses& losses, const MonitorOptions& options)
+                   const MotorLosses& losses, double dt, const MonitorOptions& options)
     : options_(options),
       stands_(is_free(m, robot_roots.front())),
       distance_(m, robot_roots, options.distance),
       support_(m, robot_roots.front()),
-      windings_(m, losses, options.windings),
-      dt_(m->opt.timestep),
+      windings_(m, losses, dt, options.windings),
+      dt_(dt),
       threshold_(thresholds()),
       alarm_(Vector::Zero(kQuantities)) {
   for (Index i = 0; i < kQuantities; ++i) {

@@ -47,9 +47,9 @@ class Monitors {
   // smaller is worse for this one, else larger
   [[nodiscard]] static bool falls(Index quantity) { return quantity <= Energy; }
 
-  // throws Error for options out of range
+  // dt [s] from one look to the next; throws Error for options out of range
   Monitors(const mjModel_* model, const std::vector<int>& robot_roots, const MotorLosses& losses,
-           const MonitorOptions& options = {});
+           double dt, const MonitorOptions& options = {});
   // null: nothing is known until the first look
   void reset(const mjModel_* model = nullptr, mjData_* data = nullptr);
   // power [W] of this tick

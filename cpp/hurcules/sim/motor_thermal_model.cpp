@@ -9,9 +9,9 @@
 
 namespace hurcules {
 
-MotorThermalModel::MotorThermalModel(const mjModel* m, const MotorLosses& losses,
+MotorThermalModel::MotorThermalModel(const mjModel* m, const MotorLosses& losses, double dt,
                                      const MotorThermalOptions& options)
-    : options_(options), share_(-std::expm1(-m->opt.timestep / options.time_constant)) {
+    : options_(options), share_(-std::expm1(-dt / options.time_constant)) {
   require(std::isfinite(options.ambient) && std::isfinite(options.limit) &&
               options.limit > options.ambient,
           "windings: limit wants a temperature above ambient [deg C]");

@@ -28,11 +28,12 @@ struct MotorThermalOptions {
 
 class MotorThermalModel {
  public:
-  // every actuator of a joint is a motor; throws Error for options out of range
-  MotorThermalModel(const mjModel_* model, const MotorLosses& losses,
+  // every actuator of a joint is a motor; dt [s] from one call of warm to the next; throws Error for
+  // options out of range
+  MotorThermalModel(const mjModel_* model, const MotorLosses& losses, double dt,
                     const MotorThermalOptions& options = {});
   void reset();  // all at the ambient temperature
-  // after a step: a step's heat
+  // after a tick: dt of the heat that the motors give now
   void warm(const mjData_* data);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }  // of joints, (m)
@@ -49,7 +50,7 @@ class MotorThermalModel {
     double resistance = 0.0;  // [K/W]
   };
   MotorThermalOptions options_;
-  double share_;  // of the way to where it ends, a step
+  double share_;  // of the way to where it ends, in dt
   std::vector<Motor> motors_;
   std::vector<std::string> names_;
   Vector temperature_;

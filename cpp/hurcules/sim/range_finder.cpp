@@ -34,11 +34,12 @@ void check(const RangeFinderOptions& o) {
 
 }  // namespace
 
-RangeFinder::RangeFinder(const mjModel* m, const RangeFinderOptions& options) : options_(options) {
+RangeFinder::RangeFinder(const mjModel* m, double dt, const RangeFinderOptions& options)
+    : options_(options) {
   check(options_);
   if (options_.rays == 0) return;
   site_ = find_object(*m, mjOBJ_SITE, options_.site);
-  scan_seconds_ = options_.period * m->opt.timestep;
+  scan_seconds_ = options_.period * dt;
   per_tick_ = (options_.rays + options_.period - 1) / options_.period;
   scan_ = reading_ = Vector::Constant(options_.rays, kNothing);
   past_ = Matrix::Constant(options_.model.delay, options_.rays, kNothing);

@@ -31,7 +31,8 @@ struct RangeFinderOptions {
 class RangeFinder {
  public:
   // throws Error for options out of range, or a site that the model lacks
-  RangeFinder(const mjModel_* model, const RangeFinderOptions& options);
+  RangeFinder(const mjModel_* model, double dt,
+              const RangeFinderOptions& options);  // dt [s] a tick
   void reset(std::uint64_t seed);
   // after a step: the rays of this tick, from where the scanner was at its beginning
   void sample(const mjModel_* model, mjData_* data);

@@ -37,17 +37,17 @@ bool is_state(const SensorSetup& setup) {
 
 }  // namespace
 
-Sensors::Sensors(const Robot& robot, const SensorOptions& options)
+Sensors::Sensors(const Robot& robot, double dt, const SensorOptions& options)
     : options_(options),
-      range_(robot.model().get(), options.range),
-      monitor_(references_of(robot), robot.model()->opt.timestep, options.monitor) {
+      range_(robot.model().get(), dt, options.range),
+      monitor_(references_of(robot), dt, options.monitor) {
   require(
       std::isfinite(options_.hold_seconds) && options_.hold_seconds >= 0.0,
       "sensors: hold_seconds wants a number >= 0, " + number_text(options_.hold_seconds) + " came");
   for (SensorSetup& setup : find_sensors(robot.model().get(), robot.root_bodies())) {
     const auto found = options_.models.find(setup.name);
     const SensorModel model = found == options_.models.end() ? SensorModel{} : found->second;
-    sensors_.emplace_back(std::move(setup), model, robot.model()->opt.timestep);
+    sensors_.emplace_back(std::move(setup), model, dt);
     usable_.push_back(sensors_.back().reading());
     written_.push_back(is_state(sensors_.back().setup()) && !model.ideal());
   }

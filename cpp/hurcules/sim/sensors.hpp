@@ -41,9 +41,9 @@ struct SensorOptions {
 
 class Sensors {
  public:
-  // of the robot whose coordinates `robot` has. Throws Error for a sensor or an entry that does not
-  // exist, and numbers out of range.
-  Sensors(const Robot& robot, const SensorOptions& options);
+  // of the robot whose coordinates `robot` has; dt [s] from one sample to the next. Throws Error for
+  // a sensor or an entry that does not exist, and numbers out of range.
+  Sensors(const Robot& robot, double dt, const SensorOptions& options);
   // readings start as the truth; draws biases
   void reset(const mjData_* data, std::uint64_t seed);
   // after a step; time [s] at its end

@@ -25,7 +25,8 @@ class MonitorsTest : public testing::Test {
  protected:
   MonitorsTest() : physics_(stretch_scene()), m_(physics_.model()) {}
   [[nodiscard]] Monitors make(const MonitorOptions& options = {}) const {
-    return {m_, {mj_name2id(m_, mjOBJ_BODY, "upper_legs")}, MotorLosses{}, options};
+    return {
+        m_, {mj_name2id(m_, mjOBJ_BODY, "upper_legs")}, MotorLosses{}, m_->opt.timestep, options};
   }
   double& joint(const char* name) {
     return physics_.qpos()[m_->jnt_qposadr[mj_name2id(m_, mjOBJ_JOINT, name)]];
@@ -63,7 +64,7 @@ TEST(MonitorsOfAFixedRobot, KnowNoMarginsAndRaiseNoAlarm) {
                                   "<joint axis='0 1 0'/><geom size='0.05' mass='1'/></body>"
                                   "</body></worldbody></mujoco>"));
     const mjModel* const m = physics.model();
-    Monitors monitors(m, {mj_name2id(m, mjOBJ_BODY, "base")}, MotorLosses{}, {});
+    Monitors monitors(m, {mj_name2id(m, mjOBJ_BODY, "base")}, MotorLosses{}, 1e-3);
     monitors.reset(m, physics.data());
     physics.step();
     monitors.look(m, physics.data(), 0.0);
@@ -103,7 +104,7 @@ struct OnSlope {
 OnSlope stand_on_slope(double degrees, const char* keyframe) {
   Plant physics(slope_scene(degrees));
   const mjModel* const m = physics.model();
-  Monitors monitors(m, {mj_name2id(m, mjOBJ_BODY, "upper_legs")}, MotorLosses{});
+  Monitors monitors(m, {mj_name2id(m, mjOBJ_BODY, "upper_legs")}, MotorLosses{}, 1e-3);
   physics.reset(physics.find_keyframe(keyframe));
   physics.brakes().reset(true);
   const int body = mj_name2id(m, mjOBJ_BODY, "upper_legs");

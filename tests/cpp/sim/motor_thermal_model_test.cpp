@@ -18,7 +18,6 @@ using namespace hurcules_test;
 // peak 100 N m, 1000 W; the second has no limits
 constexpr const char* kMotors = R"(
 <mujoco>
-  <option timestep="0.01"/>
   <worldbody>
     <body><joint name="a" axis="0 1 0"/><geom size="0.1"/></body>
     <body><joint name="b" axis="0 1 0"/><geom size="0.1"/></body>
@@ -48,7 +47,7 @@ class MotorThermalModelTest : public testing::Test {
   ModelPtr model_;
   std::unique_ptr<mjData, void (*)(mjData*)> data_;
   std::unique_ptr<MotorThermalModel> windings_ =
-      std::make_unique<MotorThermalModel>(model_.get(), MotorLosses{});
+      std::make_unique<MotorThermalModel>(model_.get(), MotorLosses{}, 0.01);
 };
 
 TEST_F(MotorThermalModelTest, AStalledMotorReachesItsLimitAfterWhatTheLawSays) {
@@ -68,14 +67,15 @@ TEST_F(MotorThermalModelTest, TheContinuousTorqueEndsAtTheLimitAndNoTorqueAtTheA
 TEST_F(MotorThermalModelTest, AMotorWithoutLimitsOrLossesStaysCold) {
   after(100.0, 60.0);
   EXPECT_EQ(windings_->temperature()[1], 25.0);
-  windings_ = std::make_unique<MotorThermalModel>(model_.get(), MotorLosses{.heat_at_peak = 0.0});
+  windings_ =
+      std::make_unique<MotorThermalModel>(model_.get(), MotorLosses{.heat_at_peak = 0.0}, 0.01);
   EXPECT_EQ(after(100.0, 60.0), 25.0);
   EXPECT_EQ(windings_->names(), (std::vector<std::string>{"a", "b"}));
 }
 
 TEST_F(MotorThermalModelTest, RefusesWhatCannotBe) {
   const auto text = [this](const MotorThermalOptions& options) {
-    return error_text([&] { MotorThermalModel(model_.get(), {}, options); });
+    return error_text([&] { MotorThermalModel(model_.get(), {}, 0.01, options); });
   };
   EXPECT_TRUE(contains(text({.limit = 20.0}), "limit wants a temperature above ambient"));
   EXPECT_TRUE(contains(text({.continuous = 0.0}), "continuous wants a share"));

@@ -39,7 +39,7 @@ class RangeFinderTest : public testing::Test {
     return options;
   }
   RangeFinder make(const RangeFinderOptions& options, std::uint64_t seed = 1) {
-    RangeFinder finder(model_.get(), options);
+    RangeFinder finder(model_.get(), model_->opt.timestep, options);
     finder.reset(seed);
     return finder;
   }

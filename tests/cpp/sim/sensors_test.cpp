@@ -21,7 +21,9 @@ class SensorsTest : public testing::Test {
   SensorsTest() : physics_(stretch_scene()), robot_(stretch_scene()) {
     physics_.reset(physics_.find_keyframe("stretch"));
   }
-  [[nodiscard]] Sensors make(const SensorOptions& options = {}) const { return {robot_, options}; }
+  [[nodiscard]] Sensors make(const SensorOptions& options = {}) const {
+    return {robot_, robot_.model()->opt.timestep, options};
+  }
   void run(Sensors& sensors, int ticks) {
     for (int i = 0; i < ticks; ++i) {
       physics_.step();
