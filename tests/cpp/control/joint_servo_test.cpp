@@ -82,8 +82,7 @@ TEST_F(JointServoTest, TellsWhichVelocityOfTheReferenceAsksForThePeakAndNoMore) 
   const Vector qpos = Vector::Zero(robot_.model()->nq), qvel = qpos;
   q << 0.1, 0.2;
   for (int i = 0; i < 5; ++i) act(0.1, 0.02);  // an integral, not yet saturated
-  const VelocityBounds window =
-      servo_.velocity_bounds(q, {qpos, qvel, status_}, Vector::Ones(q.size()));
+  const VelocityBounds window = servo_.velocity_bounds(q, {qpos, qvel, status_}, nullptr);
   EXPECT_EQ(window.upper[0], std::numeric_limits<double>::infinity());  // motors without limits
   const JointServo before = servo_;
   using Case = std::pair<double, double>;
