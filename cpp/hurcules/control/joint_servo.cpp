@@ -175,7 +175,7 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
   }
   find_ties(*robot.model());
   error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
-  reference_ = position_;
+  reference_ = seen_ = position_;
   feed_forward_ = Vector::Zero(size());
   rests_.resize(motors_.size());
   left_.resize(motors_.size(), false);
@@ -312,7 +312,18 @@ void JointServo::rated_inertia(VectorRef inertia) const {
   }
 }
 
-const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotState& state,
+double JointServo::seen_speed(Index joint, const RobotState& state) {
+  const JointActuator& own = actuator(joint);
+  const double place = own.position(state.qpos), speed = state.qvel[own.dof];
+  const double moved = (place - seen_[joint]) / pid_.options().dt;
+  seen_[joint] = place;
+  if (own.part >= 0) return speed;  // its angles are no integrals of its rates
+  if (speed * moved <= 0.0) return 0.0;
+  return std::abs(speed) < std::abs(moved) ? speed : moved;
+}
+
+const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector& qd,
+                                                  const RobotState& state, double most,
                                                   const Vector* growth) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   bounds_.lower.setConstant(-kNone);
@@ -323,6 +334,7 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
   }
   find_position_error(reference_, state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
+    const double seen = seen_speed(i, state);
     if (rests_[static_cast<std::size_t>(i)].on) continue;
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
@@ -332,10 +344,11 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const RobotSt
     const double grown = growth ? (*growth)[motor.coordinate] : 1.0;
     const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;
     const double b = pid_.rate_at(i, error_, (range.upper - beside) / grown) / motor.factor;
+    const double goes = seen / motor.factor, led = qd[motor.coordinate];
     double& lower = bounds_.lower[motor.coordinate];
     double& upper = bounds_.upper[motor.coordinate];
-    lower = std::max(lower, std::min(a, b));
-    upper = std::min(upper, std::max(a, b));
+    lower = std::max(lower, std::min({a, b, std::max({0.0, led, goes}) + most}));
+    upper = std::min(upper, std::max({a, b, std::min({0.0, led, goes}) - most}));
     if (lower > upper) lower = upper = 0.5 * (lower + upper);
   }
   return bounds_;
@@ -390,20 +403,21 @@ void JointServo::reset(const Vector& qpos) {
   }
   for (Rest& rest : rests_) rest = {};
   for (Index i = 0; i < size(); ++i) {
-    position_[i] = actuator(i).position(qpos);
+    seen_[i] = position_[i] = actuator(i).position(qpos);
   }
 }
 
 void JointServo::save(StateWriter& writer) const {
   pid_.save(writer);
-  for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_})
+  for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_, &seen_})
     writer.put(*vector);
   for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
 }
 
 void JointServo::restore(StateReader& reader) {
   pid_.restore(reader);
-  for (Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_}) reader.get(*vector);
+  for (Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_, &seen_})
+    reader.get(*vector);
   for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
 }
 

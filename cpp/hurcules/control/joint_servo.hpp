@@ -80,8 +80,10 @@ class JointServo {
   // its peak; no side where it rests behind a brake, the middle where two joints of one coordinate
   // exclude each other. A motor is asked for growth (n, null: 1) times its own feedback, and for what
   // is fed forward.
-  const VelocityBounds& velocity_bounds(const Vector& q, const RobotState& state,
-                                        const Vector* growth);
+  // Where a push asks for more, the coordinate goes with it: no faster than its joint is seen to go,
+  // or `qd` (n) says, by more than `most` [rad/s]. It may always stand.
+  const VelocityBounds& velocity_bounds(const Vector& q, const Vector& qd, const RobotState& state,
+                                        double most, const Vector* growth);
   // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
   void feed_forward(const Vector& efforts);
   // as much more effort of the coordinates from now on, (n) [N m], for feed-forward that falls away
@@ -140,6 +142,9 @@ class JointServo {
   void read_brakes(const RobotState& state);
   // from where the joints are to these references (m)
   void find_position_error(const Vector& reference, const Vector& qpos);
+  // [rad/s] that a joint is seen to go with since the last call: one reading that is wrong, of its
+  // place or its speed, does not move it
+  double seen_speed(Index joint, const RobotState& state);
   // of a ball joint with this motor: the rotation of references (m)
   [[nodiscard]] Matrix3 rotation(Index joint, const Vector& reference) const;
 
@@ -153,6 +158,7 @@ class JointServo {
   Vector position_, velocity_;  // (m) reference
   Vector feed_forward_;         // [N m] (m)
   Vector reference_;            // [rad] (m) scratch
+  Vector seen_;                 // [rad] (m) joints, when bounds were last asked for
   Vector offset_;               // [rad] (m) of a joint against its coordinate
   std::vector<Rest> rests_;     // (m)
   std::vector<bool> left_;      // (m) to somebody else

@@ -22,6 +22,7 @@ class LawOf : public MotionLaw {
   const Solution& solution() const override { return controller_.solution(); }
   const Eigen::VectorXi& active_limits() const override { return controller_.active_limits(); }
   const JointLimits* limits() const override { return controller_.limits(); }
+  double max_acceleration() const override { return controller_.options().max_acceleration; }
   std::vector<LevelDiagnostics> diagnostics(const Robot& plan) const override {
     return controller_.diagnostics(plan);
   }

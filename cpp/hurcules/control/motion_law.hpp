@@ -47,6 +47,7 @@ class MotionLaw {
   [[nodiscard]] virtual const JointLimits* limits() const = 0;
   // [1/s] at which an error of a task vanishes
   [[nodiscard]] virtual double rate() const = 0;
+  [[nodiscard]] virtual double max_acceleration() const = 0;  // [rad/s^2] of every coordinate
   [[nodiscard]] virtual std::vector<LevelDiagnostics> diagnostics(const Robot& plan) const = 0;
 };
 

@@ -615,7 +615,8 @@ void WholeBodyController::solve(const RobotState& state) {
     const bool decoupled = *options_.decoupled && !by_torques();
     const Vector* const growth =
         decoupled ? &feed_forward_.tell_growth(plan_, qd_, state, servo_) : nullptr;
-    scaled_ = law.scale(servo_.velocity_bounds(q_, state, growth), qd_);
+    const double most = law.max_acceleration() * dt();
+    scaled_ = law.scale(servo_.velocity_bounds(q_, qd_, state, most, growth), qd_);
   }
   if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
   yielding_.update(scaled_, law.rate(), dt());

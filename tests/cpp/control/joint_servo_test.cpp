@@ -82,7 +82,8 @@ TEST_F(JointServoTest, TellsWhichVelocityOfTheReferenceAsksForThePeakAndNoMore) 
   const Vector qpos = Vector::Zero(robot_.model()->nq), qvel = qpos;
   q << 0.1, 0.2;
   for (int i = 0; i < 5; ++i) act(0.1, 0.02);  // an integral, not yet saturated
-  const VelocityBounds window = servo_.velocity_bounds(q, {qpos, qvel, status_}, nullptr);
+  const VelocityBounds window = servo_.velocity_bounds(
+      q, Vector::Zero(2), {qpos, qvel, status_}, std::numeric_limits<double>::infinity(), nullptr);
   EXPECT_EQ(window.upper[0], std::numeric_limits<double>::infinity());  // motors without limits
   const JointServo before = servo_;
   using Case = std::pair<double, double>;
@@ -93,6 +94,23 @@ TEST_F(JointServoTest, TellsWhichVelocityOfTheReferenceAsksForThePeakAndNoMore) 
     EXPECT_NEAR(servo_.demand()[2], torque, 1e-9);
     EXPECT_LE(std::abs(servo_.demand()[2]), 20.0);
   }
+}
+
+TEST_F(JointServoTest, LeadsAReferenceAwayOnlyAsFastAsItsJointIsSeenToGo) {
+  constexpr double kMost = 0.02;  // [rad/s]
+  const JointActuator& joint = servo_.actuator(2);
+  const Vector q = Vector::Zero(2), rest = Vector::Zero(2);
+  const auto least = [&](double place, double speed) {  // of the reference, [rad/s]
+    Vector qpos = Vector::Zero(robot_.model()->nq), qvel = Vector::Zero(robot_.model()->nv);
+    qpos[joint.qpos] = place;
+    qvel[joint.dof] = speed;
+    return servo_.velocity_bounds(q, rest, {qpos, qvel, status_}, kMost, nullptr).lower[1];
+  };
+  EXPECT_LT(least(0.0, 0.0), 0.0);     // it may stand
+  EXPECT_EQ(least(0.0, 50.0), kMost);  // one wrong speed
+  EXPECT_LE(least(0.02, 0.0), kMost);  // one wrong place
+  servo_.reset(Vector::Zero(robot_.model()->nq));
+  EXPECT_EQ(least(0.02, 50.0), 20.0 + kMost);  // a push
 }
 
 TEST_F(JointServoTest, HoldsWhatNoCoordinateDrivesWhereItStood) {
