@@ -12,7 +12,8 @@ inline constexpr const char* kHelp =
     " [--json FILE] [--csv FILE] [--model FILE] | --help | --version\n\n"
     "--variation: scale of what differs between seeds, 1 unless given. --sensors: with noise, bias,"
     " delay and resolution. --model: another scene for a MISSION.\n"
-    "The missions lift, casualty and disposal are tables: hurcules mission NAME --out FILE.table\n";
+    "The missions lift, casualty, crossing and disposal are tables: hurcules mission NAME --out "
+    "FILE.table\n";
 inline constexpr const char* kTableEnding = ".table";
 
 struct Arguments {

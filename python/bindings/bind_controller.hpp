@@ -18,7 +18,9 @@
 namespace hurcules_bindings {
 
 inline constexpr const char* kSetStack =
-    "Takes over another stack, or what Stack takes; keeps its tasks alive.";
+    "Takes over another stack, or what Stack takes; keeps its tasks alive. The one that it has "
+    "already "
+    "changes nothing.";
 inline constexpr const char* kDiagnostics =
     R"(What each level fell short of at the last compute, and why.
 
@@ -38,8 +40,8 @@ void bind_common(pybind11::class_<Controller>& controller, const std::string& re
   using namespace pybind11::literals;
   const auto set_stack = [](Controller& self, const StackLike& stack) {
     const py::object held = py::cast(stack_of(stack));
-    self.set_stack(held.cast<const HeldStack&>().stack);
-    py::detail::keep_alive_impl(py::cast(&self), held);
+    if (self.set_stack(held.cast<const HeldStack&>().stack))
+      py::detail::keep_alive_impl(py::cast(&self), held);
   };
   const auto compute = [](Controller& self, const hurcules::Robot& robot) {
     const InUse in_use("controller or Robot", &self, &robot);

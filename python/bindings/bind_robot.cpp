@@ -61,7 +61,8 @@ constexpr const char* kUpper = "[rad] or [m], inf when unlimited";
 constexpr const char* kMaxVelocity =
     "[rad/s] or [m/s], from the numeric velocity_limit_JOINT, else inf";
 constexpr const char* kMaxEffort =
-    "[N m] or [N], sum over its actuators by their ranges of force or, of plain motors, of control; "
+    "[N m] or [N], sum over its actuators by their ranges of force or, of plain motors, of "
+    "control; "
     "inf without any";
 constexpr const char* kStandOn =
     R"(The body that stays where it is when the coordinates move; by default the root of its tree.
@@ -74,7 +75,8 @@ Raises:
 )";
 constexpr const char* kSetQpos = "Sets the whole qpos (nq,), base and loose bodies too.";
 constexpr const char* kSetConfiguration =
-    "Sets the coordinates q (n,) [rad] or [m]; all else stays as it is. Warns outside the limits.";
+    "Sets the coordinates q (n,) [rad] or [m]; all else stays as it is. Warns outside the limits, "
+    "and where a loop of the model cannot close.";
 constexpr const char* kSetVelocity = "Sets the velocity (n,) [rad/s] or [m/s]; only drifts use it.";
 constexpr const char* kSetKeyframe =
     "Takes the posture of a keyframe, or the model's initial one for ''. Warns outside the limits.";
@@ -229,6 +231,7 @@ void bind_state(py::class_<Robot>& robot) {
           [](Robot& self, const ConstVectorRef& q) {
             self.set_configuration(q);
             warn(outside_limits(self));
+            warn(open_loops(self));
           },
           py::arg("q"), kSetConfiguration)
       .def("set_velocity", &Robot::set_velocity, py::arg("velocity"), kSetVelocity)

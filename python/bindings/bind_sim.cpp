@@ -362,7 +362,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def("go", &go, "phase"_a, kGo)
       .def("pause", &pause_simulation, kPause)
       .def("resume", &resume_simulation, kResume)
-      .def("answer", &answer, "yes"_a, kAnswer)
+      .def("answer", &answer, "yes"_a.noconvert(), kAnswer)
       .def_property_readonly("paused", &Simulation::paused, "its mission stands still: `pause`")
       .def_property_readonly("question", &Simulation::question, kQuestion)
       .def_property_readonly("dt", &Simulation::dt, "[s]")

@@ -35,7 +35,7 @@ constexpr const char* kSetInterval =
     "Narrows the ranges of all coordinates (n,); never wider than the robot's.";
 constexpr const char* kSetMaxVelocity = "Speed limit of one coordinate [rad/s] or [m/s], above 0.";
 constexpr const char* kSetMaxVelocities =
-    "Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none.";
+    "Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; inf for none.";
 constexpr const char* kNoOrder =
     "limits are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
 constexpr const char* kStackLevel = R"(Tasks of one priority, or limits of the coordinates.
@@ -134,6 +134,12 @@ void bind_limits(py::module_& module) {
       .def("reset_ranges", &JointLimits::reset_ranges, "The ranges of the robot again.")
       .def("set_max_velocity", &JointLimits::set_max_velocity, "coordinate"_a, "limit"_a,
            kSetMaxVelocity)
+      .def(
+          "set_max_velocities",
+          [](JointLimits& self, double limit) {
+            self.set_max_velocities(Vector::Constant(self.size(), limit));
+          },
+          "limits"_a, kSetMaxVelocities)
       .def("set_max_velocities", &JointLimits::set_max_velocities, "limits"_a, kSetMaxVelocities)
       .def("update", &JointLimits::update, "robot"_a, "Notes where the coordinates are.")
       .def("state", &state<JointLimits>, kState)

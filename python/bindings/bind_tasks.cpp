@@ -72,7 +72,7 @@ constexpr const char* kSetWeights =
     R"(What each row counts beside the others of its level where they cannot all be met.
 
 Args:
-  weights: (m,), by default 1; 0 for a row that asks for nothing.
+  weights: (m,), or one for all rows, by default 1; 0 for a row that asks for nothing.
 )";
 constexpr const char* kDampingTask = R"(Coordinates at rest: e = 0 (m,), 0 = qdot.
 
@@ -280,6 +280,12 @@ void bind_task(py::module_& module) {
       .def("set_gain", py::overload_cast<double>(&Task::set_gain), py::arg("gain"), kSetGain)
       .def("set_gain", py::overload_cast<const ConstVectorRef&>(&Task::set_gain), py::arg("gain"),
            kSetGain)
+      .def(
+          "set_weights",
+          [](Task& self, double weight) {
+            self.set_weights(Vector::Constant(self.rows(), weight));
+          },
+          py::arg("weights"), kSetWeights)
       .def("set_weights", &Task::set_weights, py::arg("weights"), kSetWeights)
       .def_property_readonly("weights", &Task::weights, copy, "(m,)")
       .def_property_readonly("is_limit", &Task::is_limit,

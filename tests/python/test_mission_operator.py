@@ -37,6 +37,9 @@ def test_what_a_mission_asks_is_said_and_answered() -> None:
     with pytest.raises(Error, match="nothing is asked now"):
         simulation.answer(True)
     simulation.restore(saved)
+    for neither in (None, 2.0, "yes"):
+        with pytest.raises(TypeError):
+            simulation.answer(neither)
     simulation.answer(True)
     answered = simulation.state()
     for _ in range(2):

@@ -64,8 +64,8 @@ def test_a_force_task_reads_the_sensors_that_it_is_given() -> None:
     )
     robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
     robot.set_configuration(START)
-    gains = hurcules.ForceGains(dt=model.opt.timestep)
-    force = hurcules.ForceTask("force", robot, "tip", axis=[1.0, 0.0, 0.0], gains=gains)
+    # its period is that of the model, 2 ms
+    force = hurcules.ForceTask("force", robot, "tip", axis=[1.0, 0.0, 0.0])
     controller = hurcules.WholeBodyController(robot, [force, hurcules.PostureTask("p", robot)])
     controller.sense(force, "push", 0)
     with pytest.raises(hurcules.Error, match="no sensors came"):
@@ -157,3 +157,29 @@ def test_a_joint_that_is_suddenly_elsewhere_is_refused_and_nothing_changes() -> 
     controller.tick(data.qpos + 0.5, data.qvel)  # who restores says where it is
     controller.reset(data.qpos)
     controller.tick(data.qpos, data.qvel)
+
+
+def test_one_wrong_speed_does_not_throw_the_arm() -> None:
+    """The tip was off by 0.82 m: the reference followed what was taken for a push, at once."""
+    controller, data = own_loop()
+    tip = data.model.site("tip").id
+    mujoco.mj_forward(data.model, data)
+    start, off = data.site_xpos[tip].copy(), 0.0
+    for tick in range(1500):
+        speed = data.qvel + (20.0 if tick == 500 else 0.0) * (np.arange(4) == 0)
+        data.ctrl[:] = controller.tick(data.qpos, speed)
+        mujoco.mj_step(data.model, data)
+        off = max(off, float(np.linalg.norm(data.site_xpos[tip] - start)))
+    assert off < 0.02
+    assert np.linalg.norm(data.site_xpos[tip] - start) < 1e-3
+
+
+def test_the_state_of_another_controller_is_refused() -> None:
+    controller, data = own_loop()
+    robot = hurcules.Robot(data.model, joints=["j1", "j2", "j3"])
+    posture = hurcules.PostureTask("other", robot)
+    other = hurcules.WholeBodyController(robot, [posture], {"other": hurcules.Twist(posture, 1.0)})
+    before = other.state()
+    with pytest.raises(hurcules.Error, match="the state is that of another controller"):
+        other.restore(controller.state())
+    assert other.state() == before

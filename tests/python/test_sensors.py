@@ -228,3 +228,29 @@ def test_windings_warm_by_the_period_of_the_controller() -> None:
     slow, fast = after(5e-3), after(1e-3)
     assert fast > 35.0  # from 25
     assert slow - 25.0 == pytest.approx(fast - 25.0, rel=0.01)
+
+
+@pytest.mark.parametrize("trouble", ["Frozen", "NotANumber"])
+def test_a_joint_without_a_brake_does_not_follow_an_encoder_that_is_lost(trouble: str) -> None:
+    """It ran into its stop while it was held: its servo went on with the stuck reading."""
+    plain = side_by_side()
+    joint = "Lj1"
+    fault = SensorFault(f"encoder_position/{joint}", getattr(FaultKind, trouble), 0.1)
+    robot = hurcules.Robot(plain.model)
+    posture = hurcules.PostureTask("posture", robot)
+    simulation = hurcules.Simulation(
+        model=plain.model,
+        controller=hurcules.WholeBodyController(
+            robot, [posture], {"lead": hurcules.Twist(posture, 1.0)}
+        ),
+        sensors=SensorOptions(faults=[fault]),
+    )
+    lead = np.zeros(len(robot.coordinate_names))
+    lead[robot.coordinate(joint)] = 1.0
+    simulation.step(2000, {"lead": lead})
+    assert "encoder_position/" + joint in simulation.reason
+    log = simulation.log()
+    speed = np.abs(log[f"qd/{joint}"])
+    found = int(np.flatnonzero(log["time"] >= simulation.time - 0.98)[0])
+    assert speed[found:].max() < 1.5
+    assert speed[-1] < 0.05

@@ -143,6 +143,36 @@ def test_weights_share_what_cannot_be_met(model: mujoco.MjModel, by: str) -> Non
     assert robot.configuration[0] == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.parametrize(
+    "make", [hurcules.VelocityController, hurcules.AccelerationController]
+)
+def test_a_loop_may_give_its_tasks_in_each_tick(model: mujoco.MjModel, make: type) -> None:
+    # as mink and Pink do; each time it went over to a new stack, and never arrived
+    robots = [hurcules.Robot(model) for _ in range(2)]
+    for robot, always in zip(robots, (False, True), strict=True):
+        hand = hurcules.PositionTask("hand", robot, "l_hand")
+        tasks = [hand, hurcules.PostureTask("posture", robot)]
+        hand.set_target(hand.value + [0.05, 0.0, 0.05])
+        controller = make(robot)
+        controller.set_stack(tasks)
+        for _ in range(3000):
+            if always:
+                controller.set_stack(tasks)
+            controller.step(robot)
+        assert hand.error == pytest.approx(np.zeros(3), abs=1e-4)
+    np.testing.assert_array_equal(robots[0].configuration, robots[1].configuration)
+
+
+def test_one_number_is_for_all_rows(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+    posture = hurcules.PostureTask("posture", robot)
+    posture.set_weights(0.3)
+    assert posture.weights == pytest.approx(np.full(robot.size, 0.3))
+    limits = hurcules.JointLimits("limits", robot)
+    limits.set_max_velocities(0.7)
+    assert limits.max_velocity == pytest.approx(np.full(robot.size, 0.7))
+
+
 def test_a_gain_is_the_rate_of_its_row(model: mujoco.MjModel) -> None:
     robot = hurcules.Robot(model, joints=["l1", "r1"])
     posture = hurcules.PostureTask("posture", robot)

@@ -134,6 +134,14 @@ def link(mass: float) -> str:
     )
 
 
+def test_a_mimic_joint_stands_where_it_follows_from_the_start(file: Path) -> None:
+    # it stood at 0, and sprang to its offset in the first tick
+    arm = GRIPPER.replace('<mimic joint="left"/>', '<mimic joint="left" offset="0.01"/>')
+    file.write_text(arm.format(palm=link(1.0), finger=link(0.05)))
+    robot = hurcules.Robot(hurcules.load_urdf(file))
+    assert robot.qpos == pytest.approx([0.0, 0.0, 0.01])
+
+
 @pytest.mark.parametrize("joints", [["mount"], ["mount", "left"]], ids=["by a rate", "as a task"])
 def test_fingers_that_one_joint_leads_have_one_motor_and_go_together(
     file: Path, joints: list[str]

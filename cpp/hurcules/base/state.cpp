@@ -1,6 +1,7 @@
 #include "hurcules/base/state.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -26,6 +27,18 @@ void StateWriter::put(const ConstVectorRef& values) {
 void StateWriter::put_bits(unsigned long long word) {
   put(static_cast<double>(word >> 32));
   put(static_cast<double>(word & 0xffffffffULL));
+}
+
+double hash_of_names(std::initializer_list<const std::vector<std::string>*> lists) {
+  std::uint32_t hash = 2166136261U;
+  for (const auto* list : lists) {
+    for (const std::string& name : *list) {
+      for (const char letter : name + ";") {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
+      }
+    }
+  }
+  return static_cast<double>(hash);
 }
 
 double StateReader::get_any() {

@@ -1,6 +1,8 @@
 // A snapshot as one flat list of numbers: what must be kept so that a run continues bit for bit.
 #pragma once
 
+#include <initializer_list>
+#include <string>
 #include <vector>
 
 #include "hurcules/base/types.hpp"
@@ -20,6 +22,9 @@ class StateWriter {
  private:
   std::vector<double>& out_;
 };
+
+// what tells the names that a snapshot belongs to from others (FNV-1a, 32 bits)
+[[nodiscard]] double hash_of_names(std::initializer_list<const std::vector<std::string>*> lists);
 
 class StateReader {
  public:

@@ -75,7 +75,8 @@ AccelerationController::AccelerationController(const Robot& robot,
   intervals_.resize(static_cast<std::size_t>(robot.size()));
 }
 
-void AccelerationController::set_stack(const Stack& stack) {
+bool AccelerationController::set_stack(const Stack& stack) {
+  if (problem_.asked_for(stack)) return false;
   require_period(stack, options_.dt);
   const Stack completed = contacts_.completed(stack);
   problem_.set_stack(completed, options_.enforce_limits ? &own_limits_ : nullptr, &joint_ranges_,
@@ -102,6 +103,8 @@ void AccelerationController::set_stack(const Stack& stack) {
   if (solver_.unknowns() != unknowns) solver_ = Solver(unknowns, options_.solver);
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
+  problem_.note_asked(stack);
+  return true;
 }
 
 const Vector& AccelerationController::compute(const Robot& robot) {

@@ -51,8 +51,9 @@ struct AccelerationControllerOptions {
 class AccelerationController {
  public:
   AccelerationController(const Robot& robot, AccelerationControllerOptions options = {});
-  // takes over another stack; the memory for its hierarchy is made here, never in compute
-  void set_stack(const Stack& stack);
+  // takes over another stack; the memory for its hierarchy is made here, never in compute. False, and
+  // nothing changes, where it is the one that it has.
+  bool set_stack(const Stack& stack);
   // measures the tasks at the robot's configuration and velocity, builds the levels, solves:
   // qddot* (n) [rad/s^2]. The robot is the reference (servos) or the real one (torques).
   const Vector& compute(const Robot& robot);

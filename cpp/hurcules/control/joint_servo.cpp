@@ -178,6 +178,7 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
   reference_ = seen_ = position_;
   feed_forward_ = Vector::Zero(size());
   rests_.resize(motors_.size());
+  trust_.resize(motors_.size(), Trust::All);
   left_.resize(motors_.size(), false);
   bounds_.lower = bounds_.upper = Vector::Zero(robot.size());
 }
@@ -289,6 +290,7 @@ void JointServo::add(const Vector& efforts) {
 void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef acceleration) {
   efforts.setZero();
   acceleration.setZero();  // for now the rated inertia
+  follow_readings(state);
   find_position_error(position_, state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
@@ -370,8 +372,24 @@ void JointServo::read_brakes(const RobotState& state) {
   }
 }
 
+void JointServo::distrust(Index joint, bool speed_too) {
+  trust_[static_cast<std::size_t>(joint)] = speed_too ? Trust::None : Trust::Speed;
+}
+
+// the reference of a joint whose encoder is not believed is what it reads
+void JointServo::follow_readings(const RobotState& state) {
+  for (Index i = 0; i < size(); ++i) {
+    const Trust trust = trust_[static_cast<std::size_t>(i)];
+    if (trust == Trust::All) continue;
+    position_[i] = actuator(i).position(state.qpos);
+    velocity_[i] = trust == Trust::Speed ? 0.0 : state.qvel[actuator(i).dof];
+    pid_.forget(i);
+  }
+}
+
 void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   read_brakes(state);
+  follow_readings(state);
   find_position_error(position_, state.qpos);
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
@@ -402,6 +420,7 @@ void JointServo::reset(const Vector& qpos) {
     vector->setZero();
   }
   for (Rest& rest : rests_) rest = {};
+  std::fill(trust_.begin(), trust_.end(), Trust::All);
   for (Index i = 0; i < size(); ++i) {
     seen_[i] = position_[i] = actuator(i).position(qpos);
   }

@@ -71,6 +71,9 @@ class JointServo {
   // reference is where the joint is, its integral 0. It squeezes while it stands, and its reference
   // is further beyond it than a servo that is free to follow ever is.
   void let_go(Index joint, double velocity, const RobotState& state);
+  // From now on an encoder that cannot be believed is not followed: the motor gives what is fed
+  // forward, and brakes by the joint's speed unless it is that which is wrong. Until `reset`.
+  void distrust(Index joint, bool speed_too);
   // an actuator that somebody else commands from now on: no control is written for it
   void leave(Index joint) { left_[static_cast<std::size_t>(joint)] = true; }
   // from here on a coordinate's joints keep the distance from it that they have now; q and velocity
@@ -140,6 +143,7 @@ class JointServo {
   };
   void find_ties(const mjModel_& model);
   void read_brakes(const RobotState& state);
+  void follow_readings(const RobotState& state);
   // from where the joints are to these references (m)
   void find_position_error(const Vector& reference, const Vector& qpos);
   // [rad/s] that a joint is seen to go with since the last call: one reading that is wrong, of its
@@ -161,7 +165,9 @@ class JointServo {
   Vector seen_;                 // [rad] (m) joints, when bounds were last asked for
   Vector offset_;               // [rad] (m) of a joint against its coordinate
   std::vector<Rest> rests_;     // (m)
-  std::vector<bool> left_;      // (m) to somebody else
+  enum class Trust { All, Speed, None };
+  std::vector<Trust> trust_;  // (m) of the encoder
+  std::vector<bool> left_;    // (m) to somebody else
 };
 
 }  // namespace hurcules

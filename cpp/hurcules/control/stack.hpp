@@ -25,6 +25,9 @@ struct StackLevel {
   std::vector<Task*> tasks;
   JointLimits* limits = nullptr;  // a level of limits; it has no tasks
   double rho = kDefaultRho;
+
+  bool operator==(const StackLevel& other) const =
+      default;  // the same tasks, not such as are alike
 };
 
 class Stack {
@@ -33,6 +36,7 @@ class Stack {
   explicit Stack(std::vector<StackLevel> levels);
   [[nodiscard]] const std::vector<StackLevel>& levels() const { return levels_; }
   [[nodiscard]] std::string text() const;  // "joint < hpos < hpitch"
+  bool operator==(const Stack& other) const = default;
 
  private:
   std::vector<StackLevel> levels_;

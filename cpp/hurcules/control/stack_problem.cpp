@@ -20,6 +20,13 @@ Stack with_limits(const Stack& stack, JointLimits& limits, JointRanges* ranges) 
   return Stack(std::move(levels));
 }
 
+std::vector<Index> rows_of(const Stack& stack) {
+  std::vector<Index> rows;
+  for (const StackLevel& level : stack.levels())
+    for (const Task* task : level.tasks) rows.push_back(task->rows());
+  return rows;
+}
+
 Level sized_level(const StackLevel& source, Index n) {
   Index rows = source.limits ? n : 0;
   for (const Task* task : source.tasks) rows += task->rows();
@@ -52,6 +59,15 @@ void StackProblem::set_stack(const Stack& asked, JointLimits* own, JointRanges* 
   stack_ = stack;
   hierarchy_ = std::move(hierarchy);
   limits_ = stack_.levels().empty() ? nullptr : stack_.levels().front().limits;
+}
+
+bool StackProblem::asked_for(const Stack& stack) const {
+  return !stack.levels().empty() && stack == asked_ && rows_of(stack) == asked_rows_;
+}
+
+void StackProblem::note_asked(const Stack& stack) {
+  asked_ = stack;
+  asked_rows_ = rows_of(stack);
 }
 
 }  // namespace hurcules

@@ -23,6 +23,9 @@ class StackProblem {
   // for tasks and limits of another robot.
   void set_stack(const Stack& stack, JointLimits* own = nullptr, JointRanges* ranges = nullptr,
                  Index others = 0);
+  // it is for this stack already: `note_asked` of the same, with as many rows
+  [[nodiscard]] bool asked_for(const Stack& stack) const;
+  void note_asked(const Stack& stack);
 
   [[nodiscard]] const Stack& stack() const { return stack_; }
   [[nodiscard]] Hierarchy& hierarchy() { return hierarchy_; }
@@ -37,7 +40,8 @@ class StackProblem {
 
  private:
   Index n_;
-  Stack stack_;
+  Stack asked_, stack_;
+  std::vector<Index> asked_rows_;
   Hierarchy hierarchy_;
   JointLimits* limits_ = nullptr;
 };

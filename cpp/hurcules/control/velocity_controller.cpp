@@ -80,7 +80,8 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
   intervals_.resize(static_cast<std::size_t>(robot.size()));
 }
 
-void VelocityController::set_stack(const Stack& stack) {
+bool VelocityController::set_stack(const Stack& stack) {
+  if (problem_.asked_for(stack)) return false;
   require_period(stack, options_.dt);
   for (const StackLevel& level : stack.levels()) {
     for (const Task* task : level.tasks) {
@@ -102,6 +103,8 @@ void VelocityController::set_stack(const Stack& stack) {
   lower_ = upper_ = Vector::Zero(rows);
   solver_.reserve(problem_.hierarchy());
   solver_.reset();
+  problem_.note_asked(stack);
+  return true;
 }
 
 const Vector& VelocityController::compute(const Robot& robot) {

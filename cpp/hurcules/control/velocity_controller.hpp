@@ -49,8 +49,8 @@ class VelocityController {
  public:
   VelocityController(const Robot& robot, VelocityControllerOptions options = {});
   // takes over another stack, in motion too (transition); the memory for its hierarchy is made
-  // here, never in compute
-  void set_stack(const Stack& stack);
+  // here, never in compute. False, and nothing changes, where it is the one that it has.
+  bool set_stack(const Stack& stack);
   // measures the tasks at the robot's configuration, builds the levels, solves: qdot* (n) [rad/s]
   const Vector& compute(const Robot& robot);
   // the two parts of compute, for those who time them

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -163,6 +164,10 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   }
   collect_tasks();
   check_channels();
+  std::vector<std::string> task_names;
+  for (const Task* task : tasks_) task_names.push_back(task->name());
+  const std::vector<std::string> coordinates = plan_.coordinate_names();
+  names_ = hash_of_names({&coordinates, &task_names, &command_names_});
   scale_ = command_ = Vector::Zero(static_cast<Index>(command_names_.size()));
   Index row = 0;
   for (const Channel& channel : channels_) {
@@ -437,7 +442,12 @@ void WholeBodyController::require_near(const Vector& qpos) const {
     std::string text = "joint '" + servo_.actuator(i).joint + "' is at " + number_text(there);
     text += begun_ ? ", in the tick before at " : ", the plan starts at ";
     text += number_text(here);
-    text += begun_ ? ": a wrong reading, or it was moved: then reset(qpos)" : ": reset(qpos) first";
+    if (std::abs(std::abs(there - here) - 2.0 * std::numbers::pi) < far) {
+      text += ": a turn away, angles want to go on beyond it";
+    } else {
+      text +=
+          begun_ ? ": a wrong reading, or it was moved: then reset(qpos)" : ": reset(qpos) first";
+    }
     throw Error(text);
   }
 }
@@ -629,6 +639,12 @@ void WholeBodyController::hold() {
   scaled_ = false;
 }
 
+void WholeBodyController::distrust(const std::string& joint, bool speed_too) {
+  const auto& names = servo_.names();
+  const auto found = std::find(names.begin(), names.end(), joint);
+  if (found != names.end()) servo_.distrust(found - names.begin(), speed_too);
+}
+
 // the references of the servos
 void WholeBodyController::refer() {
   if (moves_joints_) {
@@ -659,6 +675,7 @@ void WholeBodyController::lead(const RobotState& state) {
 }
 
 void WholeBodyController::save(StateWriter& writer) const {
+  writer.put(names_);
   writer.put(static_cast<double>(active_));
   writer.put(moves_joints_ ? 1.0 : 0.0);
   writer.put(static_cast<double>(support_.id));
@@ -678,6 +695,9 @@ void WholeBodyController::save(StateWriter& writer) const {
 }
 
 void WholeBodyController::restore(StateReader& reader) {
+  require(
+      reader.get() == names_,
+      "restore: the state is that of another controller: of other coordinates, tasks or commands");
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
   begun_ = true;

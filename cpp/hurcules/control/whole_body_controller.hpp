@@ -136,6 +136,8 @@ class WholeBodyController {
   void lead(const RobotState& state);
   // the reference stays where it is, the servos hold it
   void hold();
+  // the servo of a joint no longer follows its encoder; no joint with a servo: nothing
+  void distrust(const std::string& joint, bool speed_too);
   // which loop calls the stages, so that it sees when another one has taken the controller since
   void serve(const void* loop) { loop_ = loop; }
   [[nodiscard]] bool serves(const void* loop) const { return loop_ == loop; }
@@ -211,6 +213,7 @@ class WholeBodyController {
   std::vector<LedControl> led_controls_;     // of Control channels
   std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack
   std::vector<std::string> command_names_;
+  double names_ = 0.0;  // hash of those of coordinates, tasks and commands
   ForceReadings forces_;
   JointServo servo_;
   std::vector<ActuatorStatus> motors_;  // (nu) for `tick`

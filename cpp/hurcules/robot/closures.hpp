@@ -27,6 +27,7 @@ struct Coordinate;
 
 class Closures {
  public:
+  static constexpr double kOpen = 1e-6;  // [m] or [rad] a loop that does not hold
   // One degree of freedom that follows.
   struct Follower {
     std::string joint;

@@ -88,7 +88,8 @@ MotorLimits read_motor_limits(const mjModel* m, int actuator) {
   limits.peak = peak_effort(m, actuator);
   limits.speed = find_limit(m, "velocity_limit_", joint);
   require(limits.peak > 0.0, "the motor of joint '" + joint +
-                                 "' wants a forcerange that spans 0, it can give no torque");
+                                 "' wants a forcerange that spans 0, and such a ctrlrange and a "
+                                 "gear: it can give no torque");
   limits.power = std::min(find_limit(m, "power_limit_", joint), limits.peak * limits.speed);
   return limits;
 }

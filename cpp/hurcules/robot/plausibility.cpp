@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 
 namespace hurcules {
@@ -59,6 +60,14 @@ std::string implausible_ranges(const Robot& robot) {
                      " (MJCF takes degrees unless it says <compiler angle=\"radian\"/>)");
   if (!wide.empty()) append(text, "joint ranges of many turns, were degrees meant? " + wide);
   return text;
+}
+
+std::string open_loops(const Robot& robot) {
+  constexpr double kTold = 1e-4;  // [m] or [rad]
+  const Closures* const loops = robot.closures();
+  if (!loops || loops->error() < kTold) return "";
+  return "the loops that the model's constraints close stay open by " + number(loops->error()) +
+         " m or rad: no posture of the joints that follow has this configuration";
 }
 
 std::string outside_limits(const Robot& robot) {

@@ -14,4 +14,7 @@ namespace hurcules {
 // Coordinates that stand outside their limits by more than 0.001 rad or m; "" for none.
 [[nodiscard]] std::string outside_limits(const Robot& robot);
 
+// Loops of the model's constraints that cannot close at this configuration; "" for none.
+[[nodiscard]] std::string open_loops(const Robot& robot);
+
 }  // namespace hurcules

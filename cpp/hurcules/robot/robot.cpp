@@ -207,6 +207,10 @@ void Robot::set_keyframe(const std::string& name) {
     throw Error(unknown_name("keyframe", name, names_of(m, {mjOBJ_KEY})));
   qpos_ = Eigen::Map<const Vector>(key < 0 ? m.qpos0 : m.key_qpos + key * m.nq, m.nq);
   read_qpos();
+  if (!closures_) return;
+  closures_->measure(
+      qpos_.data());  // a mimic joint with an offset is elsewhere than the model has it
+  if (closures_->error() > Closures::kOpen) set_configuration(Vector(q_));
 }
 
 void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {

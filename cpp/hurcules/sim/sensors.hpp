@@ -56,6 +56,10 @@ class Sensors {
   void overwrite(VectorRef qpos, VectorRef qvel);
   // None while the encoders can be believed, and when nothing alters the state
   [[nodiscard]] SensorMonitor::Finding monitor(const Vector& q_des);
+  // whose encoder it is
+  [[nodiscard]] const std::string& joint_of(const SensorMonitor::Finding& finding) const {
+    return sensors_.front().setup().entries[static_cast<std::size_t>(finding.entry)];
+  }
   [[nodiscard]] std::string text(const SensorMonitor::Finding& finding) const;
 
   [[nodiscard]] const std::vector<Sensor>& all() const { return sensors_; }

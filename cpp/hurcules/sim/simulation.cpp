@@ -22,21 +22,13 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 
 // A snapshot begins with its version, its length, what it is of, and the number of values in use;
 // what is left of its room is zero.
-constexpr double kStateVersion = 3.0;
+constexpr double kStateVersion = 4.0;
 constexpr std::size_t kStateHeader = 4;
 
-// of all names along the vectors of a controller's simulation (FNV-1a), 32 bits
+// of all names along the vectors of a controller's simulation
 double hash_of(const TelemetryNames& names) {
-  std::uint32_t hash = 2166136261U;
-  for (const auto* list :
-       {&names.coordinates, &names.joints, &names.levels, &names.task_rows, &names.commands}) {
-    for (const std::string& name : *list) {
-      for (const char letter : name + ";") {
-        hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
-      }
-    }
-  }
-  return static_cast<double>(hash);
+  return hash_of_names(
+      {&names.coordinates, &names.joints, &names.levels, &names.task_rows, &names.commands});
 }
 
 // numbers at most that the working sets of all solvers take in a snapshot
@@ -315,7 +307,11 @@ void Simulation::check_sensors() {
   // a reference that is scaled down must not hide an encoder that is stuck
   wished_ = controller_->q_des() + controller_->held_back();
   if (!held()) finding_ = sensors_.monitor(wished_);
-  if (held()) plant_.brakes().close();
+  if (!held()) return;
+  plant_.brakes().close();
+  // where no brake bears the joint, its servo must not follow what is not believed
+  const bool speed = finding_.speed || finding_.trouble == SensorMonitor::Trouble::Disagrees;
+  controller_->distrust(sensors_.joint_of(finding_), speed);
 }
 
 void Simulation::actuate(const RobotState& state) {
