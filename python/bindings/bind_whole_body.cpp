@@ -540,9 +540,10 @@ void bind_whole_body(py::module_& module) {
           "diagnostics",
           [](const WholeBodyController& self) {
             InUse::wait(&self);
-            return self.law().diagnostics(self.plan());
+            return self.diagnostics();
           },
-          "What each level falls short of and why: list of LevelDiagnostics, decreasing priority.")
+          "What each level falls short of and why, targets that gave way to torques too: list of "
+          "LevelDiagnostics, decreasing priority.")
       .def(
           "contact_force",
           [](const WholeBodyController& self, const std::string& contact) {

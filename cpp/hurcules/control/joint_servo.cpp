@@ -409,6 +409,16 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   }
 }
 
+std::vector<std::string> JointServo::at_peak() const {
+  constexpr double kAbout = 0.9;  // of the peak: references are scaled to a little less
+  std::vector<std::string> names;
+  for (Index i = 0; i < size(); ++i) {
+    if (std::abs(pid_.demand()[i]) < kAbout * pid_.options().max_torque[i]) continue;
+    names.push_back("torque limit of " + names_[static_cast<std::size_t>(i)]);
+  }
+  return names;
+}
+
 void JointServo::forget() {
   pid_.reset();
   offset_.setZero();

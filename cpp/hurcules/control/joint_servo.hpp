@@ -122,6 +122,8 @@ class JointServo {
   [[nodiscard]] const Vector& torque() const { return pid_.torque(); }  // [N m], (m)
   // [N m], (m), before saturation
   [[nodiscard]] const Vector& demand() const { return pid_.demand(); }
+  // "torque limit of NAME" of each joint that is asked for about all that its motor has
+  [[nodiscard]] std::vector<std::string> at_peak() const;
   [[nodiscard]] const JointError& error() const { return error_; }  // [rad], [rad/s], (m)
   [[nodiscard]] const JointPid& pid() const { return pid_; }
   void save(StateWriter& writer) const;

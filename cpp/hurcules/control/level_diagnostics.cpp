@@ -222,6 +222,11 @@ std::string Shortfall::text() const {
   return line;
 }
 
+Shortfall gave_way(const Task& task, double by, std::vector<std::string> held_by) {
+  const bool pose = dynamic_cast<const PoseTask*>(&task) != nullptr;  // its position alone
+  return {task.name(), by, pose ? "m" : unit_of(task), std::move(held_by)};
+}
+
 std::vector<LevelReport> reports_of(const Solver& solver) {
   if (!solver.solved()) return {};
   return solver.reports();

@@ -43,6 +43,8 @@ struct SolvedStack {
   const Eigen::VectorXi& active_limits;  // (n)
   const DeadZone* zone = nullptr;        // null: no level was shortened
 };
+// of a task whose target gave way by so much [unit], held by motors at their limits
+[[nodiscard]] Shortfall gave_way(const Task& task, double by, std::vector<std::string> held_by);
 // none where the solver's method makes no reports
 [[nodiscard]] std::vector<LevelReport> reports_of(const Solver& solver);
 [[nodiscard]] std::vector<LevelDiagnostics> level_diagnostics(const SolvedStack& solved);

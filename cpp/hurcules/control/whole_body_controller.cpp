@@ -243,6 +243,18 @@ void WholeBodyController::add_led_control(const Channel& channel) {
   led_controls_.push_back({&channel, control});
 }
 
+std::vector<LevelDiagnostics> WholeBodyController::diagnostics() const {
+  constexpr double kTold = 1e-3;  // [unit]
+  std::vector<LevelDiagnostics> levels = law().diagnostics(plan_);
+  for (std::size_t k = 0; k < levels.size() && !moves_joints_; ++k) {
+    for (const Task* const task : law().stack().levels()[k].tasks) {
+      const double by = yielding_.given_way(*task);
+      if (by > kTold) levels[k].shortfalls.push_back(gave_way(*task, by, servo_.at_peak()));
+    }
+  }
+  return levels;
+}
+
 Task& WholeBodyController::task(const std::string& name) const {
   std::vector<std::string> names;
   for (Task* const task : tasks_) {

@@ -169,6 +169,8 @@ class WholeBodyController {
   [[nodiscard]] const JointServo& servo() const { return servo_; }
   [[nodiscard]] const std::optional<TrackDrive>& drive() const { return drive_; }
   [[nodiscard]] std::optional<TrackDrive>& drive() { return drive_; }
+  // what each level falls short of and why; targets that gave way to torques too
+  [[nodiscard]] std::vector<LevelDiagnostics> diagnostics() const;
   // the last tick was slowed down by what the motors can hold
   [[nodiscard]] bool scaled() const { return scaled_; }
   [[nodiscard]] const Vector& held_back() const { return held_back_; }  // [rad] (n) by that so far

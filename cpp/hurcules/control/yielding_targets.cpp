@@ -74,6 +74,13 @@ void YieldingTargets::Yielded::stop(double dt) {
   task->lead_target(step, dt);
 }
 
+double YieldingTargets::given_way(const Task& task) const {
+  for (const Yielded& yielded : yielded_) {
+    if (yielded.task == &task && yielded.on) return (yielded.wanted - yielded.left).norm();
+  }
+  return 0.0;
+}
+
 void YieldingTargets::save(StateWriter& writer) const {
   writer.put(free_);
   for (const Yielded& yielded : yielded_) {

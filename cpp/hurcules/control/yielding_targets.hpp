@@ -21,6 +21,8 @@ class YieldingTargets {
   void forget();
   // One tick of dt [s]. `slowed`: the motion was slowed down in it; `rate` [1/s]: of the law.
   void update(bool slowed, double rate, double dt);
+  // [unit] how far a target is from where it rested, 0 where it did not give way
+  [[nodiscard]] double given_way(const Task& task) const;
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 
