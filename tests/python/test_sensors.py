@@ -232,7 +232,7 @@ def test_windings_warm_by_the_period_of_the_controller() -> None:
 
 @pytest.mark.parametrize("trouble", ["Frozen", "NotANumber"])
 def test_a_joint_without_a_brake_does_not_follow_an_encoder_that_is_lost(trouble: str) -> None:
-    """It ran into its stop while it was held: its servo went on with the stuck reading."""
+    """Its servo went on with the stuck reading, and drove it into its stop while it was held."""
     plain = side_by_side()
     joint = "Lj1"
     fault = SensorFault(f"encoder_position/{joint}", getattr(FaultKind, trouble), 0.1)
@@ -250,7 +250,6 @@ def test_a_joint_without_a_brake_does_not_follow_an_encoder_that_is_lost(trouble
     simulation.step(2000, {"lead": lead})
     assert "encoder_position/" + joint in simulation.reason
     log = simulation.log()
-    speed = np.abs(log[f"qd/{joint}"])
-    found = int(np.flatnonzero(log["time"] >= simulation.time - 0.98)[0])
-    assert speed[found:].max() < 1.5
-    assert speed[-1] < 0.05
+    held = log["time"] > 0.2
+    assert np.abs(log[f"qd/{joint}"][held]).max() < 1.0  # the arm stands upright, and leans slowly
+    assert np.abs(simulation.data.joint(joint).qpos[0]) < 0.5

@@ -149,10 +149,11 @@ def test_weights_share_what_cannot_be_met(model: mujoco.MjModel, by: str) -> Non
 def test_a_loop_may_give_its_tasks_in_each_tick(model: mujoco.MjModel, make: type) -> None:
     # as mink and Pink do; each time it went over to a new stack, and never arrived
     robots = [hurcules.Robot(model) for _ in range(2)]
+    target, _ = reachable(model, "l_hand", 1)
     for robot, always in zip(robots, (False, True), strict=True):
         hand = hurcules.PositionTask("hand", robot, "l_hand")
         tasks = [hand, hurcules.PostureTask("posture", robot)]
-        hand.set_target(hand.value + [0.05, 0.0, 0.05])
+        hand.set_target(target)
         controller = make(robot)
         controller.set_stack(tasks)
         for _ in range(3000):

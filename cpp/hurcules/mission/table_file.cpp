@@ -1,10 +1,9 @@
 #include "hurcules/mission/table_file.hpp"
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -86,9 +85,9 @@ Words<TableFile> file_words() {
 std::string checksum_of(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-  std::ostringstream text;
-  text << std::hex << std::setw(16) << std::setfill('0') << hash;
-  return text.str();
+  char text[17];  // no stream: beside a Python package with a libstdc++ of its own one crashed
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
 }
 
 std::string contents(const std::string& path) {

@@ -207,10 +207,15 @@ void Robot::set_keyframe(const std::string& name) {
     throw Error(unknown_name("keyframe", name, names_of(m, {mjOBJ_KEY})));
   qpos_ = Eigen::Map<const Vector>(key < 0 ? m.qpos0 : m.key_qpos + key * m.nq, m.nq);
   read_qpos();
-  if (!closures_) return;
-  closures_->measure(
-      qpos_.data());  // a mimic joint with an offset is elsewhere than the model has it
-  if (closures_->error() > Closures::kOpen) set_configuration(Vector(q_));
+  if (closures_) closures_->measure(qpos_.data());
+  bool open = closures_ && closures_->error() > Closures::kOpen;
+  for (Index i = root_size(); i < size(); ++i) {
+    for (const DrivenJoint& joint : coordinates_[i].joints) {  // mimic joints may have an offset
+      const double follows = joint.factor * q_[i] + joint.offset;
+      open = open || (joint.part < 0 && std::abs(qpos_[joint.qpos] - follows) > Closures::kOpen);
+    }
+  }
+  if (open) set_configuration(Vector(q_));
 }
 
 void Robot::coordinates_of(const ConstVectorRef& qpos, VectorRef q) const {
