@@ -24,6 +24,7 @@ from hurcules_envs.environment import Environment, Group, Start
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, write
+from hurcules_envs.registry import make_environment
 
 CART = """
 <mujoco>
@@ -170,6 +171,9 @@ MISTAKES = {
     "Wrong.command: 'hand': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
         "command": lambda self, action, numbers: {"hand": action["hand"][:, 0]}
     },
+    "Wrong.command: 'hand': wanted numbers of shape (2, 1), got float64 of shape (1, 1)": {
+        "command": lambda self, action, numbers: {"hand": action["hand"][:1]}
+    },
 }
 
 
@@ -209,6 +213,19 @@ def test_an_environment_is_registered_by_a_text() -> None:
     for wrong in (Cart, "no_class", "module:"):
         with pytest.raises(hurcules.Error, match="wanted 'module:Class' of an Environment, got"):
             hurcules_envs.register("Own/Cart-v0", wrong, max_episode_steps=10)  # type: ignore
+
+
+class Loaded(Cart):
+    """A keyword that `gymnasium.make` would take for one of its own."""
+
+    def __init__(self, mass: float = 1.0) -> None:
+        super().__init__()
+
+
+def test_a_keyword_that_would_never_come_is_refused() -> None:
+    text = "Loaded: the keyword 'mass' is taken, by what every environment has: call it otherwise"
+    with pytest.raises(hurcules.Error, match=re.escape(text)):
+        make_environment(f"{__name__}:Loaded", {})
 
 
 OWN = "own_rail:Own/Rail-v0"
