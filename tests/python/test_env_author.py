@@ -6,6 +6,7 @@ Strategy: a cart on a rail, right but for one attribute or method. Not tested: w
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -253,6 +254,27 @@ def test_the_module_of_an_id_is_imported(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.syspath_prepend(tmp_path)
     judged = evaluate(lambda seen: np.clip(5.0 * seen[:, :1], -1.0, 1.0), OWN, 3)
     assert (judged.episodes, judged.success) == (3, 1.0)
+
+
+def test_the_expert_of_an_environment_of_ones_own_is_cloned_as_in_the_example(
+    tmp_path: Path, root: Path
+) -> None:
+    own_module(tmp_path)
+    with (tmp_path / "own_rail.py").open("a") as file:
+        file.write("Rail.expert = lambda self, numbers: self.way(numbers).clip(-1.0, 1.0)\n")
+    example = root / "python" / "examples" / "12_behaviour_cloning.py"
+    few = ["--episodes", "2", "--epochs", "1", "--judge", "2", "--out", str(tmp_path)]
+    done = subprocess.run(
+        [sys.executable, example, OWN, *few],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "2 demonstrations, 2 succeeded" in done.stdout
+    assert (tmp_path / "Rail-v0.onnx").exists()
 
 
 def test_commands_take_an_environment_of_ones_own(tmp_path: Path) -> None:
