@@ -466,7 +466,10 @@ class _Commands:
         commands = np.zeros((len(action), self._size))
         try:
             for name, values in given.items():
-                commands[:, self._channels[name]] = values
+                part = commands[:, self._channels[name]]
+                if values.shape != part.shape:
+                    raise ValueError(name)
+                part[:] = values
         except (KeyError, TypeError, ValueError, AttributeError):
             self._refuse(given, len(action))
             raise

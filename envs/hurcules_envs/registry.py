@@ -68,10 +68,16 @@ def make_environment(
 
     Raises:
         hurcules.Error: no such class, no such option (`UnknownOption`; the text lists those that
-            exist), or something else than True and False where one of these is wanted.
+            exist), something else than True and False where one of these is wanted, or a keyword
+            of the class that would never come to it.
     """
     kind = _class_of(path)
     known = inspect.signature(kind).parameters
+    for taken in known.keys() & {*beside, *NAMES}:
+        raise hurcules.Error(
+            f"{kind.__name__}: the keyword '{taken}' is taken, by what every environment has: "
+            "call it otherwise"
+        )
     for option, value in options.items():
         if option not in known:
             raise UnknownOption(

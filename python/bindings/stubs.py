@@ -67,6 +67,8 @@ NAMES = {
     "hurcules._core.": "",
 }
 # of a class that only the library makes objects of: pybind11's refuses at run time
+# put there by hurcules._reprs and hurcules._subclasses
+INSTALLED = ("__repr__", "_repr_html_", "__init_subclass__")
 NO_INIT = "def __init__(self, *args: object, **kwargs: object) -> None: ..."
 # what a bare container holds
 BARE = {
@@ -118,8 +120,8 @@ class _Types(ast.NodeTransformer):
     """Writes annotations as people do, and docstrings without indentation at their ends."""
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST | None:
-        if node.name in ("__repr__", "_repr_html_") and node.decorator_list:
-            return None  # put there by hurcules._reprs
+        if node.name in INSTALLED and node.decorator_list:
+            return None
         if node.returns:
             node.returns = _type(node.returns)
         for argument in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs):

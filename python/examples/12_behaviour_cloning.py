@@ -5,7 +5,7 @@ the network sees how mistakes are mended. What is learnt is what the expert want
 of two layers learns it by Adam, written in numpy, and becomes an ONNX file for `hurcules evaluate`
 and `hurcules run --policy`. Takes about three minutes on two cores.
 
-Run:  python python/examples/12_behaviour_cloning.py [Door-v0] [--episodes 100] [--seed 0]
+Run:  python python/examples/12_behaviour_cloning.py [Door-v0 or own:Own/Name-v0] [--episodes 100]
 """
 
 import argparse
@@ -17,6 +17,7 @@ from hurcules_envs.evaluation import evaluate
 from hurcules_envs.imitation import demonstrate
 from hurcules_envs.onnx_file import Graph, Node, write
 from hurcules_envs.policy import Policy
+from hurcules_envs.registry import fidelities_of, full_id
 
 WIDTH, BATCH, RATE = 128, 256, 2e-3  # of the hidden layers, samples a step, learning rate
 
@@ -62,8 +63,10 @@ def main() -> None:
     parser.add_argument("--judge", type=int, default=50, help="episodes in each fidelity")
     parser.add_argument("--out", type=Path, default=Path("out/clone"))
     given = parser.parse_args()
-    name = f"Hurcules/{given.environment}"
-    shown = demonstrate(name, given.episodes, given.seed, given.noise, fidelity=given.fidelity)
+    name = full_id(given.environment)
+    known = fidelities_of(name)  # none, where an environment of one's own has no such keyword
+    options = {"fidelity": given.fidelity} if known else {}
+    shown = demonstrate(name, given.episodes, given.seed, given.noise, **options)
     seen, wanted = shown.observations, shown.actions
     print(f"{given.episodes} demonstrations, {shown.successes.sum()} succeeded, {len(seen)} steps")
     mean, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-3
@@ -78,14 +81,15 @@ def main() -> None:
         nodes.append(Node("Tanh", (f"z{i}",), (f"y{i + 1}" if i < 2 else "action",)))
     sizes = {"observation": seen.shape[1]}, {"action": wanted.shape[1]}
     given.out.mkdir(parents=True, exist_ok=True)
-    path = given.out / f"{given.environment}.onnx"
+    path = given.out / f"{name.split('/')[-1]}.onnx"
     write(path, Graph(tuple(nodes), weights, *sizes, {"environment": name}))
     policy = Policy(path)
     print(f"error of the clone: {np.sqrt(np.mean((policy(seen) - wanted) ** 2)):.3f} (rms)")
-    for fidelity in ("fast", "exact"):
-        result = evaluate(policy, name, given.judge, fidelity=fidelity)
+    for options in [{"fidelity": one} for one in ("fast", "exact") if one in known] or [{}]:
+        result = evaluate(policy, name, given.judge, **options)
         interval = f"{result.low:.0%} to {result.high:.0%}"
-        print(f"{fidelity}: {result.success:.0%} succeed ({interval}), {given.judge} episodes")
+        where = options.get("fidelity", name)
+        print(f"{where}: {result.success:.0%} succeed ({interval}), {given.judge} episodes")
     print(path)
 
 

@@ -20,6 +20,7 @@ from hurcules import (  # noqa: E402
     _moved,
     _pickles,
     _reprs,
+    _subclasses,
     cameras,
     casualties,
     driving,
@@ -137,6 +138,8 @@ from hurcules.view import film, watch  # noqa: E402
 _reprs.install()
 
 _pickles.install()
+
+_subclasses.install()
 
 _moved.install()
 

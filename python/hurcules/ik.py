@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,10 @@ class Posture:
     error: float
     reached: bool
     starts: tuple[int, int]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[np.float64]:
+        """The configuration, so that `robot.set_configuration` and a `PostureTask` take it."""
+        return np.array(self.configuration, dtype)
 
 
 def inverse_kinematics(

@@ -16,6 +16,9 @@ __all__ = ["warn_of_forces", "warn_of_physics"]
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+DEEP = 5e-3  # [m] that bodies lie in each other: more than a contact gives way
+LEVER = 0.02  # [m] with which that turns a joint: about its own axis it does nothing
+OUTSIDE = 1e-3  # [rad] or [m]: less is rounding
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
     "a robot on feet stands by torques, with contacts: "
@@ -48,6 +51,7 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
             f"a control period of {1e3 * controller.dt:g} ms is too long for servos: robots swing; "
             f"dt={LONGEST:g} of the controller, or less"
         )
+    yield from _outside(controller)
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
@@ -63,7 +67,25 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         yield from _feet(model, controller)
         chain = _chain(model, controller)
         yield from _loose_joints(model, controller, chain)
-        yield from _weak_motors(model, controller, chain)
+        data = mujoco.MjData(model)
+        data.qpos[:] = controller.plan.qpos
+        mujoco.mj_forward(model, data)
+        yield from _weak_motors(model, data, chain)
+        yield from _overlaps(model, data, chain)
+
+
+def _outside(controller: WholeBodyController) -> Iterator[str]:
+    plan = controller.plan
+    outside = [
+        f"{one.name} at {q:.3g}, limits {one.lower:.3g} to {one.upper:.3g}"
+        for one, q in zip(plan.coordinates, plan.configuration, strict=True)
+        if not one.lower - OUTSIDE <= q <= one.upper + OUTSIDE
+    ]
+    if outside:
+        yield (
+            f"the robot starts outside its joint limits: {'; '.join(outside)}. It is driven back, "
+            "before all that it is told: robot.set_configuration says where it starts"
+        )
 
 
 def _doubled(model: mujoco.MjModel) -> Iterator[str]:
@@ -201,13 +223,8 @@ def _tied(model: mujoco.MjModel, joint: int) -> bool:
     return bool(np.any(ties & ((model.eq_obj1id == joint) | (model.eq_obj2id == joint))))
 
 
-def _weak_motors(
-    model: mujoco.MjModel, controller: WholeBodyController, chain: set[int]
-) -> Iterator[str]:
+def _weak_motors(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
     """Motors that cannot hold what hangs on them where the robot starts."""
-    data = mujoco.MjData(model)
-    data.qpos[:] = controller.plan.qpos
-    mujoco.mj_forward(model, data)
     weight: NDArray[np.float64] = data.qfrc_bias - data.qfrc_passive
     weight -= np.where(model.jnt_actgravcomp[model.dof_jntid], data.qfrc_gravcomp, 0.0)
     weak = []
@@ -227,6 +244,27 @@ def _weak_motors(
         yield (
             f"motors cannot hold the weight on them where the robot starts: {', '.join(weak)}. It "
             "sinks in the physics, and all that it is told waits for it"
+        )
+
+
+def _overlaps(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
+    """Bodies of the robot that lie in something where it starts, and push joints out of it."""
+    deep: dict[tuple[str, str], float] = {}
+    jacobians = np.zeros((2, 3, model.nv))
+    for contact in data.contact:
+        bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom]
+        if contact.exclude or contact.dist > -DEEP or not chain.intersection(bodies):
+            continue
+        for jacobian, body in zip(jacobians, bodies, strict=True):
+            mujoco.mj_jac(model, data, jacobian, None, contact.pos, body)
+        if np.abs(contact.frame[:3] @ (jacobians[1] - jacobians[0])).max() > LEVER:
+            first, second = (model.body(body).name or f"body {body}" for body in bodies)
+            deep[first, second] = max(deep.get((first, second), 0.0), -float(contact.dist))
+    if deep:
+        pairs = ", ".join(f"{a} and {b} ({1e3 * by:.3g} mm)" for (a, b), by in deep.items())
+        yield (
+            f"bodies lie in each other where the robot starts: {pairs}. The physics forces them "
+            "apart, and what they belong to stands still; <exclude> in the model lets them be"
         )
 
 

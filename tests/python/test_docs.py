@@ -7,7 +7,11 @@ from pathlib import Path
 
 import pytest
 
+import hurcules
 from hurcules import cli
+from hurcules_envs.environment import Environment
+
+CALLED = r"^\w+$|[A-Za-z_]\w+(?=\()"  # a name alone, or what is called
 
 
 @pytest.fixture(scope="module")
@@ -83,3 +87,15 @@ def test_the_pictures_are_small(root: Path) -> None:
     pictures = [path for one in folders for path in one.rglob("*") if path.suffix in kinds]
     assert pictures
     assert [path.name for path in pictures if path.stat().st_size > 300_000] == []
+
+
+def test_what_other_packages_call_otherwise_exists_here(root: Path) -> None:
+    text = (root / "docs" / "loop.md").read_text(encoding="utf-8")
+    tables = re.findall(r"\| there \| here \|\n((?:\|.*\n)+)", text)
+    here = "\n".join(row.partition(" | ")[2] for row in "".join(tables).splitlines())
+    named = {name for code in re.findall(r"`([^`]+)`", here) for name in re.findall(CALLED, code)}
+    assert {"CustomTask", "set_weights", "Delta", "tick", "succeeded"} <= named
+    kinds = [one for one in vars(hurcules).values() if isinstance(one, type)]
+    known = {name for one in (hurcules, Environment, *kinds) for name in dir(one)}
+    others = {"as_matrix", "full", "rotation", "translation", "zeros"}  # of mink and NumPy
+    assert named - known == others

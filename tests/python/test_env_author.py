@@ -6,6 +6,7 @@ Strategy: a cart on a rail, right but for one attribute or method. Not tested: w
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from hurcules_envs.environment import Environment, Group, Start
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, write
+from hurcules_envs.registry import make_environment
 
 CART = """
 <mujoco>
@@ -170,6 +172,9 @@ MISTAKES = {
     "Wrong.command: 'hand': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
         "command": lambda self, action, numbers: {"hand": action["hand"][:, 0]}
     },
+    "Wrong.command: 'hand': wanted numbers of shape (2, 1), got float64 of shape (1, 1)": {
+        "command": lambda self, action, numbers: {"hand": action["hand"][:1]}
+    },
 }
 
 
@@ -211,6 +216,19 @@ def test_an_environment_is_registered_by_a_text() -> None:
             hurcules_envs.register("Own/Cart-v0", wrong, max_episode_steps=10)  # type: ignore
 
 
+class Loaded(Cart):
+    """A keyword that `gymnasium.make` would take for one of its own."""
+
+    def __init__(self, mass: float = 1.0) -> None:
+        super().__init__()
+
+
+def test_a_keyword_that_would_never_come_is_refused() -> None:
+    text = "Loaded: the keyword 'mass' is taken, by what every environment has: call it otherwise"
+    with pytest.raises(hurcules.Error, match=re.escape(text)):
+        make_environment(f"{__name__}:Loaded", {})
+
+
 OWN = "own_rail:Own/Rail-v0"
 
 
@@ -236,6 +254,27 @@ def test_the_module_of_an_id_is_imported(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.syspath_prepend(tmp_path)
     judged = evaluate(lambda seen: np.clip(5.0 * seen[:, :1], -1.0, 1.0), OWN, 3)
     assert (judged.episodes, judged.success) == (3, 1.0)
+
+
+def test_the_expert_of_an_environment_of_ones_own_is_cloned_as_in_the_example(
+    tmp_path: Path, root: Path
+) -> None:
+    own_module(tmp_path)
+    with (tmp_path / "own_rail.py").open("a") as file:
+        file.write("Rail.expert = lambda self, numbers: self.way(numbers).clip(-1.0, 1.0)\n")
+    example = root / "python" / "examples" / "12_behaviour_cloning.py"
+    few = ["--episodes", "2", "--epochs", "1", "--judge", "2", "--out", str(tmp_path)]
+    done = subprocess.run(
+        [sys.executable, example, OWN, *few],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "2 demonstrations, 2 succeeded" in done.stdout
+    assert (tmp_path / "Rail-v0.onnx").exists()
 
 
 def test_commands_take_an_environment_of_ones_own(tmp_path: Path) -> None:

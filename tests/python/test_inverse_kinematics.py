@@ -119,6 +119,15 @@ def test_what_the_controller_reaches_is_found_at_the_first_descent_and_nothing_i
     assert again.configuration.tobytes() == found.configuration.tobytes()
 
 
+def test_what_was_found_is_taken_as_it_is(robot: hurcules.Robot) -> None:
+    found = hurcules.inverse_kinematics(robot, [hand_at(robot, (-0.7, -2.0))])
+    posture = hurcules.PostureTask("posture", robot)
+    posture.set_target(found)
+    robot.set_configuration(found)
+    assert np.array_equal(posture.target, found.configuration)
+    assert np.array_equal(robot.configuration, found.configuration)
+
+
 def test_out_of_reach_it_says_by_how_much(robot: hurcules.Robot) -> None:
     hand = hurcules.PositionTask("hand", robot, "hand", axes=[[1.0, 0.0, 0.0]])
     hand.set_target([1.2])  # the stretched arm has 1 m

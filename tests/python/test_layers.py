@@ -44,8 +44,9 @@ FLOORS: tuple[set[str], ...] = (
     )},
     {"hurcules.mission_drawing", "hurcules.toml_rows", "hurcules.validation"},
     {"hurcules." + name for name in (
-        "_pickles", "_reprs", "_version", "casualties", "ik", "mission_options", "mission_table",
-        "motors", "output", "postures", "rendering", "rhqp", "sensors", "start_checks", "support",
+        "_pickles", "_reprs", "_subclasses", "_version", "casualties", "ik", "mission_options",
+        "mission_table", "motors", "output", "postures", "rendering", "rhqp", "sensors",
+        "start_checks", "support",
     )},
     {"hurcules." + name for name in (
         "cameras", "drawing", "mjcf", "urdf", "video",

@@ -52,6 +52,34 @@ def test_a_joint_that_nothing_holds_is_named() -> None:
     assert caught[0].filename == __file__
 
 
+def test_a_start_outside_the_joint_limits_is_told() -> None:
+    spec = mujoco.MjSpec.from_string(
+        CHAIN.format(step=0.002, motors="".join(STRONG.format(name) for name in "abc"), last="")
+    )
+    spec.joint("b").range = [0.5, 2.0]  # nobody says where it starts: at 0
+    with pytest.warns(UserWarning, match="starts outside its joint limits: b at 0, limits 0.5 to"):
+        simulation(spec.compile(), None)
+
+
+# its top 20 and 3 mm above the lower side of the last link; the last: before the straight arm,
+# which turns no joint
+TABLES = [([0.8, 0.0, -0.11], True), ([0.8, 0.0, -0.127], False), ([1.02, 0.0, 0.0], False)]
+
+
+@pytest.mark.parametrize(("place", "told"), TABLES)
+def test_bodies_that_lie_in_each_other_are_named(place: list[float], told: bool) -> None:
+    spec = mujoco.MjSpec.from_string(
+        CHAIN.format(step=0.002, motors="".join(STRONG.format(name) for name in "abc"), last="")
+    )
+    box = mujoco.mjtGeom.mjGEOM_BOX
+    spec.worldbody.add_geom(type=box, size=[0.1, 1.0, 0.1], pos=place)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        simulation(spec.compile(), None)
+    words = "lie in each other where the robot starts: "
+    assert [words in str(one.message) for one in caught] == [True] * told
+
+
 def test_motors_that_are_too_weak_are_named_with_what_is_wanted() -> None:
     weak = '<motor joint="a" ctrlrange="-1 1" gear="2"/>'
     with pytest.warns(UserWarning, match=r"weight on them where .*: a \(\d.* of 2 N m\)"):

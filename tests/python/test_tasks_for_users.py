@@ -218,6 +218,26 @@ def test_a_task_in_python_is_a_task(model: mujoco.MjModel) -> None:
         hurcules.CustomTask("wrong", robot, 1, lambda robot: 1 / 0)
 
 
+def test_a_class_of_tasks_whose_measuring_nobody_would_ask_is_refused(
+    model: mujoco.MjModel,
+) -> None:
+    words = r"class Mine: a PositionTask is measured in C\+\+, .* for 'error'; CustomTask"
+    with pytest.raises(hurcules.Error, match=words):
+        type("Mine", (hurcules.PositionTask,), {"error": property(lambda self: np.zeros(3))})
+    with pytest.raises(hurcules.Error, match=r"for it; CustomTask\(name, robot, rows, function\)"):
+        type("Mine", (hurcules.Task,), {})
+
+    class Height(hurcules.CustomTask):
+        def __init__(self, name: str, robot: hurcules.Robot) -> None:
+            super().__init__(name, robot, 1, self.measure)
+
+        def measure(self, robot: hurcules.Robot) -> tuple[np.ndarray, np.ndarray]:
+            return robot.position("l_hand")[2:], robot.position_jacobian("l_hand")[2:]
+
+    robot = hurcules.Robot(model)
+    assert Height("height", robot).value == robot.position("l_hand")[2]
+
+
 def test_manipulability_is_kept_above_a_bound(model: mujoco.MjModel) -> None:
     # a hand led to the end of its reach stops where the arm would get nearer to a singularity
     def lead(*above: hurcules.Task) -> hurcules.Robot:
