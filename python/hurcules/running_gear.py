@@ -30,6 +30,22 @@ class _Track:
     belt: int  # geom that shows the still belt
     angle: int  # address in qpos of its joint
     turning: dict[int, float] = field(default_factory=dict)  # geom: its turn per turn of the belt
+    pads: _Pads | None = None  # as they were shown last
+
+
+@dataclass
+class _Pads:
+    scene: mujoco.MjvScene
+    first: int  # of its geoms
+    places: NDArray[np.float32]  # (m, 3) in the scene
+    turns: NDArray[np.float32]  # (m, 3, 3)
+
+    def are_there(self, scene: mujoco.MjvScene, mesh: int, still: mujoco.MjvGeom) -> bool:
+        """Nobody has drawn over them: who did began no later than where the scene ended."""
+        if scene is not self.scene or scene.ngeom != self.first or not len(self.places):
+            return False
+        geom = scene.geoms[self.first]
+        return bool(geom.dataid == mesh and _owner(geom) == _owner(still))
 
 
 class RunningGear:
@@ -41,6 +57,7 @@ class RunningGear:
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self._model = model
+        self._drawn = np.array([_matrix(quat) for quat in model.mesh_quat]).reshape(-1, 3, 3)
         self._tracks: dict[int, _Track] = {}  # by the body that shows the belt
         shown = {
             geom: model.mesh(int(model.geom_dataid[geom])).name
@@ -69,11 +86,25 @@ class RunningGear:
         }
         for track in self._tracks.values():
             angle = float(data.qpos[track.angle])
-            for geom, ratio in track.turning.items():
-                if geom in at:
-                    at[geom].mat[:] = _turned(data, self._model, geom, ratio * angle)
+            wheels = [geom for geom in track.turning if geom in at]
+            for geom, axes in zip(wheels, self._turned(data, track, wheels, angle), strict=True):
+                at[geom].mat[:] = axes
             if track.belt in at:
                 self._show_belt(data, scene, at[track.belt], track, angle)
+
+    def _turned(
+        self, data: mujoco.MjData, track: _Track, wheels: list[int], angle: float
+    ) -> NDArray[np.float64]:
+        """(k, 3, 3) axes of wheels that have turned about the y axes of the meshes as drawn."""
+        drawn = self._drawn[self._model.geom_dataid[wheels]]
+        turns = np.array([track.turning[geom] for geom in wheels]) * angle
+        spin = np.zeros((len(wheels), 3, 3))
+        spin[:, 0, 0] = spin[:, 2, 2] = np.cos(turns)
+        spin[:, 0, 2] = np.sin(turns)
+        spin[:, 2, 0] = -spin[:, 0, 2]
+        spin[:, 1, 1] = 1.0
+        axes: NDArray[np.float64] = data.geom_xmat[wheels].reshape(-1, 3, 3)
+        return axes @ drawn.transpose(0, 2, 1) @ spin @ drawn
 
     def _show_belt(
         self,
@@ -91,28 +122,24 @@ class RunningGear:
         # MuJoCo has moved the vertices of each mesh
         turns = axes @ turns
         places = origin + points @ axes.T + turns @ self._model.mesh_pos[pad]
-        turns = (turns @ _matrix(self._model.mesh_quat[pad])).reshape(-1, 9)
+        turns = turns @ self._drawn[pad]
         still.dataid = 2 * band  # odd numbers are convex hulls
         still.pos[:] = origin + axes @ self._model.mesh_pos[band]
-        still.mat[:] = axes @ _matrix(self._model.mesh_quat[band])
-        size, rgba = np.zeros(3), still.rgba
-        for place, turn in zip(places, turns, strict=True):
-            if scene.ngeom >= scene.maxgeom:
-                return
-            geom = scene.geoms[scene.ngeom]
-            scene.ngeom += 1
-            mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_MESH, size, place, turn, rgba)
-            geom.dataid = 2 * pad
-            # a segmentation shows it as the belt; mjv_initGeom leaves what was there
-            geom.objtype, geom.objid, geom.segid = still.objtype, still.objid, scene.ngeom - 1
-            _paint_like(geom, still)
+        still.mat[:] = axes @ self._drawn[band]
+        if track.pads is None or not track.pads.are_there(scene, 2 * pad, still):
+            track.pads = _add_pads(scene, len(places), 2 * pad, still)
+        else:
+            scene.ngeom += len(track.pads.places)
+        shown = len(track.pads.places)  # as many as the scene had room for
+        track.pads.places[:] = places[:shown]
+        track.pads.turns[:] = turns[:shown]
 
     def _frame(
         self, data: mujoco.MjData, geom: int
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Where the frame that a geom's mesh was drawn in is: origin and axes in the world."""
         number = int(self._model.geom_dataid[geom])
-        axes = data.geom_xmat[geom].reshape(3, 3) @ _matrix(self._model.mesh_quat[number]).T
+        axes = data.geom_xmat[geom].reshape(3, 3) @ self._drawn[number].T
         return data.geom_xpos[geom] - axes @ self._model.mesh_pos[number], axes
 
     def _belt_joint(self, body: int) -> int:
@@ -150,14 +177,9 @@ def _on_oval(s: NDArray[np.float64], run: float) -> tuple[NDArray[np.float64], N
     """
     bend = np.pi * _BAND
     s = s % (2 * run + 2 * bend)
-    parts = [s < run, s < run + bend, s < 2 * run + bend]
-    half = np.pi / 2
-    centre = np.select(parts, [-s, -run + 0 * s, s - 2 * run - bend], 0.0)
-    a = np.select(
-        parts,
-        [-half + 0 * s, -half - (s - run) / _BAND, half + 0 * s],
-        half - (s - 2 * run - bend) / _BAND,
-    )
+    corners = np.array([0.0, run, run + bend, 2 * run + bend, 2 * run + 2 * bend])
+    centre = np.interp(s, corners, [0.0, -run, -run, 0.0, 0.0])
+    a = np.interp(s, corners, np.array([-0.5, -0.5, -1.5, -1.5, -2.5]) * np.pi)
     c, n, zero = np.cos(a), np.sin(a), 0 * a
     out = np.stack([c, zero, n], axis=1)
     across = np.stack([zero, zero + 1, zero], axis=1)
@@ -167,15 +189,35 @@ def _on_oval(s: NDArray[np.float64], run: float) -> tuple[NDArray[np.float64], N
     return points, np.stack([along, across, out], axis=2)
 
 
-def _turned(
-    data: mujoco.MjData, model: mujoco.MjModel, geom: int, angle: float
-) -> NDArray[np.float64]:
-    """Axes of a wheel that has turned about the y axis of the mesh it was drawn as."""
-    number = int(model.geom_dataid[geom])
-    drawn = _matrix(model.mesh_quat[number])
-    c, s = np.cos(angle), np.sin(angle)
-    spin = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
-    return data.geom_xmat[geom].reshape(3, 3) @ drawn.T @ spin @ drawn
+def _add_pads(scene: mujoco.MjvScene, count: int, mesh: int, still: mujoco.MjvGeom) -> _Pads:
+    """Pads of a belt as far as the scene has room, to be placed."""
+    first, end = scene.ngeom, min(scene.ngeom + count, scene.maxgeom)
+    size, place, turn, rgba = np.zeros(3), np.zeros(3), np.eye(3).ravel(), still.rgba
+    geoms = scene.geoms[first:end]
+    for number, geom in enumerate(geoms, first):
+        mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_MESH, size, place, turn, rgba)
+        geom.dataid = mesh
+        # a segmentation shows it as the belt; mjv_initGeom leaves what was there
+        geom.objtype, geom.objid = _owner(still)
+        geom.segid = number
+        _paint_like(geom, still)
+    scene.ngeom = end
+    if not geoms:
+        return _Pads(scene, first, np.empty((0, 3), np.float32), np.empty((0, 3, 3), np.float32))
+    places, turns = (_in_all([getattr(geom, name) for geom in geoms]) for name in ("pos", "mat"))
+    return _Pads(scene, first, places, turns)
+
+
+def _in_all(arrays: list[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """The same member of structures that lie one after the other, as one array."""
+    first, last = arrays[0], arrays[-1]
+    step = (last.ctypes.data - first.ctypes.data) // max(len(arrays) - 1, 1)
+    shape, strides = (len(arrays), *first.shape), (step, *first.strides)
+    return np.lib.stride_tricks.as_strided(first, shape, strides)
+
+
+def _owner(geom: mujoco.MjvGeom) -> tuple[int, int]:
+    return int(geom.objtype), int(geom.objid)
 
 
 def _paint_like(geom: mujoco.MjvGeom, other: mujoco.MjvGeom) -> None:

@@ -22,7 +22,7 @@ def robot():
     return model, mujoco.MjData(model), RunningGear(model)
 
 
-def drawn(robot, angle):
+def drawn(robot, angle, scene=None, contacts=False):
     """All geoms of a scene with the belts at an angle: mesh name, position and axes."""
     model, data, gear = robot
     mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
@@ -30,10 +30,10 @@ def drawn(robot, angle):
         if model.joint(joint).name.endswith("_belt"):
             data.qpos[model.jnt_qposadr[joint]] = angle
     mujoco.mj_forward(model, data)
-    scene, everything = mujoco.MjvScene(model, 2000), mujoco.mjtCatBit.mjCAT_ALL
-    mujoco.mjv_updateScene(
-        model, data, mujoco.MjvOption(), None, mujoco.MjvCamera(), everything, scene
-    )
+    scene = scene or mujoco.MjvScene(model, 2000)
+    option, everything = mujoco.MjvOption(), mujoco.mjtCatBit.mjCAT_ALL
+    option.flags[mujoco.mjtVisFlag.mjVIS_CONTACTPOINT] = contacts
+    mujoco.mjv_updateScene(model, data, option, None, mujoco.MjvCamera(), everything, scene)
     gear.show(data, scene)
     return [
         (model.mesh(geom.dataid // 2).name, geom.pos.copy(), geom.mat.copy())
@@ -86,6 +86,17 @@ def test_sprockets_turn_with_the_belt_and_wheels_faster(robot):
 
     assert turn_of("sprocket_lower") == pytest.approx(0.05, abs=1e-6)
     assert turn_of("wheel_lower") == pytest.approx(0.05 * 0.14 / 0.059, rel=1e-3)
+
+
+def test_a_scene_that_is_filled_again_shows_the_same_as_a_new_one(robot):
+    """Pads stay in it, and only move; where more stands before them they are made anew."""
+    scene = mujoco.MjvScene(robot[0], 2000)
+    for angle, contacts in ((0.0, False), (0.3, False), (0.3, True), (0.4, False), (0.5, False)):
+        again, fresh = drawn(robot, angle, scene, contacts), drawn(robot, angle, None, contacts)
+        assert [name for name, _, _ in again] == [name for name, _, _ in fresh]
+        for one, other in zip(again, fresh, strict=True):
+            assert np.array_equal(one[1], other[1])
+            assert np.array_equal(one[2], other[2])
 
 
 def test_a_model_without_tracks_is_left_alone():
