@@ -107,8 +107,15 @@ def run(options: RunOptions, console: Console) -> int:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
         measures = mission.table().rows.measures if mission else ()
+        parameters = mission.complete(options.parameters) if mission else {}
         summary = summarize(
-            simulation, recording, options.seed, options.method, options.sensors, measures
+            simulation,
+            recording,
+            options.seed,
+            options.method,
+            options.sensors,
+            measures,
+            parameters,
         )
         _save(options, simulation, mission, recording, summary, output, console, interrupts)
         if interrupts.noted:

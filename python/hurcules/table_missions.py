@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -26,6 +26,7 @@ class TableMission:
     Attributes:
         table: its phases.
         spec: its scene, from parameters by name.
+        complete: parameters by name, with the defaults of those that are not given.
         controller: name of that in C++, `_core.table_controller`.
         parameters_of: what the words of a command line say of it.
         followed: the body that a film goes with, and from how far [m].
@@ -34,6 +35,7 @@ class TableMission:
 
     table: Callable[[], Mission]
     spec: Callable[[Mapping[str, Any]], mujoco.MjSpec]
+    complete: Callable[[Mapping[str, Any]], dict[str, Any]]
     controller: str
     parameters_of: Callable[[Sequence[str]], dict[str, Any]]
     followed: tuple[str, float]
@@ -44,6 +46,7 @@ def _lifted(name: str) -> TableMission:
     return TableMission(
         partial(lift.mission, name),
         lambda parameters: lift.spec(lift.person(parameters, name)),
+        lambda parameters: asdict(lift.person(parameters, name)),
         lift.CONTROLLER,
         partial(lift.parameters_of, name=name),
         ("casualty_pelvis", 3.8),
@@ -56,6 +59,7 @@ TABLE_MISSIONS: Mapping[str, TableMission] = {
     disposal.NAME: TableMission(
         disposal.mission,
         lambda parameters: disposal.spec(disposal.job(parameters)),
+        lambda parameters: asdict(disposal.job(parameters)),
         disposal.NAME,
         disposal.parameters_of,
         ("pelvis", 5.2),

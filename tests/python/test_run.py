@@ -222,6 +222,17 @@ def test_sensors_with_noise_change_the_run_and_the_summary_names_them(tmp_path: 
     assert logs[False] != logs[True]
 
 
+def test_summary_and_report_say_what_was_asked_of_the_mission(tmp_path: Path) -> None:
+    asked = {"mass": 90, "offset": (0.05, -0.1)}
+    options = RunOptions("lift", out=tmp_path, seconds=0.1, video=False, parameters=asked)
+    assert run(options, quiet()) == DONE
+    told = json.loads((tmp_path / "summary.json").read_text())["parameters"]
+    wanted = {"mass": 90, "offset": [0.05, -0.1], "yaw": 0.0, "friction": 0.45, "pose": "back"}
+    assert told == wanted
+    line = "mass 90 · offset 0.05, -0.1 · yaw 0.0 · friction 0.45 · pose back · seed 0"
+    assert line in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
 def test_files_of_an_earlier_run_do_not_stay(tmp_path: Path) -> None:
     (tmp_path / "video.mp4").write_text("old")
     (tmp_path / "mine.txt").write_text("kept")
