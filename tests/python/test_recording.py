@@ -20,6 +20,7 @@ from hurcules.cli import main
 from hurcules_envs import recording
 from hurcules_envs.data_formats import Format
 from hurcules_envs.onnx_file import Graph, write
+from hurcules_envs.stretch import StretchEnv
 
 NAME = "Hurcules/Drive-v0"
 FAST = {"fidelity": "kinematic"}
@@ -103,6 +104,19 @@ def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
             observation, reward, *_, info = env.step(action)
             assert reward == episode.rewards[k]
             assert info["is_success"] == episode.infos["is_success"][k + 1]
+
+
+def test_the_stretch_says_what_is_wanted_too(tmp_path, monkeypatch):
+    """It had no such text: an AttributeError of Minari and LeRobot once all episodes were there."""
+
+    def write(_recording, env, _episodes, out):
+        out.mkdir()
+        (out / "data").write_text(env.unwrapped.task_description)
+
+    monkeypatch.setitem(recording.FORMATS, "plain", Format(("json", ""), lambda one: "data", write))
+    given = {"form": "plain", "max_episode_steps": 2}
+    recording.record("Stretch-v0", lambda env, _: env.operator_action(), 1, tmp_path, **given)
+    assert (tmp_path / "data").read_text() == StretchEnv.task_description
 
 
 def test_pictures_of_minari_are_those_that_were_seen(tmp_path, monkeypatch):
