@@ -326,6 +326,19 @@ def test_ctrl_c_while_saving_lets_everything_be_saved(
     assert json.loads((tmp_path / "summary.json").read_text())["simulated_seconds"] == 0.2
 
 
+def test_a_second_ctrl_c_says_what_was_saved(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def interrupting(*_: Any, **__: Any) -> None:
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(np, "savez_compressed", interrupting)
+    assert run(RunOptions(out=tmp_path, seconds=0.2), console := quiet()) == 130
+    assert f"interrupted while saving; saved in {tmp_path}: summary.json\n" in said(console)
+    assert [path.name for path in tmp_path.iterdir()] == ["summary.json"]
+
+
 def test_ctrl_c_between_the_simulation_and_saving_saves(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
