@@ -7,6 +7,7 @@ Not tested: what is learnt from them (docs/environments.md).
 
 import json
 import resource
+import signal
 import warnings
 from itertools import count
 from pathlib import Path
@@ -208,7 +209,7 @@ def test_a_recording_that_was_stopped_goes_on(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         recording.record(NAME, stops, 2, stopped, form="robomimic", **FAST)
     assert len(list(stopped.glob("*.part/*.npz"))) == 1
-    with pytest.raises(hurcules.Error, match="another seed"):
+    with pytest.raises(hurcules.Error, match="stopped: seed"):
         recording.record(NAME, expert, 2, stopped, form="robomimic", seed=1, **FAST)
     again = []
 
@@ -236,7 +237,7 @@ def test_a_full_disk_keeps_what_was_finished(tmp_path):
     usual = resource.getrlimit(resource.RLIMIT_FSIZE)
     for limit, said, left in (
         (size - 1, r"4 of 4 episodes are kept in .*\.part", [".part"]),
-        (2000, r"could not be written: .*large\.$", []),
+        (2000, r"could not be written: File too large\.$", []),
     ):
         out = f"limit {limit}"
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, usual[1]))
@@ -329,12 +330,13 @@ def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
     assert [one.seed for one in plain] == [0, 1]
 
 
-def test_a_stop_says_what_is_kept(tmp_path, plain, monkeypatch, capsys):
-    begun = count()
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stop_says_what_is_kept(number, tmp_path, plain, monkeypatch, capsys):
+    begun, before = count(), signal.getsignal(signal.SIGTERM)
 
     def stops(env, seen):
         if env.simulation.time == 0.0 and next(begun) == 1:
-            raise KeyboardInterrupt
+            signal.raise_signal(number)
         return expert(env, seen)
 
     monkeypatch.setattr("hurcules_envs.command._expert", stops)
@@ -356,3 +358,7 @@ def test_a_stop_says_what_is_kept(tmp_path, plain, monkeypatch, capsys):
         == 130
     )
     assert capsys.readouterr().out.count("1 of 3 episodes are kept in") == 1
+    assert signal.getsignal(signal.SIGTERM) is before
+    words = r"another recording that was stopped: seed \(there 0, now 1\); delete it"
+    with pytest.raises(hurcules.Error, match=words):
+        recording.record(NAME, expert, 3, tmp_path, form="plain", seed=1, **FAST)
