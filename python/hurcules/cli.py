@@ -422,8 +422,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _with_value(error: typer.TyperException, words: Sequence[str]) -> str:
-    """What typer says, and the value that came where it does not say that."""
+    """What typer says, and the value that came, or what there is, where it does not say that."""
     text = error.format_message()
+    if text.startswith("No such command"):
+        names = ", ".join(str(command.name) for command in app.registered_commands)
+        return f"{text.rstrip('.')}; there are: {names}"
     options = getattr(getattr(error, "param", None), "opts", [])
     if isinstance(error, typer.BadParameter) and "got" not in text:
         for option, value in zip(words, [*words[1:], ""], strict=True):

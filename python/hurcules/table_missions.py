@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 
 from hurcules import _core, disposal, lift
+from hurcules._core import Error
 from hurcules.mission_table import Mission
 from hurcules.output import write_whole
 from hurcules.validation import require_known, told_at
@@ -85,6 +86,9 @@ def table_mission(name: str) -> TableMission | None:
         return TABLE_MISSIONS.get(name)
     table = Mission.load(name)
     scene = table.scene or table.setup.name
+    if not table.scene and scene not in TABLE_MISSIONS:
+        known = ", ".join(TABLE_MISSIONS)
+        raise Error(f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}")
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)
 
