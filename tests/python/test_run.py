@@ -230,7 +230,19 @@ def test_summary_and_report_say_what_was_asked_of_the_mission(tmp_path: Path) ->
     wanted = {"mass": 90, "offset": [0.05, -0.1], "yaw": 0.0, "friction": 0.45, "pose": "back"}
     assert told == wanted
     line = "mass 90 · offset 0.05, -0.1 · yaw 0.0 · friction 0.45 · pose back · seed 0"
-    assert line in (tmp_path / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert line in page
+    assert "<h2>Monitors</h2>" in page and "Joint positions" not in page  # none has moved yet
+
+
+def test_plots_leave_no_coordinate_out() -> None:
+    from hurcules.report import plots  # it wants hurcules[report]
+
+    names = ["KN", "HIP", "WST", "NKY", "NKP", "LSP", "LSR", "LSY", "LEB", "RSP"]
+    time = np.linspace(0.0, 1.0, 50)
+    log = {f"{kind}/{name}": i * time for i, name in enumerate(names, 1) for kind in ("q", "qd_des")}
+    drawn = plots.joint_velocities({"time": time, **log}, [])
+    assert [name for name in names if f"({name})" not in drawn] == []
 
 
 def test_files_of_an_earlier_run_do_not_stay(tmp_path: Path) -> None:
