@@ -178,6 +178,8 @@ def run_mission(
         )
         raise typer.Exit(methods.run(asked, Console()))
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
+    if any(one == mission or one.endswith(f"/{mission}") for one in plugins.environments()):
+        raise Error(f"{mission} is an environment, which wants --policy")
     if table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")

@@ -148,6 +148,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
     [
         (["run", "nowhere"], "mission or test method 'nowhere' does not exist; there are: stretch"),
         (["run", "nowhere"], "e2803"),
+        (["run", "Valve-v0"], "Valve-v0 is an environment, which wants --policy"),
         (["run", "--wombat", "3"], "no such option: --wombat"),
         (["run", "stretch", "--wombat", "3"], "no such option: --wombat"),
         (["run", "lift", "casualty"], "unexpected argument: casualty; options are: --mass"),
