@@ -106,6 +106,8 @@ def train(
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
             raise
+    if steps and not bar.tasks[task].completed:
+        console.print(f"{folder}: its {steps:,} steps were done already", soft_wrap=True)
     _judge(str(folder), None, judge, {"fidelity": "exact"}, None, console)
 
 

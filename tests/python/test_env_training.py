@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import hurcules
+from hurcules.cli import main
 from hurcules.output import WriteError
 from hurcules_envs.policy import Policy
 
@@ -49,6 +50,14 @@ def test_a_folder_of_another_run_says_what_differs(tmp_path: Path) -> None:
     training.train(options(tmp_path, 128))
     with pytest.raises(hurcules.Error, match=r"seed \(there 0, now 3\); give another folder"):
         training.train(options(tmp_path, 256, seed=3))
+
+
+def test_a_run_that_is_done_says_so(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    """The bar stood at 0 steps."""
+    words = ["train", "Reach-v0", "--fidelity", "kinematic", "--envs", "4", "--judge", "1"]
+    for told in (0, 1):
+        assert main([*words, "--steps", "128", "--out", str(tmp_path)]) == 0
+        assert capsys.readouterr().out.count("its 128 steps were done already") == told
 
 
 def test_what_is_broken_and_a_full_disk_are_told(tmp_path: Path, monkeypatch) -> None:
