@@ -146,7 +146,9 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         try:
             model = type(model).load(checkpoint, environment, device="cpu")
         except ValueError as error:
-            raise hurcules.Error(f"{checkpoint} is broken: give another folder ({error})") from error
+            raise hurcules.Error(
+                f"{checkpoint} is broken: give another folder ({error})"
+            ) from error
         environment.seed(options.seed + model.num_timesteps)  # else the first episodes come again
     elif options.demonstrations:
         _imitate(model, options)

@@ -36,16 +36,17 @@ def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, An
     while rest:
         option, _, value = rest.pop(0).partition("=")
         if option not in defaults:
-            kind = "no such option" if option.startswith("-") else "unexpected argument"
-            raise Error(f"{kind}: {option}; options are: {', '.join(defaults)}")
+            what = "no such option" if option.startswith("-") else "unexpected argument"
+            raise Error(f"{what}: {option}; options are: {', '.join(defaults)}")
         value = value or (rest.pop(0) if rest else "")
         if not value:
             raise Error(f"{option} wants a value")
-        kind = type(defaults[option])
+        default = defaults[option]
         try:
-            found[option.removeprefix("--")] = _pair(value) if kind is tuple else kind(value)
+            read = _pair if isinstance(default, tuple) else type(default)
+            found[option.removeprefix("--")] = read(value)
         except ValueError:
-            raise Error(f"{option}: wanted {_WORDS[kind]}, got {value!r}") from None
+            raise Error(f"{option}: wanted {_WORDS[type(default)]}, got {value!r}") from None
     return found
 
 

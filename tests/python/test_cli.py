@@ -153,7 +153,10 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "stretch", "--wombat", "3"], "no such option: --wombat"),
         (["run", "lift", "casualty"], "unexpected argument: casualty; options are: --mass"),
         (["run", "lift", "--yaw", "left"], "--yaw: wanted a number, got 'left'"),
-        (["run", "lift", "--offset", "near"], "--offset: wanted numbers between commas, got 'near'"),
+        (
+            ["run", "lift", "--offset", "near"],
+            "--offset: wanted numbers between commas, got 'near'",
+        ),
         (["RUN"], "No such command 'RUN'; there are: run, list"),
         (["run", "stretch", "--robot", "nonsense"], "--robot: for test methods; 'stretch' is a"),
         (["run", "stretch", "--pace", "-7"], "--pace: for test methods"),

@@ -240,7 +240,9 @@ def test_plots_leave_no_coordinate_out() -> None:
 
     names = ["KN", "HIP", "WST", "NKY", "NKP", "LSP", "LSR", "LSY", "LEB", "RSP"]
     time = np.linspace(0.0, 1.0, 50)
-    log = {f"{kind}/{name}": i * time for i, name in enumerate(names, 1) for kind in ("q", "qd_des")}
+    log = {
+        f"{kind}/{name}": i * time for i, name in enumerate(names, 1) for kind in ("q", "qd_des")
+    }
     drawn = plots.joint_velocities({"time": time, **log}, [])
     assert [name for name in names if f"({name})" not in drawn] == []
 
