@@ -35,6 +35,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
     """A mission whose task-space commands come from outside.
 
     Attributes:
+        task_description: what is wanted, in a sentence.
         simulation: the mission underneath.
         action_names: what each component of the action commands.
         action_scale: (k,) [m/s] or [rad/s], what 1 in the action means.
@@ -42,6 +43,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012
+    task_description: ClassVar[str]
     mission: ClassVar[str]
     terms: ClassVar[tuple[str, ...]]  # of the reward, in the order in which they are added
 

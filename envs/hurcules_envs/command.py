@@ -16,6 +16,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 import hurcules
 from hurcules.cli import results_in
+from hurcules.interrupts import sigterm_as_ctrl_c
 from hurcules.output import Output
 from hurcules_envs import evaluation
 from hurcules_envs.imitation import ask_expert
@@ -105,6 +106,8 @@ def train(
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
             raise
+    if steps and not bar.tasks[task].completed:
+        console.print(f"{folder}: its {steps:,} steps were done already", soft_wrap=True)
     _judge(str(folder), None, judge, {"fidelity": "exact"}, None, console)
 
 
@@ -199,7 +202,7 @@ def record(
         source = sha256(network.path.read_bytes()).hexdigest()
         _, options = environment_of(network, name, **options)
         act = _acting(network)
-    with Progress() as bar:
+    with Progress() as bar, sigterm_as_ctrl_c():
         task = bar.add_task(f"{kind} in {name}", total=episodes)
         folder = out or Path("out", "data")
         try:
@@ -245,7 +248,8 @@ def _judge(
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
     try:
-        result = evaluation.evaluate(policy, name, episodes, **options)
+        with sigterm_as_ctrl_c():
+            result = evaluation.evaluate(policy, name, episodes, **options)
     except KeyboardInterrupt:
         console.print("no figures: episodes run side by side, and not all of them were over")
         raise

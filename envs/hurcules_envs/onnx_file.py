@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules.output import write_whole
 
 __all__ = ["Graph", "Node", "read", "write"]
 
@@ -60,7 +61,7 @@ def write(path: Path, graph: Graph) -> None:
     """Writes a graph; weights as float32, inputs and outputs as (n, size) float32.
 
     Raises:
-        OSError: the file cannot be written.
+        hurcules.output.WriteError: the file cannot be written; an earlier one stays.
     """
     content: list[tuple[int, Any]] = [(1, _node(node)) for node in graph.nodes]
     content += [(2, "policy")]
@@ -70,7 +71,7 @@ def write(path: Path, graph: Graph) -> None:
     model: list[tuple[int, Any]] = [(1, IR_VERSION), (2, "hurcules"), (7, _encoded(content))]
     model += [(8, _encoded([(1, ""), (2, OPERATORS)]))]
     model += [(14, _encoded([(1, n), (2, text)])) for n, text in graph.metadata.items()]
-    path.write_bytes(_encoded(model))
+    write_whole(path, _encoded(model))
 
 
 def read(path: Path) -> Graph:

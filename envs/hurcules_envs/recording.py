@@ -143,7 +143,8 @@ def _told(target: Path, paths: Sequence[Path]) -> Iterator[None]:
     try:
         yield
     except (OSError, ImportError, RuntimeError) as error:  # the last is HDF5's word for the first
-        told = f"{target} could not be written: {error}. {_kept(paths)}"
+        reason = getattr(error, "strerror", None) or error
+        told = f"{target} could not be written: {reason}. {_kept(paths)}"
         raise hurcules.Error(told.strip()) from error
 
 
@@ -162,11 +163,15 @@ def _same(recording: Recording, path: Path) -> None:
     settings = asdict(recording) | {"version": hurcules.__version__}
     settings = json.loads(json.dumps(settings))
     earlier = json.loads(path.read_text() or "{}") if path.exists() else {}
-    differing = [n for n in earlier if n != "episodes" and earlier[n] != settings.get(n)]
+    differing = [
+        f"{name} (there {earlier[name]!r}, now {settings.get(name)!r})"
+        for name in earlier
+        if name != "episodes" and earlier[name] != settings.get(name)
+    ]
     if differing:
         raise hurcules.Error(
-            f"{path.parent} holds a recording that was stopped, with another "
-            f"{', '.join(differing)}: delete it or give another folder"
+            f"{path.parent} holds another recording that was stopped: {', '.join(differing)}; "
+            "delete it or give another folder"
         )
     kept = len(list(path.parent.glob("*.npz")))
     if kept > recording.episodes:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import hurcules
+from hurcules.output import write_whole
 
 __all__ = ["open_run", "write_settings"]
 
@@ -22,7 +23,8 @@ def open_run(out: Path, settings: Mapping[str, Any]) -> None:
         settings: of the run, as JSON has them; `steps` and `out` may differ from the earlier run's.
 
     Raises:
-        hurcules.Error: the folder holds another run, or cannot be made.
+        hurcules.Error: the folder holds another run, or one whose settings are broken, or cannot be
+            made.
     """
     try:
         out.mkdir(parents=True, exist_ok=True)
@@ -31,7 +33,10 @@ def open_run(out: Path, settings: Mapping[str, Any]) -> None:
     written = out / "settings.json"
     if not written.exists() or not any((out / name).exists() for name in CHECKPOINTS):
         return  # nothing is lost
-    earlier = json.loads(written.read_text())
+    try:
+        earlier = json.loads(written.read_text())
+    except ValueError as error:
+        raise hurcules.Error(f"{written} is broken: give another folder ({error})") from error
     differing = [
         f"{name} (there {earlier.get(name)!r}, now {settings.get(name)!r})"
         for name in dict.fromkeys([*settings, *earlier])
@@ -39,10 +44,10 @@ def open_run(out: Path, settings: Mapping[str, Any]) -> None:
     ]
     if differing:
         raise hurcules.Error(
-            f"{out} holds a run with another {', '.join(differing)}: give another folder"
+            f"{out} holds another run: {', '.join(differing)}; give another folder"
         )
 
 
 def write_settings(out: Path, settings: Mapping[str, Any]) -> None:
     """Writes settings.json."""
-    (out / "settings.json").write_text(json.dumps(settings, indent=2) + "\n")
+    write_whole(out / "settings.json", (json.dumps(settings, indent=2) + "\n").encode())

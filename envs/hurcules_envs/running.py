@@ -192,7 +192,8 @@ def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
         if key in PHYSICAL and not known:
             continue
         table.add_row(label, f"{factor * summary[key]:.3g} {unit}".rstrip())
-    end = "success" if summary["success"] else "failed" if summary["failed"] else "no success"
+    ends = {"success": "success", "failed": "failed", "interrupted": "interrupted"}
+    end = next((word for key, word in ends.items() if summary[key]), "no success")
     time = f"{summary['simulated_seconds']:.1f} s, {summary['steps']} steps"
     colour = "bold green" if summary["success"] else "bold"
     console.print(f"\n{end}, {time}", style=colour)

@@ -96,6 +96,7 @@ class StretchEnv(HurculesEnv):
     Arguments: `render_mode` None or "rgb_array"; `variation` 1.0.
     """
 
+    task_description = "Lead both hands forward to the person and hold them there."
     mission: ClassVar[str] = "stretch"
     terms: ClassVar[tuple[str, ...]] = (
         "progress",

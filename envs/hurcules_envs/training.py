@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, Vectori
 
 import hurcules
 from hurcules.interrupts import Interrupts
+from hurcules.output import write_whole
 from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
@@ -127,8 +129,8 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         The folder.
 
     Raises:
-        hurcules.Error: an unknown environment, algorithm or option, cameras, or a folder with
-            another run.
+        hurcules.Error: an unknown environment, algorithm or option, cameras, a folder with another
+            run or a broken checkpoint.
         KeyboardInterrupt: after Ctrl-C or SIGTERM; all is written, and the next call goes on.
     """
     require_known("algorithm", options.algorithm, ALGORITHMS)
@@ -145,13 +147,18 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     model = make_model(options, environment)
     write_settings(out, settings)
     if checkpoint.exists():
-        model = type(model).load(checkpoint, environment, device="cpu")
+        try:
+            model = type(model).load(checkpoint, environment, device="cpu")
+        except ValueError as error:
+            raise hurcules.Error(
+                f"{checkpoint} is broken: give another folder ({error})"
+            ) from error
         environment.seed(options.seed + model.num_timesteps)  # else the first episodes come again
     elif options.demonstrations:
         _imitate(model, options)
         _save(model, checkpoint)
     done = options.steps <= model.num_timesteps or _learn(model, options, checkpoint, progress)
-    model.save(out / "policy.zip")
+    _save(model, out / "policy.zip")
     about = {
         "environment": options.environment,
         "options": dict(options.options),
@@ -277,11 +284,11 @@ def _tensorboard(out: Path) -> str | None:
     return str(out / "tensorboard")
 
 
-def _save(model: BaseAlgorithm, checkpoint: Path) -> None:
+def _save(model: BaseAlgorithm, path: Path) -> None:
     """Whole or not at all."""
-    beside = checkpoint.with_suffix(".new.zip")
-    model.save(beside)
-    beside.replace(checkpoint)
+    contents = BytesIO()
+    model.save(contents)
+    write_whole(path, contents.getvalue())
 
 
 class _Standardise(BaseCallback):

@@ -178,6 +178,8 @@ def run_mission(
         )
         raise typer.Exit(methods.run(asked, Console()))
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
+    if any(one == mission or one.endswith(f"/{mission}") for one in plugins.environments()):
+        raise Error(f"{mission} is an environment, which wants --policy")
     if table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
@@ -422,8 +424,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _with_value(error: typer.TyperException, words: Sequence[str]) -> str:
-    """What typer says, and the value that came where it does not say that."""
+    """What typer says, and the value that came, or what there is, where it does not say that."""
     text = error.format_message()
+    if text.startswith("No such command"):
+        names = ", ".join(str(command.name) for command in app.registered_commands)
+        return f"{text.rstrip('.')}; there are: {names}"
     options = getattr(getattr(error, "param", None), "opts", [])
     if isinstance(error, typer.BadParameter) and "got" not in text:
         for option, value in zip(words, [*words[1:], ""], strict=True):

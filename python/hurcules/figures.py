@@ -52,7 +52,7 @@ FIGURES = {
     "push_N": Figure("largest push of both arms along the ground"),
     "contact_share": Figure("largest contact force, share of its region's limit"),
     "support_N": Figure("largest force that carries a region of the body"),
-    "neck_extension_rad": Figure("head hangs back by, at the most"),
+    "neck_extension_rad": Figure("head bent forward by, least (below 0 it hangs back)"),
     "head_mps2": Figure("largest acceleration of the head, gravity included"),
     # of the casualty mission
     "on_bed_share": Figure("share of the weight on the bed in the end"),

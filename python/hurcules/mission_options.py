@@ -14,6 +14,8 @@ __all__ = ["away_words", "in_words_of", "read_options", "record", "require_offse
 
 Record = TypeVar("Record")
 
+_WORDS = {int: "a whole number", float: "a number", tuple: "numbers between commas"}
+
 
 def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, Any]:
     """Reads `--mass 90 --offset 0.05,-0.1 --yaw=0.2`.
@@ -34,16 +36,17 @@ def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, An
     while rest:
         option, _, value = rest.pop(0).partition("=")
         if option not in defaults:
-            raise Error(f"no such option: {option}; there are: {', '.join(defaults)}")
+            what = "no such option" if option.startswith("-") else "unexpected argument"
+            raise Error(f"{what}: {option}; options are: {', '.join(defaults)}")
         value = value or (rest.pop(0) if rest else "")
         if not value:
             raise Error(f"{option} wants a value")
+        default = defaults[option]
         try:
-            default = defaults[option]
             read = _pair if isinstance(default, tuple) else type(default)
             found[option.removeprefix("--")] = read(value)
         except ValueError:
-            raise Error(f"{option}: cannot read {value!r}") from None
+            raise Error(f"{option}: wanted {_WORDS[type(default)]}, got {value!r}") from None
     return found
 
 

@@ -73,7 +73,8 @@ class RunOptions:
 def run(options: RunOptions, console: Console) -> int:
     """Runs a mission and writes its results.
 
-    Ctrl-C ends the simulation or the film; what was recorded is saved all the same, and said.
+    Ctrl-C ends the simulation or the film; what was recorded is saved all the same, and said. A
+    second one ends the saving too.
 
     Args:
         options: what to run and where to write.
@@ -107,10 +108,22 @@ def run(options: RunOptions, console: Console) -> int:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
         measures = mission.table().rows.measures if mission else ()
+        parameters = mission.complete(options.parameters) if mission else {}
         summary = summarize(
-            simulation, recording, options.seed, options.method, options.sensors, measures
+            simulation,
+            recording,
+            options.seed,
+            options.method,
+            options.sensors,
+            measures,
+            parameters,
         )
-        _save(options, simulation, mission, recording, summary, output, console, interrupts)
+        try:
+            _save(options, simulation, mission, recording, summary, output, console, interrupts)
+        except KeyboardInterrupt:  # the second one
+            said = f"interrupted while saving; {output.told()}"
+            console.print(said, style="bold", highlight=False, soft_wrap=True)
+            return INTERRUPTED
         if interrupts.noted:
             when = "at" if recording.interrupted else "after the simulation had ended at"
             said = f"interrupted {when} {simulation.time:.3f} s; {output.told()}"

@@ -26,6 +26,7 @@ def summarize(
     method: str,
     noisy: bool = False,
     measures: Sequence[Measure] = (),
+    parameters: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Sums up a run.
 
@@ -36,6 +37,7 @@ def summarize(
         method: of the solver.
         noisy: whether its sensors were those of `hurcules.sensors.realistic`.
         measures: of the mission's table, for what its figures must be.
+        parameters: of the mission, by name.
 
     Returns:
         Plain data for JSON: numbers are finite or None.
@@ -44,6 +46,7 @@ def summarize(
     return _plain(
         {
             "mission": simulation.mission,
+            "parameters": dict(parameters or {}),
             "seed": seed,
             "version": __version__,
             "method": method,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 
 from hurcules import _core, disposal, lift
+from hurcules._core import Error
 from hurcules.mission_table import Mission
 from hurcules.output import write_whole
 from hurcules.validation import require_known, told_at
@@ -26,6 +27,7 @@ class TableMission:
     Attributes:
         table: its phases.
         spec: its scene, from parameters by name.
+        complete: parameters by name, with the defaults of those that are not given.
         controller: name of that in C++, `_core.table_controller`.
         parameters_of: what the words of a command line say of it.
         followed: the body that a film goes with, and from how far [m].
@@ -34,6 +36,7 @@ class TableMission:
 
     table: Callable[[], Mission]
     spec: Callable[[Mapping[str, Any]], mujoco.MjSpec]
+    complete: Callable[[Mapping[str, Any]], dict[str, Any]]
     controller: str
     parameters_of: Callable[[Sequence[str]], dict[str, Any]]
     followed: tuple[str, float]
@@ -44,6 +47,7 @@ def _lifted(name: str) -> TableMission:
     return TableMission(
         partial(lift.mission, name),
         lambda parameters: lift.spec(lift.person(parameters, name)),
+        lambda parameters: asdict(lift.person(parameters, name)),
         lift.CONTROLLER,
         partial(lift.parameters_of, name=name),
         ("casualty_pelvis", 3.8),
@@ -56,6 +60,7 @@ TABLE_MISSIONS: Mapping[str, TableMission] = {
     disposal.NAME: TableMission(
         disposal.mission,
         lambda parameters: disposal.spec(disposal.job(parameters)),
+        lambda parameters: asdict(disposal.job(parameters)),
         disposal.NAME,
         disposal.parameters_of,
         ("pelvis", 5.2),
@@ -81,6 +86,9 @@ def table_mission(name: str) -> TableMission | None:
         return TABLE_MISSIONS.get(name)
     table = Mission.load(name)
     scene = table.scene or table.setup.name
+    if not table.scene and scene not in TABLE_MISSIONS:
+        known = ", ".join(TABLE_MISSIONS)
+        raise Error(f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}")
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)
 

@@ -119,7 +119,7 @@ def test_view_takes_the_options_of_a_mission(
     ]
     assert sum(seen[0].model.body_mass[people]) == pytest.approx(90.0)
     code, _, err = call(capsys, "view", "lift", "--mas", "90")
-    assert (code, "no such option: --mas; there are: --mass" in err) == (2, True)
+    assert (code, "no such option: --mas; options are: --mass" in err) == (2, True)
     code, _, err = call(capsys, "view", "rescue", "--mass", "90")
     assert (code, "no such option: --mass" in err) == (2, True)
 
@@ -148,8 +148,16 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
     [
         (["run", "nowhere"], "mission or test method 'nowhere' does not exist; there are: stretch"),
         (["run", "nowhere"], "e2803"),
+        (["run", "Valve-v0"], "Valve-v0 is an environment, which wants --policy"),
         (["run", "--wombat", "3"], "no such option: --wombat"),
         (["run", "stretch", "--wombat", "3"], "no such option: --wombat"),
+        (["run", "lift", "casualty"], "unexpected argument: casualty; options are: --mass"),
+        (["run", "lift", "--yaw", "left"], "--yaw: wanted a number, got 'left'"),
+        (
+            ["run", "lift", "--offset", "near"],
+            "--offset: wanted numbers between commas, got 'near'",
+        ),
+        (["RUN"], "No such command 'RUN'; there are: run, list"),
         (["run", "stretch", "--robot", "nonsense"], "--robot: for test methods; 'stretch' is a"),
         (["run", "stretch", "--pace", "-7"], "--pace: for test methods"),
         (["run", "stretch", "--repetitions", "0"], "--repetitions: for test methods"),

@@ -454,7 +454,7 @@ def test_a_training_that_was_stopped_goes_on(tmp_path):
     training.train(more, lambda done, _: seen.append(done))
     assert seen[0] == 1024 + 8
     assert (tmp_path / "checkpoint.zip").stat().st_mtime_ns > checkpoint
-    with pytest.raises(hurcules.Error, match="another seed"):
+    with pytest.raises(hurcules.Error, match="another run: seed"):
         training.train(training.TrainOptions(**{**vars(options), "seed": 1}))
     policy = Policy(tmp_path)
     assert policy.metadata["steps"] == "2048"

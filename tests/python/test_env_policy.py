@@ -6,6 +6,7 @@ Not tested: that training leads anywhere (docs/environments.md has the figures).
 """
 
 import json
+import signal
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -107,6 +108,19 @@ def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:
         env.reset(seed=3)
         rewards = [env.step(action.astype(np.float32))[1] for action in episode["actions"]]
         assert rewards == episode["rewards"].tolist()  # actions alone give the same bits
+
+
+def test_an_episode_that_was_interrupted_is_no_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    def acts(*_: object) -> np.ndarray:
+        signal.raise_signal(signal.SIGINT)
+        return np.zeros(6, np.float32)
+
+    monkeypatch.setattr(Policy, "one", acts)
+    words = ["run", "--policy", "Reach-v0", "--fidelity", "kinematic", "--no-video"]
+    assert main([*words, "--out", str(tmp_path)]) == 130
+    assert "\ninterrupted, 0.1 s, 1 steps\n" in capsys.readouterr().out
 
 
 def test_an_episode_lasts_as_long_at_the_rate_of_its_policy(tmp_path: Path) -> None:

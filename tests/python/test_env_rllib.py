@@ -92,7 +92,7 @@ def test_a_run_goes_on_and_its_policy_acts_without_rllib(
     assert told == [256, 512, 768]  # from there, not from the start
     assert seeds[1][0] - seeds[0][0] == 512  # with other episodes
     assert json.loads((tmp_path / "settings.json").read_text())["library"] == "rllib"
-    with pytest.raises(hurcules.Error, match=r"holds a run with another seed \(there 0, now 1\)"):
+    with pytest.raises(hurcules.Error, match=r"holds another run: seed \(there 0, now 1\)"):
         rllib.train(REACH, "local", 600, tmp_path, OPTIONS, runners=1, episodes=4, seed=1)
 
 

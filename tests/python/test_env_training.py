@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import hurcules
+from hurcules.cli import main
+from hurcules.output import WriteError
 from hurcules_envs.policy import Policy
 
 training = pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
@@ -46,8 +48,42 @@ def test_a_signal_leaves_a_policy_and_the_next_call_goes_on(tmp_path: Path, numb
 
 def test_a_folder_of_another_run_says_what_differs(tmp_path: Path) -> None:
     training.train(options(tmp_path, 128))
-    with pytest.raises(hurcules.Error, match=r"seed \(there 0, now 3\): give another folder"):
+    with pytest.raises(hurcules.Error, match=r"seed \(there 0, now 3\); give another folder"):
         training.train(options(tmp_path, 256, seed=3))
+
+
+def test_a_run_that_is_done_says_so(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    """The bar stood at 0 steps."""
+    words = ["train", "Reach-v0", "--fidelity", "kinematic", "--envs", "4", "--judge", "1"]
+    for told in (0, 1):
+        assert main([*words, "--steps", "128", "--out", str(tmp_path)]) == 0
+        assert capsys.readouterr().out.count("its 128 steps were done already") == told
+
+
+def test_what_is_broken_and_a_full_disk_are_told(tmp_path: Path, monkeypatch) -> None:
+    """An error of the unpacker, of the file system, and half a policy."""
+    training.train(options(tmp_path, 128))
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+
+    def full(path: Path, contents: bytes) -> int:
+        with path.open("wb") as file:
+            file.write(contents[:10])
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_bytes", full)
+        with pytest.raises(WriteError, match=r"cannot write .*settings\.json: No space left"):
+            training.train(options(tmp_path, 256))
+        patch.setattr("hurcules_envs.training.write_settings", lambda *_: None)
+        with pytest.raises(WriteError, match=r"cannot write .*checkpoint\.zip: No space left"):
+            training.train(options(tmp_path, 256))
+    assert before == {path.name: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+    (tmp_path / "checkpoint.zip").write_bytes(before["checkpoint.zip"][:2000])
+    with pytest.raises(hurcules.Error, match=r"checkpoint\.zip is broken: give another folder"):
+        training.train(options(tmp_path, 256))
+    (tmp_path / "settings.json").write_text("{")
+    with pytest.raises(hurcules.Error, match=r"settings\.json is broken: give another folder"):
+        training.train(options(tmp_path, 256))
 
 
 def test_a_vector_draws_for_its_videos() -> None:
@@ -80,7 +116,7 @@ def test_a_folder_that_was_moved_holds_the_same_run(tmp_path: Path) -> None:
     done = []
     training.train(options(tmp_path / "there", 256), lambda steps, share: done.append(steps))
     assert done[0] == 132
-    with pytest.raises(hurcules.Error, match=r"holds a run with another seed \(there 0, now 1\)"):
+    with pytest.raises(hurcules.Error, match=r"holds another run: seed \(there 0, now 1\); give"):
         training.train(options(tmp_path / "there", 256, seed=1))
 
 

@@ -178,15 +178,20 @@ def test_towing_ends_where_traction_does():
 
 def test_the_command_writes_summary_and_report_and_its_status_tells(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(field_tests.METHODS, "e2831", SHORT)
-    words = ["run", "e2831", "--repetitions", "1", "--no-video", "--out", str(tmp_path), "--mass"]
+    words = ["run", "e2831", "--repetitions", "1", "--no-video", "--out", str(tmp_path)]
+    words += ["--friction", "0.4", "--pace", "0.5", "--mass"]
     assert cli.main([*words, "75"]) == 0
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["mission"] == "e2831" and summary["success"] is True
     assert summary["reason"] == "largest setting passed: 75 kg"
     assert {"seed", "version", "simulated_seconds", "real_time_factor"} < set(summary)
-    assert "hitched sleds" in (tmp_path / "report.html").read_text()
+    assert summary["parameters"]["friction"] == 0.4 and summary["pace"] == 0.5
+    page = (tmp_path / "report.html").read_text()
+    assert "hitched sleds" in page and "friction 0.4 · pace 0.5 m/s · seed 0" in page
+    assert "Faults" not in page
     assert cli.main([*words, "2000"]) == 1
     assert json.loads((tmp_path / "summary.json").read_text())["success"] is False
+    assert "<h2>Faults</h2>" in (tmp_path / "report.html").read_text()
     assert "1 stuck" in capsys.readouterr().out
 
 

@@ -71,7 +71,7 @@ def test_the_ground_is_drawn_by_its_number() -> None:
         (["crossing", "--rise", "2"], "rise wants a number from 0.07 to 0.5 m, got 2.0"),
         (["crossing", "--way", "1"], "way wants a number from 2 to 20 m, got 1.0"),
         (["crossing", "--ground", "-1"], "ground wants a whole number >= 0, got -1"),
-        (["crossing", "--ground", "1.5"], "--ground: cannot read '1.5'"),
+        (["crossing", "--ground", "1.5"], "--ground: wanted a whole number, got '1.5'"),
         (["casualty", "--terrain", "road"], "no such option: --terrain"),
     ],
 )

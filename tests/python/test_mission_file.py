@@ -131,7 +131,7 @@ def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureF
         own.write_text(f'[mission]\nname = "own"\n{scene}\n[[phase]]\nname = "a"\nstack = "arms"\n')
         assert cli.main(["run", str(own)]) == 2
     told = capsys.readouterr().err
-    assert "scene 'own' does not exist; there are: lift" in told
+    assert "own.toml: 'own' has no scene; [mission] wants scene, one of lift, casualty" in told
     assert "scene 'lit' does not exist" in told
     assert "[mission], scene: wanted a text, got 3" in told
     assert cli.main(["run", str(tmp_path / "none.toml")]) == 2

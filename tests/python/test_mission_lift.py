@@ -162,5 +162,5 @@ def test_the_command_line_names_the_person() -> None:
     }
     with pytest.raises(Error, match="no such option: --weight"):
         lift.parameters_of(["--weight", "75"])
-    with pytest.raises(Error, match="--mass: cannot read 'heavy'"):
+    with pytest.raises(Error, match="--mass: wanted a whole number, got 'heavy'"):
         lift.parameters_of(["--mass", "heavy"])

@@ -7,6 +7,7 @@ Not tested: what is learnt from them (docs/environments.md).
 
 import json
 import resource
+import signal
 import warnings
 from itertools import count
 from pathlib import Path
@@ -20,6 +21,7 @@ from hurcules.cli import main
 from hurcules_envs import recording
 from hurcules_envs.data_formats import Format
 from hurcules_envs.onnx_file import Graph, write
+from hurcules_envs.stretch import StretchEnv
 
 NAME = "Hurcules/Drive-v0"
 FAST = {"fidelity": "kinematic"}
@@ -103,6 +105,19 @@ def test_a_data_set_of_minari_gives_the_same_episode(tmp_path, monkeypatch):
             observation, reward, *_, info = env.step(action)
             assert reward == episode.rewards[k]
             assert info["is_success"] == episode.infos["is_success"][k + 1]
+
+
+def test_the_stretch_says_what_is_wanted_too(tmp_path, monkeypatch):
+    """It had no such text: an AttributeError of Minari and LeRobot once all episodes were there."""
+
+    def write(_recording, env, _episodes, out):
+        out.mkdir()
+        (out / "data").write_text(env.unwrapped.task_description)
+
+    monkeypatch.setitem(recording.FORMATS, "plain", Format(("json", ""), lambda one: "data", write))
+    given = {"form": "plain", "max_episode_steps": 2}
+    recording.record("Stretch-v0", lambda env, _: env.operator_action(), 1, tmp_path, **given)
+    assert (tmp_path / "data").read_text() == StretchEnv.task_description
 
 
 def test_pictures_of_minari_are_those_that_were_seen(tmp_path, monkeypatch):
@@ -194,7 +209,7 @@ def test_a_recording_that_was_stopped_goes_on(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         recording.record(NAME, stops, 2, stopped, form="robomimic", **FAST)
     assert len(list(stopped.glob("*.part/*.npz"))) == 1
-    with pytest.raises(hurcules.Error, match="another seed"):
+    with pytest.raises(hurcules.Error, match="stopped: seed"):
         recording.record(NAME, expert, 2, stopped, form="robomimic", seed=1, **FAST)
     again = []
 
@@ -222,7 +237,7 @@ def test_a_full_disk_keeps_what_was_finished(tmp_path):
     usual = resource.getrlimit(resource.RLIMIT_FSIZE)
     for limit, said, left in (
         (size - 1, r"4 of 4 episodes are kept in .*\.part", [".part"]),
-        (2000, r"could not be written: .*large\.$", []),
+        (2000, r"could not be written: File too large\.$", []),
     ):
         out = f"limit {limit}"
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, usual[1]))
@@ -315,12 +330,13 @@ def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
     assert [one.seed for one in plain] == [0, 1]
 
 
-def test_a_stop_says_what_is_kept(tmp_path, plain, monkeypatch, capsys):
-    begun = count()
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stop_says_what_is_kept(number, tmp_path, plain, monkeypatch, capsys):
+    begun, before = count(), signal.getsignal(signal.SIGTERM)
 
     def stops(env, seen):
         if env.simulation.time == 0.0 and next(begun) == 1:
-            raise KeyboardInterrupt
+            signal.raise_signal(number)
         return expert(env, seen)
 
     monkeypatch.setattr("hurcules_envs.command._expert", stops)
@@ -342,3 +358,7 @@ def test_a_stop_says_what_is_kept(tmp_path, plain, monkeypatch, capsys):
         == 130
     )
     assert capsys.readouterr().out.count("1 of 3 episodes are kept in") == 1
+    assert signal.getsignal(signal.SIGTERM) is before
+    words = r"another recording that was stopped: seed \(there 0, now 1\); delete it"
+    with pytest.raises(hurcules.Error, match=words):
+        recording.record(NAME, expert, 3, tmp_path, form="plain", seed=1, **FAST)

@@ -222,6 +222,31 @@ def test_sensors_with_noise_change_the_run_and_the_summary_names_them(tmp_path: 
     assert logs[False] != logs[True]
 
 
+def test_summary_and_report_say_what_was_asked_of_the_mission(tmp_path: Path) -> None:
+    asked = {"mass": 90, "offset": (0.05, -0.1)}
+    options = RunOptions("lift", out=tmp_path, seconds=0.1, video=False, parameters=asked)
+    assert run(options, quiet()) == DONE
+    told = json.loads((tmp_path / "summary.json").read_text())["parameters"]
+    wanted = {"mass": 90, "offset": [0.05, -0.1], "yaw": 0.0, "friction": 0.45, "pose": "back"}
+    assert told == wanted
+    line = "mass 90 · offset 0.05, -0.1 · yaw 0.0 · friction 0.45 · pose back · seed 0"
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert line in page
+    assert "<h2>Monitors</h2>" in page and "Joint positions" not in page  # none has moved yet
+
+
+def test_plots_leave_no_coordinate_out() -> None:
+    from hurcules.report import plots  # it wants hurcules[report]
+
+    names = ["KN", "HIP", "WST", "NKY", "NKP", "LSP", "LSR", "LSY", "LEB", "RSP"]
+    time = np.linspace(0.0, 1.0, 50)
+    log = {
+        f"{kind}/{name}": i * time for i, name in enumerate(names, 1) for kind in ("q", "qd_des")
+    }
+    drawn = plots.joint_velocities({"time": time, **log}, [])
+    assert [name for name in names if f"({name})" not in drawn] == []
+
+
 def test_files_of_an_earlier_run_do_not_stay(tmp_path: Path) -> None:
     (tmp_path / "video.mp4").write_text("old")
     (tmp_path / "mine.txt").write_text("kept")
@@ -313,6 +338,19 @@ def test_ctrl_c_while_saving_lets_everything_be_saved(
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(files)
     assert len(np.load(tmp_path / "log.npz")["time"]) == 200
     assert json.loads((tmp_path / "summary.json").read_text())["simulated_seconds"] == 0.2
+
+
+def test_a_second_ctrl_c_says_what_was_saved(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def interrupting(*_: Any, **__: Any) -> None:
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(np, "savez_compressed", interrupting)
+    assert run(RunOptions(out=tmp_path, seconds=0.2), console := quiet()) == 130
+    assert f"interrupted while saving; saved in {tmp_path}: summary.json\n" in said(console)
+    assert [path.name for path in tmp_path.iterdir()] == ["summary.json"]
 
 
 def test_ctrl_c_between_the_simulation_and_saving_saves(

@@ -123,10 +123,13 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     times = {round(event["time_s"] - origin, 1) for event in summary["events"] if event["time_s"]}
     events = sorted(times)
     later = plots.settled(log)
-    drawn = [
+    moves = [
         (plots.joint_positions, log, "Joint positions", _POSITIONS),
         (plots.joint_velocities, later, "Reference velocities", _VELOCITIES),
         (plots.control_errors, later, "Control errors", _ERRORS),
+    ]
+    drawn = [
+        *(one for one in moves if plots.moving(one[1])),
         (plots.task_errors, later, "Task errors", _TASKS),
         (plots.active_limits, log, "Active limits", _LIMITS),
         (plots.monitors, log, "Monitors", _MONITORS),

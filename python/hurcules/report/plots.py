@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import cycle, product
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -46,7 +47,7 @@ MOVES = 0.02  # [rad] a coordinate that moves less is left out of the plots of j
 
 def joint_positions(log: Log, events: Sequence[float]) -> str:
     """Each coordinate that moves, with its limits; shaded while a limit holds it."""
-    names = moving(log) or coordinates(log)[:4]
+    names = moving(log)
     drawn = cells(len(names))
     for (_, plot), name in zip(drawn, names, strict=True):
         plot.plot(*decimate(log["time"], log[f"q/{name}"]), color=INK)
@@ -269,8 +270,9 @@ def _mirrors(log: Log, name: str) -> bool:
 def _lines(time: Array, series: Log, events: Sequence[float], label: str) -> str:
     """Lines by name over the same time."""
     figure, plot = axes(3.4)
-    for (name, values), colour in zip(series.items(), LINES, strict=False):
-        plot.plot(*decimate(time, values), color=colour, label=_title(name))
+    looks = cycle(product(("-", "--"), LINES))
+    for (name, values), (dash, colour) in zip(series.items(), looks, strict=False):
+        plot.plot(*decimate(time, values), dash, color=colour, label=_title(name))
     mark(plot, events)
     plot.set_xlabel("time [s]")
     plot.set_ylabel(label)

@@ -120,6 +120,8 @@ def summarize(
         "title": result.title,
         "robot": result.robot,
         "repetitions": options.repetitions,
+        "pace": options.speed,
+        "parameters": chosen.fixed,
         "parameter": result.parameter,
         "largest": result.largest,
         "settings": plain["settings"],
