@@ -9,13 +9,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._core import WholeBodyController
+from hurcules._core import OrientationTask, PoseTask, PositionTask, Robot, WholeBodyController
 
 __all__ = ["warn_of_forces", "warn_of_physics"]
 
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+DEEP = 5e-3  # [m] in each other: no contact that somebody wants
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
     "a robot on feet stands by torques, with contacts: "
@@ -24,6 +25,7 @@ ON_FEET = (
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
 SINGLE = (HINGE, SLIDE)
+FRAMES = (PositionTask, OrientationTask, PoseTask)
 
 
 def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> None:
@@ -51,8 +53,14 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
+    yield from _switched_off(model, controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
+    elif controller.plan.floats and not _falls(model):
+        yield (
+            "the robot's root is free and gives way: the plan holds it where it starts; with "
+            "base='sensed', or control='torque', hands are led from where it is"
+        )
     elif controller.plan.floats:
         yield (
             "the robot's root is free, and nothing says what it stands on: the plan holds the root "
@@ -63,7 +71,11 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         yield from _feet(model, controller)
         chain = _chain(model, controller)
         yield from _loose_joints(model, controller, chain)
-        yield from _weak_motors(model, controller, chain)
+        start = mujoco.MjData(model)
+        start.qpos[:] = controller.plan.qpos
+        mujoco.mj_forward(model, start)
+        yield from _weak_motors(model, start, chain)
+        yield from _pressed(model, start, chain)
 
 
 def _doubled(model: mujoco.MjModel) -> Iterator[str]:
@@ -113,6 +125,27 @@ def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Itera
         )
 
 
+def _switched_off(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """What the plan counts on and the physics leaves out."""
+    disabled = model.opt.disableflags
+    if disabled & mujoco.mjtDisableBit.mjDSBL_ACTUATION:
+        yield 'no actuator moves anything: the model has <flag actuation="disable"/>'
+    off = [
+        model.actuator(i).name or f"number {i}"
+        for i in range(model.nu)
+        if 0 <= (group := int(model.actuator_group[i])) < 31
+        and model.opt.disableactuator >> group & 1
+    ]
+    if off:
+        yield f"the model's actuatorgroupdisable switches actuators off: {', '.join(off)}"
+    tied = any(len(one.joints) > 1 for one in controller.plan.coordinates)
+    if disabled & mujoco.mjtDisableBit.mjDSBL_EQUALITY and (tied or controller.plan.followers):
+        yield (
+            "the plan keeps the model's equality constraints, the physics does not: it has "
+            '<flag equality="disable"/>'
+        )
+
+
 def _settings(model: mujoco.MjModel) -> Iterator[str]:
     step, iterations = model.opt.timestep, model.opt.iterations
     if step > 1.001 * MAX_STEP:
@@ -145,6 +178,11 @@ def _feet(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[st
                 f"the robot stands by servos on '{still[0]}', {mass:.2g} of its {whole:.3g} kg, "
                 f"which nothing holds down: it shakes and falls; {ON_FEET}"
             )
+
+
+def _falls(model: mujoco.MjModel) -> bool:
+    off = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
+    return bool(np.any(model.opt.gravity)) and not off
 
 
 def _chain(model: mujoco.MjModel, controller: WholeBodyController) -> set[int]:
@@ -180,20 +218,52 @@ def _loose_joints(
     follow = controller.plan.followers
     held = {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in follow}
     held |= set(_actuated(model))
-    loose = [
-        model.joint(joint).name or f"joint {joint}"
+    free = [
+        joint
         for joint in range(model.njnt)
-        if int(model.jnt_bodyid[joint]) in chain
-        and joint not in held
+        if joint not in held
         and int(model.jnt_type[joint]) in SINGLE
         and model.jnt_stiffness[joint] == 0.0
         and not _tied(model, joint)
     ]
+    loose = [joint for joint in free if int(model.jnt_bodyid[joint]) in chain]
+    if chain:
+        loose += _leading_to_frames(model, controller, [one for one in free if one not in loose])
     if loose:
+        names = ", ".join(model.joint(joint).name or f"joint {joint}" for joint in loose)
         yield (
-            f"nothing holds {', '.join(loose)}, and parts that the controller moves hang on it: it "
+            f"nothing holds {names}, and parts that the controller moves hang on it: it "
             "falls in the physics. hurcules.with_motors gives each joint a motor"
         )
+
+
+def _leading_to_frames(
+    model: mujoco.MjModel, controller: WholeBodyController, joints: list[int]
+) -> list[int]:
+    """Those that move the frame of a task."""
+    tasks = [task for task in controller.tasks if isinstance(task, FRAMES)]
+    if not joints or not tasks:
+        return []
+    plan, found = controller.plan, []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the plan has told
+        probe = Robot(model, plan.coordinate_names)
+    states = [task.state() for task in tasks]
+    for joint in joints:
+        qpos = plan.qpos
+        qpos[model.jnt_qposadr[joint]] += 0.1
+        probe.set_qpos(qpos)
+        for task in tasks:
+            task.update(plan)
+            here = task.error
+            task.update(probe)
+            if np.any(np.abs(task.error - here) > 1e-9):
+                found.append(joint)
+                break
+    for task, state in zip(tasks, states, strict=True):
+        task.update(plan)
+        task.restore(state)
+    return found
 
 
 def _tied(model: mujoco.MjModel, joint: int) -> bool:
@@ -201,13 +271,8 @@ def _tied(model: mujoco.MjModel, joint: int) -> bool:
     return bool(np.any(ties & ((model.eq_obj1id == joint) | (model.eq_obj2id == joint))))
 
 
-def _weak_motors(
-    model: mujoco.MjModel, controller: WholeBodyController, chain: set[int]
-) -> Iterator[str]:
+def _weak_motors(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
     """Motors that cannot hold what hangs on them where the robot starts."""
-    data = mujoco.MjData(model)
-    data.qpos[:] = controller.plan.qpos
-    mujoco.mj_forward(model, data)
     weight: NDArray[np.float64] = data.qfrc_bias - data.qfrc_passive
     weight -= np.where(model.jnt_actgravcomp[model.dof_jntid], data.qfrc_gravcomp, 0.0)
     weak = []
@@ -227,6 +292,26 @@ def _weak_motors(
         yield (
             f"motors cannot hold the weight on them where the robot starts: {', '.join(weak)}. It "
             "sinks in the physics, and all that it is told waits for it"
+        )
+
+
+def _pressed(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
+    """Parts that are in each other, or in what stands still, where the robot starts."""
+    own = np.isin(model.body_rootid, model.body_rootid[sorted(chain)])
+    still = model.body_weldid == 0
+    pressed = {}
+    for contact in data.contact:
+        one, other = (int(model.geom_bodyid[geom]) for geom in contact.geom)
+        alone = own[one] and own[other] or own[one] and still[other] or own[other] and still[one]
+        if alone and contact.exclude == 0 and contact.dist < -DEEP:
+            bodies = [model.body(body).name or f"body {body}" for body in (one, other)]
+            names = " in ".join(sorted(bodies))
+            pressed[names] = max(pressed.get(names, 0.0), -1e3 * contact.dist)
+    if pressed:
+        most = ", ".join(f"{names} by {depth:.0f} mm" for names, depth in pressed.items())
+        yield (
+            f"where the robot starts, parts are in each other: {most}. Motors press against it, and "
+            "targets give way; <exclude> for what overlaps by construction"
         )
 
 

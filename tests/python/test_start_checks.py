@@ -110,6 +110,66 @@ def test_a_robot_with_all_it_wants_is_let_go_without_a_word(motors: str, last: s
         simulation(model(motors=motors, last=last), list(motors))
 
 
+@pytest.mark.parametrize(
+    ("option", "told"),
+    [
+        ('><flag actuation="disable"/></option>', "no actuator moves anything"),
+        (' actuatorgroupdisable="3"/>', "switches actuators off: number 2$"),
+    ],
+)
+def test_motors_that_the_model_switches_off_are_told(option: str, told: str) -> None:
+    # a hand was 0.46 m off its plan without a word
+    text = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
+    text = text.replace('joint="c" ', 'joint="c" group="3" ').replace("/>", option, 1)
+    with pytest.warns(UserWarning, match=told):
+        simulation(mujoco.MjModel.from_xml_string(text), None)
+
+
+def test_constraints_that_the_model_switches_off_are_told() -> None:
+    couple = '</actuator><equality><joint joint1="c" joint2="b"/></equality><actuator>'
+    chain = model(motors="ab", extra=couple)
+    chain.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_EQUALITY
+    with pytest.warns(UserWarning, match="the plan keeps the model's equality constraints"):
+        simulation(chain, None)
+
+
+@pytest.mark.parametrize(("frame", "warns"), [("late", True), ("early", False)])
+def test_a_joint_before_the_hand_that_nothing_holds_is_named(frame: str, warns: bool) -> None:
+    # the hand fell by 49 mm, its plan did not
+    spec = mujoco.MjSpec.from_string(CHAIN.format(step=0.002, motors=STRONG.format("a"), last=""))
+    spec.delete(spec.joint("b"))
+    for name, parent in (("early", spec.bodies[1]), ("late", spec.bodies[-1])):
+        parent.add_site(name=name, pos=[0.2, 0.0, 0.0])
+    chain = spec.compile()
+    robot = hurcules.Robot(chain)
+    hand = hurcules.PositionTask("hand", robot, frame)
+    hand.set_target([0.1, 0.0, 0.1])
+    controller = hurcules.WholeBodyController(robot, [hand])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        hurcules.Simulation(model=chain, controller=controller)
+    assert ["nothing holds c, and parts" in str(one.message) for one in caught] == [True] * warns
+    np.testing.assert_array_equal(hand.target, [0.1, 0.0, 0.1])
+    assert np.all(hand.error == hand.value - hand.target)
+
+
+def test_parts_that_are_in_each_other_at_the_start_are_named() -> None:
+    # a hand came to rest 0.1 m off its target, a motor at its limit
+    text = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
+    back = text.replace('fromto="0 0 0 .2 0 0"', 'fromto="-.5 0 0 .2 0 0"')
+    with pytest.warns(UserWarning, match="in each other: body 1 in body 3 by 60 mm. Motors press"):
+        simulation(mujoco.MjModel.from_xml_string(back), None)
+
+
+def test_a_free_root_that_nothing_pulls_is_led_where_it_is() -> None:
+    text = LEG.format(foot=0.3).replace("<worldbody>", '<option gravity="0 0 0"/><worldbody>')
+    leg = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(leg)
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    with pytest.warns(UserWarning, match="gives way.* base='sensed'"):
+        hurcules.Simulation(model=leg, controller=controller)
+
+
 LEG = """<mujoco><option timestep="0.002"/><worldbody>
   <geom name="floor" type="plane" size="9 9 .1"/>
   <body name="trunk" pos="0 0 0.52"><freejoint/><geom type="box" size=".1 .1 .1" mass="10"/>
