@@ -19,7 +19,7 @@ from hurcules._core import (
     VelocityControllerOptions,
 )
 
-__all__ = ["Posture", "inverse_kinematics"]
+__all__ = ["Posture", "inverse_kinematics", "within_balls"]
 
 Level = Task | JointLimits | StackLevel | Sequence[Task | JointLimits]
 
@@ -98,7 +98,7 @@ def inverse_kinematics(
             found.append((short, robot.configuration, robot.qpos))
             if max(found[0][0]) <= tolerance:
                 break
-            drawn = _within_balls(robot, generator.uniform(lower, upper))
+            drawn = within_balls(robot, generator.uniform(lower, upper))
             robot.set_qpos(whole)
             robot.set_configuration(inside + (start + 1) / starts * (drawn - inside))
     finally:
@@ -109,7 +109,9 @@ def inverse_kinematics(
     if met:
         short, configuration, qpos = min(met, key=lambda one: np.abs(one[1] - present).max())
     else:  # what differs by less than the tolerance is alike
-        short, configuration, qpos = min(found, key=lambda one: [int(s / tolerance) for s in one[0]])
+        short, configuration, qpos = min(
+            found, key=lambda one: [int(s / tolerance) for s in one[0]]
+        )
     return Posture(configuration, max(short), bool(met), (len(found), len(met)), qpos)
 
 
@@ -129,7 +131,7 @@ def _ranges(robot: Robot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.where(free, q - FREE, lower), np.where(free, q + FREE, upper)
 
 
-def _within_balls(robot: Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
+def within_balls(robot: Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
     """The same with ball joints turned no further than their ranges, (n,)."""
     for i, coordinate in enumerate(robot.coordinates):
         joint = coordinate.joints[0]

@@ -215,9 +215,8 @@ def _loose_joints(
     """Joints that carry the robot and that nothing holds."""
     if model.ntendon:  # whatever a tendon moves is moved
         return
-    follow = controller.plan.followers
-    held = {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in follow}
-    held |= set(_actuated(model))
+    names = [model.joint(joint).name or f"joint{joint}" for joint in range(model.njnt)]
+    held = {names.index(name) for name in controller.plan.followers} | set(_actuated(model))
     free = [
         joint
         for joint in range(model.njnt)
@@ -230,10 +229,10 @@ def _loose_joints(
     if chain:
         loose += _leading_to_frames(model, controller, [one for one in free if one not in loose])
     if loose:
-        names = ", ".join(model.joint(joint).name or f"joint {joint}" for joint in loose)
         yield (
-            f"nothing holds {names}, and parts that the controller moves hang on it: it "
-            "falls in the physics. hurcules.with_motors gives each joint a motor"
+            f"nothing holds {', '.join(names[joint] for joint in loose)}, and parts that the "
+            "controller moves hang on it: it falls in the physics. hurcules.with_motors gives each "
+            "joint a motor"
         )
 
 
@@ -299,19 +298,18 @@ def _pressed(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> Ite
     """Parts that are in each other, or in what stands still, where the robot starts."""
     own = np.isin(model.body_rootid, model.body_rootid[sorted(chain)])
     still = model.body_weldid == 0
-    pressed = {}
+    pressed: dict[str, float] = {}
     for contact in data.contact:
-        one, other = (int(model.geom_bodyid[geom]) for geom in contact.geom)
-        alone = own[one] and own[other] or own[one] and still[other] or own[other] and still[one]
+        both = model.geom_bodyid[contact.geom]
+        alone = own[both].any() and (own | still)[both].all()
         if alone and contact.exclude == 0 and contact.dist < -DEEP:
-            bodies = [model.body(body).name or f"body {body}" for body in (one, other)]
-            names = " in ".join(sorted(bodies))
+            names = " in ".join(sorted(model.body(body).name or f"body {body}" for body in both))
             pressed[names] = max(pressed.get(names, 0.0), -1e3 * contact.dist)
     if pressed:
         most = ", ".join(f"{names} by {depth:.0f} mm" for names, depth in pressed.items())
         yield (
-            f"where the robot starts, parts are in each other: {most}. Motors press against it, and "
-            "targets give way; <exclude> for what overlaps by construction"
+            f"where the robot starts, parts are in each other: {most}. Motors press against it, "
+            "and targets give way; <exclude> for what overlaps by construction"
         )
 
 

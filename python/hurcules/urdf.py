@@ -19,7 +19,10 @@ __all__ = ["load_urdf", "on_floor", "urdf_spec"]
 
 _MESHES = (".stl", ".obj", ".msh")  # that MuJoCo reads
 _MOVING = ("revolute", "continuous", "prismatic")
-_STIFF = [0.004, 1.0], [0.99, 0.999, 0.001, 0.5, 2.0]  # time constant [s], impedance: of mimic joints
+_STIFF = (
+    [0.004, 1.0],
+    [0.99, 0.999, 0.001, 0.5, 2.0],
+)  # time constant [s], impedance: of mimic joints
 _LEAST_MASS, _LEAST_INERTIA = 1e-3, 1e-6  # [kg], [kg m^2] of links that say nothing, or less
 _COMPILER = {
     "balanceinertia": "true",  # of links whose inertia no body can have
@@ -51,7 +54,7 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
 
     Warns:
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
-            MuJoCo does not read; joints whose range is empty, that mimic none, or that move no mass.
+            MuJoCo does not read; joints whose range is empty, that mimic none, or move no mass.
     """
     return _read(path, shapes, floating)[1]
 

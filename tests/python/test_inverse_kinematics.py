@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import hurcules
+from closed_chains import FIVE_BAR
 
 # two links of 0.5 m in a plane; the first turns by 2.6 rad to either side
 ARM = """<mujoco><compiler angle="radian"/><worldbody>
@@ -154,17 +155,6 @@ def test_distances_that_come_first_hold(robot: hurcules.Robot) -> None:
     robot.set_configuration(found.configuration)
     apart.update(robot)
     assert apart.error.min() > 0.05 - 1e-4
-
-
-FIVE_BAR = """<mujoco><compiler angle="radian"/>
-<default><geom type="capsule" size="0.02"/><joint axis="0 1 0"/></default><worldbody>
-<body pos="-.15 0 0"><joint name="left"/><geom fromto="0 0 0 0 0 .3"/>
-<body name="one" pos="0 0 .3"><joint/><geom fromto="0 0 0 .15 0 .3"/><site name="hand" pos=".15 0 .3"/>
-</body></body>
-<body pos=".15 0 0"><joint name="right"/><geom fromto="0 0 0 0 0 .3"/>
-<body name="two" pos="0 0 .3"><joint/><geom fromto="0 0 0 -.15 0 .3"/></body></body></worldbody>
-<equality><connect body1="one" body2="two" anchor=".15 0 .3"/></equality>
-<actuator><motor joint="left"/><motor joint="right"/></actuator></mujoco>"""
 
 
 def test_a_closed_chain_is_given_whole_and_left_as_it_was() -> None:
