@@ -114,6 +114,17 @@ def test_motors_are_added_where_there_are_none() -> None:
     assert again.nu == 2
 
 
+def test_joints_without_a_name_get_motors_too() -> None:
+    # "missing transmission target for actuator"
+    body = '<body><joint/><geom size="0.1"/>{}</body>'
+    text = body.format(body.format("") + body.replace("<joint/>", "").format(body.format("")))
+    spec = mujoco.MjSpec.from_string(f"<mujoco><worldbody>{text}</worldbody></mujoco>")
+    before = hurcules.Robot(spec.compile()).coordinate_names
+    robot = hurcules.Robot(model := hurcules.with_motors(spec))
+    assert robot.coordinate_names == before == ["joint0", "joint1", "joint2"]
+    assert [model.actuator(i).name for i in range(model.nu)] == before
+
+
 GRIPPER = """<robot name="gripper"><link name="world"/>
   <joint name="mount" type="revolute"><parent link="world"/><child link="palm"/>
     <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="20" velocity="2"/></joint>
