@@ -16,6 +16,7 @@ __all__ = ["warn_of_forces", "warn_of_physics"]
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+STIFF = 15.0  # a rate of damping, by an implicit step: from there on robots swung
 DEEP = 5e-3  # [m] in each other: no contact that somebody wants
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
@@ -25,6 +26,10 @@ ON_FEET = (
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
 SINGLE = (HINGE, SLIDE)
+IMPLICIT = (
+    int(mujoco.mjtIntegrator.mjINT_IMPLICIT),
+    int(mujoco.mjtIntegrator.mjINT_IMPLICITFAST),
+)
 FRAMES = (PositionTask, OrientationTask, PoseTask)
 
 
@@ -76,6 +81,7 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         mujoco.mj_forward(model, start)
         yield from _weak_motors(model, start, chain)
         yield from _pressed(model, start, chain)
+        yield from _stiff_servos(model, start, controller.dt)
 
 
 def _doubled(model: mujoco.MjModel) -> Iterator[str]:
@@ -291,6 +297,31 @@ def _weak_motors(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) ->
         yield (
             f"motors cannot hold the weight on them where the robot starts: {', '.join(weak)}. It "
             "sinks in the physics, and all that it is told waits for it"
+        )
+
+
+def _stiff_servos(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> Iterator[str]:
+    """Servo actuators whose own damping MuJoCo cannot integrate while a control is held."""
+    damping = np.zeros(model.nv)
+    affine = model.actuator_biastype == mujoco.mjtBias.mjBIAS_AFFINE
+    for joint, motors in _actuated(model).items():
+        if affine[motors[0]] and int(model.jnt_type[joint]) in SINGLE:
+            own = -model.actuator_biasprm[motors[0], 2] * model.actuator_gear[motors[0], 0] ** 2
+            damping[model.jnt_dofadr[joint]] = max(own, 0.0)
+    if not damping.any():
+        return
+    inertia = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, inertia)
+    rates = np.linalg.solve(inertia, np.diag(damping))  # [1/s]
+    step = model.opt.timestep
+    implicit = model.opt.integrator in IMPLICIT
+    held = implicit or round(dt / step) > 1
+    if held and step * np.abs(np.linalg.eigvals(rates)).max() > (STIFF if implicit else 2.0):
+        worst = model.joint(int(model.dof_jntid[np.argmax(np.diag(rates))])).name
+        remedy = "a shorter time step" if implicit else "one physics step a control period"
+        yield (
+            f"the actuators' own damping (most at {worst}) is too stiff for physics steps of "
+            f"{1e3 * step:g} ms: they swing; {remedy}, or motors in their place"
         )
 
 
