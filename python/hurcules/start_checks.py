@@ -17,7 +17,6 @@ MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/de
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
 STIFF = 15.0  # a rate of damping, by an implicit step: from there on robots swung
-DEEP = 5e-3  # [m] in each other: no contact that somebody wants
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
     "a robot on feet stands by torques, with contacts: "
@@ -76,12 +75,11 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         yield from _feet(model, controller)
         chain = _chain(model, controller)
         yield from _loose_joints(model, controller, chain)
-        start = mujoco.MjData(model)
-        start.qpos[:] = controller.plan.qpos
-        mujoco.mj_forward(model, start)
-        yield from _weak_motors(model, start, chain)
-        yield from _pressed(model, start, chain)
-        yield from _stiff_servos(model, start, controller.dt)
+        data = mujoco.MjData(model)
+        data.qpos[:] = controller.plan.qpos
+        mujoco.mj_forward(model, data)
+        yield from _weak_motors(model, data, chain)
+        yield from _stiff_servos(model, data, controller.dt)
 
 
 def _doubled(model: mujoco.MjModel) -> Iterator[str]:
@@ -322,25 +320,6 @@ def _stiff_servos(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> Iter
         yield (
             f"the actuators' own damping (most at {worst}) is too stiff for physics steps of "
             f"{1e3 * step:g} ms: they swing; {remedy}, or motors in their place"
-        )
-
-
-def _pressed(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
-    """Parts that are in each other, or in what stands still, where the robot starts."""
-    own = np.isin(model.body_rootid, model.body_rootid[sorted(chain)])
-    still = model.body_weldid == 0
-    pressed: dict[str, float] = {}
-    for contact in data.contact:
-        both = model.geom_bodyid[contact.geom]
-        alone = own[both].any() and (own | still)[both].all()
-        if alone and contact.exclude == 0 and contact.dist < -DEEP:
-            names = " in ".join(sorted(model.body(body).name or f"body {body}" for body in both))
-            pressed[names] = max(pressed.get(names, 0.0), -1e3 * contact.dist)
-    if pressed:
-        most = ", ".join(f"{names} by {depth:.0f} mm" for names, depth in pressed.items())
-        yield (
-            f"where the robot starts, parts are in each other: {most}. Motors press against it, "
-            "and targets give way; <exclude> for what overlaps by construction"
         )
 
 

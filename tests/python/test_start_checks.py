@@ -153,14 +153,6 @@ def test_a_joint_before_the_hand_that_nothing_holds_is_named(frame: str, warns: 
     assert np.all(hand.error == hand.value - hand.target)
 
 
-def test_parts_that_are_in_each_other_at_the_start_are_named() -> None:
-    # a hand came to rest 0.1 m off its target, a motor at its limit
-    text = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
-    back = text.replace('fromto="0 0 0 .2 0 0"', 'fromto="-.5 0 0 .2 0 0"')
-    with pytest.warns(UserWarning, match="in each other: body 1 in body 3 by 60 mm. Motors press"):
-        simulation(mujoco.MjModel.from_xml_string(back), None)
-
-
 @pytest.mark.parametrize(
     ("damping", "integrator", "steps", "told"),
     [
