@@ -16,6 +16,7 @@ __all__ = ["warn_of_forces", "warn_of_physics"]
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+LARGE = 50.0  # [m]: no arm is
 STIFF = 15.0  # a rate of damping, by an implicit step: from there on robots swung
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
@@ -80,6 +81,7 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         mujoco.mj_forward(model, data)
         yield from _weak_motors(model, data, chain)
         yield from _stiff_servos(model, data, controller.dt)
+        yield from _lengths(data, chain)
 
 
 def _doubled(model: mujoco.MjModel) -> Iterator[str]:
@@ -321,6 +323,11 @@ def _stiff_servos(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> Iter
             f"the actuators' own damping (most at {worst}) is too stiff for physics steps of "
             f"{1e3 * step:g} ms: they swing; {remedy}, or motors in their place"
         )
+
+
+def _lengths(data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
+    if chain and (span := np.ptp(data.xpos[sorted(chain)], axis=0).max()) > LARGE:
+        yield f"bodies of the robot are {span:.0f} m apart, were millimetres meant?"
 
 
 def _range(model: mujoco.MjModel, data: mujoco.MjData, motor: int) -> tuple[float, float]:

@@ -186,6 +186,16 @@ def test_servo_actuators_that_swing_by_their_own_damping_are_told(
         assert np.abs(run.data.qvel).max() < 1e-3
 
 
+def test_lengths_in_millimetres_are_told() -> None:
+    # an arm that was to move by 0.1 m moved by 17 mm, its motors at their limits
+    text = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
+    text = text.replace('pos=".4 0 0"', 'pos="400 0 0"').replace(
+        "<option", '<option gravity="0 0 0"'
+    )
+    with pytest.warns(UserWarning, match="400 m apart, were millimetres"):
+        simulation(mujoco.MjModel.from_xml_string(text), None)
+
+
 def test_a_free_root_that_nothing_pulls_is_led_where_it_is() -> None:
     text = LEG.format(foot=0.3).replace("<worldbody>", '<option gravity="0 0 0"/><worldbody>')
     leg = mujoco.MjModel.from_xml_string(text)
