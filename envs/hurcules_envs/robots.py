@@ -211,7 +211,8 @@ def load_robot(
         raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
     if not frames or not 1 <= len(frames) <= 2 or len(set(frames)) < len(frames):
         raise hurcules.Error(
-            f"robot: {robot} wants frames=(...), the names of its one or two hands, got {frames!r}"
+            f"robot: {robot} wants frames=(...), --frame in a shell, the names of its one or two "
+            f"hands, got {frames!r}"
         )
     try:
         binary = Path(robot).suffix == ".mjb"
