@@ -17,7 +17,7 @@ MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/de
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
 LARGE = 50.0  # [m]: no arm is
-STIFF = 15.0  # a rate of damping, by an implicit step: from there on robots swung
+STIFF = 8.0  # times as heavy as it is seems what is damped so, from there on arms swing
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
     "a robot on feet stands by torques, with contacts: "
@@ -312,16 +312,16 @@ def _stiff_servos(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> Iter
         return
     inertia = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, inertia)
-    rates = np.linalg.solve(inertia, np.diag(damping))  # [1/s]
-    step = model.opt.timestep
+    rates = np.linalg.solve(inertia, np.diag(damping))
+    rate, step = np.abs(np.linalg.eigvals(rates)).max(), model.opt.timestep  # [1/s], [s]
     implicit = model.opt.integrator in IMPLICIT
     held = implicit or round(dt / step) > 1
-    if held and step * np.abs(np.linalg.eigvals(rates)).max() > (STIFF if implicit else 2.0):
+    if held and (rate * dt > STIFF or (not implicit and rate * step > 2.0)):
         worst = model.joint(int(model.dof_jntid[np.argmax(np.diag(rates))])).name
-        remedy = "a shorter time step" if implicit else "one physics step a control period"
+        remedy = "a shorter one" if implicit else "one physics step a period"
         yield (
-            f"the actuators' own damping (most at {worst}) is too stiff for physics steps of "
-            f"{1e3 * step:g} ms: they swing; {remedy}, or motors in their place"
+            f"the actuators' own damping (most at {worst}) is too stiff for a control period of "
+            f"{1e3 * dt:g} ms: they swing; {remedy}, or motors in their place"
         )
 
 

@@ -157,10 +157,10 @@ def test_a_joint_before_the_hand_that_nothing_holds_is_named(frame: str, warns: 
     ("damping", "integrator", "steps", "told"),
     [
         (1.0, "EULER", 2, None),
-        (200.0, "EULER", 2, "most at c.* one physics step a control period"),
+        (200.0, "EULER", 2, "most at c.* one physics step a period"),
         (200.0, "EULER", 1, None),
         (1.0, "IMPLICITFAST", 1, None),
-        (200.0, "IMPLICITFAST", 1, "most at c.* a shorter time step"),
+        (200.0, "IMPLICITFAST", 1, "most at c.* a shorter one"),
     ],
 )
 def test_servo_actuators_that_swing_by_their_own_damping_are_told(
