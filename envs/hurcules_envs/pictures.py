@@ -147,9 +147,7 @@ class Eyes:
                 for name, space in self._pictures.spaces.items()
             }
 
-    def look(
-        self, parts: dict[str, NDArray[Any]], chosen: NDArray[np.bool_] | None = None
-    ) -> Any:
+    def look(self, parts: dict[str, NDArray[Any]], chosen: NDArray[np.bool_] | None = None) -> Any:
         """An array (n, m), or a dictionary of them with pictures (n, height, width, 3), each new.
 
         Args:

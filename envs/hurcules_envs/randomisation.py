@@ -275,8 +275,9 @@ class Randomisation:
     def _roots(self) -> list[int]:
         """The root bodies of the robot: those of its coordinates' joints, two of two arms."""
         model = self._simulation.model
-        joints = self._simulation.controller.joints
-        return sorted({int(model.body_rootid[model.joint(joint).bodyid[0]]) for joint in joints})
+        coordinates = self._simulation.controller.plan.coordinates
+        dofs = [driven.dof for coordinate in coordinates for driven in coordinate.joints]
+        return np.unique(model.body_rootid[model.dof_bodyid[dofs]]).tolist()
 
 
 _STATISTICS = ("meaninertia", "meanmass", "meansize", "extent")

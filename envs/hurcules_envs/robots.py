@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules.ik import within_balls
 from hurcules_envs.rotations import rotation_vector
 
 __all__ = ["MAX_ACCELERATION", "Postures", "RobotSetup", "load_robot", "sample_postures"]
@@ -31,6 +32,9 @@ POOL_SEED = 20261123
 NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
 ARM = 1.0
 TRACK = 1  # contype of the tracks' geoms
+# of a closed chain: steps from its first posture to one that is drawn, how far [m] its loops may
+# open on the way, how far [rad or m] a joint may go in one: farther it jumps to another assembly
+LEADS, OPEN, JUMP = 20, 1e-6, 0.3
 STANDS = 0.10  # [m] of the centre of mass within the contacts
 TIPS = 0.08  # [m] of the zero moment point within them
 # [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
@@ -207,7 +211,8 @@ def load_robot(
         raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
     if not frames or not 1 <= len(frames) <= 2 or len(set(frames)) < len(frames):
         raise hurcules.Error(
-            f"robot: {robot} wants frames=(...), the names of its one or two hands, got {frames!r}"
+            f"robot: {robot} wants frames=(...), --frame in a shell, the names of its one or two "
+            f"hands, got {frames!r}"
         )
     try:
         binary = Path(robot).suffix == ".mjb"
@@ -267,11 +272,15 @@ def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
     data.qpos[:] = robot.qpos
     ground = (setup.model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any()
     always = _touching(setup, data)  # parts that touch by construction
-    first = robot.configuration.copy()
+    start, first = robot.qpos, robot.configuration
     lower, upper = _ranges(setup, robot, first)
     qpos, hands, turns = [], [], []
     for _ in range(200 * POOL):
-        robot.set_configuration(generator.uniform(lower, upper))
+        drawn = within_balls(robot, generator.uniform(lower, upper))
+        if not robot.followers:
+            robot.set_configuration(drawn)
+        elif not _lead(setup, robot, data, start, drawn):
+            continue
         places = [robot.position(frame) for frame in setup.hands]
         if ground and min(place[2] for place in places) < least:
             continue
@@ -290,6 +299,25 @@ def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
         f"robot {setup.name}: only {len(qpos)} of {POOL} postures without contact were found in "
         f"{200 * POOL} trials"
     )
+
+
+def _lead(
+    setup: RobotSetup, robot: hurcules.Robot, data: mujoco.MjData, start: Array, q: Array
+) -> bool:
+    """From where it starts to a configuration, step by step; whether its loops stay closed."""
+    robot.set_qpos(start)
+    here = robot.configuration
+    for share in np.linspace(0.0, 1.0, LEADS + 1)[1:]:
+        before = robot.qpos
+        robot.set_configuration(here + share * (q - here))
+        data.qpos[:] = robot.qpos
+        mujoco.mj_kinematics(setup.model, data)
+        mujoco.mj_comPos(setup.model, data)
+        mujoco.mj_makeConstraint(setup.model, data)
+        gap = np.abs(data.efc_pos[: data.ne]).max(initial=0.0)
+        if gap > OPEN or np.abs(data.qpos - before).max() > JUMP:
+            return False
+    return True
 
 
 def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Array, Array]:

@@ -131,6 +131,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     Raises:
         hurcules.Error: an unknown environment, algorithm or option, cameras, a folder with another
             run or a broken checkpoint.
+        hurcules.output.WriteError: a file cannot be written; the earlier one stays.
         KeyboardInterrupt: after Ctrl-C or SIGTERM; all is written, and the next call goes on.
     """
     require_known("algorithm", options.algorithm, ALGORITHMS)

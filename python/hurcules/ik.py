@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from hurcules._core import (
     VelocityControllerOptions,
 )
 
-__all__ = ["Posture", "inverse_kinematics"]
+__all__ = ["Posture", "inverse_kinematics", "within_balls"]
 
 Level = Task | JointLimits | StackLevel | Sequence[Task | JointLimits]
 
@@ -40,12 +40,15 @@ class Posture:
         error: [m or rad] the largest that any row of a task lacks.
         reached: no row lacks more than the tolerance.
         starts: how many descents began, and how many of them reached.
+        qpos: (nq,) the whole of it, for `Robot.set_qpos`: joints that close loops may stand in more
+            than one way at the same configuration.
     """
 
     configuration: NDArray[np.float64]
     error: float
     reached: bool
     starts: tuple[int, int]
+    qpos: NDArray[np.float64] = field(repr=False)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[np.float64]:
         """The configuration, so that `robot.set_configuration` and a `PostureTask` take it."""
@@ -89,28 +92,32 @@ def inverse_kinematics(
         raise Error(f"inverse_kinematics: starts wants a number >= 1, got {starts}")
     if not tolerance > 0.0:
         raise Error(f"inverse_kinematics: tolerance wants a positive number, got {tolerance}")
-    present = robot.configuration
+    present, whole = robot.configuration, robot.qpos
     lower, upper = _ranges(robot)
     inside = np.clip(present, lower, upper)
     generator = np.random.default_rng(seed)
-    found: list[tuple[list[float], NDArray[np.float64]]] = []
+    found: list[tuple[list[float], NDArray[np.float64], NDArray[np.float64]]] = []
     try:
         for start in range(starts):
-            found.append((_descend(robot, levels, wanted, tolerance), robot.configuration))
+            short = _descend(robot, levels, wanted, tolerance)
+            found.append((short, robot.configuration, robot.qpos))
             if max(found[0][0]) <= tolerance:
                 break
-            drawn = _within_balls(robot, generator.uniform(lower, upper))
+            drawn = within_balls(robot, generator.uniform(lower, upper))
+            robot.set_qpos(whole)
             robot.set_configuration(inside + (start + 1) / starts * (drawn - inside))
     finally:
-        robot.set_configuration(present)
+        robot.set_qpos(whole)
         for task in (task for level in wanted for task in level):
             task.update(robot)
     met = [one for one in found if max(one[0]) <= tolerance]
     if met:
-        short, configuration = min(met, key=lambda one: np.abs(one[1] - present).max())
+        short, configuration, qpos = min(met, key=lambda one: np.abs(one[1] - present).max())
     else:  # what differs by less than the tolerance is alike
-        short, configuration = min(found, key=lambda one: [int(s / tolerance) for s in one[0]])
-    return Posture(configuration, max(short), bool(met), (len(found), len(met)))
+        short, configuration, qpos = min(
+            found, key=lambda one: [int(s / tolerance) for s in one[0]]
+        )
+    return Posture(configuration, max(short), bool(met), (len(found), len(met)), qpos)
 
 
 def _tasks_of(level: Level) -> Sequence[Task]:
@@ -129,7 +136,7 @@ def _ranges(robot: Robot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.where(free, q - FREE, lower), np.where(free, q + FREE, upper)
 
 
-def _within_balls(robot: Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
+def within_balls(robot: Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
     """The same with ball joints turned no further than their ranges, (n,)."""
     for i, coordinate in enumerate(robot.coordinates):
         joint = coordinate.joints[0]

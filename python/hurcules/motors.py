@@ -21,7 +21,7 @@ def with_motors(
 
     A ball joint gets three, NAME_rx, NAME_ry and NAME_rz, about the axes of its body. Joints that
     equality constraints couple (mimic joints of a URDF) have one motor together, at the joint that
-    leads, and none where one of them has an actuator.
+    leads, and none where one of them has an actuator. Joints without a name get one.
     A motor gives as much as the joint allows: `actuatorfrcrange` in MJCF, `effort` in a URDF.
 
     Args:
@@ -37,6 +37,9 @@ def with_motors(
             raise Error(f"with_motors: {name} wants a number above 0, got {number!r}")
     try:
         spec = model if isinstance(model, mujoco.MjSpec) else mujoco.MjSpec.from_file(str(model))
+        for number, joint in enumerate(spec.joints):
+            if joint.type in _MOVING and not joint.name:
+                joint.name = f"joint{number}"  # as Robot calls it
         driven = {each.target for each in spec.actuators if _is_at_joint(each)}
         led = _led(spec, driven)
         for joint in spec.joints:

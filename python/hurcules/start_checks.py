@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._core import WholeBodyController
+from hurcules._core import OrientationTask, PoseTask, PositionTask, Robot, WholeBodyController
 
 __all__ = ["warn_of_forces", "warn_of_physics"]
 
@@ -19,6 +19,8 @@ ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
 DEEP = 5e-3  # [m] that bodies lie in each other: more than a contact gives way
 LEVER = 0.02  # [m] with which that turns a joint: about its own axis it does nothing
 OUTSIDE = 1e-3  # [rad] or [m]: less is rounding
+LARGE = 50.0  # [m]: no arm is
+STIFF = 8.0  # times as heavy as it is seems what is damped so, from there on arms swing
 LIGHT = 0.05  # of a robot's mass is a foot that it turns about, not a base that it stands on
 ON_FEET = (
     "a robot on feet stands by torques, with contacts: "
@@ -27,6 +29,11 @@ ON_FEET = (
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
 SINGLE = (HINGE, SLIDE)
+IMPLICIT = (
+    int(mujoco.mjtIntegrator.mjINT_IMPLICIT),
+    int(mujoco.mjtIntegrator.mjINT_IMPLICITFAST),
+)
+FRAMES = (PositionTask, OrientationTask, PoseTask)
 
 
 def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> None:
@@ -55,8 +62,14 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
+    yield from _switched_off(model, controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
+    elif controller.plan.floats and not _falls(model):
+        yield (
+            "the robot's root is free and gives way: the plan holds it where it starts; with "
+            "base='sensed', or control='torque', hands are led from where it is"
+        )
     elif controller.plan.floats:
         yield (
             "the robot's root is free, and nothing says what it stands on: the plan holds the root "
@@ -72,6 +85,8 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
         mujoco.mj_forward(model, data)
         yield from _weak_motors(model, data, chain)
         yield from _overlaps(model, data, chain)
+        yield from _stiff_servos(model, data, controller.dt)
+        yield from _lengths(data, chain)
 
 
 def _outside(controller: WholeBodyController) -> Iterator[str]:
@@ -135,6 +150,27 @@ def _by_tendons(model: mujoco.MjModel, controller: WholeBodyController) -> Itera
         )
 
 
+def _switched_off(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """What the plan counts on and the physics leaves out."""
+    disabled = model.opt.disableflags
+    if disabled & mujoco.mjtDisableBit.mjDSBL_ACTUATION:
+        yield 'no actuator moves anything: the model has <flag actuation="disable"/>'
+    off = [
+        model.actuator(i).name or f"number {i}"
+        for i in range(model.nu)
+        if 0 <= (group := int(model.actuator_group[i])) < 31
+        and model.opt.disableactuator >> group & 1
+    ]
+    if off:
+        yield f"the model's actuatorgroupdisable switches actuators off: {', '.join(off)}"
+    tied = any(len(one.joints) > 1 for one in controller.plan.coordinates)
+    if disabled & mujoco.mjtDisableBit.mjDSBL_EQUALITY and (tied or controller.plan.followers):
+        yield (
+            "the plan keeps the model's equality constraints, the physics does not: it has "
+            '<flag equality="disable"/>'
+        )
+
+
 def _settings(model: mujoco.MjModel) -> Iterator[str]:
     step, iterations = model.opt.timestep, model.opt.iterations
     if step > 1.001 * MAX_STEP:
@@ -169,6 +205,11 @@ def _feet(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[st
             )
 
 
+def _falls(model: mujoco.MjModel) -> bool:
+    off = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
+    return bool(np.any(model.opt.gravity)) and not off
+
+
 def _chain(model: mujoco.MjModel, controller: WholeBodyController) -> set[int]:
     """The bodies between the ground and what the coordinates move, where no root is free."""
     bodies: set[int] = set()
@@ -199,23 +240,54 @@ def _loose_joints(
     """Joints that carry the robot and that nothing holds."""
     if model.ntendon:  # whatever a tendon moves is moved
         return
-    follow = controller.plan.followers
-    held = {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in follow}
-    held |= set(_actuated(model))
-    loose = [
-        model.joint(joint).name or f"joint {joint}"
+    names = [model.joint(joint).name or f"joint{joint}" for joint in range(model.njnt)]
+    held = {names.index(name) for name in controller.plan.followers} | set(_actuated(model))
+    free = [
+        joint
         for joint in range(model.njnt)
-        if int(model.jnt_bodyid[joint]) in chain
-        and joint not in held
+        if joint not in held
         and int(model.jnt_type[joint]) in SINGLE
         and model.jnt_stiffness[joint] == 0.0
         and not _tied(model, joint)
     ]
+    loose = [joint for joint in free if int(model.jnt_bodyid[joint]) in chain]
+    if chain:
+        loose += _leading_to_frames(model, controller, [one for one in free if one not in loose])
     if loose:
         yield (
-            f"nothing holds {', '.join(loose)}, and parts that the controller moves hang on it: it "
-            "falls in the physics. hurcules.with_motors gives each joint a motor"
+            f"nothing holds {', '.join(names[joint] for joint in loose)}, and parts that the "
+            "controller moves hang on it: it falls in the physics. hurcules.with_motors gives each "
+            "joint a motor"
         )
+
+
+def _leading_to_frames(
+    model: mujoco.MjModel, controller: WholeBodyController, joints: list[int]
+) -> list[int]:
+    """Those that move the frame of a task."""
+    tasks = [task for task in controller.tasks if isinstance(task, FRAMES)]
+    if not joints or not tasks:
+        return []
+    plan, found = controller.plan, []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the plan has told
+        probe = Robot(model, plan.coordinate_names)
+    states = [task.state() for task in tasks]
+    for joint in joints:
+        qpos = plan.qpos
+        qpos[model.jnt_qposadr[joint]] += 0.1
+        probe.set_qpos(qpos)
+        for task in tasks:
+            task.update(plan)
+            here = task.error
+            task.update(probe)
+            if np.any(np.abs(task.error - here) > 1e-9):
+                found.append(joint)
+                break
+    for task, state in zip(tasks, states, strict=True):
+        task.update(plan)
+        task.restore(state)
+    return found
 
 
 def _tied(model: mujoco.MjModel, joint: int) -> bool:
@@ -266,6 +338,36 @@ def _overlaps(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> It
             f"bodies lie in each other where the robot starts: {pairs}. The physics forces them "
             "apart, and what they belong to stands still; <exclude> in the model lets them be"
         )
+
+
+def _stiff_servos(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> Iterator[str]:
+    """Servo actuators whose own damping MuJoCo cannot integrate while a control is held."""
+    damping = np.zeros(model.nv)
+    affine = model.actuator_biastype == mujoco.mjtBias.mjBIAS_AFFINE
+    for joint, motors in _actuated(model).items():
+        if affine[motors[0]] and int(model.jnt_type[joint]) in SINGLE:
+            own = -model.actuator_biasprm[motors[0], 2] * model.actuator_gear[motors[0], 0] ** 2
+            damping[model.jnt_dofadr[joint]] = max(own, 0.0)
+    if not damping.any():
+        return
+    inertia = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, inertia)
+    rates = np.linalg.solve(inertia, np.diag(damping))
+    rate, step = np.abs(np.linalg.eigvals(rates)).max(), model.opt.timestep  # [1/s], [s]
+    implicit = model.opt.integrator in IMPLICIT
+    held = implicit or round(dt / step) > 1
+    if held and (rate * dt > STIFF or (not implicit and rate * step > 2.0)):
+        worst = model.joint(int(model.dof_jntid[np.argmax(np.diag(rates))])).name
+        remedy = "a shorter one" if implicit else "one physics step a period"
+        yield (
+            f"the actuators' own damping (most at {worst}) is too stiff for a control period of "
+            f"{1e3 * dt:g} ms: they swing; {remedy}, or motors in their place"
+        )
+
+
+def _lengths(data: mujoco.MjData, chain: set[int]) -> Iterator[str]:
+    if chain and (span := np.ptp(data.xpos[sorted(chain)], axis=0).max()) > LARGE:
+        yield f"bodies of the robot are {span:.0f} m apart, were millimetres meant?"
 
 
 def _range(model: mujoco.MjModel, data: mujoco.MjData, motor: int) -> tuple[float, float]:

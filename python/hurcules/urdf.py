@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 
 import mujoco
@@ -17,6 +18,11 @@ from hurcules.motors import with_motors
 __all__ = ["load_urdf", "on_floor", "urdf_spec"]
 
 _MESHES = (".stl", ".obj", ".msh")  # that MuJoCo reads
+_MOVING = ("revolute", "continuous", "prismatic")
+_STIFF = (
+    [0.004, 1.0],
+    [0.99, 0.999, 0.001, 0.5, 2.0],
+)  # time constant [s], impedance: of mimic joints
 _LEAST_MASS, _LEAST_INERTIA = 1e-3, 1e-6  # [kg], [kg m^2] of links that say nothing, or less
 _COMPILER = {
     "balanceinertia": "true",  # of links whose inertia no body can have
@@ -48,7 +54,7 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
 
     Warns:
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
-            MuJoCo does not read.
+            MuJoCo does not read; joints whose range is empty, that mimic none, or move no mass.
     """
     return _read(path, shapes, floating)[1]
 
@@ -93,10 +99,15 @@ def _read(path: str | Path, shapes: bool, floating: bool) -> tuple[mujoco.MjSpec
         for part in ("", "_TX", "_TY", "_RZ"):  # a planar joint is three
             if name + part in joints:
                 spec.add_numeric(name=f"velocity_limit_{name}{part}", data=[speed], size=1)
+    for mimic in spec.equalities:  # by MuJoCo's own stiffness a hand rested 3 mm off
+        mimic.solref, mimic.solimp = _STIFF
     for mesh in spec.meshes:  # thin ones have no volume
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     try:
-        _exclude_overlaps(spec, spec.compile())
+        plain = spec.compile()
+        for text in _doubts(root, plain):
+            warnings.warn(f"{path.name}: {text}", stacklevel=3)
+        _exclude_overlaps(spec, plain)
         if not floating:
             return spec, with_motors(spec)
         base = spec.worldbody.first_body()
@@ -211,14 +222,43 @@ def _tensor(inertia: ET.Element) -> NDArray[np.float64]:
     return tensor
 
 
+def _doubts(root: ET.Element, model: mujoco.MjModel) -> Iterator[str]:
+    """What MuJoCo reads otherwise than the file has it, or makes up."""
+    joints = {str(joint.get("name")): joint for joint in root.findall("joint")}
+    moving = {name: one for name, one in joints.items() if one.get("type") in _MOVING}
+    empty = [
+        name
+        for name, one in moving.items()
+        if one.get("type") != "continuous" and not np.ptp(_range(one)) > 0.0
+    ]
+    if empty:
+        yield f"the range of {', '.join(empty)} is empty and counts as none"
+    mimics = {name: one.find("mimic") for name, one in moving.items()}
+    leaders = {name: one.get("joint") for name, one in mimics.items() if one is not None}
+    if lost := [f"{name} ({leader})" for name, leader in leaders.items() if leader not in moving]:
+        yield f"joints mimic one that does not move or is not there: {', '.join(lost)}"
+    links = np.ones(model.nbody)
+    for body in range(model.nbody - 1, 0, -1):
+        links[model.body_parentid[body]] += links[body]
+    bodies = model.jnt_bodyid
+    light = model.body_subtreemass[bodies] < 1.01 * _LEAST_MASS * links[bodies]
+    if names := ", ".join(model.joint(i).name for i in np.flatnonzero(light)):
+        yield f"what {names} move has no mass: a link without one counts as 1 g"
+
+
+def _range(joint: ET.Element) -> tuple[float, float]:
+    limit = joint.find("limit")
+    read = {} if limit is None else limit.attrib
+    return float(read.get("lower", "0")), float(read.get("upper", "0"))
+
+
 def _check_ranges(root: ET.Element, path: Path) -> None:
     """MuJoCo takes a range that is none for no range."""
     for joint in root.findall("joint"):
-        limit = joint.find("limit")
-        if limit is None or joint.get("type") not in ("revolute", "prismatic"):
+        if joint.get("type") not in ("revolute", "prismatic"):
             continue
         try:
-            lower, upper = (float(limit.get(side, "0")) for side in ("lower", "upper"))
+            lower, upper = _range(joint)
         except ValueError as error:
             raise Error(f"{path}: range of joint {joint.get('name')!r}: {error}") from error
         if not lower <= upper:

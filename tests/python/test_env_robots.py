@@ -13,7 +13,8 @@ import pytest
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
-from hurcules_envs.robots import load_robot
+from closed_chains import FIVE_BAR
+from hurcules_envs.robots import load_robot, sample_postures
 
 ARM = """
 <body name="{s}_yaw" pos="0 {y} 0.9"><joint name="{s}1" axis="0 0 1" range="-1.6 1.6"/>
@@ -119,3 +120,42 @@ def test_a_file_that_is_no_model_says_so(tmp_path: Path) -> None:
     broken.write_bytes(b"nothing")
     with pytest.raises(hurcules.Error, match=r"broken\.mjb"):
         gym.make("Hurcules/Reach-v0", robot=str(broken), frames=FRAMES)
+
+
+BALL = """<mujoco><compiler angle="radian"/><default><geom type="capsule" size="0.03"/></default>
+  <worldbody><body pos="0 0 1"><joint name="ball" type="ball" range="0 1.5" armature="0.02"/>
+    <geom fromto="0 0 0 .4 0 0"/><body pos=".4 0 0">
+      <joint name="elbow" axis="0 1 0" range="0.1 2.4" armature="0.02"/>
+      <geom fromto=".07 0 0 .3 0 0"/><site name="hand" pos=".3 0 0"/></body></body></worldbody>
+  <actuator><motor joint="ball" gear="1 0 0"/><motor joint="ball" gear="0 1 0"/>
+    <motor joint="ball" gear="0 0 1"/><motor joint="elbow"/></actuator></mujoco>"""
+
+
+@pytest.mark.parametrize("text", [BALL, FIVE_BAR], ids=["ball joint", "closed chain"])
+def test_the_expert_reaches_with_joints_of_another_kind(tmp_path: Path, text: str) -> None:
+    # a ball joint was a KeyError, the loop of a closed chain was open at most starts and goals
+    path = tmp_path / "robot.xml"
+    path.write_text(text)
+    env = gym.make("Hurcules/Reach-v0", robot=path, frames=("hand",))
+    reached = []
+    for seed in range(4):
+        observation, info = env.reset(seed=seed)
+        for _ in range(99):
+            way = observation["desired_goal"] - observation["achieved_goal"]
+            observation, _, _, _, info = env.step(np.clip(10 * way, -1, 1).astype(np.float32))
+        reached.append(bool(info["is_success"]))
+    env.close()
+    assert all(reached)
+
+
+def test_the_postures_of_a_closed_chain_are_closed_in_one_assembly(tmp_path: Path) -> None:
+    path = tmp_path / "five_bar.xml"
+    path.write_text(FIVE_BAR)
+    setup = load_robot(path, ("hand",))
+    data = mujoco.MjData(setup.model)
+    for qpos in sample_postures(setup).qpos:
+        data.qpos[:] = qpos
+        mujoco.mj_forward(setup.model, data)
+        assert np.abs(data.efc_pos[: data.ne]).max() < 1e-6
+        one, two, hand = (data.body("one").xpos, data.body("two").xpos, data.site("hand").xpos)
+        assert np.cross(two - one, hand - one)[1] < 0.0  # the hand stays on its side of both elbows

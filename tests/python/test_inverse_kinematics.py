@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import hurcules
+from closed_chains import FIVE_BAR
 
 # two links of 0.5 m in a plane; the first turns by 2.6 rad to either side
 ARM = """<mujoco><compiler angle="radian"/><worldbody>
@@ -163,6 +164,28 @@ def test_distances_that_come_first_hold(robot: hurcules.Robot) -> None:
     robot.set_configuration(found.configuration)
     apart.update(robot)
     assert apart.error.min() > 0.05 - 1e-4
+
+
+def test_a_closed_chain_is_given_whole_and_left_as_it_was() -> None:
+    # the descent ends in the other assembly, in which the robot was left
+    model = mujoco.MjModel.from_xml_string(FIVE_BAR)
+    robot, found = hurcules.Robot(model), hurcules.Robot(model)
+    before = robot.qpos
+    hand = hurcules.PositionTask("hand", robot, "hand", axes=[[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    hand.set_target([-0.16574745, -0.03357351])
+    posture = hurcules.inverse_kinematics(robot, [hand])
+    np.testing.assert_array_equal(robot.qpos, before)
+    found.set_qpos(posture.qpos)
+    hand.update(found)
+    assert posture.reached and np.abs(hand.error).max() < 1e-4
+    data = mujoco.MjData(model)
+    data.qpos[:] = posture.qpos
+    mujoco.mj_forward(model, data)
+    assert np.abs(data.efc_pos[: data.ne]).max() < 1e-9
+    found.set_qpos(before)
+    found.set_configuration(posture.configuration)
+    hand.update(found)
+    assert np.abs(hand.error).max() > 0.1  # the same angles of the motors
 
 
 @pytest.mark.parametrize(

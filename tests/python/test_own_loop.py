@@ -187,9 +187,7 @@ def test_the_state_of_another_controller_is_refused() -> None:
 
 def test_a_hand_that_a_wall_stops_is_told_of() -> None:
     """Its target gave way to the motors' limits, and all levels were said to be well."""
-    wall = (
-        '<worldbody><geom type="box" size="0.05" contype="1" fromto="1.06 0 -1 1.06 0 2"/>'
-    )
+    wall = '<worldbody><geom type="box" size="0.05" contype="1" fromto="1.06 0 -1 1.06 0 2"/>'
     model = mujoco.MjModel.from_xml_string(ARM.replace("<worldbody>", wall))
     robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
     robot.set_configuration(START)

@@ -138,6 +138,101 @@ def test_a_robot_with_all_it_wants_is_let_go_without_a_word(motors: str, last: s
         simulation(model(motors=motors, last=last), list(motors))
 
 
+@pytest.mark.parametrize(
+    ("option", "told"),
+    [
+        ('><flag actuation="disable"/></option>', "no actuator moves anything"),
+        (' actuatorgroupdisable="3"/>', "switches actuators off: number 2$"),
+    ],
+)
+def test_motors_that_the_model_switches_off_are_told(option: str, told: str) -> None:
+    # a hand was 0.46 m off its plan without a word
+    text = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
+    text = text.replace('joint="c" ', 'joint="c" group="3" ').replace("/>", option, 1)
+    with pytest.warns(UserWarning, match=told):
+        simulation(mujoco.MjModel.from_xml_string(text), None)
+
+
+def test_constraints_that_the_model_switches_off_are_told() -> None:
+    couple = '</actuator><equality><joint joint1="c" joint2="b"/></equality><actuator>'
+    chain = model(motors="ab", extra=couple)
+    chain.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_EQUALITY
+    with pytest.warns(UserWarning, match="the plan keeps the model's equality constraints"):
+        simulation(chain, None)
+
+
+@pytest.mark.parametrize(("frame", "warns"), [("late", True), ("early", False)])
+def test_a_joint_before_the_hand_that_nothing_holds_is_named(frame: str, warns: bool) -> None:
+    # the hand fell by 49 mm, its plan did not
+    spec = mujoco.MjSpec.from_string(CHAIN.format(step=0.002, motors=STRONG.format("a"), last=""))
+    spec.delete(spec.joint("b"))
+    for name, parent in (("early", spec.bodies[1]), ("late", spec.bodies[-1])):
+        parent.add_site(name=name, pos=[0.2, 0.0, 0.0])
+    chain = spec.compile()
+    robot = hurcules.Robot(chain)
+    hand = hurcules.PositionTask("hand", robot, frame)
+    hand.set_target([0.1, 0.0, 0.1])
+    controller = hurcules.WholeBodyController(robot, [hand])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        hurcules.Simulation(model=chain, controller=controller)
+    assert ["nothing holds c, and parts" in str(one.message) for one in caught] == [True] * warns
+    np.testing.assert_array_equal(hand.target, [0.1, 0.0, 0.1])
+    assert np.all(hand.error == hand.value - hand.target)
+
+
+@pytest.mark.parametrize(
+    ("damping", "integrator", "steps", "told"),
+    [
+        (1.0, "EULER", 2, None),
+        (200.0, "EULER", 2, "most at c.* one physics step a period"),
+        (200.0, "EULER", 1, None),
+        (1.0, "IMPLICITFAST", 1, None),
+        (200.0, "IMPLICITFAST", 1, "most at c.* a shorter one"),
+    ],
+)
+def test_servo_actuators_that_swing_by_their_own_damping_are_told(
+    damping: float, integrator: str, steps: int, told: str | None
+) -> None:
+    # of 120 random robots 16 diverged or swung so, without a word
+    servo = f'<velocity joint="c" gear="2" kv="{damping / 4}"/>'
+    chain = model(motors="ab", extra=servo)
+    chain.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
+    robot = hurcules.Robot(chain)
+    robot.set_configuration([0.0, 0.5, 0.5])
+    controller = hurcules.WholeBodyController(
+        robot, [hurcules.PostureTask("posture", robot)], dt=steps * chain.opt.timestep
+    )
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        run = hurcules.Simulation(model=chain, controller=controller)
+    assert [bool(told and re.search(told, str(one.message))) for one in caught] == [True] * bool(
+        told
+    )
+    if not told:
+        run.step(500)
+        assert np.abs(run.data.qvel).max() < 1e-3
+
+
+def test_lengths_in_millimetres_are_told() -> None:
+    # an arm that was to move by 0.1 m moved by 17 mm, its motors at their limits
+    text = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
+    text = text.replace('pos=".4 0 0"', 'pos="400 0 0"').replace(
+        "<option", '<option gravity="0 0 0"'
+    )
+    with pytest.warns(UserWarning, match="400 m apart, were millimetres"):
+        simulation(mujoco.MjModel.from_xml_string(text), None)
+
+
+def test_a_free_root_that_nothing_pulls_is_led_where_it_is() -> None:
+    text = LEG.format(foot=0.3).replace("<worldbody>", '<option gravity="0 0 0"/><worldbody>')
+    leg = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(leg)
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    with pytest.warns(UserWarning, match="gives way.* base='sensed'"):
+        hurcules.Simulation(model=leg, controller=controller)
+
+
 LEG = """<mujoco><option timestep="0.002"/><worldbody>
   <geom name="floor" type="plane" size="9 9 .1"/>
   <body name="trunk" pos="0 0 0.52"><freejoint/><geom type="box" size=".1 .1 .1" mass="10"/>

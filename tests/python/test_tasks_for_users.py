@@ -143,9 +143,7 @@ def test_weights_share_what_cannot_be_met(model: mujoco.MjModel, by: str) -> Non
     assert robot.configuration[0] == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    "make", [hurcules.VelocityController, hurcules.AccelerationController]
-)
+@pytest.mark.parametrize("make", [hurcules.VelocityController, hurcules.AccelerationController])
 def test_a_loop_may_give_its_tasks_in_each_tick(model: mujoco.MjModel, make: type) -> None:
     # as mink and Pink do; each time it went over to a new stack, and never arrived
     robots = [hurcules.Robot(model) for _ in range(2)]

@@ -114,6 +114,17 @@ def test_motors_are_added_where_there_are_none() -> None:
     assert again.nu == 2
 
 
+def test_joints_without_a_name_get_motors_too() -> None:
+    # "missing transmission target for actuator"
+    body = '<body><joint/><geom size="0.1"/>{}</body>'
+    text = body.format(body.format("") + body.replace("<joint/>", "").format(body.format("")))
+    spec = mujoco.MjSpec.from_string(f"<mujoco><worldbody>{text}</worldbody></mujoco>")
+    before = hurcules.Robot(spec.compile()).coordinate_names
+    robot = hurcules.Robot(model := hurcules.with_motors(spec))
+    assert robot.coordinate_names == before == ["joint0", "joint1", "joint2"]
+    assert [model.actuator(i).name for i in range(model.nu)] == before
+
+
 GRIPPER = """<robot name="gripper"><link name="world"/>
   <joint name="mount" type="revolute"><parent link="world"/><child link="palm"/>
     <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="20" velocity="2"/></joint>
@@ -275,3 +286,40 @@ def test_a_floating_robot_warns_and_keeps_its_posture_as_it_falls() -> None:
     assert not simulation.finished
     np.testing.assert_allclose(simulation.data.qpos[7:], [0.02, 0.3], atol=0.03)
     assert np.abs(simulation.data.qvel[6:]).max() < 0.2
+
+
+RANGE, LIMIT = 'lower="-2" upper="2"', 'effort="60" velocity="1.5"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (ARM.replace(RANGE, 'lower="0" upper="0"'), "the range of shoulder is empty"),
+        (ARM.replace(RANGE, ""), "the range of shoulder is empty"),
+        (ARM.replace(LIMIT, LIMIT + '<mimic joint="hip"/>'), r"not there: shoulder \(hip\)"),
+        (ARM.replace(LIMIT, LIMIT + '<mimic joint="flange"/>'), r"not there: shoulder \(flange\)"),
+        (GRIPPER.format(palm=link(1.0), finger=""), "what left, right move has no mass"),
+    ],
+)
+def test_what_is_read_otherwise_than_the_file_has_it_is_told(
+    file: Path, text: str, told: str
+) -> None:
+    # a locked joint turned for ever, one that mimics none went its own way, an arm weighed 5 g
+    file.write_text(text)
+    with pytest.warns(UserWarning, match=told) as caught:
+        hurcules.load_urdf(file, shapes=False)
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+
+
+def test_a_mimic_joint_bears_what_hangs_on_it(file: Path) -> None:
+    # by MuJoCo's own stiffness a hand rested 3 mm off its plan
+    elbow = 'effort="30" velocity="2.5"/>'
+    file.write_text(ARM.replace(elbow, elbow + '<mimic joint="shoulder" multiplier="0.5"/>'))
+    robot = hurcules.Robot(model := hurcules.load_urdf(file, shapes=False))
+    robot.set_configuration([1.0])
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(1000)
+    shoulder, elbow = simulation.data.qpos
+    assert elbow == pytest.approx(0.5 * shoulder, abs=1e-4)
