@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules_envs.episodes import Episodes
 from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import full_id, make_episodes, steps_of_episode

@@ -195,7 +195,7 @@ def test_a_hand_that_a_wall_stops_is_told_of() -> None:
     controller = hurcules.WholeBodyController(robot, [tip, hurcules.PostureTask("p", robot)])
     simulation = hurcules.Simulation(model=model, controller=controller)
     assert not any(level.shortfalls for level in controller.diagnostics())
-    wanted = tip.value + [0.1, 0.0]
+    wanted = tip.value + np.array([0.1, 0.0])
     tip.set_target(wanted)
     simulation.step(3000)
     level = next(one for one in controller.diagnostics() if one.level == "tip")
