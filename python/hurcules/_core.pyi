@@ -521,7 +521,7 @@ class Robot:
         """(3, n): angular velocity of the frame in W by the coordinates."""
 
     def set_configuration(self, q: ArrayLike) -> None:
-        """Sets the coordinates q (n,) [rad] or [m]; all else stays as it is. Warns outside the limits."""
+        """Sets the coordinates q (n,) [rad] or [m]; all else stays as it is. Warns outside the limits, and where a loop of the model cannot close."""
 
     def set_keyframe(self, name: str) -> None:
         """Takes the posture of a keyframe, or the model's initial one for ''. Warns outside the limits."""
@@ -689,11 +689,19 @@ class Task:
         Args:
           speed: [unit/s], positive."""
 
+    @overload
+    def set_weights(self, weights: float) -> None:
+        """What each row counts beside the others of its level where they cannot all be met.
+
+        Args:
+          weights: (m,), or one for all rows, by default 1; 0 for a row that asks for nothing."""
+
+    @overload
     def set_weights(self, weights: ArrayLike) -> None:
         """What each row counts beside the others of its level where they cannot all be met.
 
         Args:
-          weights: (m,), by default 1; 0 for a row that asks for nothing."""
+          weights: (m,), or one for all rows, by default 1; 0 for a row that asks for nothing."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -1447,7 +1455,7 @@ class ForceTask(PositionTask):
       blend: [s].
       environment: G [N/m] where it is known; 0: learnt in contact.
       max_rate: [1/s] where G is learnt, the compliance is held so low that an error vanishes no faster.
-      gains: ForceGains.
+      gains: ForceGains; None: the default ones, in periods of the model's time step.
       contact: ContactOptions.
       stiffness: StiffnessOptions of the estimate.
 
@@ -1466,7 +1474,7 @@ class ForceTask(PositionTask):
         blend: float = 0.1,
         environment: float = 0.0,
         max_rate: float = 50.0,
-        gains: ForceGains = ...,
+        gains: ForceGains | None = None,
         contact: ContactOptions = ...,
         stiffness: StiffnessOptions = ...,
     ) -> None: ...
@@ -1547,8 +1555,13 @@ class JointLimits:
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
         """Narrows the ranges of all coordinates (n,); never wider than the robot's."""
 
+    @overload
+    def set_max_velocities(self, limits: float) -> None:
+        """Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; inf for none."""
+
+    @overload
     def set_max_velocities(self, limits: ArrayLike) -> None:
-        """Speed limits of all coordinates (n,) [rad/s] or [m/s], above 0; inf for none."""
+        """Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; inf for none."""
 
     def set_max_velocity(self, coordinate: str, limit: float) -> None:
         """Speed limit of one coordinate [rad/s] or [m/s], above 0."""
@@ -1844,7 +1857,7 @@ class VelocityController:
             | collections.abc.Iterable[Task | JointLimits | StackLevel]
         ],
     ) -> None:
-        """Takes over another stack, or what Stack takes; keeps its tasks alive."""
+        """Takes over another stack, or what Stack takes; keeps its tasks alive. The one that it has already changes nothing."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -2044,7 +2057,7 @@ class AccelerationController:
             | collections.abc.Iterable[Task | JointLimits | StackLevel]
         ],
     ) -> None:
-        """Takes over another stack, or what Stack takes; keeps its tasks alive."""
+        """Takes over another stack, or what Stack takes; keeps its tasks alive. The one that it has already changes nothing."""
 
     def state(self) -> list[float]:
         """What must be kept between ticks, as a flat list; see restore."""
@@ -2741,7 +2754,7 @@ class WholeBodyController:
         """F (3,) [N] in W on the robot at a ContactTask of the stack that rules, as it was wanted last."""
 
     def diagnostics(self) -> list[LevelDiagnostics]:
-        """What each level falls short of and why: list of LevelDiagnostics, decreasing priority."""
+        """What each level falls short of and why, targets that gave way to torques too: list of LevelDiagnostics, decreasing priority."""
 
     def hold_targets(self) -> None:
         """The targets of all tasks come to where the plan is."""
