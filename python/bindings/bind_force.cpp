@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -71,19 +70,17 @@ void bind_force(py::module_& module) {
   const ForceTaskOptions d;
   const auto make = [](std::string name, const Robot& robot, const std::string& frame,
                        std::string reference, const Vector3& axis, double force_des, double blend,
-                       double environment, double max_rate, const std::optional<ForceGains>& gains,
+                       double environment, double max_rate, const ForceGains& gains,
                        const ContactOptions& contact, const StiffnessOptions& stiffness) {
-    ForceGains own;
-    own.dt = robot.timestep();
     return std::make_unique<ForceTask>(
         std::move(name), robot, frame,
-        ForceTaskOptions{std::move(reference), axis, force_des, blend, environment, max_rate,
-                         gains.value_or(own), contact, stiffness});
+        ForceTaskOptions{std::move(reference), axis, force_des, blend, environment, max_rate, gains,
+                         contact, stiffness});
   };
   py::class_<ForceTask, PositionTask>(module, "ForceTask", kForceTask)
       .def(py::init(make), "name"_a, "robot"_a, "frame"_a, "reference"_a = d.reference,
            "axis"_a = d.axis, py::kw_only(), "force_des"_a = d.force_des, "blend"_a = d.blend,
-           "environment"_a = d.environment, "max_rate"_a = d.max_rate, "gains"_a = py::none(),
+           "environment"_a = d.environment, "max_rate"_a = d.max_rate, "gains"_a = d.gains,
            "contact"_a = d.contact, "stiffness"_a = d.stiffness)
       .def("sense", &ForceTask::sense, "robot"_a, "force"_a, kSense)
       .def("tare", &ForceTask::tare, "seconds"_a = 0.1, kTare)

@@ -70,7 +70,7 @@ Args:
   blend: [s].
   environment: G [N/m] where it is known; 0: learnt in contact.
   max_rate: [1/s] where G is learnt, the compliance is held so low that an error vanishes no faster.
-  gains: ForceGains; None: the default ones, in periods of the model's time step.
+  gains: ForceGains.
   contact: ContactOptions.
   stiffness: StiffnessOptions of the estimate.
 

@@ -357,6 +357,7 @@ def test_a_robot_on_feet_presses_and_its_feet_push_back() -> None:
         axis=[1, 0, 0],
         force_des=WANTED,
         contact=soft,
+        gains=hurcules.ForceGains(dt=model.opt.timestep),
     )
     across = hurcules.PositionTask("across", robot, "hand", axes=np.eye(3)[1:])
     levels = [feet, [com, trunk], press, across, hurcules.PostureTask("posture", robot)]

@@ -64,8 +64,8 @@ def test_a_force_task_reads_the_sensors_that_it_is_given() -> None:
     )
     robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
     robot.set_configuration(START)
-    # its period is that of the model, 2 ms
-    force = hurcules.ForceTask("force", robot, "tip", axis=[1.0, 0.0, 0.0])
+    gains = hurcules.ForceGains(dt=model.opt.timestep)
+    force = hurcules.ForceTask("force", robot, "tip", axis=[1.0, 0.0, 0.0], gains=gains)
     controller = hurcules.WholeBodyController(robot, [force, hurcules.PostureTask("p", robot)])
     controller.sense(force, "push", 0)
     with pytest.raises(hurcules.Error, match="no sensors came"):
