@@ -1455,7 +1455,7 @@ class ForceTask(PositionTask):
       blend: [s].
       environment: G [N/m] where it is known; 0: learnt in contact.
       max_rate: [1/s] where G is learnt, the compliance is held so low that an error vanishes no faster.
-      gains: ForceGains; None: the default ones, in periods of the model's time step.
+      gains: ForceGains.
       contact: ContactOptions.
       stiffness: StiffnessOptions of the estimate.
 
@@ -1474,7 +1474,7 @@ class ForceTask(PositionTask):
         blend: float = 0.1,
         environment: float = 0.0,
         max_rate: float = 50.0,
-        gains: ForceGains | None = None,
+        gains: ForceGains = ...,
         contact: ContactOptions = ...,
         stiffness: StiffnessOptions = ...,
     ) -> None: ...
