@@ -19,8 +19,7 @@ namespace hurcules_bindings {
 
 inline constexpr const char* kSetStack =
     "Takes over another stack, or what Stack takes; keeps its tasks alive. The one that it has "
-    "already "
-    "changes nothing.";
+    "already changes nothing.";
 inline constexpr const char* kDiagnostics =
     R"(What each level fell short of at the last compute, and why.
 

@@ -238,18 +238,26 @@ def test_a_joint_without_a_brake_does_not_follow_an_encoder_that_is_lost(trouble
     fault = SensorFault(f"encoder_position/{joint}", getattr(FaultKind, trouble), 0.1)
     robot = hurcules.Robot(plain.model)
     posture = hurcules.PostureTask("posture", robot)
-    simulation = hurcules.Simulation(
-        model=plain.model,
-        controller=hurcules.WholeBodyController(
-            robot, [posture], {"lead": hurcules.Twist(posture, 1.0)}
-        ),
-        sensors=SensorOptions(faults=[fault]),
+    channels = {"lead": hurcules.Twist(posture, 1.0)}
+    simulation, twin = (
+        hurcules.Simulation(
+            model=plain.model,
+            controller=hurcules.WholeBodyController(robot, [posture], channels),
+            sensors=SensorOptions(faults=[fault]),
+        )
+        for _ in range(2)
     )
     lead = np.zeros(len(robot.coordinate_names))
     lead[robot.coordinate(joint)] = 1.0
+    simulation.step(25, {"lead": lead})
+    early = simulation.state()
     simulation.step(2000, {"lead": lead})
     assert "encoder_position/" + joint in simulation.reason
     log = simulation.log()
     held = log["time"] > 0.2
     assert np.abs(log[f"qd/{joint}"][held]).max() < 1.0  # the arm stands upright, and leans slowly
     assert np.abs(simulation.data.joint(joint).qpos[0]) < 0.5
+    for one in (simulation, twin):
+        one.restore(early)
+        one.step(20, {"lead": lead})
+    assert simulation.state() == twin.state()  # its encoder is believed again

@@ -447,6 +447,7 @@ void JointServo::restore(StateReader& reader) {
   pid_.restore(reader);
   for (Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_, &seen_})
     reader.get(*vector);
+  std::fill(trust_.begin(), trust_.end(), Trust::All);  // who holds the robot tells it again
   for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
 }
 

@@ -26,8 +26,8 @@ struct StackLevel {
   JointLimits* limits = nullptr;  // a level of limits; it has no tasks
   double rho = kDefaultRho;
 
-  bool operator==(const StackLevel& other) const =
-      default;  // the same tasks, not such as are alike
+  // the same tasks, not such as are alike
+  bool operator==(const StackLevel& other) const = default;
 };
 
 class Stack {
