@@ -10,7 +10,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kBraking = 0.5;  // share of the acceleration along a row that f counts on
 constexpr int kSweeps = 20;
 constexpr double kHeld = 1e-12;    // [unit/s]
@@ -19,7 +19,7 @@ constexpr double kOutside = 1e-6;  // [rad/s] x may be outside of its bounds by 
 // of one row; max_velocity: none
 RateLimits along_row(const Task& task, Index row, const RateLimits& limits) {
   RateLimits along = limits;
-  along.max_velocity = kNone;
+  along.max_velocity = kUnlimited;
   along.max_acceleration =
       kBraking * limits.max_acceleration * task.jacobian().row(row).lpNorm<1>();
   along.return_speed = std::min(limits.return_speed, task.max_speed());
@@ -51,13 +51,13 @@ bool are_limits(const StackLevel& level) {
 
 void limit_rates(const Task& task, const RateLimits& limits, VectorRef lower, VectorRef upper) {
   for (Index row = 0; row < task.rows(); ++row) {
-    lower[row] = -kNone;
-    upper[row] = kNone;
+    lower[row] = -kUnlimited;
+    upper[row] = kUnlimited;
     if (!asks(task, row)) continue;
     const RateLimits along = along_row(task, row, limits);
     const RateState state = state_of(task, row, 0.0);
     const auto speed = [&](double distance) {
-      return distance < kNone ? approach_speed(distance, along) : distance;
+      return distance < kUnlimited ? approach_speed(distance, along) : distance;
     };
     upper[row] = task.velocity_des()[row] + speed(state.to_upper);
     lower[row] = task.velocity_des()[row] - speed(-state.to_lower);
@@ -68,8 +68,8 @@ void limit_rates(const Task& task, const RateLimits& limits, VectorRef lower, Ve
 void limit_accelerations(const Task& task, const RateLimits& limits, const ConstVectorRef& rates,
                          VectorRef lower, VectorRef upper) {
   for (Index row = 0; row < task.rows(); ++row) {
-    lower[row] = -kNone;
-    upper[row] = kNone;
+    lower[row] = -kUnlimited;
+    upper[row] = kUnlimited;
     if (!asks(task, row)) continue;
     const RateLimits along = along_row(task, row, limits);
     const RateState state = state_of(task, row, rates[row]);
@@ -91,12 +91,12 @@ void Reachable::set(const Level& bounds) {
 void Reachable::drop_others(Level& level) const {
   for (Index row = 0; row < level.rows(); ++row) {
     double &lower = level.lower[row], &upper = level.upper[row];
-    if (lower == upper || (lower == -kNone && upper == kNone)) continue;
+    if (lower == upper || (lower == -kUnlimited && upper == kUnlimited)) continue;
     const double middle = level.A.row(row).dot(middle_);
     const double half = level.A.row(row).cwiseAbs().dot(half_);
     if (!(middle - half > lower && middle + half < upper)) continue;  // also where it is no number
-    lower = -kNone;
-    upper = kNone;
+    lower = -kUnlimited;
+    upper = kUnlimited;
   }
 }
 
@@ -105,7 +105,7 @@ void hold_rows(const Matrix& A, const ConstVectorRef& lower, const ConstVectorRe
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double worst = 0.0;
     for (Index row = 0; row < A.rows(); ++row) {
-      if (lower[row] == -kNone && upper[row] == kNone) continue;
+      if (lower[row] == -kUnlimited && upper[row] == kUnlimited) continue;
       const double change = missing(A, row, lower[row], upper[row], velocity);
       if (std::abs(change) <= kHeld) continue;
       worst = std::max(worst, std::abs(change));
