@@ -61,7 +61,8 @@ constexpr const char* kUpper = "[rad] or [m], inf when unlimited";
 constexpr const char* kMaxVelocity =
     "[rad/s] or [m/s], from the numeric velocity_limit_JOINT, else inf";
 constexpr const char* kMaxEffort =
-    "[N m] or [N], sum over its actuators by their ranges of force or, of plain motors, of control; "
+    "[N m] or [N], sum over its actuators by their ranges of force or, of plain motors, of "
+    "control; "
     "inf without any";
 constexpr const char* kStandOn =
     R"(The body that stays where it is when the coordinates move; by default the root of its tree.

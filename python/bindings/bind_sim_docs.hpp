@@ -189,7 +189,7 @@ Raises:
   Error: a name that does not exist, with those that do.
 )";
 inline constexpr const char* kViolation =
-    "Worst excess over any limit: position_rad, velocity, torque in the physics, 0 for none; "
-    "commanded: the same of the commanded motion.";
+    "Worst excess over any limit of the model (not of a stack's JointLimits): position_rad, "
+    "velocity, torque in the physics, 0 for none; commanded: the same of the commanded motion.";
 
 }  // namespace hurcules_bindings

@@ -3939,7 +3939,7 @@ class Simulation:
         """Norm of the errors of each level in the physics now, in the unit of its tasks."""
 
     def limit_violation(self) -> dict[str, Any]:
-        """Worst excess over any limit: position_rad, velocity, torque in the physics, 0 for none; commanded: the same of the commanded motion."""
+        """Worst excess over any limit of the model (not of a stack's JointLimits): position_rad, velocity, torque in the physics, 0 for none; commanded: the same of the commanded motion."""
 
     def log(self) -> dict[str, Any]:
         """Every recorded channel over time: dict of name to (ticks,)."""
