@@ -14,7 +14,7 @@ from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
 import hurcules
-from hurcules_envs.registry import native_options, spec_of, steps_of_episode
+from hurcules_envs.registry import full_id, native_options, spec_of, steps_of_episode
 from hurcules_envs.vector import NativeVectorEnv
 
 __all__ = ["GoalFeatures", "Sb3VecEnv", "Standardised", "make_sb3"]
@@ -199,15 +199,16 @@ def make_sb3(
     """Makes a vector of environments for Stable-Baselines3.
 
     Args:
-        name: id, "Hurcules/Reach-v0", or of one's own, "module:Own/Circle-v0".
+        name: id, "Reach-v0" say, or of one's own, "module:Own/Circle-v0".
         num_envs: how many episodes side by side.
         threads: 0 for one a processor.
         max_episode_steps: None: that of the environment, in proportion to `rate`.
-        options: of the environment, by keyword.
+        options: of the environment, by keyword; `cameras` and `camera_size` too.
 
     Raises:
         hurcules.Error: an environment without native vector, or an unknown option.
     """
+    name = full_id(name)
     given = native_options(name, options)
     limit = max_episode_steps or steps_of_episode(name, options)
     vector = NativeVectorEnv(

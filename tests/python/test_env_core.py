@@ -379,7 +379,9 @@ def test_options_beside_those_of_the_class_are_listed_and_checked():
         hurcules.Error, match=r"there are: fidelity, .*, flat, render_mode, cameras, "
     ):
         gym.make("Hurcules/Drive-v0", colour="red", **FAST)
-    with pytest.raises(hurcules.Error, match="safe, flat, threads, autoreset_mode, cameras, camera_size, friction"):
+    with pytest.raises(
+        hurcules.Error, match="safe, flat, threads, autoreset_mode, cameras, camera_size, friction"
+    ):
         gym.make_vec("Hurcules/Reach-v0", num_envs=2, colour="red", **FAST)
     for make in (gym.make, gym.make_vec):
         with pytest.raises(hurcules.Error, match="flat: wanted True or False, got 'false'"):

@@ -87,12 +87,25 @@ def test_what_is_broken_and_a_full_disk_are_told(tmp_path: Path, monkeypatch) ->
 
 
 def test_a_vector_draws_for_its_videos() -> None:
-    vector = training.make_sb3("Hurcules/Reach-v0", 2, render_mode="rgb_array", **OPTIONS)
+    vector = training.make_sb3("Reach-v0", 2, render_mode="rgb_array", **OPTIONS)
     vector.reset()
     assert vector.render_mode == "rgb_array"
     assert [picture.shape for picture in vector.get_images()] == [(368, 640, 3)] * 2
     assert vector.render().shape == (736, 640, 3)  # tiled
     vector.close()
+
+
+def test_pictures_are_learnt_from_by_a_policy_of_stable_baselines3(tmp_path: Path) -> None:
+    seen = {"cameras": ["head_wide"], "camera_size": (64, 48)}
+    vector = training.make_sb3("Reach-v0", 2, **seen, **OPTIONS)
+    model = training.PPO(
+        "MultiInputPolicy", vector, n_steps=4, batch_size=8, n_epochs=1, device="cpu"
+    )
+    model.learn(8)
+    assert "head_wide" in model.policy.features_extractor.extractors
+    vector.close()
+    with pytest.raises(hurcules.Error, match="cameras: train learns from numbers"):
+        training.train(training.TrainOptions("Hurcules/Reach-v0", options=seen, out=tmp_path))
 
 
 def test_a_run_that_goes_on_has_other_episodes(tmp_path: Path, monkeypatch) -> None:
