@@ -309,7 +309,9 @@ def _lead(
     here = robot.configuration
     for share in np.linspace(0.0, 1.0, LEADS + 1)[1:]:
         before = robot.qpos
-        robot.set_configuration(here + share * (q - here))
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "the loops that")  # asked below
+            robot.set_configuration(here + share * (q - here))
         data.qpos[:] = robot.qpos
         mujoco.mj_kinematics(setup.model, data)
         mujoco.mj_comPos(setup.model, data)
