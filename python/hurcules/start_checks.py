@@ -272,16 +272,17 @@ def _leading_to_frames(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the plan has told
         probe = Robot(model, plan.coordinate_names)
-    states = [task.state() for task in tasks]
+    states, here = [task.state() for task in tasks], []
+    for task in tasks:
+        task.update(plan)
+        here.append(task.error)
     for joint in joints:
         qpos = plan.qpos
         qpos[model.jnt_qposadr[joint]] += 0.1
         probe.set_qpos(qpos)
-        for task in tasks:
-            task.update(plan)
-            here = task.error
+        for task, error in zip(tasks, here, strict=True):
             task.update(probe)
-            if np.any(np.abs(task.error - here) > 1e-9):
+            if np.any(np.abs(task.error - error) > 1e-9):
                 found.append(joint)
                 break
     for task, state in zip(tasks, states, strict=True):
