@@ -16,7 +16,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 import hurcules
 from hurcules.cli import results_in
-from hurcules.interrupts import sigterm_as_ctrl_c
+from hurcules.interrupts import as_ctrl_c
 from hurcules.output import Output
 from hurcules_envs import evaluation
 from hurcules_envs.imitation import ask_expert
@@ -202,17 +202,25 @@ def record(
         source = sha256(network.path.read_bytes()).hexdigest()
         _, options = environment_of(network, name, **options)
         act = _acting(network)
-    with Progress() as bar, sigterm_as_ctrl_c():
+    said = ""
+
+    def show(done: int, succeeded: int) -> None:
+        nonlocal said
+        said = f"{succeeded} of {done} episodes succeeded"
+        bar.update(task, completed=done)
+
+    with Progress() as bar, as_ctrl_c():
         task = bar.add_task(f"{kind} in {name}", total=episodes)
         folder = out or Path("out", "data")
         try:
             identifier = recording.record(
                 name, act, episodes, folder, seed=seed, author=author or kind, source=source,
-                form=form, **options, progress=lambda done: bar.update(task, completed=done),
+                form=form, **options, progress=show,
             )  # fmt: skip
         except KeyboardInterrupt as stopped:
             bar.console.print(*getattr(stopped, "__notes__", ()))
             raise
+    Console().print(said)
     Console().print(f"{identifier} in {folder}" if form == "minari" else identifier)
 
 
@@ -248,7 +256,7 @@ def _judge(
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
     try:
-        with sigterm_as_ctrl_c():
+        with as_ctrl_c():
             result = evaluation.evaluate(policy, name, episodes, **options)
     except KeyboardInterrupt:
         console.print("no figures: episodes run side by side, and not all of them were over")

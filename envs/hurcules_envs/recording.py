@@ -45,7 +45,7 @@ def record(
     seed: int = 0,
     author: str = "expert",
     source: str = "",
-    progress: Callable[[int], None] = lambda _: None,
+    progress: Callable[[int, int], None] = lambda _, __: None,
     **options: Any,
 ) -> str:
     """Runs a policy and writes what happened as a data set.
@@ -64,7 +64,7 @@ def record(
         seed: of the first episode, the others follow.
         author: who acts, for the data set's name: letters, digits, "_" and "-".
         source: which policy, so that a recording that was stopped goes on with no other.
-        progress: is told how many are done.
+        progress: is told how many are done, and how many of them succeeded.
         options: of the environment, and `max_episode_steps`; at another `rate` episodes last as
             long, unless it is given.
 
@@ -90,12 +90,16 @@ def record(
         with _told(target, paths):
             part.mkdir(parents=True, exist_ok=True)
             _same(recording, part / "recording.json")
+        succeeded = 0
         for i, path in enumerate(paths):
-            if not path.exists():
+            if path.exists():
+                episode = Episode.load(path)
+            else:
                 episode = _counted(env, act, seed + i)
                 with _told(target, paths):
                     episode.save(path)
-            progress(i + 1)
+            succeeded += episode.success
+            progress(i + 1, succeeded)
         with _told(target, paths):
             _remove(part / "whole")
             written.write(recording, env, map(Episode.load, paths), part / "whole")

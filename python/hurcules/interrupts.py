@@ -1,7 +1,7 @@
-"""Ctrl-C and SIGTERM that are noted instead of raised, so that they never cut a file short.
+"""Ctrl-C and its like that are noted instead of raised, so that they never cut a file short.
 
 They are answered at once; a second one ends the program where it is. SIGTERM is what queues of
-clusters send before they kill.
+clusters send before they kill, SIGHUP what a terminal sends that closes.
 """
 
 from __future__ import annotations
@@ -14,28 +14,30 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-__all__ = ["Interrupts", "sigterm_as_ctrl_c"]
+__all__ = ["Interrupts", "as_ctrl_c"]
+
+ENDS = (signal.SIGTERM, signal.SIGHUP)
 
 
 @contextmanager
-def sigterm_as_ctrl_c() -> Iterator[None]:
-    """While this is entered SIGTERM raises KeyboardInterrupt.
+def as_ctrl_c() -> Iterator[None]:
+    """While this is entered SIGTERM and SIGHUP raise KeyboardInterrupt.
 
-    Outside the main thread, and where it is handled or ignored already, it stays as it is.
+    Outside the main thread, and where one is handled or ignored already, it stays as it is.
     """
     main = threading.current_thread() is threading.main_thread()
-    if not main or signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL:
-        yield
-        return
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    taken = [one for one in ENDS if main and signal.getsignal(one) is signal.SIG_DFL]
+    for number in taken:
+        signal.signal(number, _interrupt)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        for number in taken:
+            signal.signal(number, signal.SIG_DFL)
 
 
 class Interrupts:
-    """While this is entered, both only set `noted`; who can stop early looks there.
+    """While this is entered, all of them only set `noted`; who can stop early looks there.
 
     Outside the main thread, and where a signal is ignored already, everything stays as it is.
 
@@ -49,7 +51,7 @@ class Interrupts:
 
     def __enter__(self) -> Interrupts:
         if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGINT, signal.SIGTERM):
+            for number in (signal.SIGINT, *ENDS):
                 before = signal.getsignal(number)
                 if before not in (None, signal.SIG_IGN):
                     self._before[number] = before
@@ -61,8 +63,27 @@ class Interrupts:
             signal.signal(number, before)
         self._before.clear()
 
-    def _note(self, _number: int, _frame: FrameType | None) -> None:
+    def _note(self, number: int, _frame: FrameType | None) -> None:
+        _leave_lost_terminal(number)
         if self.noted:
             raise KeyboardInterrupt
         self.noted = True
         os.write(2, b"\ninterrupted: saving what is done\n")  # print may be busy where this came
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    _leave_lost_terminal(number)
+    signal.default_int_handler(number, frame)
+
+
+def _leave_lost_terminal(number: int) -> None:
+    """After a SIGHUP: what is printed goes nowhere, where it went to a terminal that is gone."""
+    if number != signal.SIGHUP:
+        return
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (1, 2):
+        try:
+            os.write(stream, b"")
+        except OSError:
+            os.dup2(nowhere, stream)
+    os.close(nowhere)

@@ -43,16 +43,27 @@ def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, An
             raise Error(f"{option} wants a value")
         default = defaults[option]
         try:
-            read = _pair if isinstance(default, tuple) else type(default)
+            read = _READERS.get(type(default), type(default))
             found[option.removeprefix("--")] = read(value)
         except ValueError:
             raise Error(f"{option}: wanted {_WORDS[type(default)]}, got {value!r}") from None
     return found
 
 
+def _whole(text: str) -> int:
+    """A whole number, written "75.0" too."""
+    number = float(text)
+    if not number.is_integer():
+        raise ValueError
+    return int(number)
+
+
 def _pair(text: str) -> tuple[float, ...]:
     """Numbers between commas."""
     return tuple(float(number) for number in text.split(","))
+
+
+_READERS: dict[type, Callable[[str], Any]] = {int: _whole, tuple: _pair}
 
 
 def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]) -> Record:

@@ -64,20 +64,24 @@ class Output:
     """
 
     def __init__(self, folder: Path, names: Sequence[str]) -> None:
-        """Makes the folder and removes what an earlier run left there under these names.
+        """Makes the folder.
+
+        Args:
+            folder: for the results.
+            names: of files that an earlier run may have left there: they are removed before the
+                first one is written, not sooner.
 
         Raises:
             Error: the folder cannot be made or written.
         """
         self.folder = folder
         self.saved: list[Path] = []
+        self._earlier = [folder / name for name in names]
         try:
             folder.mkdir(parents=True, exist_ok=True)
             probe = folder / ".probe"
             probe.touch()
             probe.unlink()
-            for name in names:
-                (folder / name).unlink(missing_ok=True)
         except OSError as error:
             reason = "it is a file" if folder.is_file() else error.strerror
             raise Error(f"--out: cannot write to {folder}: {reason}") from error
@@ -97,6 +101,8 @@ class Output:
         """
         path = self.folder / name
         try:
+            while self._earlier:
+                self._earlier.pop().unlink(missing_ok=True)
             with _whole(path) as part:
                 writer(part)
         except OSError as error:

@@ -247,6 +247,15 @@ def test_two_runs_may_write_to_one_folder(tmp_path: Path, monkeypatch: pytest.Mo
     assert [path.name for path in tmp_path.iterdir()] == ["log.txt"]
 
 
+def test_a_folder_keeps_an_earlier_run_until_there_is_another(tmp_path: Path) -> None:
+    for name in ("summary.json", "log.npz", "notes.txt"):
+        (tmp_path / name).write_text("earlier")
+    output = Output(tmp_path, ("summary.json", "log.npz"))
+    assert len(list(tmp_path.iterdir())) == 3
+    output.write_json("summary.json", {})
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["notes.txt", "summary.json"]
+
+
 def test_a_cluster_trains_by_ppo_alone(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["train", "Reach-v0", "--ray", "local", "--algo", "sac"]) == 2
     assert "--ray: wanted --algo ppo, got sac" in capsys.readouterr().err

@@ -3,12 +3,15 @@
 Strategy: processes of their own with a made-up environment. Not tested: a real desktop.
 """
 
+import fcntl
+import json
 import os
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import termios
 import time
 import traceback
 from collections.abc import Callable
@@ -127,7 +130,30 @@ def test_ctrl_c_ends_a_method_at_once(tmp_path: Path, workers: str) -> None:
     assert seconds < 5.0  # a second on a quiet machine
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_terminal_that_closes_loses_no_run(tmp_path: Path) -> None:
+    ours, theirs = os.openpty()
+    words = ["run", "stretch", "--no-video", "--out", str(tmp_path)]
+    begin = f"import sys, hurcules_command; sys.argv = ['hurcules', *{words!r}]; "
+    process = subprocess.Popen(
+        [sys.executable, "-c", begin + "sys.exit(hurcules_command.main())"],
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+        start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),  # it is the process's own
+    )
+    os.close(theirs)
+    said = b""
+    while b"real time" not in said:  # the simulation runs
+        said += os.read(ours, 4096)
+    os.close(ours)
+    assert process.wait(timeout=120) == 130
+    assert json.loads((tmp_path / "summary.json").read_text())["reason"].startswith(
+        "interrupted at"
+    )
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_is_noted_a_second_one_ends(number: signal.Signals) -> None:
     before = signal.getsignal(number)
     with Interrupts() as interrupts:

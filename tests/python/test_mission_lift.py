@@ -160,6 +160,9 @@ def test_the_command_line_names_the_person() -> None:
         "friction": 0.6,
         "pose": "left",
     }
+    assert lift.parameters_of(["--mass", "90.0"]) == {"mass": 90}
+    with pytest.raises(Error, match=r"got '90\.5'"):
+        lift.parameters_of(["--mass", "90.5"])
     with pytest.raises(Error, match="no such option: --weight"):
         lift.parameters_of(["--weight", "75"])
     with pytest.raises(Error, match="--mass: wanted a whole number, got 'heavy'"):

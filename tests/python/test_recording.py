@@ -250,6 +250,23 @@ def test_a_full_disk_keeps_what_was_finished(tmp_path):
         assert Path(tried(out)).stat().st_size == size
 
 
+def test_how_many_episodes_succeeded_is_told(tmp_path, plain, capsys):
+    """The first is the expert's, the second stands still."""
+    told = []
+
+    def stands(env, seen):
+        if env.simulation.time == 0.0:
+            acting.append(not acting)
+        return acting[-1] * expert(env, seen)
+
+    acting: list[bool] = []
+    given = {"form": "plain", "progress": lambda *one: told.append(one), **FAST}
+    recording.record(NAME, stands, 2, tmp_path / "a", **given)
+    assert told == [(1, 1), (2, 1)]
+    assert main(words("plain", tmp_path / "b")) == 0
+    assert f"{sum(one.success for one in plain)} of 2 episodes succeeded" in capsys.readouterr().out
+
+
 def test_what_is_recorded_is_what_was_done(tmp_path, plain):
     recording.record(NAME, lambda *_: [3.0, -3.0, 0.0], 1, tmp_path, form="plain", **FAST)
     (one,) = plain
@@ -330,9 +347,9 @@ def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
     assert [one.seed for one in plain] == [0, 1]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_stop_says_what_is_kept(number, tmp_path, plain, monkeypatch, capsys):
-    begun, before = count(), signal.getsignal(signal.SIGTERM)
+    begun, before = count(), signal.getsignal(number)
 
     def stops(env, seen):
         if env.simulation.time == 0.0 and next(begun) == 1:
@@ -358,7 +375,7 @@ def test_a_stop_says_what_is_kept(number, tmp_path, plain, monkeypatch, capsys):
         == 130
     )
     assert capsys.readouterr().out.count("1 of 3 episodes are kept in") == 1
-    assert signal.getsignal(signal.SIGTERM) is before
+    assert signal.getsignal(number) is before
     words = r"another recording that was stopped: seed \(there 0, now 1\); delete it"
     with pytest.raises(hurcules.Error, match=words):
         recording.record(NAME, expert, 3, tmp_path, form="plain", seed=1, **FAST)
