@@ -76,9 +76,11 @@ Arguments parse(int count, const char* const* words) {
     } else if (word == "--sensors") {
       arguments.sensors = true;
     } else if (word.starts_with("-")) {
-      require_option(word);
-      hurcules::require(i + 1 < count, word + ": wanted a value after it");
-      set(arguments, word, words[++i]);
+      const std::size_t sign = word.find('=');
+      const std::string option = word.substr(0, sign);
+      require_option(option);
+      hurcules::require(sign != word.npos || i + 1 < count, option + ": wanted a value after it");
+      set(arguments, option, sign != word.npos ? word.substr(sign + 1) : words[++i]);
     } else {
       hurcules::require(arguments.mission.empty(), "one mission is wanted, got '" +
                                                        arguments.mission + "' and '" + word + "'");
@@ -86,6 +88,8 @@ Arguments parse(int count, const char* const* words) {
     }
   }
   if (arguments.help || arguments.version) return arguments;
+  hurcules::require(arguments.json.empty() || arguments.json != arguments.csv,
+                    "--json and --csv name one file, '" + arguments.csv + "'");
   if (arguments.mission.empty()) {
     std::string names;
     for (const std::string& name : hurcules::mission_names()) {

@@ -1,7 +1,8 @@
 // hurcules-sim: runs a mission without Python, says how it went, and how long each stage took.
 //
 // Ends with 0 when the mission succeeded or was stopped by --seconds, 1 when it failed, 2 for wrong
-// usage, 130 after Ctrl-C; what was recorded until then is saved.
+// usage, 128 and the signal's number after Ctrl-C, SIGTERM or SIGHUP (130, 143, 129); what was
+// recorded until then is saved.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,9 +27,9 @@ namespace {
 
 using namespace hurcules_sim;
 
-enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kInterrupted = 130 };
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kSignal = 128 };
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0;  // by which signal
 
 double now() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
@@ -121,13 +122,18 @@ bool save(const Run& run, std::ofstream& json, std::ofstream& csv) {
 int run(const Arguments& arguments) {
   hurcules::MissionSimulation simulation = make_simulation(arguments);
   std::ofstream json = open(arguments.json), csv = open(arguments.csv);
-  std::signal(SIGINT, [](int) { interrupted = 1; });
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, [](int which) { interrupted = which; }) == SIG_IGN)
+      std::signal(number, SIG_IGN);  // nohup
   const double started = now();
   simulate(simulation, arguments);
   const Run result{arguments, simulation, now() - started, reason(simulation)};
   print(result, std::cout);
-  if (!save(result, json, csv)) return kFailed;
-  if (interrupted) return kInterrupted;
+  const bool saved = save(result, json, csv);
+  if (!std::cout.flush())
+    std::cerr << "hurcules-sim: the summary could not be written completely\n";
+  if (!saved || !std::cout) return kFailed;
+  if (interrupted) return kSignal + interrupted;
   return simulation.success() || !simulation.finished() ? kDone : kFailed;
 }
 

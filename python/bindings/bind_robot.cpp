@@ -177,9 +177,13 @@ std::unique_ptr<Robot> checked(ModelPtr model, const OptionalNames& joints, bool
 
 std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const OptionalNames& joints,
                                        bool floating) {
-  if (!py::isinstance(model, py::module_::import("mujoco").attr("MjModel")))
-    throw Error("a mujoco.MjModel or the path of a model is wanted, a " +
-                std::string(py::str(py::type::of(model).attr("__name__"))) + " came");
+  if (!py::isinstance(model, py::module_::import("mujoco").attr("MjModel"))) {
+    std::string text = "a mujoco.MjModel or the path of a model is wanted, a ";
+    text += std::string(py::str(py::type::of(model).attr("__name__"))) + " came";
+    if (py::hasattr(model, "compile")) text += "; its compile() gives one";  // an MjSpec
+    if (py::hasattr(model, "ptr")) text += "; its ptr is one";               // of dm_control
+    throw Error(text);
+  }
   return checked(held_model(model), joints, floating);
 }
 

@@ -28,6 +28,7 @@ bool is_equality(const Level& level, Index row) {
 
 void DeadZone::set_stack(const Stack& stack, Index n) {
   known_ = Matrix::Zero(n, n);
+  sources_.resize(static_cast<std::size_t>(n));
   pull_ = direction_ = parts_ = held_ = nudge_ = off_ = Vector::Zero(n);
   shares_.assign(stack.levels().size(), 1.0);
   pressed_ = Eigen::MatrixXi::Zero(static_cast<Index>(shares_.size()), n);
@@ -56,9 +57,11 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
   pressed_.setZero();
   nudge_.setZero();
   double above = 0.0;  // the largest w of the levels above
+  double calm = 1.0;   // share that levels which have stopped leave to those below
   for (std::size_t k = 0; k < hierarchy.size(); ++k) {
     Level& level = hierarchy[k];
     shares_[k] = 1.0;
+    double below = 1.0;
     if (level.bounds) continue;
     const double open = std::clamp((weights[k] - kOpens) / (kWide - kOpens), 0.0, 1.0);
     const double eps = kZone + (kZoneBelow - kZone) * above;
@@ -68,8 +71,17 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
       shares_[k] = 1.0 - taken;
       const double looks = (1.0 - above) * std::clamp(taken / kLooks - 1.0, 0.0, 1.0);
       if (probe && looks > 0.0 && !apart_[k])
-        shares_[k] += looks * taken * saddle_at(k, level, gains[k], *probe);
+        shares_[k] += looks * taken * saddle_at(k, hierarchy, gains[k], *probe);
+      if (shares_[k] < 1.0 && k + 1 < hierarchy.size()) {
+        const Index known = rank_;
+        keep_held();
+        const double weakest = add_rows(level, kRank) / (eps * lever_);
+        rank_ = known;
+        below = 1.0 - (1.0 - shares_[k]) * std::max(0.0, 1.0 - weakest);
+      }
     }
+    shares_[k] *= calm;
+    calm *= below;
     for (Index row = 0; row < level.rows(); ++row) {
       if (!is_equality(level, row)) continue;
       direction_ = level.A.row(row);
@@ -77,7 +89,7 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
       const double length = direction_.norm();
       if (k + 1 == hierarchy.size() || length == 0.0) continue;
       direction_ /= length;
-      add_direction();
+      if (add_direction()) source(rank_ - 1) = {k, row};
     }
     above = std::max(above, weights[k]);
   }
@@ -96,21 +108,24 @@ double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const Joint
   last_ = rank_;
   if (limits) hold_pressed_joints(k, *limits);
   for (std::size_t j = 0; j < k; ++j)
-    if (!hierarchy[j].bounds) hold_pressed_rows(hierarchy[j], nearness_[j]);
+    if (!hierarchy[j].bounds) hold_pressed_rows(j, hierarchy[j]);
   const double most = asked_ * lever_;
   return most > 0.0 ? pull_.norm() / most : std::numeric_limits<double>::infinity();
 }
 
-double DeadZone::saddle_at(std::size_t k, const Level& level, double gain, SaddleProbe& probe) {
+double DeadZone::saddle_at(std::size_t k, const Hierarchy& hierarchy, double gain,
+                           SaddleProbe& probe) {
   const Index above = rank_;
-  add_strong_rows(level);
+  keep_held();
+  const Index kept = rank_;
+  add_rows(hierarchy[k], kWeak * lever_);
   off_ = pull_;
   remove_known(off_);
   const double most = asked_ * lever_, length = off_.norm();
   double saddle = 0.0;
   if (length > kNoPull * most) {
     off_ /= length;
-    saddle = saddle_along(k, level, gain, probe);
+    saddle = saddle_along(k, hierarchy, kept, gain, probe);
   } else {
     for (Index i = 0; i < off_.size() && saddle < 1.0; ++i) {
       off_.setZero();
@@ -118,7 +133,7 @@ double DeadZone::saddle_at(std::size_t k, const Level& level, double gain, Saddl
       remove_known(off_);
       if (off_.norm() < kFreeJoint) continue;
       off_ /= off_.norm();
-      const double here = saddle_along(k, level, gain, probe);
+      const double here = saddle_along(k, hierarchy, kept, gain, probe);
       if (here > saddle) nudge_ = here * kNudge * off_;
       saddle = std::max(saddle, here);
     }
@@ -127,14 +142,48 @@ double DeadZone::saddle_at(std::size_t k, const Level& level, double gain, Saddl
   return saddle;
 }
 
-double DeadZone::saddle_along(std::size_t k, const Level& level, double gain, SaddleProbe& probe) {
-  const double d = probe.growth(k, level, off_, gain) / (asked_ * lever_);
+double DeadZone::saddle_along(std::size_t k, const Hierarchy& hierarchy, Index kept, double gain,
+                              SaddleProbe& probe) {
+  if (!probe.move(off_, k + 1)) return 0.0;
+  // what bends the way so that what is known stays as it is, one after the other
+  direction_.setZero();
+  for (Index j = 0; j < kept; ++j) {
+    const auto [from, row] = source(j);
+    const bool joint = from == kJoint;
+    const auto along = [&](const auto& v) {
+      return joint ? v[row] : hierarchy[from].A.row(row).dot(v);
+    };
+    const double length = joint ? 1.0 : hierarchy[from].A.row(row).norm();
+    const double leverage = along(known_.row(j));
+    if (leverage < kFreeJoint * length) continue;
+    const double left = along(direction_) + (joint ? 0.0 : probe.drift(from)[row]);
+    direction_ -= left / leverage * known_.row(j).transpose();
+  }
+  const Level& level = hierarchy[k];
+  double growth = 0.0;
+  for (Index row = 0; row < level.rows(); ++row) {
+    if (!is_equality(level, row)) continue;
+    const auto a = level.A.row(row);
+    const double rate = a.dot(off_);
+    growth += level.lower[row] * (probe.drift(k)[row] + a.dot(direction_)) - gain * rate * rate;
+  }
+  const double d = growth / (asked_ * lever_);
   return std::clamp((d - kSaddleBegins) / (kSaddle - kSaddleBegins), 0.0, 1.0);
 }
 
-// to what is known: the directions that the equality rows move in by more than `kWeak` of the lever
-// each, the strongest that is left first
-void DeadZone::add_strong_rows(const Level& level) {
+// to what is known: what limits hold, where they hold more than half of it
+void DeadZone::keep_held() {
+  for (Index j = rank_; j < last_; ++j) {
+    if (held_[j] < 0.5) continue;
+    direction_ = known_.row(j);
+    const Source from = source(j);
+    if (add_direction()) source(rank_ - 1) = from;
+  }
+}
+
+// to what is known: the directions that the equality rows move in by `least` or more, the strongest
+// that is left first; what the weakest of them moves
+double DeadZone::add_rows(const Level& level, double least) {
   auto left = left_.topRows(level.rows());
   for (Index row = 0; row < level.rows(); ++row) {
     direction_.setZero();
@@ -142,15 +191,18 @@ void DeadZone::add_strong_rows(const Level& level) {
     remove_known(direction_);
     left.row(row) = direction_;
   }
+  double weakest = lever_;
   for (Index count = 0; count < level.rows() && rank_ < known_.rows(); ++count) {
     Index strongest = 0;
     const double length = std::sqrt(left.rowwise().squaredNorm().maxCoeff(&strongest));
-    if (length < kWeak * lever_) return;
+    if (length < least) break;
+    weakest = length;
     known_.row(rank_) = left.row(strongest) / length;
     for (Index row = 0; row < level.rows(); ++row)
       left.row(row) -= left.row(row).dot(known_.row(rank_)) * known_.row(rank_);
     ++rank_;
   }
+  return weakest;
 }
 
 // A'y, |y| and S of the equality rows
@@ -180,26 +232,26 @@ void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
     pressed_(static_cast<Index>(k), i) = held < 0.5 ? 0 : pull_[i] > 0.0 ? 1 : -1;
     direction_.setZero();
     direction_[i] = 1.0;
-    hold_direction(held);
+    hold_direction(held, {kJoint, i});
   }
 }
 
 // the same for the inequality rows of a level, which say how fast they may come nearer
-void DeadZone::hold_pressed_rows(const Level& level, const std::vector<bool>& nearness) {
+void DeadZone::hold_pressed_rows(std::size_t k, const Level& level) {
   for (Index row = 0; row < level.rows(); ++row) {
-    if (!nearness[static_cast<std::size_t>(row)] || is_equality(level, row)) continue;
+    if (!nearness_[k][static_cast<std::size_t>(row)] || is_equality(level, row)) continue;
     const double length = level.A.row(row).norm();
     if (length < kFreeJoint) continue;
     direction_ = level.A.row(row) / length;
     const double along = direction_.dot(pull_);
     const double room = (along > 0.0 ? level.upper[row] : -level.lower[row]) / length;
     const double held = std::min(1.0, 1.0 - room / kSlow);
-    if (held > 0.0 && along != 0.0) hold_direction(held);
+    if (held > 0.0 && along != 0.0) hold_direction(held, {k, row});
   }
 }
 
 // takes so much of direction_, of length 1, from the pull
-void DeadZone::hold_direction(double held) {
+void DeadZone::hold_direction(double held, Source from) {
   if (last_ == known_.rows()) return;
   remove_known(direction_);
   for (Index j = rank_; j < last_; ++j)
@@ -209,15 +261,16 @@ void DeadZone::hold_direction(double held) {
   direction_ /= length;
   pull_ -= held * direction_.dot(pull_) * direction_;
   held_[last_] = held;
+  source(last_) = from;
   known_.row(last_++) = direction_;
 }
 
 // direction_, of length 1, unless it is known already
-void DeadZone::add_direction() {
-  if (rank_ == known_.rows()) return;
+bool DeadZone::add_direction() {
+  if (rank_ == known_.rows()) return false;
   remove_known(direction_);
   double length = direction_.norm();
-  if (length < kRank) return;
+  if (length < kRank) return false;
   direction_ /= length;
   if (length < 0.5) {  // what cancelled left rounding behind
     remove_known(direction_);
@@ -225,6 +278,7 @@ void DeadZone::add_direction() {
     direction_ /= length;
   }
   known_.row(rank_++) = direction_;
+  return true;
 }
 
 void DeadZone::remove_known(VectorRef direction) {

@@ -16,18 +16,25 @@
 //                                     where such rows end they vanish, and so would S
 //   y <- y max(0, 1 - eps z / slope)  z: 0 at the target, 1 from 10 mm or 0.02 rad on (w = 0.1)
 // At a saddle (saddle_probe.hpp) there is no zone: with
-//   d = growth of the pull along what p moves weakly, as a share like the slope [1/rad]
+//   d = (y'(dA/dh u + A b) - k |A u|^2) / (|y| S)    growth of the pull along u, which p moves weakly
+//       [1/rad]; dA/dh u: drift of the rows at qdot = u; b: what keeps the rows above as they are,
+//       A_above b = -dA_above/dh u, and joints that are held (without it the way leaves their curve,
+//       and ends look like saddles)
 // it fades from d = 0.025 on and is gone at 0.075, but not below a level that is not met. Exactly at
 // one p is nothing: then the level is sent off, along what its rows leave of a coordinate whose d is
 // large enough.
 //
-// The rows stay: y = 0 still keeps the levels below from driving them. A level below one that is
+// The rows stay: y = 0 still keeps the levels below from driving them. Where a row moves what is free
+// by less than eps S, those below are slowed by that share: the strict rule turns them there by
+// v_low c / sigma per rad, and they never rest. A level below one that is
 // not met wants a larger zone (its own place moves with theirs): eps goes from `kZone` to `kZoneBelow`
 // with the largest w above. Both were fitted: to robots and conflicts of docs/control.md. A first
 // level whose rows stand apart loses no rank, and has no zone.
 #pragma once
 
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hurcules/control/saddle_probe.hpp"
@@ -61,24 +68,30 @@ class DeadZone {
   void add_held(Eigen::VectorXi& held) const;
 
  private:
+  using Source = std::pair<std::size_t, Index>;  // a level and its row, or kJoint and a coordinate
+  static constexpr std::size_t kJoint = std::numeric_limits<std::size_t>::max();
+
   // the slope of a level; leaves its pull
   [[nodiscard]] double slope_of(std::size_t k, const Hierarchy& hierarchy,
                                 const JointLimits* limits);
   // 1 where the level whose pull is known stands at a saddle, 0 where not; nudges it off one
-  [[nodiscard]] double saddle_at(std::size_t k, const Level& level, double gain,
+  [[nodiscard]] double saddle_at(std::size_t k, const Hierarchy& hierarchy, double gain,
                                  SaddleProbe& probe);
-  // the same along off_
-  [[nodiscard]] double saddle_along(std::size_t k, const Level& level, double gain,
-                                    SaddleProbe& probe);
-  void add_strong_rows(const Level& level);
+  // the same along off_; kept: how much of what is known stays as it is
+  [[nodiscard]] double saddle_along(std::size_t k, const Hierarchy& hierarchy, Index kept,
+                                    double gain, SaddleProbe& probe);
+  void keep_held();
+  double add_rows(const Level& level, double least);
   void find_pull(const Level& level, const std::vector<const Task*>& tasks);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
-  void hold_pressed_rows(const Level& level, const std::vector<bool>& nearness);
-  void hold_direction(double held);
-  void add_direction();
+  void hold_pressed_rows(std::size_t k, const Level& level);
+  void hold_direction(double held, Source from);
+  [[nodiscard]] Source& source(Index j) { return sources_[static_cast<std::size_t>(j)]; }
+  bool add_direction();
   void remove_known(VectorRef direction);
 
-  Matrix known_;  // (n, n): orthonormal rows, the first rank_ count
+  Matrix known_;                 // (n, n): orthonormal rows, the first rank_ count
+  std::vector<Source> sources_;  // of each
   Index rank_ = 0;
   Index last_ = 0;                    // known, and held by limits
   Vector pull_;                       // p (n)

@@ -328,6 +328,7 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
                                                   const RobotState& state, double most,
                                                   const Vector* growth) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kAtStop = 1e-3;  // [rad] or [m]
   bounds_.lower.setConstant(-kNone);
   bounds_.upper.setConstant(kNone);
   for (Index i = 0; i < coordinate_joints_; ++i) {
@@ -341,7 +342,10 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kOfPeak * pid_.options().max_torque[i];
-    const EffortRange range = within({-peak, peak}, motor.actuator, state);
+    EffortRange range = within({-peak, peak}, motor.actuator, state);
+    // a servo whose controls end with its joint's range has no effort there; its stop bears what comes
+    if (reference_[i] <= motor.actuator.lower + kAtStop) range.lower = -peak;
+    if (reference_[i] >= motor.actuator.upper - kAtStop) range.upper = peak;
     const double beside = feed_forward_[i];
     const double grown = growth ? (*growth)[motor.coordinate] : 1.0;
     const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;

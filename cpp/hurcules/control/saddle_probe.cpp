@@ -22,12 +22,16 @@ SaddleProbe::SaddleProbe(const Robot& robot) : robot_(robot.model(), robot.coord
 
 void SaddleProbe::set_stack(const Stack& stack) {
   tasks_.clear();
+  drifts_.clear();
   for (const StackLevel& level : stack.levels()) {
     tasks_.emplace_back();
+    Index rows = 0;
     for (const Task* task : level.tasks) {
       tasks_.back().push_back(copy_of(*task));
       copy_memory(*task, *tasks_.back().back(), scratch_);  // so that it has grown
+      rows += task->rows();
     }
+    drifts_.push_back(Vector::Zero(rows));
   }
 }
 
@@ -37,8 +41,8 @@ void SaddleProbe::look_at(const Robot& robot, const Stack& stack) {
   stands_there_ = false;
 }
 
-double SaddleProbe::growth(std::size_t k, const Level& level, const Vector& u, double gain) {
-  if (!u.allFinite()) return 0.0;  // a task measured no numbers; the solver will refuse them
+bool SaddleProbe::move(const Vector& u, std::size_t levels) {
+  if (!u.allFinite()) return false;  // a task measured no numbers; the solver will refuse them
   if (!stands_there_) {
     robot_.set_qpos(looked_at_->qpos());
     if (robot_.support() != looked_at_->support()) robot_.stand_on(looked_at_->support());
@@ -46,20 +50,18 @@ double SaddleProbe::growth(std::size_t k, const Level& level, const Vector& u, d
     stands_there_ = true;
   }
   robot_.set_velocity(u);
-  double sum = 0.0;
-  Index row = 0;
-  for (std::size_t i = 0; i < tasks_[k].size(); ++i) {
-    const Task& source = *stack_->levels()[k].tasks[i];
-    Task& task = *tasks_[k][i];
-    if (source.is_limit()) copy_memory(source, task, scratch_);
-    task.update(robot_);
-    for (Index j = 0; j < task.rows(); ++j, ++row) {
-      if (level.lower[row] != level.upper[row]) continue;
-      const double rate = level.A.row(row).dot(u);
-      sum += source.weights()[j] * task.drift()[j] * level.lower[row] - gain * rate * rate;
+  for (std::size_t k = 0; k < levels; ++k) {
+    Index row = 0;
+    for (const auto& task : tasks_[k]) {
+      const Index rows = task->rows();
+      if (!task->is_limit()) {
+        task->update(robot_);
+        drifts_[k].segment(row, rows) = task->weights().cwiseProduct(task->drift());
+      }
+      row += rows;
     }
   }
-  return sum;
+  return true;
 }
 
 }  // namespace hurcules

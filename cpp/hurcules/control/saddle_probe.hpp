@@ -1,11 +1,8 @@
-// Whether a level that hardly pulls any more stands at a saddle or at the end of its reach.
+// What the tasks of a stack measure while the robot moves, measured by copies: those of the
+// controller notice nothing.
 //
-// Moved by h along u (n, of length 1), a level with the rows A and the rates y = -k e pulls along u
-// with  u'A'y; what that grows by with each rad is
-//   y'(dA/dh)u - k |A u|^2,     (dA/dh)u = dJ/dt qdot at qdot = u: the drift of its tasks
-// More than nothing: the way along u becomes better the further it goes, as from a straight arm
-// whose target lies inside its reach. Less: it stands where it can do no better.
-// Tasks and robot are measured as copies: those of the controller notice nothing.
+// Moved at qdot = u, of length 1, the rows of a task change by dJ/dt u, its drift: what J u grows by
+// with each rad along u. The dead zone asks for it to tell a saddle from the end of a level's reach.
 #pragma once
 
 #include <memory>
@@ -24,12 +21,15 @@ class SaddleProbe {
   void set_stack(const Stack& stack);
   // what the next questions are about; both must live until then
   void look_at(const Robot& robot, const Stack& stack);
-  // what the pull of a level's equality rows along u grows by [unit^2/s per rad^2]; gain: k [1/s]
-  [[nodiscard]] double growth(std::size_t k, const Level& level, const Vector& u, double gain);
+  // the coordinates move along u (n): measures the first `levels`; false where u is no numbers
+  bool move(const Vector& u, std::size_t levels);
+  // (rows) of one of these levels, weighted [unit/rad^2]; 0 where they are limits
+  [[nodiscard]] const Vector& drift(std::size_t level) const { return drifts_[level]; }
 
  private:
   Robot robot_;
   std::vector<std::vector<std::unique_ptr<Task>>> tasks_;  // of each level
+  std::vector<Vector> drifts_;
   std::vector<double> scratch_;
   const Robot* looked_at_ = nullptr;
   const Stack* stack_ = nullptr;

@@ -1,19 +1,25 @@
 #include "hurcules/control/track_drive.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
 namespace {
 
-JointActuator find(const std::vector<JointActuator>& all, const std::string& joint) {
+// of the robot itself: where it was attached to a model its names may have a prefix
+JointActuator find(const Robot& robot, const std::vector<JointActuator>& all,
+                   const std::string& joint) {
   std::vector<std::string> names;
   for (const JointActuator& one : all) {
-    if (one.joint == joint) return one;
+    if (!in_own_tree(robot, robot.model()->jnt_bodyid[one.joint_id])) continue;
+    if (one.joint.ends_with(joint)) return one;
     names.push_back(one.joint);
   }
   throw Error(unknown_name("belt with a drive", joint, names));
@@ -32,8 +38,8 @@ TrackDrive::TrackDrive(const Robot& robot, const TrackDriveOptions& options)
       root_dof_(robot.root_dof()),
       qpos_size_(robot.qpos().size()) {
   const std::vector<JointActuator> all = joint_actuators(robot);
-  left_ = find(all, options.left);
-  right_ = find(all, options.right);
+  left_ = find(robot, all, options.left);
+  right_ = find(robot, all, options.right);
   require(root_qpos_ >= 0, "a robot that drives wants a free joint at its root");
   dofs_ = std::max<Index>({root_dof_ + 6, left_.dof + 1, right_.dof + 1});
 }

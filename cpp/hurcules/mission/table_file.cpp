@@ -133,6 +133,8 @@ TableFile read_table(const std::string& path) {
 ModelPtr load_model_of(const TableFile& file, const std::string& path) {
   const std::string model = (std::filesystem::path(path).parent_path() / file.model).string();
   const std::string remedy = ": write both anew (hurcules mission " + file.setup.name + " --out)";
+  require(std::filesystem::exists(model),
+          "model '" + model + "' of '" + path + "' does not exist" + remedy);
   require(file.mujoco == mujoco_version(), "model '" + model + "' was written by MuJoCo " +
                                                file.mujoco + ", this is " + mujoco_version() +
                                                remedy);

@@ -428,7 +428,11 @@ void GeomDistance::set_motion(int id, const BodyMotion& motion, Source source) {
     body.linear = motion.linear + motion.angular.cross(body.pose.p - motion.pose.p);
     body.angular = motion.angular;
   }
-  if (!found) throw Error("body " + std::to_string(id) + " is in no pair");  // no text in a tick
+  if (found) return;  // no text in a tick
+  const char* const name = mj_id2name(&m, mjOBJ_BODY, id);
+  std::string text = "body ";
+  text += name && *name ? name : std::to_string(id);
+  throw Error(text + " is in no pair");
 }
 
 std::vector<int> GeomDistance::bodies() const {

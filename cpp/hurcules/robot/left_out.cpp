@@ -56,6 +56,17 @@ class Kept {
     return names;
   }
 
+  // of another robot
+  [[nodiscard]] std::vector<std::string> others() const {
+    std::vector<std::string> names;
+    for (int a = 0; a < m_.nu; ++a) {
+      const int joint = m_.actuator_trnid[2 * a];
+      if (m_.actuator_trntype[a] != mjTRN_JOINT || has(joint)) continue;
+      if (!moves(m_.jnt_bodyid[joint])) names.push_back(named(m_, mjOBJ_JOINT, joint));
+    }
+    return names;
+  }
+
  private:
   [[nodiscard]] bool has(int joint) const { return joints_[static_cast<std::size_t>(joint)]; }
   [[nodiscard]] bool moves(int body) const { return in_own_tree(robot_, body); }
@@ -91,8 +102,15 @@ class Kept {
 }  // namespace
 
 std::string left_out(const Robot& robot) {
-  if (names_coordinates(*robot.model())) return "";
   const Kept kept(robot);
+  if (names_coordinates(*robot.model())) {
+    const std::vector<std::string> others = kept.others();
+    if (others.empty()) return "";
+    return std::to_string(others.size()) +
+           " joints with actuators stand beside the robot that the " +
+           "model's coordinates are of: " + listed(others) +
+           "; Robot(model, joints=[...]) is a robot of these";
+  }
   const std::vector<std::string> joints = kept.joints(), constraints = kept.constraints();
   std::string text;
   if (!joints.empty()) {
