@@ -371,8 +371,10 @@ def _overlaps(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> It
     deep: dict[tuple[str, str], float] = {}
     jacobians = np.zeros((2, 3, model.nv))
     for contact in data.contact:
+        if contact.exclude or contact.dist > -DEEP or min(contact.geom) < 0:  # a flex has no geom
+            continue
         bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom]
-        if contact.exclude or contact.dist > -DEEP or not chain.intersection(bodies):
+        if not chain.intersection(bodies):
             continue
         for jacobian, body in zip(jacobians, bodies, strict=True):
             mujoco.mj_jac(model, data, jacobian, None, contact.pos, body)

@@ -308,3 +308,12 @@ def test_a_weld_that_the_plan_does_not_keep_is_told() -> None:
     with pytest.warns(UserWarning, match="does not: grip. The robot pulls"):
         simulation(tied("true", 'name="grip"'), None)
     simulation(tied("false"), None)
+
+
+def test_a_cloth_on_the_ground_is_no_part_of_the_robot() -> None:
+    # its contacts name no geom, and the last one of the model was told
+    cloth = """<geom type="plane" size="3 3 .1" pos="0 0 -2"/>
+      <flexcomp name="cloth" type="grid" count="3 3 1" spacing=".1 .1 .1" radius=".01" mass=".1"
+        dim="2" pos="0 0 -2"><contact selfcollide="none"/><edge equality="true"/></flexcomp>"""
+    text = CHAIN_TEXT.replace("<worldbody>", f"<worldbody>{cloth}")
+    simulation(mujoco.MjModel.from_xml_string(text), list("abc"))
