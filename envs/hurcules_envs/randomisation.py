@@ -7,7 +7,7 @@
 | `motor_strength`    |       | 1       | share of the efforts commanded that its motors give      |
 | `observation_noise` |       | 0       | half width of a uniform error of each number seen        |
 | `action_delay`      | steps | 0       | an action takes effect so many steps of the policy later |
-| `push`              | N     | 0       | on its heaviest part for 0.2 s every 2 s, any level way  |
+| `push`              | N     | 0       | on its heaviest moving part, 0.2 s every 2 s, level      |
 
 The noise counts in 1 m, 1 rad, 1 m/s, 1 rad/s, 1000 N and 100 kg. The first three are written into
 the model of an episode, of which its controller knows nothing.
@@ -139,8 +139,9 @@ class Randomisation:
         self._seed, self._count = np.zeros(n), np.zeros(n)
         self._past = np.zeros((n, 0, 0))
         self._robot = np.flatnonzero(np.isin(model.body_rootid, self._roots()))
+        movable = self._robot[model.body_weldid[self._robot] > 0]  # no base that is fixed
         # of several as heavy the first
-        self.pushed = int(self._robot[np.argmax(model.body_mass[self._robot])])
+        self.pushed = int(movable[np.argmax(model.body_mass[movable])])
         groups = environment.observation
         scales = [np.full(group.size, UNITS.get(group.unit, 1.0)) for group in groups]
         self._scale = np.concatenate([*scales, np.ones(environment.goal)])

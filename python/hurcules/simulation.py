@@ -369,7 +369,12 @@ def _model(model: mujoco.MjModel | str | Path | None) -> mujoco.MjModel:
     if isinstance(model, mujoco.MjModel):
         return model
     if not isinstance(model, str | Path):
-        raise Error(f"model: wanted a mujoco.MjModel or the path of one, got {model!r}")
+        remedy = ""
+        if isinstance(model, mujoco.MjSpec):
+            remedy = "; its compile() gives one"
+        elif isinstance(getattr(model, "ptr", None), mujoco.MjModel):
+            remedy = "; its ptr is one"  # of dm_control
+        raise Error(f"model: wanted a mujoco.MjModel or the path of one, got {model!r}{remedy}")
     if Path(model).suffix == ".urdf":
         return load_urdf(model)
     try:

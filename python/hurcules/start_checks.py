@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator
 
@@ -63,16 +64,17 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
     yield from _switched_off(model, controller)
+    yield from _unkept(model, controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
-    elif controller.plan.floats and not _falls(model):
+    elif (floats := _floats(model, controller)) and not _falls(model):
         yield (
-            "the robot's root is free and gives way: the plan holds it where it starts; with "
-            "base='sensed', or control='torque', hands are led from where it is"
+            f"{floats} is free and gives way: with base='sensed', or control='torque', hands are "
+            "led from where it is, else the plan holds it where it starts"
         )
-    elif controller.plan.floats:
+    elif floats:
         yield (
-            "the robot's root is free, and nothing says what it stands on: the plan holds the root "
+            f"{floats} is free, and nothing says what it stands on: the plan holds the root "
             "where it starts, the physics lets it fall; WholeBodyController(..., support=BODY) "
             f"names the body that stands, and {ON_FEET}"
         )
@@ -171,6 +173,29 @@ def _switched_off(model: mujoco.MjModel, controller: WholeBodyController) -> Ite
         )
 
 
+def _unkept(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """Constraints of the physics of which the plan knows nothing."""
+    _, _, names = controller.plan.left_out.partition("coordinates do not keep: ")
+    names = re.sub(r"number (\d+)", lambda one: _ends(model, int(one[1])), names.partition(";")[0])
+    if names:
+        yield (
+            f"the physics keeps constraints that the plan does not: {names}. The robot pulls at "
+            'them and may not arrive; active="false" switches one off (of a mocap body that '
+            "holds a hand), a RelativePoseTask leads one hand as the other (that hold one thing)"
+        )
+
+
+def _ends(model: mujoco.MjModel, equality: int) -> str:
+    """A constraint without a name, by what it ties."""
+    kind = {
+        int(mujoco.mjtEq.mjEQ_JOINT): mujoco.mjtObj.mjOBJ_JOINT,
+        int(mujoco.mjtEq.mjEQ_TENDON): mujoco.mjtObj.mjOBJ_TENDON,
+    }.get(int(model.eq_type[equality]), int(model.eq_objtype[equality]))
+    ends = (int(model.eq_obj1id[equality]), int(model.eq_obj2id[equality]))
+    names = [mujoco.mj_id2name(model, kind, end) or f"number {end}" for end in ends if end >= 0]
+    return f"that of {' and '.join(names)}"
+
+
 def _settings(model: mujoco.MjModel) -> Iterator[str]:
     step, iterations = model.opt.timestep, model.opt.iterations
     if step > 1.001 * MAX_STEP:
@@ -188,11 +213,7 @@ def _settings(model: mujoco.MjModel) -> Iterator[str]:
 def _feet(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
     """Robots that stand on a body that nothing holds down."""
     plan = controller.plan
-    dofs = [driven.dof for coordinate in plan.coordinates for driven in coordinate.joints]
-    for root in np.unique(model.body_rootid[model.dof_bodyid[dofs]]):
-        joint = model.body_jntadr[root]
-        if joint < 0 or model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_FREE:
-            continue
+    for root in _free_roots(model, controller):
         bodies = [int(body) for body in np.flatnonzero(model.body_rootid == root)]
         names = [model.body(body).name for body in bodies]
         still = [name for name in names if name and not np.any(plan.position_jacobian(name))]
@@ -203,6 +224,31 @@ def _feet(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[st
                 f"the robot stands by servos on '{still[0]}', {mass:.2g} of its {whole:.3g} kg, "
                 f"which nothing holds down: it shakes and falls; {ON_FEET}"
             )
+
+
+def _floats(model: mujoco.MjModel, controller: WholeBodyController) -> str:
+    """The root that is free and stands on nothing, in words."""
+    plan = controller.plan
+    if plan.floats:
+        return "the robot's root"
+    first = model.body_rootid[model.dof_bodyid[plan.coordinates[0].joints[0].dof]]
+    for root in _free_roots(model, controller):
+        if root != first:  # a support stands in the first one's tree
+            return f"the root '{model.body(root).name}'"
+    return ""
+
+
+def _free_roots(model: mujoco.MjModel, controller: WholeBodyController) -> list[int]:
+    """Of the bodies that carry coordinates, those that no coordinate moves."""
+    coordinates = controller.plan.coordinates
+    dofs = {int(driven.dof) for coordinate in coordinates for driven in coordinate.joints}
+    joints = model.body_jntadr[np.unique(model.body_rootid[model.dof_bodyid[sorted(dofs)]])]
+    return [
+        int(model.jnt_bodyid[joint])
+        for joint in joints[joints >= 0]
+        if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
+        and int(model.jnt_dofadr[joint]) not in dofs
+    ]
 
 
 def _falls(model: mujoco.MjModel) -> bool:
@@ -325,8 +371,10 @@ def _overlaps(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> It
     deep: dict[tuple[str, str], float] = {}
     jacobians = np.zeros((2, 3, model.nv))
     for contact in data.contact:
+        if contact.exclude or contact.dist > -DEEP or min(contact.geom) < 0:  # a flex has no geom
+            continue
         bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom]
-        if contact.exclude or contact.dist > -DEEP or not chain.intersection(bodies):
+        if not chain.intersection(bodies):
             continue
         for jacobian, body in zip(jacobians, bodies, strict=True):
             mujoco.mj_jac(model, data, jacobian, None, contact.pos, body)

@@ -5,6 +5,7 @@ The command line's own lines are in test_cli.py, the solver's and the robot's ow
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import mujoco
@@ -86,6 +87,16 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
     "model of a simulation": (
         lambda: hurcules.Simulation(model=3, controller=whole_body()),  # type: ignore[arg-type]
         "model: wanted a mujoco.MjModel or the path of one, got 3",
+    ),
+    "specification of a simulation": (
+        lambda: hurcules.Simulation(model=mujoco.MjSpec(), controller=whole_body()),  # type: ignore[arg-type]
+        r"got <mujoco.* its compile\(\) gives one",
+    ),
+    "model of dm_control": (
+        lambda: hurcules.Simulation(
+            model=SimpleNamespace(ptr=arm_model()), controller=whole_body()
+        ),  # type: ignore[arg-type]
+        "its ptr is one",
     ),
     "path of a simulation": (
         lambda: hurcules.Simulation(model="/no/such.xml", controller=whole_body()),

@@ -161,6 +161,17 @@ def test_errors_are_uniform_about_what_is_seen_and_none_is_twice_the_same(cart: 
     assert len(np.unique(np.round(swing, 7))) > 0.95 * swing.size
 
 
+def test_a_push_falls_on_what_moves(tmp_path: Path) -> None:
+    # it fell on the base, which is the heaviest and fixed
+    base = '<body name="base"><geom pos="0 0 -1" size="0.1" mass="80"/><body name="cart">'
+    text = CART.replace('<body name="cart">', base).replace("</body>", "</body></body>", 1)
+    path = tmp_path / "fixed.xml"
+    path.write_text(text)
+    env = SingleEnv(NAME, path=str(path), push=20.0)
+    model = env.environment.simulation.model
+    assert model.body(env._episodes.randomisation.pushed).name == "cart"
+
+
 def test_a_push_takes_a_fifth_of_a_second_every_two(cart: str) -> None:
     env = SingleEnv(NAME, path=cart, push=20.0)
     env.reset(seed=0)

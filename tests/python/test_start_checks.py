@@ -267,3 +267,53 @@ def test_what_is_no_model_is_no_robot(wrong: str) -> None:
     given = mujoco.MjSpec() if wrong == "spec" else mujoco.MjData(chain)
     with pytest.raises(hurcules.Error, match=f"a {type(given).__name__} came"):
         hurcules.Robot(given)
+
+
+def beside(*models: str) -> mujoco.MjModel:
+    """Robots in one world, 2 m apart."""
+    world = mujoco.MjSpec()
+    world.option.timestep = 0.002
+    for i, text in enumerate(models):
+        frame = world.worldbody.add_frame(pos=[0.0, 2.0 * i, 0.0])
+        world.attach(mujoco.MjSpec.from_string(text), prefix=f"{i}/", frame=frame)
+    return world.compile()
+
+
+CHAIN_TEXT = CHAIN.format(step=0.002, motors="".join(map(STRONG.format, "abc")), last="")
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_a_free_root_beside_a_robot_that_stands_is_told(order: tuple[int, int]) -> None:
+    # only that of the first coordinate was looked at
+    texts = (CHAIN_TEXT, LEG.format(foot=30.0))
+    with pytest.warns(UserWarning, match="root.* is free, and nothing says"):
+        simulation(beside(*(texts[i] for i in order)), None)
+
+
+def tied(active: str, name: str = "") -> mujoco.MjModel:
+    weld = f'<weld body1="held" body2="hand" active="{active}" {name}/>'
+    text = CHAIN_TEXT.replace(
+        "</worldbody>",
+        f'<body name="held" mocap="true"/></worldbody><equality>{weld}</equality>',
+    )
+    return mujoco.MjModel.from_xml_string(
+        text.replace('<body pos=".3 0 0">', '<body name="hand" pos=".3 0 0">')
+    )
+
+
+def test_a_weld_that_the_plan_does_not_keep_is_told() -> None:
+    # Fetch, whose gripper a mocap body holds, diverged; Sawyer ended 0.57 m off
+    with pytest.warns(UserWarning, match="does not: that of held and hand. The robot pulls"):
+        simulation(tied("true"), None)
+    with pytest.warns(UserWarning, match="does not: grip. The robot pulls"):
+        simulation(tied("true", 'name="grip"'), None)
+    simulation(tied("false"), None)
+
+
+def test_a_cloth_on_the_ground_is_no_part_of_the_robot() -> None:
+    # its contacts name no geom, and the last one of the model was told
+    cloth = """<geom type="plane" size="3 3 .1" pos="0 0 -2"/>
+      <flexcomp name="cloth" type="grid" count="3 3 1" spacing=".1 .1 .1" radius=".01" mass=".1"
+        dim="2" pos="0 0 -2"><contact selfcollide="none"/><edge equality="true"/></flexcomp>"""
+    text = CHAIN_TEXT.replace("<worldbody>", f"<worldbody>{cloth}")
+    simulation(mujoco.MjModel.from_xml_string(text), list("abc"))
