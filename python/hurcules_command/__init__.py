@@ -32,7 +32,7 @@ def main() -> int:
 
 
 def simulate() -> int:
-    """Becomes the program `hurcules-sim`; nothing of Python is left. Returns where there is none."""
+    """Becomes the program `hurcules-sim`; returns where there is none."""
     package, mujoco = (importlib.util.find_spec(name) for name in ("hurcules", "mujoco"))
     if mujoco is None:
         print("hurcules-sim: MuJoCo is not installed; remedy: hurcules doctor", file=sys.stderr)
