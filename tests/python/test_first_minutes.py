@@ -90,6 +90,15 @@ def test_hurcules_sim_imports_nothing(tmp_path: Path, broken: bool) -> None:
     assert (done.returncode, done.stdout + done.stderr) == (code, said)
 
 
+def test_a_folder_that_was_deleted_is_told(tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    code = f"import os; os.chdir({str(gone)!r}); os.rmdir({str(gone)!r}); import hurcules"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    last = done.stderr.splitlines()[-1]  # it said: pip install --force-reinstall mujoco
+    assert last.startswith("ImportError: the folder that this runs in was deleted; remedy: cd ")
+
+
 def test_the_source_tree_says_that_it_is_not_compiled(root: Path, tmp_path: Path) -> None:
     shutil.copytree(root / "python" / "hurcules", tmp_path / "hurcules")
     for compiled in (tmp_path / "hurcules").glob("*.so"):
