@@ -40,7 +40,7 @@ BOXES = {
     "simulation": ("driving", "postures", "sensors", "simulation"),
     "pictures": ("cameras", "rendering", "video"),
     "results": ("recording", "report", "summary"),
-    "command line": ("cli", "doctor", "run"),
+    "command line": ("cli", "doctor", "outlet", "run"),
 }  # fmt: skip
 ABOUT = {
     "base": "types, errors, state",

@@ -54,6 +54,10 @@ def require_mujoco() -> None:
 
 
 def _broken(error: Exception, wanted: str) -> str:
+    try:
+        Path.cwd()
+    except FileNotFoundError:
+        return "the folder that this runs in was deleted; remedy: cd to one that exists"
     return (
         f"MuJoCo cannot be imported ({type(error).__name__}: {error}); "
         f"remedy: pip install --force-reinstall mujoco=={wanted}"

@@ -16,6 +16,7 @@ import hurcules
 from hurcules import plugins
 from hurcules._core import Error
 from hurcules.mission_table import Mission
+from hurcules.outlet import outlet
 from hurcules.output import WriteError, write_whole
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
@@ -409,6 +410,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         The exit code.
     """
+    with outlet() as said:
+        code = _call(arguments)
+        said.flush()
+    return _complain(said.lost, code or FAILED) if said.lost else code
+
+
+def _call(arguments: Sequence[str] | None) -> int:
     try:
         return _complete()(arguments, standalone_mode=False) or 0
     except typer.TyperException as error:

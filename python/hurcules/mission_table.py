@@ -230,7 +230,10 @@ _FILE: Mapping[str, Kind] = {
 def _toml(path: str | Path) -> dict[str, Any]:
     try:
         return tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except OSError as error:
+        known = "; one that comes along: hurcules.lift.mission(), or hurcules mission lift"
+        raise Error(f"mission file {path}: {error.strerror}{known}") from error
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Error(f"mission file {path}: {error}") from error
 
 

@@ -1,7 +1,8 @@
-"""The console script `hurcules`.
+"""The console scripts `hurcules` and `hurcules-sim`.
 
-It stands outside the package, so that Ctrl-C during the import of `hurcules` and a MuJoCo that
-cannot be imported end in one line, and `hurcules doctor` works without either.
+They stand outside the package, so that Ctrl-C during the import of `hurcules` and a MuJoCo that
+cannot be imported end in one line, `hurcules doctor` works without either, and `hurcules-sim`
+imports none of them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import signal
 import sys
 from types import FrameType, ModuleType
 
-__all__ = ["main"]
+__all__ = ["main", "simulate"]
 
 
 def main() -> int:
@@ -28,6 +29,20 @@ def main() -> int:
     signal.signal(signal.SIGINT, before)
     sys.path.append("")  # a user's own modules in this folder, after all that is installed
     return cli.main()
+
+
+def simulate() -> int:
+    """Becomes the program `hurcules-sim`; returns where there is none."""
+    package, mujoco = (importlib.util.find_spec(name) for name in ("hurcules", "mujoco"))
+    if mujoco is None:
+        print("hurcules-sim: MuJoCo is not installed; remedy: hurcules doctor", file=sys.stderr)
+        return 1
+    for folder in package.submodule_search_locations or () if package else ():
+        path = os.path.join(folder, "hurcules-sim")
+        if os.path.isfile(path):
+            os.execv(path, [path, *sys.argv[1:]])
+    print("hurcules-sim: hurcules is not compiled; remedy: pip install .", file=sys.stderr)
+    return 1
 
 
 def _end(_number: int, _frame: FrameType | None) -> None:

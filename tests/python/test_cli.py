@@ -167,7 +167,10 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["run", "e2803", "--pace", "100"], "5.56 m/s (20 km/h) at most, got 100"),
         (["run", "e2803", "--repetitions", "0"], "repetitions: wanted a whole number from 1 up"),
         (["mission", "nowhere"], "table of a mission 'nowhere' does not exist; there are: lift"),
-        (["mission", "nowhere.toml"], "mission file nowhere.toml"),
+        (
+            ["mission", "nowhere.toml"],
+            "mission file nowhere.toml: No such file or directory; one that comes along: hurcules",
+        ),
         (["mission", "lift", "--out", "lift.pdf"], "kind of file '.pdf' does not exist"),
         (["view", "nowhere"], "mission, model, scene or file 'nowhere' does not exist"),
         (["view", "nowhere.xml"], "nowhere.xml: no such file"),

@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -36,6 +37,18 @@ def test_each_python_block_runs(readme: str, root: Path, tmp_path: Path) -> None
             timeout=120,
         )
         assert done.returncode == 0, f"{program}\n{done.stderr}"
+
+
+def test_the_mission_of_the_loop_runs_where_there_is_no_checkout(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = (root / "docs/loop.md").read_text(encoding="utf-8")
+    block = next(block for block in blocks(page, "python") if "longer = " in block)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    exec(block, names)
+    names["simulation"].step(1)
+    assert names["simulation"].phase == "wait"
 
 
 def test_the_loop_on_the_first_screen_has_ten_lines(readme: str) -> None:

@@ -74,6 +74,34 @@ def test_doctor_survives_a_broken_mujoco(tmp_path: Path, broken: str) -> None:
     assert done.stderr.startswith("hurcules: error: ") and done.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("broken", [True, False])
+def test_hurcules_sim_imports_nothing(tmp_path: Path, broken: bool) -> None:
+    # it imported the package first: 0.7 s, and a traceback where MuJoCo was missing or broken
+    code, said = 1, "hurcules-sim: MuJoCo is not installed; remedy: hurcules doctor\n"
+    begin = "import sys, hurcules_command; sys.argv = ['hurcules-sim', '--version']; "
+    if broken:
+        (tmp_path / "mujoco.py").write_text("raise OSError('no libmujoco')\n")
+        code, said = 0, f"hurcules-sim {hurcules.__version__}\n"
+    else:
+        begin += "sys.modules['mujoco'] = None; "
+    done = subprocess.run(
+        [sys.executable, "-c", begin + "sys.exit(hurcules_command.simulate())"],
+        env={**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"},
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stdout + done.stderr) == (code, said)
+
+
+def test_a_folder_that_was_deleted_is_told(tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    code = f"import os; os.chdir({str(gone)!r}); os.rmdir({str(gone)!r}); import hurcules"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    last = done.stderr.splitlines()[-1]  # it said: pip install --force-reinstall mujoco
+    assert last.startswith("ImportError: the folder that this runs in was deleted; remedy: cd ")
+
+
 def test_the_source_tree_says_that_it_is_not_compiled(root: Path, tmp_path: Path) -> None:
     shutil.copytree(root / "python" / "hurcules", tmp_path / "hurcules")
     for compiled in (tmp_path / "hurcules").glob("*.so"):

@@ -40,7 +40,7 @@ PHYSICS = {"robot", "sim"}
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
         "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
-        "opengl", "plugins", "running_gear",
+        "opengl", "outlet", "plugins", "running_gear",
     )},
     {"hurcules.mission_drawing", "hurcules.toml_rows", "hurcules.validation"},
     {"hurcules." + name for name in (
