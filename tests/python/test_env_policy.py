@@ -78,8 +78,8 @@ def test_what_ships_solves_its_environment(name: str) -> None:
     policy = Policy(name.split("/")[1])
     assert policy.environment == name
     assert {"algorithm", "steps", "seed", "action_names"} <= set(policy.metadata)
-    episodes = 3 if "Lift" in name else 10  # which takes longest
-    assert evaluate(policy, name, episodes, **policy.options).success >= 0.8
+    episodes = 3 if "Lift" in name else 20  # which takes longest
+    assert evaluate(policy, name, episodes, **policy.options).success >= 0.9
 
 
 def test_the_command_line_judges_a_file(tmp_path: Path) -> None:

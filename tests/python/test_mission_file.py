@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import io
 import json
+import signal
 import subprocess
+import time
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -194,7 +196,7 @@ def test_what_is_no_file_of_a_mission_is_told(
     assert "FILE.table" in program("--help").stdout
     assert "there are: stretch, and what hurcules mission NAME" in program("lift").stderr
     for words, wanted in (
-        (["my.toml", "--out", "my.table"], "'my.toml'"),
+        (["my.toml", "--out", "my.table"], "mission file my.toml: No such file"),
         (["lift", "--weight", "75", "--out", "my.table"], "no such option: --weight"),
         (["lift", "--mass", "60", "--out", "my.table"], "mass"),
         (["lift", "--mass", "75", "--out", "my.svg"], "--mass: for a file .table"),
@@ -205,3 +207,39 @@ def test_what_is_no_file_of_a_mission_is_told(
     nowhere = tmp_path / "none" / "lift.table"
     assert cli.main(["mission", "lift", "--out", str(nowhere)]) == 1
     assert "cannot write" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_keeps_what_was_recorded(number: signal.Signals, tmp_path: Path) -> None:
+    csv, summary = tmp_path / "log.csv", tmp_path / "summary.json"
+    words = ["stretch", "--seconds=1000", "--csv", str(csv), f"--json={summary}"]
+    process = subprocess.Popen([_exec.program(), *words], stdout=subprocess.PIPE, text=True)
+    time.sleep(1.0)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[0]
+    assert process.returncode == 128 + number
+    assert f"interrupted; saved: {summary}, {csv}" in said
+    assert json.loads(summary.read_text())["reason"].startswith("interrupted at ")
+    assert len(csv.read_text().splitlines()) > 2
+
+
+def test_a_summary_that_nobody_gets_is_told() -> None:
+    with Path("/dev/full").open("w") as full:
+        words = [_exec.program(), "stretch", "--seconds", "0.01"]
+        done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 1
+    assert done.stderr == "hurcules-sim: the summary could not be written completely\n"
+
+
+def test_one_file_is_not_for_both(tmp_path: Path) -> None:
+    same = str(tmp_path / "a")
+    done = program("stretch", "--seconds", "0.01", "--csv", same, "--json", same)
+    assert done.returncode == 2
+    assert done.stderr == f"hurcules-sim: --json and --csv name one file, '{same}'\n"
+
+
+def test_a_model_that_is_gone_is_named_with_its_table(file: Path, tmp_path: Path) -> None:
+    moved = tmp_path / "lift.table"
+    moved.write_bytes(file.read_bytes())
+    told = program(str(moved)).stderr
+    assert f"lift.mjb' of '{moved}' does not exist: write both anew" in told

@@ -130,3 +130,49 @@ def test_a_load_is_handed_over() -> None:
         mujoco.mj_step(model, data)
     for arm, place in hands(data).items():
         assert place == pytest.approx(was[arm], abs=1e-5)
+
+
+def test_what_stands_beside_hurcules_is_left_out_with_a_word() -> None:
+    spec = hurcules.models.make("manipulation", "flat")
+    frame = spec.worldbody.add_frame(pos=[0.0, 2.0, 0.0])
+    spec.attach(mujoco.MjSpec.from_string(ARM), prefix="arm/", frame=frame)
+    left_out = hurcules.Robot(spec.compile()).left_out
+    assert left_out.startswith("3 joints with actuators stand beside the robot")
+    assert "arm/turn, arm/shoulder, arm/elbow; Robot(model, joints=[...])" in left_out
+    assert hurcules.Robot(hurcules.models.load("manipulation")).left_out == ""
+
+
+def test_each_of_two_hurcules_drives_by_its_own_belts() -> None:
+    """The first one drove, whose belts are named as in the default."""
+    spec = hurcules.models.make("manipulation", "flat")
+    other = hurcules.models.make("manipulation", "flat")
+    for thing in [*other.worldbody.geoms, *other.worldbody.lights, *other.worldbody.cameras]:
+        other.delete(thing)
+    spec.attach(other, prefix="b/", frame=spec.worldbody.add_frame(pos=[0.0, 2.0, 0.0]))
+    model = spec.compile()
+    second = hurcules.Robot(model, joints=["b/" + name for name in ("LSP", "LEB")])
+    controller = hurcules.WholeBodyController(
+        second,
+        [hurcules.PostureTask("posture", second)],
+        {"drive": hurcules.Drive(speed=0.5, yaw_rate=0.5)},
+        drive=hurcules.DriveOptions(),
+        base="sensed",
+    )
+    with pytest.warns(UserWarning):
+        simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+    simulation.step(100, {"drive": [0.5, 0.0]})
+    turned = {
+        prefix: float(simulation.data.joint(f"{prefix}L_lower_belt").qvel[0])
+        for prefix in ("", "b/")
+    }
+    assert turned["b/"] > 1.0
+    assert abs(turned[""]) < 0.1
+    with pytest.raises(hurcules.Error, match=r"belt with a drive 'left' does not exist; .*b/L_lo"):
+        hurcules.WholeBodyController(
+            second,
+            [hurcules.PostureTask("posture", second)],
+            {"drive": hurcules.Drive(speed=0.5, yaw_rate=0.5)},
+            drive=hurcules.DriveOptions(),
+            belts=("left", "right"),
+            base="sensed",
+        )

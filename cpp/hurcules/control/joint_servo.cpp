@@ -343,7 +343,8 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     error_.velocity[i] = -state.qvel[motor.actuator.dof];
     const double peak = kOfPeak * pid_.options().max_torque[i];
     EffortRange range = within({-peak, peak}, motor.actuator, state);
-    // a servo whose controls end with its joint's range has no effort there; its stop bears what comes
+    // a servo whose controls end with its joint's range has nothing to give towards that end: what it
+    // lacks there may move it off its stop, and holds nobody else
     if (reference_[i] <= motor.actuator.lower + kAtStop) range.lower = -peak;
     if (reference_[i] >= motor.actuator.upper - kAtStop) range.upper = peak;
     const double beside = feed_forward_[i];

@@ -172,7 +172,7 @@ TEST(TableFile, TheModelIsTheOneItWasWrittenWith) {
   const std::string path = (folder / "wave.table").string(), bytes = "no model";
   TableFile file = parse_table(table_lines(made_up(), bytes), path);
   std::filesystem::remove(folder / file.model);
-  expect_error([&] { (void)load_model_of(file, path); }, "my wave.mjb' cannot be read");
+  expect_error([&] { (void)load_model_of(file, path); }, "my wave.mjb' of '");
   std::ofstream(folder / file.model) << bytes.substr(1);
   expect_error([&] { (void)load_model_of(file, path); },
                "my wave.mjb' is not the one that was written with");

@@ -20,6 +20,7 @@ std::string shape(Index rows, Index columns) {
 Sensitivity::Sensitivity(std::shared_ptr<const SolvedHierarchy> solved)
     : solved_(std::move(solved)) {
   require_solved(solved_.get());
+  require(solved_->levels() > 0, "sensitivity wants a solve before it");
   require(solved_->final_levels() == solved_->levels() &&
               solved_->status() != SolverStatus::InvalidInput,
           "sensitivity wants a solved hierarchy, this solve ended with " +

@@ -72,7 +72,6 @@ double SolvedHierarchy::violation(int i, const Vector& x) const {
 
 void require_solved(const SolvedHierarchy* solved) {
   require(solved != nullptr, "only the method 'lexicographic' has sensitivities and level reports");
-  require(solved->levels() > 0, "sensitivities and level reports want a solve before them");
 }
 
 std::vector<std::vector<Vector>> multipliers(const SolvedHierarchy& solved) {
