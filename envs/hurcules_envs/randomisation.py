@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.environment import Array, Environment
 
-__all__ = ["NAMES", "PHYSICAL", "Randomisation", "known_ranges", "ranges_of", "split"]
+__all__ = ["NAMES", "PHYSICAL", "Randomisation", "Ranged", "known_ranges", "ranges_of", "split"]
 
 # by name: nominal value, least, most
 _KNOWN: Mapping[str, tuple[float, float, float]] = {
@@ -278,6 +278,30 @@ class Randomisation:
         coordinates = self._simulation.controller.plan.coordinates
         dofs = [driven.dof for coordinate in coordinates for driven in coordinate.joints]
         return np.unique(model.body_rootid[model.dof_bodyid[dofs]]).tolist()
+
+
+class _Range:
+    """A range as an attribute; what is set holds from the next episode on."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, env: Any, owner: type) -> Range:
+        return env._episodes.randomisation.ranges[self._name]
+
+    def __set__(self, env: Any, value: Any) -> None:
+        env._episodes.randomisation.set_ranges({self._name: value})
+
+
+class Ranged:
+    """An environment whose ranges are attributes: `env.unwrapped.friction = 0.6, 1.2`."""
+
+    friction = _Range()
+    mass = _Range()
+    motor_strength = _Range()
+    observation_noise = _Range()
+    action_delay = _Range()
+    push = _Range()
 
 
 _STATISTICS = ("meaninertia", "meanmass", "meansize", "extent")

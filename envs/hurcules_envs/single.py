@@ -21,7 +21,7 @@ from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
 from hurcules_envs.pictures import SIZE, Eyes, Views
-from hurcules_envs.randomisation import known_ranges, split
+from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["SingleEnv"]
@@ -32,7 +32,7 @@ _ALL = np.ones(1, dtype=bool)
 Observation = NDArray[np.float32] | dict[str, NDArray[Any]]
 
 
-class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
+class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
     """An environment with Gymnasium's interface.
 
     Attributes:
@@ -234,16 +234,17 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._eyes.close()
         self._viewer = None
 
-    def _went_on(self) -> dict[str, Any] | None:
-        if not self._begun:
-            return None
-        ranges = self._episodes.randomisation.ranges
-        return {"state": self.get_state(), "steps": self._steps, "ranges": dict(ranges)}
+    def _went_on(self) -> dict[str, Any]:
+        there: dict[str, Any] = {"ranges": dict(self._episodes.randomisation.ranges)}
+        if self._begun:
+            there |= {"state": self.get_state(), "steps": self._steps}
+        return there
 
     def _go_on(self, there: dict[str, Any]) -> None:
-        self.reset(options=there["ranges"])
-        self.set_state(there["state"])
-        self._steps = there["steps"]
+        self._episodes.randomisation.set_ranges(there["ranges"])
+        if "state" in there:
+            self.set_state(there["state"])
+            self._steps = there["steps"]
 
     def _require_begun(self, call: str) -> None:
         if not self._begun:

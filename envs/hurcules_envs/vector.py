@@ -19,7 +19,7 @@ from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
 from hurcules_envs.pictures import SIZE, Eyes, Views
-from hurcules_envs.randomisation import known_ranges, split
+from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["NativeVectorEnv"]
@@ -27,7 +27,7 @@ __all__ = ["NativeVectorEnv"]
 MODES = ("rgb_array",)
 
 
-class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
+class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
     """Episodes side by side, stepped in one call on a pool of threads.
 
     The bits of each episode are those that it has alone.
@@ -241,15 +241,14 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         if self.closed:
             raise ClosedEnvironmentError(f"{call}() of a vector that was closed")
 
-    def _went_on(self) -> dict[str, Any] | None:
-        if not self._begun:
-            return None
-        ranges = self._episodes.randomisation.ranges
-        return {"state": self.get_state(), "ranges": dict(ranges)}
+    def _went_on(self) -> dict[str, Any]:
+        ranges = dict(self._episodes.randomisation.ranges)
+        return {"ranges": ranges, "state": self.get_state() if self._begun else None}
 
     def _go_on(self, there: dict[str, Any]) -> None:
-        self.reset(options=there["ranges"])
-        self.set_state(there["state"])
+        self._episodes.randomisation.set_ranges(there["ranges"])
+        if there["state"] is not None:
+            self.set_state(there["state"])
 
     def _require_begun(self, call: str) -> None:
         self._require_open(call)

@@ -4,6 +4,7 @@ Strategy: each effect on a cart of 1 kg whose motion is known; sameness of bits 
 threads, states) and refusals on registered environments. What ranges a policy bears is not tested.
 """
 
+import copy
 from pathlib import Path
 from typing import Any
 
@@ -225,6 +226,26 @@ def test_a_reset_sets_ranges_from_then_on_for_vectors_too() -> None:
     assert (info["drawn_mass"] == 1.0).all()
     with pytest.raises(hurcules.Error, match=r"'weight' does not exist.*reset_mask, friction"):
         vector.reset(options={"weight": 3})
+
+
+def test_a_range_is_an_attribute_that_holds_from_the_next_episode_on() -> None:
+    env = gym.make("Hurcules/Drive-v0", **FAST)
+    vector = gym.make_vec("Hurcules/Drive-v0", num_envs=2, max_episode_steps=2, **FAST)
+    env.set_wrapper_attr("mass", (1.1, 1.2))
+    vector.mass = 1.1, 1.2
+    assert copy.deepcopy(env).unwrapped.mass == copy.deepcopy(vector).mass == (1.1, 1.2)
+    assert (vector.reset(seed=0)[1]["drawn_mass"] > 1.0).all()
+    assert env.reset(seed=0)[1]["drawn_mass"] > 1.0
+    vector.mass = 2.0
+    drawn = [vector.step(vector.action_space.sample())[4]["drawn_mass"] for _ in range(3)]
+    assert (drawn[1] < 1.3).all()
+    assert (drawn[2] == 2.0).all()
+    for one in (env.unwrapped, vector):
+        assert [getattr(one, name) for name in NAMES if name != "mass"] == [(1.0, 1.0)] * 2 + [
+            (0.0, 0.0)
+        ] * 3
+        with pytest.raises(hurcules.Error, match="friction: wanted a number or"):
+            one.friction = 2.0, 1.0
 
 
 def test_stretch_v0_refuses_them() -> None:
