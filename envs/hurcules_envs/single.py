@@ -269,4 +269,4 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
 
 
 def _info(step: Step) -> dict[str, Any]:
-    return {name: values.item() for name, values in step.info.items()}
+    return {name: values[0] for name, values in step.info.items()}  # TorchRL asks for their dtype
