@@ -176,7 +176,7 @@ class Randomisation:
         )
 
     def restore_model(self, i: int, model: mujoco.MjModel) -> None:
-        """Writes back what `vary_model` changed, all that MuJoCo derived from it too."""
+        """Writes back what the episode before changed, all that MuJoCo derived from it too."""
         if not self._varied[i]:
             return
         self._varied[i] = False
@@ -189,7 +189,8 @@ class Randomisation:
     def vary_model(self, i: int, model: mujoco.MjModel) -> None:
         """Writes the values of an episode into its model."""
         friction, mass, strength = (self.drawn[name][i] for name in IN_MODEL)
-        self._varied[i] = (friction, mass, strength) != (1.0, 1.0, 1.0)
+        own = bool(self._environment.parameters)  # that `configure` wrote
+        self._varied[i] = own or (friction, mass, strength) != (1.0, 1.0, 1.0)
         if friction != 1.0:
             model.geom_friction[:, 0] *= friction
             model.pair_friction[:, :2] *= friction
