@@ -159,7 +159,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._episodes.reset()
         self._begun = True
         step = self._episodes.look(remember=None)
-        return self._seen(step), _info(step)
+        return self._seen(step.observation), _info(step)
 
     def step(
         self, action: NDArray[np.float32]
@@ -186,7 +186,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         if self.render_mode == "human":
             self.render()
             self._keep_time()
-        return self._seen(step), float(step.reward[0]), terminated, False, _info(step)
+        return self._seen(step.observation), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
         """(s,) everything that decides how the episode goes on, and how the next ones start.
@@ -209,9 +209,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
             self.reset()
         self._episodes.restore(state_of(state, self.get_state().shape)[None])
 
-    def observe(self) -> Observation:
-        """The observation now, after `set_state` say."""
-        return self._seen(self._episodes.look(remember=None))
+    def observe(self, *, noise: bool = True) -> Observation:
+        """The observation now, after `set_state` say; without noise what a critic may know."""
+        return self._seen(self._episodes.observe(noise=noise))
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (368, 640, 3) in render mode "rgb_array"; None in "human", which has a window.
@@ -250,9 +250,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         if not self._begun:
             raise ResetNeeded(f"no episode has begun: call reset() before {call}()")
 
-    def _seen(self, step: Step) -> Observation:
+    def _seen(self, observation: dict[str, NDArray[np.float32]]) -> Observation:
         """The observation of the one episode, pictures included."""
-        seen = self._eyes.look(step.observation)
+        seen = self._eyes.look(observation)
         return {name: rows[0] for name, rows in seen.items()} if isinstance(seen, dict) else seen[0]
 
     def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -248,6 +248,22 @@ def test_a_range_is_an_attribute_that_holds_from_the_next_episode_on() -> None:
             one.friction = 2.0, 1.0
 
 
+def test_a_critic_may_see_without_noise() -> None:
+    for form in (gym.make, gym.make_vec):
+        noisy = form("Hurcules/Drive-v0", observation_noise=0.1, **FAST)
+        plain = form("Hurcules/Drive-v0", **FAST)
+        action = np.ones_like(noisy.action_space.sample())
+        for begins in (True, False):
+            told, true = (
+                (env.reset(seed=0) if begins else env.step(action))[0] for env in (noisy, plain)
+            )
+            clean, again = (noisy.unwrapped.observe(noise=noise) for noise in (False, True))
+            for name in true:
+                assert np.array_equal(clean[name], true[name])
+                assert np.array_equal(again[name], told[name])
+            assert not np.array_equal(seen(told), seen(true))
+
+
 def test_stretch_v0_refuses_them() -> None:
     with pytest.raises(hurcules.Error, match="option 'mass' does not exist"):
         gym.make("Hurcules/Stretch-v0", mass=1.2)
