@@ -70,6 +70,7 @@ def test_a_policy_acts_in_one_line_and_is_judged(tmp_path: Path) -> None:
     policy = Policy(linear(tmp_path / "a.onnx", gain=8.0))  # 5 /s is too slow for some goals
     result = evaluate(policy, "Hurcules/Reach-v0", 8, fidelity="kinematic")
     assert (result.episodes, result.success, result.self_contacts) == (8, 1.0, 0.0)
+    assert result.mean_cost == 0.0
     assert wilson(8, 8) == pytest.approx((0.676, 1.0), abs=1e-3)  # Wilson (1927)
 
 
