@@ -90,10 +90,10 @@ def ranges_of(given: Mapping[str, Any], *, physics: bool) -> dict[str, Range]:
             ranges[name] = (nominal, nominal)
             continue
         try:
-            pair = np.broadcast_to(np.asarray(value, dtype=np.float64), 2)
-        except (TypeError, ValueError):
-            pair = np.full(2, np.nan)
-        low, high = float(pair[0]), float(pair[1])
+            pair = np.broadcast_to(np.asarray(value), 2)
+        except ValueError:
+            pair = np.full(2, None)
+        low, high = pair.astype(float).tolist() if pair.dtype.kind in "fiu" else (np.nan, np.nan)
         if not least <= low <= high <= most:
             raise hurcules.Error(
                 f"{name}: wanted a number or (least, most) from {least:g} to {most:g}, "
