@@ -18,9 +18,11 @@ import hurcules
 from hurcules.cli import results_in
 from hurcules.interrupts import as_ctrl_c
 from hurcules.output import Output
+from hurcules.validation import require_known
 from hurcules_envs import evaluation
 from hurcules_envs.imitation import ask_expert
 from hurcules_envs.policy import Policy
+from hurcules_envs.randomisation import NAMES
 from hurcules_envs.registry import fidelities_of, full_id, spec_of
 from hurcules_envs.running import environment_of
 
@@ -36,6 +38,10 @@ Fidelity = Annotated[
 Robot = Annotated[str | None, typer.Option(help="rescue, manipulation or a path.")]
 Frame = Annotated[
     list[str] | None, typer.Option(help="Of a hand, where --robot is a path; twice for two.")
+]
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(help="What differs between episodes: friction=0.6,1.2; several times."),
 ]
 
 
@@ -53,6 +59,7 @@ def train(
     rate: Annotated[
         float | None, typer.Option(help="Of the policy [Hz].", show_default="the environment's")
     ] = None,
+    vary: Vary = None,
     demonstrations: Annotated[
         int, typer.Option(help="Episodes of the scripted expert; PPO starts as its clone.", min=0)
     ] = 0,
@@ -77,7 +84,7 @@ def train(
     fastest = next(reversed(fidelities_of(name)), None)
     options = _given(
         fidelity=fidelity or fastest, robot=robot, frames=frame or None, action=action,
-        sparse=sparse or None, rate=rate,
+        sparse=sparse or None, rate=rate, **_ranges(vary),
     )  # fmt: skip
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
@@ -95,11 +102,11 @@ def train(
     console = Console()
     columns = [
         TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:,} steps"),
-        TextColumn("success {task.fields[success]:.0%}"), TimeElapsedColumn(),
+        TextColumn("success {task.fields[success]:.0%} exploring"), TimeElapsedColumn(),
         TimeRemainingColumn(),
     ]  # fmt: skip
     with Progress(*columns, console=console) as bar:
-        task = bar.add_task(f"{algo} on {name}", total=steps, success=0.0)
+        task = bar.add_task(f"{algo} on {name.split('/')[-1]}", total=steps, success=0.0)
         try:
             training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
         except KeyboardInterrupt:
@@ -148,6 +155,7 @@ def evaluate(
     camera: Annotated[
         list[str] | None, typer.Option(help="Whose pictures the policy sees; several times.")
     ] = None,
+    vary: Vary = None,
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
@@ -158,7 +166,7 @@ def evaluate(
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
     `hurcules evaluate Drive-v0`
     """
-    chosen = _given(fidelity=fidelity, robot=robot, frames=frame, cameras=camera)
+    chosen = _given(fidelity=fidelity, robot=robot, frames=frame, cameras=camera, **_ranges(vary))
     _judge(policy, environment, episodes, chosen, out, Console())
 
 
@@ -177,6 +185,7 @@ def record(
     camera: Annotated[
         list[str] | None, typer.Option(help="Whose pictures are recorded too; several times.")
     ] = None,
+    vary: Vary = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     author: Annotated[
         str | None, typer.Option(help="In the data set's name.", show_default="expert or policy")
@@ -194,7 +203,7 @@ def record(
     name, kind, source = _known(environment), "expert", ""
     options = _given(
         fidelity=fidelity or ("exact" if fidelities_of(name) else None), cameras=camera or None,
-        robot=robot, frames=frame or None,
+        robot=robot, frames=frame or None, **_ranges(vary),
     )  # fmt: skip
     act: Any = _expert
     if policy != "expert":
@@ -304,3 +313,18 @@ def _training() -> Any:
 
 def _given(**options: Any) -> dict[str, Any]:
     return {name: value for name, value in options.items() if value is not None}
+
+
+def _ranges(given: list[str] | None) -> dict[str, list[float]]:
+    """Ranges by name of NAME=NUMBER or NAME=LEAST,MOST; `randomisation` judges the numbers."""
+    ranges = {}
+    for one in given or []:
+        name, _, numbers = one.partition("=")
+        require_known("--vary", name, NAMES)
+        try:
+            ends = [float(number) for number in numbers.split(",")]
+            low, high = ends * 2 if len(ends) == 1 else ends
+        except ValueError:
+            raise hurcules.Error(f"--vary: wanted {name}=LEAST,MOST, got {one!r}") from None
+        ranges[name] = [low, high]
+    return ranges

@@ -28,8 +28,7 @@ class Copied(EzPickle):
         """Makes it anew, and goes on."""
         EzPickle.__setstate__(self, state)
         self.spec = state["spec"]
-        if state["went_on"] is not None:
-            self._go_on(state["went_on"])
+        self._go_on(state["went_on"])
 
 
 def generator_numbers(generator: np.random.Generator) -> NDArray[np.float64]:

@@ -354,10 +354,15 @@ class Episodes:
                 {"observation": box, "achieved_goal": goal, "desired_goal": goal}
             )
 
-    def _observe(self, numbers: Numbers) -> dict[str, NDArray[np.float32]]:
+    def observe(self, *, noise: bool) -> dict[str, NDArray[np.float32]]:
+        """What is seen now, with its errors or without."""
+        self.numbers = self._numbers(self._read())
+        return self._observe(self.numbers, noise=noise)
+
+    def _observe(self, numbers: Numbers, *, noise: bool = True) -> dict[str, NDArray[np.float32]]:
         groups = self._asked.observe(numbers)
         parts = [groups[name] if name in groups else numbers[name] for name in self._groups]
-        errors = self.randomisation.errors()
+        errors = self.randomisation.errors() if noise else None
         values = np.concatenate(parts, axis=1, dtype=np.float32)
         if errors is not None:
             values += errors[:, : values.shape[1]].astype(np.float32)

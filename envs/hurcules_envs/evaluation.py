@@ -34,6 +34,7 @@ class Evaluation:
         falls: share that ended by a fall.
         limit_excess: worst, measured [rad].
         self_contacts: share of steps in which the robot touched itself.
+        mean_cost: sum of `cost` in info, mean.
     """
 
     episodes: int
@@ -45,6 +46,7 @@ class Evaluation:
     falls: float
     limit_excess: float
     self_contacts: float
+    mean_cost: float
 
 
 def evaluate(
@@ -79,7 +81,7 @@ def evaluate(
     running = np.ones(episodes, dtype=bool)
     success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
-    touching, excess = 0.0, 0.0
+    touching, excess, cost = 0.0, 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
     with closing(eyes):
         for _ in range(steps_of_episode(environment, options) or sys.maxsize):
@@ -90,6 +92,7 @@ def evaluate(
             returns[running] += seen.reward[running]
             lengths[running] += 1
             touching += float((info["self_contacts"][running] > 0).sum())
+            cost += float(info["cost"][running].sum())
             excess = max(excess, float(info["limit_excess"][running].max()))
             success[running] = info["is_success"][running]
             fell[running] = info["failed"][running]
@@ -107,6 +110,7 @@ def evaluate(
         falls=float(fell.mean()),
         limit_excess=excess,
         self_contacts=touching / float(lengths.sum()),
+        mean_cost=cost / episodes,
     )
 
 

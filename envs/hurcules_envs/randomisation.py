@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.environment import Array, Environment
 
-__all__ = ["NAMES", "PHYSICAL", "Randomisation", "known_ranges", "ranges_of", "split"]
+__all__ = ["NAMES", "PHYSICAL", "Randomisation", "Ranged", "known_ranges", "ranges_of", "split"]
 
 # by name: nominal value, least, most
 _KNOWN: Mapping[str, tuple[float, float, float]] = {
@@ -90,10 +90,10 @@ def ranges_of(given: Mapping[str, Any], *, physics: bool) -> dict[str, Range]:
             ranges[name] = (nominal, nominal)
             continue
         try:
-            pair = np.broadcast_to(np.asarray(value, dtype=np.float64), 2)
-        except (TypeError, ValueError):
-            pair = np.full(2, np.nan)
-        low, high = float(pair[0]), float(pair[1])
+            pair = np.broadcast_to(np.asarray(value), 2)
+        except ValueError:
+            pair = np.full(2, None)
+        low, high = pair.astype(float).tolist() if pair.dtype.kind in "fiu" else (np.nan, np.nan)
         if not least <= low <= high <= most:
             raise hurcules.Error(
                 f"{name}: wanted a number or (least, most) from {least:g} to {most:g}, "
@@ -177,7 +177,7 @@ class Randomisation:
         )
 
     def restore_model(self, i: int, model: mujoco.MjModel) -> None:
-        """Writes back what `vary_model` changed, all that MuJoCo derived from it too."""
+        """Writes back what the episode before changed, all that MuJoCo derived from it too."""
         if not self._varied[i]:
             return
         self._varied[i] = False
@@ -190,7 +190,8 @@ class Randomisation:
     def vary_model(self, i: int, model: mujoco.MjModel) -> None:
         """Writes the values of an episode into its model."""
         friction, mass, strength = (self.drawn[name][i] for name in IN_MODEL)
-        self._varied[i] = (friction, mass, strength) != (1.0, 1.0, 1.0)
+        own = bool(self._environment.parameters)  # that `configure` wrote
+        self._varied[i] = own or (friction, mass, strength) != (1.0, 1.0, 1.0)
         if friction != 1.0:
             model.geom_friction[:, 0] *= friction
             model.pair_friction[:, :2] *= friction
@@ -279,6 +280,30 @@ class Randomisation:
         coordinates = self._simulation.controller.plan.coordinates
         dofs = [driven.dof for coordinate in coordinates for driven in coordinate.joints]
         return np.unique(model.body_rootid[model.dof_bodyid[dofs]]).tolist()
+
+
+class _Range:
+    """A range as an attribute; what is set holds from the next episode on."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, env: Any, owner: type) -> Range:
+        return env._episodes.randomisation.ranges[self._name]
+
+    def __set__(self, env: Any, value: Any) -> None:
+        env._episodes.randomisation.set_ranges({self._name: value})
+
+
+class Ranged:
+    """An environment whose ranges are attributes: `env.unwrapped.friction = 0.6, 1.2`."""
+
+    friction = _Range()
+    mass = _Range()
+    motor_strength = _Range()
+    observation_noise = _Range()
+    action_delay = _Range()
+    push = _Range()
 
 
 _STATISTICS = ("meaninertia", "meanmass", "meansize", "extent")

@@ -72,11 +72,13 @@ def record(
         The id of the data set, or the path of the file or folder.
 
     Raises:
-        hurcules.Error: an unknown format, a package that it wants is not installed, the data set
-            exists, more episodes are kept than are wanted, or it could not be written; the text
-            says how many episodes are kept, and where.
+        hurcules.Error: no function that acts, an unknown format, a package that it wants is not
+            installed, the data set exists, more episodes are kept than are wanted, or it could not
+            be written; the text says how many episodes are kept, and where.
     """
     require_known("format", form, FORMATS)
+    if not callable(act):
+        raise hurcules.Error(f"act: wanted a function of environment and observation, got {act!r}")
     written = FORMATS[form]
     written.require()
     recording = _wanted(environment, episodes, seed, author, source, options)

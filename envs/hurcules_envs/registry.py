@@ -72,7 +72,7 @@ def make_environment(
             of the class that would never come to it.
     """
     kind = _class_of(path)
-    known = inspect.signature(kind).parameters
+    known = _keywords(kind)
     for taken in known.keys() & {*beside, *NAMES}:
         raise hurcules.Error(
             f"{kind.__name__}: the keyword '{taken}' is taken, by what every environment has: "
@@ -87,6 +87,19 @@ def make_environment(
         if isinstance(known[option].default, bool):
             require_flag(option, value)
     return kind(**options)
+
+
+def _keywords(kind: type) -> dict[str, inspect.Parameter]:
+    """Of a class; what its `__init__` takes as **options are those of the class that it is of."""
+    known: dict[str, inspect.Parameter] = {}
+    for one in kind.__mro__:
+        if "__init__" in vars(one):
+            _, *own = inspect.signature(vars(one)["__init__"]).parameters.values()
+            passed = (inspect.Parameter.VAR_KEYWORD, inspect.Parameter.VAR_POSITIONAL)
+            known |= {p.name: p for p in own if p.kind not in passed and p.name not in known}
+            if all(p.kind is not inspect.Parameter.VAR_KEYWORD for p in own):
+                break
+    return known
 
 
 def make_episodes(name: str, n: int, seed: int, threads: int = 0, **options: Any) -> Episodes:
@@ -177,7 +190,7 @@ def fidelities_of(name: str) -> tuple[str, ...]:
     """
     path = spec_of(name).kwargs.get("environment")
     kind = _class_of(path) if path else None
-    return kind.fidelities if kind and "fidelity" in inspect.signature(kind).parameters else ()
+    return kind.fidelities if kind and "fidelity" in _keywords(kind) else ()
 
 
 def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:
@@ -214,7 +227,7 @@ def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
 
 
 def _usual_rate(known: EnvSpec, otherwise: float) -> float:
-    of_class = inspect.signature(_class_of(known.kwargs["environment"])).parameters.get("rate")
+    of_class = _keywords(_class_of(known.kwargs["environment"])).get("rate")
     return float(known.kwargs.get("rate", of_class.default if of_class else otherwise))
 
 

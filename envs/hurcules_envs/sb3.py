@@ -28,8 +28,8 @@ LEAST = 1e-3  # standard deviation of a number that does not change
 class Sb3VecEnv(VecEnv):
     """A `NativeVectorEnv` in mode SAME_STEP as a VecEnv of Stable-Baselines3.
 
-    The info of an episode is whole in its last step; before that it holds `is_success`, and in goal
-    environments what `compute_reward` takes from it (`HerReplayBuffer(copy_info_dict=True)`).
+    The info of an episode is whole in its last step; before that it holds `is_success` and `cost`,
+    and in goal environments what `compute_reward` takes (`HerReplayBuffer(copy_info_dict=True)`).
     """
 
     def __init__(self, environment: NativeVectorEnv) -> None:
@@ -57,7 +57,7 @@ class Sb3VecEnv(VecEnv):
         if any(other != options for other in self._options):
             raise hurcules.Error("set_options: wanted the same options for all episodes")
         observation, info = self.environment.reset(seed=self._seeds, options=options)
-        self._names = ["is_success"]
+        self._names = ["is_success", "cost"]
         if self.environment.environment.goal:
             self._names += [name for name in info if name.startswith("reward_")]
             self._names += self.environment.environment.tell(self.environment.numbers)
@@ -108,17 +108,23 @@ class Sb3VecEnv(VecEnv):
         return [getattr(self.environment, attr_name) for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
-        """Sets an attribute of the vector."""
+        """Sets an attribute of the vector; a range (`friction`) from the next episodes on.
+
+        Raises:
+            hurcules.Error: there is no such attribute, or some of the episodes only were meant.
+        """
+        if len(list(self._get_indices(indices))) < self.num_envs:
+            raise hurcules.Error("set_attr: wanted all episodes: an attribute is the vector's")
+        if not hasattr(self.environment, attr_name):
+            raise hurcules.Error(f"set_attr: the vector has no attribute '{attr_name}'")
         setattr(self.environment, attr_name, value)
 
     def env_method(self, method_name: str, *args: Any, indices: Any = None, **kwargs: Any) -> Any:
-        """Calls a method of the vector; `compute_reward` once, with all rows."""
+        """Calls a method of the vector once; `compute_reward` with all rows."""
         if method_name == "compute_reward":
             return [self.environment.environment.compute_reward(*args, **kwargs)]
-        return [
-            getattr(self.environment, method_name)(*args, **kwargs)
-            for _ in self._get_indices(indices)
-        ]
+        result = getattr(self.environment, method_name)(*args, **kwargs)
+        return [result for _ in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
         """Whether it is wrapped: `Monitor` is built in, others are not there."""

@@ -21,7 +21,7 @@ from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
 from hurcules_envs.pictures import SIZE, Eyes, Views
-from hurcules_envs.randomisation import known_ranges, split
+from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["SingleEnv"]
@@ -32,7 +32,7 @@ _ALL = np.ones(1, dtype=bool)
 Observation = NDArray[np.float32] | dict[str, NDArray[Any]]
 
 
-class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
+class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
     """An environment with Gymnasium's interface.
 
     Attributes:
@@ -159,7 +159,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._episodes.reset()
         self._begun = True
         step = self._episodes.look(remember=None)
-        return self._seen(step), _info(step)
+        return self._seen(step.observation), _info(step)
 
     def step(
         self, action: NDArray[np.float32]
@@ -186,7 +186,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         if self.render_mode == "human":
             self.render()
             self._keep_time()
-        return self._seen(step), float(step.reward[0]), terminated, False, _info(step)
+        return self._seen(step.observation), float(step.reward[0]), terminated, False, _info(step)
 
     def get_state(self) -> NDArray[np.float64]:
         """(s,) everything that decides how the episode goes on, and how the next ones start.
@@ -209,9 +209,9 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
             self.reset()
         self._episodes.restore(state_of(state, self.get_state().shape)[None])
 
-    def observe(self) -> Observation:
-        """The observation now, after `set_state` say."""
-        return self._seen(self._episodes.look(remember=None))
+    def observe(self, *, noise: bool = True) -> Observation:
+        """The observation now, after `set_state` say; without noise what a critic may know."""
+        return self._seen(self._episodes.observe(noise=noise))
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (368, 640, 3) in render mode "rgb_array"; None in "human", which has a window.
@@ -234,24 +234,25 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
         self._eyes.close()
         self._viewer = None
 
-    def _went_on(self) -> dict[str, Any] | None:
-        if not self._begun:
-            return None
-        ranges = self._episodes.randomisation.ranges
-        return {"state": self.get_state(), "steps": self._steps, "ranges": dict(ranges)}
+    def _went_on(self) -> dict[str, Any]:
+        there: dict[str, Any] = {"ranges": dict(self._episodes.randomisation.ranges)}
+        if self._begun:
+            there |= {"state": self.get_state(), "steps": self._steps}
+        return there
 
     def _go_on(self, there: dict[str, Any]) -> None:
-        self.reset(options=there["ranges"])
-        self.set_state(there["state"])
-        self._steps = there["steps"]
+        self._episodes.randomisation.set_ranges(there["ranges"])
+        if "state" in there:
+            self.set_state(there["state"])
+            self._steps = there["steps"]
 
     def _require_begun(self, call: str) -> None:
         if not self._begun:
             raise ResetNeeded(f"no episode has begun: call reset() before {call}()")
 
-    def _seen(self, step: Step) -> Observation:
+    def _seen(self, observation: dict[str, NDArray[np.float32]]) -> Observation:
         """The observation of the one episode, pictures included."""
-        seen = self._eyes.look(step.observation)
+        seen = self._eyes.look(observation)
         return {name: rows[0] for name, rows in seen.items()} if isinstance(seen, dict) else seen[0]
 
     def _show(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -268,4 +269,4 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied):
 
 
 def _info(step: Step) -> dict[str, Any]:
-    return {name: values.item() for name, values in step.info.items()}
+    return {name: values[0] for name, values in step.info.items()}  # TorchRL asks for their dtype

@@ -19,7 +19,7 @@ from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
 from hurcules_envs.pictures import SIZE, Eyes, Views
-from hurcules_envs.randomisation import known_ranges, split
+from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["NativeVectorEnv"]
@@ -27,7 +27,7 @@ __all__ = ["NativeVectorEnv"]
 MODES = ("rgb_array",)
 
 
-class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
+class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
     """Episodes side by side, stepped in one call on a pool of threads.
 
     The bits of each episode are those that it has alone.
@@ -152,7 +152,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         self._begin(chosen)
         self._begun = bool((self._steps >= 0).all())
         step = self._episodes.look(remember=None)
-        return self._seen(step), _info(step)
+        return self._seen(step.observation), _info(step)
 
     def step(self, actions: NDArray[Any]) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Holds the commands of all episodes for one period.
@@ -183,7 +183,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         terminated = step.terminated & goes_on
         truncated = (self._steps >= self._limit) & goes_on & ~terminated
         ended = terminated | truncated
-        observation, info = self._seen(step), _info(step)
+        observation, info = self._seen(step.observation), _info(step)
         if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):
             self._begin(ended)
             observation, info = self._same_step(ended, observation, info)
@@ -215,9 +215,9 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         self._begun = bool((self._steps >= 0).all())
         self._over = values[:, -1] > 0.0
 
-    def observe(self) -> Any:
-        """The observations now, after `set_state` say."""
-        return self._seen(self._episodes.look(remember=None))
+    def observe(self, *, noise: bool = True) -> Any:
+        """The observations now, after `set_state` say; without noise what a critic may know."""
+        return self._seen(self._episodes.observe(noise=noise))
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture (368, 640, 3) of each episode in render mode "rgb_array", one after the other.
@@ -241,15 +241,14 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
         if self.closed:
             raise ClosedEnvironmentError(f"{call}() of a vector that was closed")
 
-    def _went_on(self) -> dict[str, Any] | None:
-        if not self._begun:
-            return None
-        ranges = self._episodes.randomisation.ranges
-        return {"state": self.get_state(), "ranges": dict(ranges)}
+    def _went_on(self) -> dict[str, Any]:
+        ranges = dict(self._episodes.randomisation.ranges)
+        return {"ranges": ranges, "state": self.get_state() if self._begun else None}
 
     def _go_on(self, there: dict[str, Any]) -> None:
-        self.reset(options=there["ranges"])
-        self.set_state(there["state"])
+        self._episodes.randomisation.set_ranges(there["ranges"])
+        if there["state"] is not None:
+            self.set_state(there["state"])
 
     def _require_begun(self, call: str) -> None:
         self._require_open(call)
@@ -257,9 +256,9 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
             waiting = np.flatnonzero(self._steps < 0).tolist()
             raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before {call}()")
 
-    def _seen(self, step: Step, drawn: NDArray[np.bool_] | None = None) -> Any:
+    def _seen(self, observation: Any, drawn: NDArray[np.bool_] | None = None) -> Any:
         assert self._eyes is not None
-        return self._eyes.look(step.observation, drawn)
+        return self._eyes.look(observation, drawn)
 
     def _begin(self, chosen: NDArray[np.bool_]) -> None:
         self._episodes.reset(chosen)
@@ -271,7 +270,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied):
     ) -> tuple[Any, dict[str, Any]]:
         """The first observations of new episodes; the last ones of the old under `final_`."""
         step = self._episodes.look(remember=None)
-        fresh, fresh_info = self._seen(step, ended), _info(step)
+        fresh, fresh_info = self._seen(step.observation, ended), _info(step)
         final_obs = np.full(self.num_envs, None, dtype=object)
         for i in np.flatnonzero(ended):
             final_obs[i] = _row(observation, int(i))

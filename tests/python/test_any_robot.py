@@ -126,7 +126,7 @@ def test_by_default_a_hand_arrives_and_all_comes_to_rest(
 
 
 def chain(rng: np.random.Generator, joints: int) -> hurcules.Robot:
-    """An arm of capsules whose hinges turn about random axes of theirs, 0.4 to 2 rad to each side."""
+    """An arm of capsules, its hinges about axes drawn, 0.4 to 2 rad to each side."""
     text, length = "", 0.0
     for i in range(joints):
         axis = np.eye(3, dtype=int)[rng.integers(3)]
@@ -179,8 +179,10 @@ def test_an_orientation_out_of_reach_below_a_place_comes_to_rest(by: str) -> Non
 
 
 def test_fingers_that_start_at_their_stops_arrive() -> None:
-    """A servo whose controls end with its joint's range has nothing to give towards that end: 1e-8
-    N m that it lacked there held the whole hand, 49 of 89 mm off."""
+    """Servos whose controls end with their joints' ranges have nothing to give towards these ends.
+
+    1e-8 N m that one lacked there held the whole hand, 49 of 89 mm off.
+    """
     spec = importlib.util.find_spec("gymnasium_robotics")
     assert spec is not None and spec.origin is not None
     path = Path(spec.origin).parent / "envs/assets/adroit_hand/adroit_door.xml"

@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -21,11 +22,13 @@ import pytest
 
 import hurcules
 import hurcules_envs
+from hurcules_envs.drive import Drive
 from hurcules_envs.environment import Environment, Group, Start
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, write
 from hurcules_envs.registry import make_environment
+from hurcules_envs.single import SingleEnv
 
 CART = """
 <mujoco>
@@ -275,6 +278,41 @@ def test_the_expert_of_an_environment_of_ones_own_is_cloned_as_in_the_example(
     assert done.returncode == 0, done.stderr
     assert "2 demonstrations, 2 succeeded" in done.stdout
     assert (tmp_path / "Rail-v0.onnx").exists()
+
+
+class Laden(Drive):
+    """Drive with something heavy on the torso."""
+
+    parameters = ("payload",)
+
+    def __init__(self, most: float = 100.0, **options: Any) -> None:
+        super().__init__(**options)
+        self.memory = {**self.memory, "payload": 1}
+        self._most = most
+
+    def start(self, generator: np.random.Generator) -> Start:
+        """As Drive starts, with a load."""
+        start, payload = super().start(generator), generator.uniform(0.0, self._most)
+        memory = {**start.memory, "payload": payload}
+        return replace(start, memory=memory, info={"payload": payload})
+
+    def configure(self, model: mujoco.MjModel, values: Mapping[str, Any]) -> None:
+        """Adds the load."""
+        model.body("torso").mass += values["payload"]
+        mujoco.mj_setConst(model, mujoco.MjData(model))
+
+
+@pytest.mark.parametrize("mass", [1.0, 1.2])
+def test_a_class_that_passes_keywords_on_adds_to_the_model_of_each_episode(mass: float) -> None:
+    env = SingleEnv(f"{__name__}:Laden", most=50.0, fidelity="fast", mass=mass)
+    nominal = mass * float(env.environment.simulation.model.body("torso").mass[0])
+    for _ in range(2):  # what an episode adds is taken back by the next
+        _, info = env.reset()
+        assert 0.0 < info["payload"] < 50.0
+        loaded = nominal + mass * info["payload"]
+        assert env.model.body("torso").mass[0] == pytest.approx(loaded)
+    with pytest.raises(hurcules.Error, match="there are: most, fidelity, terrain"):
+        SingleEnv(f"{__name__}:Laden", fidelty="fast")
 
 
 def test_commands_take_an_environment_of_ones_own(tmp_path: Path) -> None:

@@ -70,6 +70,7 @@ def test_a_policy_acts_in_one_line_and_is_judged(tmp_path: Path) -> None:
     policy = Policy(linear(tmp_path / "a.onnx", gain=8.0))  # 5 /s is too slow for some goals
     result = evaluate(policy, "Hurcules/Reach-v0", 8, fidelity="kinematic")
     assert (result.episodes, result.success, result.self_contacts) == (8, 1.0, 0.0)
+    assert result.mean_cost == 0.0
     assert wilson(8, 8) == pytest.approx((0.676, 1.0), abs=1e-3)  # Wilson (1927)
 
 
@@ -93,6 +94,19 @@ def test_the_command_line_judges_a_file(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "judged" / "evaluation.json").read_text()) == figures
     other = json.loads((tmp_path / "judged" / "evaluation-2.json").read_text())
     assert other["options"] == {"fidelity": "kinematic", "robot": "manipulation"}
+
+
+def test_the_command_line_judges_with_what_differs_between_episodes(tmp_path: Path) -> None:
+    words = ["evaluate", str(linear(tmp_path / "a.onnx", 8.0)), "--fidelity", "kinematic"]
+    words += ["--episodes", "4", "--out", str(tmp_path)]
+    given = ["--vary", "action_delay=2,5", "--vary", "observation_noise=0.01"]
+    assert main([*words, *given]) == 0
+    figures = json.loads((tmp_path / "evaluation.json").read_text())
+    ranges = {"action_delay": [2.0, 5.0], "observation_noise": [0.01, 0.01]}
+    assert figures["options"] == {"fidelity": "kinematic"} | ranges
+    options = {"fidelity": "kinematic", "action_delay": (2, 5), "observation_noise": 0.01}
+    same = evaluate(tmp_path / "a.onnx", "Reach-v0", 4, **options)
+    assert figures["mean_return"] == same.mean_return
 
 
 def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ Strategy: each effect on a cart of 1 kg whose motion is known; sameness of bits 
 threads, states) and refusals on registered environments. What ranges a policy bears is not tested.
 """
 
+import copy
 from pathlib import Path
 from typing import Any
 
@@ -198,6 +199,9 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"mass": (1.2, 0.8)}, "mass: wanted a number or"),
     ({"mass": 0.0}, "from 0.1 to 10, got 0.0"),
     ({"friction": "rough"}, "friction: wanted a number"),
+    ({"mass": True}, "mass: wanted a number or"),
+    ({"mass": (1.0, [2.0])}, "mass: wanted a number or"),
+    ({"push": "300"}, "push: wanted a number"),
     ({"push": float("nan")}, "push: wanted a number"),
     ({"action_delay": 1.5}, "wanted whole steps"),
     ({"observation_noise": (0, 1, 2)}, "observation_noise: wanted"),
@@ -236,6 +240,42 @@ def test_a_reset_sets_ranges_from_then_on_for_vectors_too() -> None:
     assert (info["drawn_mass"] == 1.0).all()
     with pytest.raises(hurcules.Error, match=r"'weight' does not exist.*reset_mask, friction"):
         vector.reset(options={"weight": 3})
+
+
+def test_a_range_is_an_attribute_that_holds_from_the_next_episode_on() -> None:
+    env = gym.make("Hurcules/Drive-v0", **FAST)
+    vector = gym.make_vec("Hurcules/Drive-v0", num_envs=2, max_episode_steps=2, **FAST)
+    env.set_wrapper_attr("mass", (1.1, 1.2))
+    vector.mass = 1.1, 1.2
+    assert copy.deepcopy(env).unwrapped.mass == copy.deepcopy(vector).mass == (1.1, 1.2)
+    assert (vector.reset(seed=0)[1]["drawn_mass"] > 1.0).all()
+    assert env.reset(seed=0)[1]["drawn_mass"] > 1.0
+    vector.mass = 2.0
+    drawn = [vector.step(vector.action_space.sample())[4]["drawn_mass"] for _ in range(3)]
+    assert (drawn[1] < 1.3).all()
+    assert (drawn[2] == 2.0).all()
+    for one in (env.unwrapped, vector):
+        assert [getattr(one, name) for name in NAMES if name != "mass"] == [(1.0, 1.0)] * 2 + [
+            (0.0, 0.0)
+        ] * 3
+        with pytest.raises(hurcules.Error, match="friction: wanted a number or"):
+            one.friction = 2.0, 1.0
+
+
+def test_a_critic_may_see_without_noise() -> None:
+    for form in (gym.make, gym.make_vec):
+        noisy = form("Hurcules/Drive-v0", observation_noise=0.1, **FAST)
+        plain = form("Hurcules/Drive-v0", **FAST)
+        action = np.ones_like(noisy.action_space.sample())
+        for begins in (True, False):
+            told, true = (
+                (env.reset(seed=0) if begins else env.step(action))[0] for env in (noisy, plain)
+            )
+            clean, again = (noisy.unwrapped.observe(noise=noise) for noise in (False, True))
+            for name in true:
+                assert np.array_equal(clean[name], true[name])
+                assert np.array_equal(again[name], told[name])
+            assert not np.array_equal(seen(told), seen(true))
 
 
 def test_stretch_v0_refuses_them() -> None:

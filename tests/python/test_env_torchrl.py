@@ -41,3 +41,12 @@ def test_a_native_vector_is_reset_where_its_episodes_end(name: str) -> None:
     assert rollout.batch_size == (4, 12)
     assert rollout["next", "truncated"].sum() == 4 * 2  # after 5 and 10 steps
     assert rollout["next", "reward"].isfinite().all()
+
+
+def test_its_reader_takes_the_info_of_a_single_environment() -> None:
+    from torchrl.envs import GymEnv
+
+    env = GymEnv("Hurcules/Drive-v0", fidelity="kinematic", action_delay=2)
+    rollout = env.auto_register_info_dict().rollout(3)
+    assert (rollout["next", "drawn_action_delay"] == 2).all()
+    assert {"cost", "is_success"} <= set(rollout["next"].keys())

@@ -156,6 +156,24 @@ def test_options_of_a_reset_hold_in_a_vector_of_stable_baselines3() -> None:
         vector.reset()
 
 
+def test_a_curriculum_of_stable_baselines3_sets_ranges_and_no_other_name() -> None:
+    vector = training.make_sb3("Drive-v0", 2, fidelity="fast", max_episode_steps=2)
+    vector.reset()
+    vector.set_attr("mass", (1.1, 1.2))
+    assert vector.get_attr("mass") == [(1.1, 1.2)] * 2
+    action = np.zeros((2, *vector.action_space.shape))
+    infos = [vector.step(action)[3][0] for _ in range(4)]
+    assert [info["cost"] for info in infos] == [0.0] * 4
+    assert infos[1]["drawn_mass"] == 1.0
+    assert infos[3]["drawn_mass"] > 1.0
+    with pytest.raises(hurcules.Error, match="the vector has no attribute 'masses'"):
+        vector.set_attr("masses", 2.0)
+    with pytest.raises(hurcules.Error, match="wanted all episodes"):
+        vector.set_attr("mass", 2.0, indices=[1])
+    seen = vector.env_method("reset", seed=0)
+    assert seen[0] is seen[1]
+
+
 @pytest.mark.parametrize("name", ["Reach", "Drive"])
 def test_infos_of_stable_baselines3_give_the_reward_of_the_step(name: str) -> None:
     vector = training.make_sb3(f"Hurcules/{name}-v0", 2, **OPTIONS)

@@ -302,6 +302,7 @@ def test_who_acts_ends_an_episode_or_begins_it_anew(tmp_path, plain):
 def test_mistakes_are_told_before_anything_is_recorded(tmp_path, plain):
     for given, said in (
         ({"author": "J. Doe / 3"}, "author: wanted letters"),
+        ({"act": "expert"}, "act: wanted a function of environment and observation, got 'ex"),
         ({"episodes": 0}, "episodes: wanted a whole number from 1 on, got 0"),
         ({"environment": gym.make(NAME, **FAST)}, "environment: wanted an id"),
     ):
