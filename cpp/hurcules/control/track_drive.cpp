@@ -1,7 +1,4 @@
 #include "hurcules/control/track_drive.hpp"
-
-#include <mujoco/mujoco.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -18,7 +15,7 @@ JointActuator find(const Robot& robot, const std::vector<JointActuator>& all,
                    const std::string& joint) {
   std::vector<std::string> names;
   for (const JointActuator& one : all) {
-    if (!in_own_tree(robot, robot.model()->jnt_bodyid[one.joint_id])) continue;
+    if (!joint_in_own_tree(robot, one.joint_id)) continue;
     if (one.joint.ends_with(joint)) return one;
     names.push_back(one.joint);
   }

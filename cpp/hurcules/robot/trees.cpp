@@ -43,6 +43,10 @@ bool in_own_tree(const Robot& robot, int body) {
   return in_trees(*robot.model(), body, robot.root_bodies());
 }
 
+bool joint_in_own_tree(const Robot& robot, int joint) {
+  return in_own_tree(robot, robot.model()->jnt_bodyid[joint]);
+}
+
 bool may_move(const mjModel& m, int body) {
   while (body != 0 && m.body_jntnum[body] == 0 && m.body_mocapid[body] < 0)
     body = m.body_parentid[body];

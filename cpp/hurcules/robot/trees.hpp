@@ -15,6 +15,7 @@ namespace hurcules {
 // whether a body lies in a tree with one of these roots
 [[nodiscard]] bool in_trees(const mjModel_& model, int body, const std::vector<int>& roots);
 [[nodiscard]] bool in_own_tree(const Robot& robot, int body);
+[[nodiscard]] bool joint_in_own_tree(const Robot& robot, int joint);
 // it, or a body below it, has a joint or is moved by mocap
 [[nodiscard]] bool may_move(const mjModel_& model, int body);
 // Hinges and slides that no coordinate moves and that carry all of one's tree: a base on slides, say.
