@@ -1,4 +1,5 @@
 #include "hurcules/control/track_drive.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
