@@ -171,14 +171,18 @@ double DeadZone::saddle_along(std::size_t k, const Hierarchy& hierarchy, Index k
   return std::clamp((d - kSaddleBegins) / (kSaddle - kSaddleBegins), 0.0, 1.0);
 }
 
-// to what is known: what limits hold, where they hold more than half of it
+// to what is known: what limits hold, where they hold more than half of it; again: the same
 void DeadZone::keep_held() {
-  for (Index j = rank_; j < last_; ++j) {
+  const Index end = last_;
+  for (Index j = rank_; j < end; ++j) {
     if (held_[j] < 0.5) continue;
     direction_ = known_.row(j);
     const Source from = source(j);
-    if (add_direction()) source(rank_ - 1) = from;
+    if (!add_direction()) continue;
+    source(rank_ - 1) = from;
+    held_[rank_ - 1] = 1.0;
   }
+  last_ = rank_;
 }
 
 // to what is known: the directions that the equality rows move in by `least` or more, the strongest
