@@ -26,10 +26,10 @@
 //
 // The rows stay: y = 0 still keeps the levels below from driving them. Where a row moves what is free
 // by less than eps S, those below are slowed by that share: the strict rule turns them there by
-// v_low c / sigma per rad, and they never rest. A level below one that is
-// not met wants a larger zone (its own place moves with theirs): eps goes from `kZone` to `kZoneBelow`
-// with the largest w above. Both were fitted: to robots and conflicts of docs/control.md. A first
-// level whose rows stand apart loses no rank, and has no zone.
+// v_low c / sigma per rad, and they never rest. A level below one that is not met wants a larger
+// zone (its own place moves with theirs): eps goes from `kZone` to `kZoneBelow` with the largest w
+// above. Both were fitted: to robots and conflicts of docs/control.md. A first level whose rows
+// stand apart loses no rank, and has no zone.
 #pragma once
 
 #include <limits>

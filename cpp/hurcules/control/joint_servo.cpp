@@ -345,8 +345,9 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     EffortRange range = within({-peak, peak}, motor.actuator, state);
     // a servo whose controls end with its joint's range has nothing to give towards that end: what it
     // lacks there may move it off its stop, and holds nobody else
-    if (reference_[i] <= motor.actuator.lower + kAtStop) range.lower = -peak;
-    if (reference_[i] >= motor.actuator.upper - kAtStop) range.upper = peak;
+    const JointActuator& own = motor.actuator;
+    if (!own.is_motor && reference_[i] <= own.lower + kAtStop) range.lower = -peak;
+    if (!own.is_motor && reference_[i] >= own.upper - kAtStop) range.upper = peak;
     const double beside = feed_forward_[i];
     const double grown = growth ? (*growth)[motor.coordinate] : 1.0;
     const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;
