@@ -70,15 +70,15 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
       const double taken = slope > eps * open ? eps * open / slope : 1.0;
       shares_[k] = 1.0 - taken;
       const double looks = (1.0 - above) * std::clamp(taken / kLooks - 1.0, 0.0, 1.0);
+      const Index known = rank_;
+      keep_held();
       if (probe && looks > 0.0 && !apart_[k])
         shares_[k] += looks * taken * saddle_at(k, hierarchy, gains[k], *probe);
       if (shares_[k] < 1.0 && k + 1 < hierarchy.size()) {
-        const Index known = rank_;
-        keep_held();
         const double weakest = add_rows(level, kRank) / (eps * lever_);
-        rank_ = known;
         below = 1.0 - (1.0 - shares_[k]) * std::max(0.0, 1.0 - weakest);
       }
+      rank_ = known;
     }
     shares_[k] *= calm;
     calm *= below;
@@ -115,8 +115,6 @@ double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const Joint
 
 double DeadZone::saddle_at(std::size_t k, const Hierarchy& hierarchy, double gain,
                            SaddleProbe& probe) {
-  const Index above = rank_;
-  keep_held();
   const Index kept = rank_;
   add_rows(hierarchy[k], kWeak * lever_);
   off_ = pull_;
@@ -138,7 +136,7 @@ double DeadZone::saddle_at(std::size_t k, const Hierarchy& hierarchy, double gai
       saddle = std::max(saddle, here);
     }
   }
-  rank_ = above;
+  rank_ = kept;
   return saddle;
 }
 
@@ -171,18 +169,14 @@ double DeadZone::saddle_along(std::size_t k, const Hierarchy& hierarchy, Index k
   return std::clamp((d - kSaddleBegins) / (kSaddle - kSaddleBegins), 0.0, 1.0);
 }
 
-// to what is known: what limits hold, where they hold more than half of it; again: the same
+// to what is known: what limits hold, where they hold more than half of it
 void DeadZone::keep_held() {
-  const Index end = last_;
-  for (Index j = rank_; j < end; ++j) {
+  for (Index j = rank_; j < last_; ++j) {
     if (held_[j] < 0.5) continue;
     direction_ = known_.row(j);
     const Source from = source(j);
-    if (!add_direction()) continue;
-    source(rank_ - 1) = from;
-    held_[rank_ - 1] = 1.0;
+    if (add_direction()) source(rank_ - 1) = from;
   }
-  last_ = rank_;
 }
 
 // to what is known: the directions that the equality rows move in by `least` or more, the strongest
