@@ -15,6 +15,7 @@
 
 #include "annotated.hpp"
 #include "arrays.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/sole_points.hpp"
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
@@ -197,7 +198,7 @@ Raises:
 using NearPair = std::tuple<std::string, std::string, double>;
 
 std::pair<std::string, std::string> names_of(const Robot& robot, const GeomPair& pair) {
-  return {geom_name(robot, pair.first), geom_name(robot, pair.second)};
+  return {geom_name(*robot.model(), pair.first), geom_name(*robot.model(), pair.second)};
 }
 
 std::vector<std::pair<std::string, std::string>> pair_names(const DistanceTask& task,
@@ -223,7 +224,8 @@ void warn_of_contacts(const Robot& robot, const DistanceTask& task) {
       return pair == GeomPair{a, b} || pair == GeomPair{b, a};
     };
     if (std::none_of(task.pairs().begin(), task.pairs().end(), same))
-      touching.insert("(" + geom_name(robot, a) + ", " + geom_name(robot, b) + ")");
+      touching.insert("(" + geom_name(*robot.model(), a) + ", " + geom_name(*robot.model(), b) +
+                      ")");
   }
   std::string names;
   for (const std::string& pair : touching) names += (names.empty() ? "" : ", ") + pair;
@@ -237,7 +239,7 @@ void warn_of_height_fields(const Robot& robot) {
   std::string names;
   for (int geom = 0; geom < m.ngeom; ++geom) {
     if (m.geom_type[geom] != mjGEOM_HFIELD) continue;
-    names += (names.empty() ? "" : ", ") + geom_name(robot, geom);
+    names += (names.empty() ? "" : ", ") + geom_name(*robot.model(), geom);
   }
   if (names.empty()) return;
   hurcules_bindings::warn(

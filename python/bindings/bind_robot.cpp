@@ -135,6 +135,11 @@ A constraint is kept where joints follow the coordinates (`followers`) and the c
 than its loop leaves free. '' where all are kept and none is held, or where the model says by tuples
 what its coordinates are.
 )";
+constexpr const char* kUnkeptConstraints =
+    R"(list[str]: equality constraints of the model that the coordinates do not keep.
+
+By name; one without a name by what it ties: 'that of left_hand and right_hand'.
+)";
 
 using FrameJacobian = void (Robot::*)(Frame, MatrixRef) const;
 
@@ -287,6 +292,7 @@ void bind_state(py::class_<Robot>& robot) {
 void bind_kinematics(py::class_<Robot>& robot) {
   const py::arg frame("frame");
   robot.def_property_readonly("left_out", &left_out, kLeftOut);
+  robot.def_property_readonly("unkept_constraints", &unkept_constraints, kUnkeptConstraints);
   robot.def_property_readonly("followers", &followers, kFollowers);
   robot.def("position", by_name(&Robot::position), frame, kPosition)
       .def("orientation", by_name(&Robot::orientation), frame, kOrientation)

@@ -595,6 +595,12 @@ class Robot:
         """n"""
 
     @property
+    def unkept_constraints(self) -> list[str]:
+        """list[str]: equality constraints of the model that the coordinates do not keep.
+
+        By name; one without a name by what it ties: 'that of left_hand and right_hand'."""
+
+    @property
     def velocity(self) -> NDArray[np.float64]:
         """(n,) [rad/s] or [m/s]"""
 

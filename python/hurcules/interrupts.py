@@ -14,6 +14,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
+from hurcules.outlet import to_nowhere
+
 __all__ = ["Interrupts", "as_ctrl_c"]
 
 ENDS = (signal.SIGTERM, signal.SIGHUP)
@@ -80,10 +82,8 @@ def _leave_lost_terminal(number: int) -> None:
     """After a SIGHUP: what is printed goes nowhere, where it went to a terminal that is gone."""
     if number != signal.SIGHUP:
         return
-    nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (1, 2):
         try:
             os.write(stream, b"")
         except OSError:
-            os.dup2(nowhere, stream)
-    os.close(nowhere)
+            to_nowhere(stream)

@@ -10,7 +10,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TextIO, cast
 
-__all__ = ["Outlet", "outlet"]
+__all__ = ["Outlet", "outlet", "to_nowhere"]
+
+
+def to_nowhere(stream: int) -> None:
+    """What goes to this file descriptor goes nowhere from here on."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, stream)
+    os.close(nowhere)
 
 
 class Outlet:
@@ -42,9 +49,7 @@ class Outlet:
     def _end(self, error: OSError) -> None:
         if error.errno != errno.EPIPE:
             self.lost = f"cannot write standard output: {error.strerror}"
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, self._stream.fileno())  # what is buffered goes there too
-        os.close(nowhere)
+        to_nowhere(self._stream.fileno())  # what is buffered goes there too
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from collections.abc import Iterator
 
@@ -64,7 +63,7 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
     yield from _switched_off(model, controller)
-    yield from _unkept(model, controller)
+    yield from _unkept(controller)
     if any(model.tuple(i).name.startswith("track_") for i in range(model.ntuple)):
         yield from _settings(model)
     elif (floats := _floats(model, controller)) and not _falls(model):
@@ -173,27 +172,14 @@ def _switched_off(model: mujoco.MjModel, controller: WholeBodyController) -> Ite
         )
 
 
-def _unkept(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+def _unkept(controller: WholeBodyController) -> Iterator[str]:
     """Constraints of the physics of which the plan knows nothing."""
-    _, _, names = controller.plan.left_out.partition("coordinates do not keep: ")
-    names = re.sub(r"number (\d+)", lambda one: _ends(model, int(one[1])), names.partition(";")[0])
-    if names:
+    if names := ", ".join(controller.plan.unkept_constraints):
         yield (
             f"the physics keeps constraints that the plan does not: {names}. The robot pulls at "
             'them and may not arrive; active="false" switches one off (of a mocap body that '
             "holds a hand), a RelativePoseTask leads one hand as the other (that hold one thing)"
         )
-
-
-def _ends(model: mujoco.MjModel, equality: int) -> str:
-    """A constraint without a name, by what it ties."""
-    kind = {
-        int(mujoco.mjtEq.mjEQ_JOINT): mujoco.mjtObj.mjOBJ_JOINT,
-        int(mujoco.mjtEq.mjEQ_TENDON): mujoco.mjtObj.mjOBJ_TENDON,
-    }.get(int(model.eq_type[equality]), int(model.eq_objtype[equality]))
-    ends = (int(model.eq_obj1id[equality]), int(model.eq_obj2id[equality]))
-    names = [mujoco.mj_id2name(model, kind, end) or f"number {end}" for end in ends if end >= 0]
-    return f"that of {' and '.join(names)}"
 
 
 def _settings(model: mujoco.MjModel) -> Iterator[str]:

@@ -39,10 +39,12 @@ PHYSICS = {"robot", "sim"}
 # the parts of the Python packages from the ground up: each may import what stands on lower floors
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
-        "_core", "_exec", "_moved", "decimate", "extras", "figures", "interrupts", "legend",
+        "_core", "_exec", "_moved", "decimate", "extras", "figures", "legend",
         "opengl", "outlet", "plugins", "running_gear",
     )},
-    {"hurcules.mission_drawing", "hurcules.toml_rows", "hurcules.validation"},
+    {"hurcules." + name for name in (
+        "interrupts", "mission_drawing", "toml_rows", "validation",
+    )},
     {"hurcules." + name for name in (
         "_pickles", "_reprs", "_subclasses", "_version", "casualties", "ik", "mission_options",
         "mission_table", "motors", "output", "postures", "rendering", "rhqp", "sensors",

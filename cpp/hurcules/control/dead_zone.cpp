@@ -11,7 +11,7 @@ namespace {
 constexpr double kOpens = 0.02, kWide = 0.1;  // w at which a zone opens, and is open
 constexpr double kNearLimit = 0.02;  // [rad] or [m] from a limit: a joint begins to be held
 constexpr double kFreeJoint = 1e-6;  // what the rows above leave of a joint
-constexpr double kRank = 1e-10;      // as the solver's, of rows of length 1
+constexpr double kRank = 1e-10;      // as the solver's
 constexpr double kSaddleBegins = 0.025, kSaddle = 0.075;  // d [1/rad]
 constexpr double kLooks = 0.05;   // share that a zone takes from which on a saddle is looked for
 constexpr double kNoPull = 1e-7;  // slope below which the pull has no direction
@@ -27,9 +27,10 @@ bool is_equality(const Level& level, Index row) {
 }  // namespace
 
 void DeadZone::set_stack(const Stack& stack, Index n) {
-  known_ = Matrix::Zero(n, n);
-  sources_.resize(static_cast<std::size_t>(n));
-  pull_ = direction_ = parts_ = held_ = nudge_ = off_ = Vector::Zero(n);
+  known_.resize(n);
+  held_ = Matrix::Zero(n, n);
+  held_sources_.resize(static_cast<std::size_t>(n));
+  pull_ = direction_ = held_shares_ = nudge_ = off_ = Vector::Zero(n);
   shares_.assign(stack.levels().size(), 1.0);
   pressed_ = Eigen::MatrixXi::Zero(static_cast<Index>(shares_.size()), n);
   apart_.clear();
@@ -53,7 +54,7 @@ void DeadZone::set_stack(const Stack& stack, Index n) {
 
 void DeadZone::apply(std::span<const double> weights, std::span<const double> gains,
                      const JointLimits* limits, SaddleProbe* probe, Hierarchy& hierarchy) {
-  rank_ = 0;
+  known_.truncate(0);
   pressed_.setZero();
   nudge_.setZero();
   double above = 0.0;  // the largest w of the levels above
@@ -65,12 +66,12 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
     if (level.bounds) continue;
     const double open = std::clamp((weights[k] - kOpens) / (kWide - kOpens), 0.0, 1.0);
     const double eps = kZone + (kZoneBelow - kZone) * above;
-    if (open > 0.0 && !(rank_ == 0 && apart_[k])) {
+    if (open > 0.0 && !(known_.rank() == 0 && apart_[k])) {
       const double slope = slope_of(k, hierarchy, limits);
       const double taken = slope > eps * open ? eps * open / slope : 1.0;
       shares_[k] = 1.0 - taken;
       const double looks = (1.0 - above) * std::clamp(taken / kLooks - 1.0, 0.0, 1.0);
-      const Index known = rank_;
+      const Index above_here = known_.rank();
       keep_held();
       if (probe && looks > 0.0 && !apart_[k])
         shares_[k] += looks * taken * saddle_at(k, hierarchy, gains[k], *probe);
@@ -78,7 +79,7 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
         const double weakest = add_rows(level, kRank) / (eps * lever_);
         below = 1.0 - (1.0 - shares_[k]) * std::max(0.0, 1.0 - weakest);
       }
-      rank_ = known;
+      known_.truncate(above_here);
     }
     shares_[k] *= calm;
     calm *= below;
@@ -89,7 +90,7 @@ void DeadZone::apply(std::span<const double> weights, std::span<const double> ga
       const double length = direction_.norm();
       if (k + 1 == hierarchy.size() || length == 0.0) continue;
       direction_ /= length;
-      if (add_direction()) source(rank_ - 1) = {k, row};
+      known_.add(direction_, {k, row});
     }
     above = std::max(above, weights[k]);
   }
@@ -104,8 +105,8 @@ void DeadZone::add_held(Eigen::VectorXi& held) const {
 
 double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const JointLimits* limits) {
   find_pull(hierarchy[k], tasks_[k]);
-  remove_known(pull_);
-  last_ = rank_;
+  known_.remove_from(pull_);
+  held_count_ = 0;
   if (limits) hold_pressed_joints(k, *limits);
   for (std::size_t j = 0; j < k; ++j)
     if (!hierarchy[j].bounds) hold_pressed_rows(j, hierarchy[j]);
@@ -115,10 +116,10 @@ double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const Joint
 
 double DeadZone::saddle_at(std::size_t k, const Hierarchy& hierarchy, double gain,
                            SaddleProbe& probe) {
-  const Index kept = rank_;
+  const Index kept = known_.rank();
   add_rows(hierarchy[k], kWeak * lever_);
   off_ = pull_;
-  remove_known(off_);
+  known_.remove_from(off_);
   const double most = asked_ * lever_, length = off_.norm();
   double saddle = 0.0;
   if (length > kNoPull * most) {
@@ -128,7 +129,7 @@ double DeadZone::saddle_at(std::size_t k, const Hierarchy& hierarchy, double gai
     for (Index i = 0; i < off_.size() && saddle < 1.0; ++i) {
       off_.setZero();
       off_[i] = 1.0;
-      remove_known(off_);
+      known_.remove_from(off_);
       if (off_.norm() < kFreeJoint) continue;
       off_ /= off_.norm();
       const double here = saddle_along(k, hierarchy, kept, gain, probe);
@@ -136,7 +137,7 @@ double DeadZone::saddle_at(std::size_t k, const Hierarchy& hierarchy, double gai
       saddle = std::max(saddle, here);
     }
   }
-  rank_ = kept;
+  known_.truncate(kept);
   return saddle;
 }
 
@@ -146,16 +147,16 @@ double DeadZone::saddle_along(std::size_t k, const Hierarchy& hierarchy, Index k
   // what bends the way so that what is known stays as it is, one after the other
   direction_.setZero();
   for (Index j = 0; j < kept; ++j) {
-    const auto [from, row] = source(j);
+    const auto [from, row] = known_.source(j);
     const bool joint = from == kJoint;
     const auto along = [&](const auto& v) {
       return joint ? v[row] : hierarchy[from].A.row(row).dot(v);
     };
     const double length = joint ? 1.0 : hierarchy[from].A.row(row).norm();
-    const double leverage = along(known_.row(j));
+    const double leverage = along(known_.direction(j));
     if (leverage < kFreeJoint * length) continue;
     const double left = along(direction_) + (joint ? 0.0 : probe.drift(from)[row]);
-    direction_ -= left / leverage * known_.row(j).transpose();
+    direction_ -= left / leverage * known_.direction(j).transpose();
   }
   const Level& level = hierarchy[k];
   double growth = 0.0;
@@ -171,11 +172,10 @@ double DeadZone::saddle_along(std::size_t k, const Hierarchy& hierarchy, Index k
 
 // to what is known: what limits hold, where they hold more than half of it
 void DeadZone::keep_held() {
-  for (Index j = rank_; j < last_; ++j) {
-    if (held_[j] < 0.5) continue;
-    direction_ = known_.row(j);
-    const Source from = source(j);
-    if (add_direction()) source(rank_ - 1) = from;
+  for (Index j = 0; j < held_count_; ++j) {
+    if (held_shares_[j] < 0.5) continue;
+    direction_ = held_.row(j);
+    known_.add(direction_, held_sources_[static_cast<std::size_t>(j)]);
   }
 }
 
@@ -184,23 +184,10 @@ void DeadZone::keep_held() {
 double DeadZone::add_rows(const Level& level, double least) {
   auto left = left_.topRows(level.rows());
   for (Index row = 0; row < level.rows(); ++row) {
-    direction_.setZero();
-    if (is_equality(level, row)) direction_ = level.A.row(row);
-    remove_known(direction_);
-    left.row(row) = direction_;
+    left.row(row).setZero();
+    if (is_equality(level, row)) left.row(row) = level.A.row(row);
   }
-  double weakest = lever_;
-  for (Index count = 0; count < level.rows() && rank_ < known_.rows(); ++count) {
-    Index strongest = 0;
-    const double length = std::sqrt(left.rowwise().squaredNorm().maxCoeff(&strongest));
-    if (length < least) break;
-    weakest = length;
-    known_.row(rank_) = left.row(strongest) / length;
-    for (Index row = 0; row < level.rows(); ++row)
-      left.row(row) -= left.row(row).dot(known_.row(rank_)) * known_.row(rank_);
-    ++rank_;
-  }
-  return weakest;
+  return known_.add_rows(left, least, lever_);
 }
 
 // A'y, |y| and S of the equality rows
@@ -249,39 +236,18 @@ void DeadZone::hold_pressed_rows(std::size_t k, const Level& level) {
 }
 
 // takes so much of direction_, of length 1, from the pull
-void DeadZone::hold_direction(double held, Source from) {
-  if (last_ == known_.rows()) return;
-  remove_known(direction_);
-  for (Index j = rank_; j < last_; ++j)
-    direction_ -= held_[j] * known_.row(j).dot(direction_) * known_.row(j).transpose();
+void DeadZone::hold_direction(double share, RowSpace::Source from) {
+  if (known_.rank() + held_count_ == held_.rows()) return;
+  known_.remove_from(direction_);
+  for (Index j = 0; j < held_count_; ++j)
+    direction_ -= held_shares_[j] * held_.row(j).dot(direction_) * held_.row(j).transpose();
   const double length = direction_.norm();
   if (length < kFreeJoint) return;
   direction_ /= length;
-  pull_ -= held * direction_.dot(pull_) * direction_;
-  held_[last_] = held;
-  source(last_) = from;
-  known_.row(last_++) = direction_;
-}
-
-// direction_, of length 1, unless it is known already
-bool DeadZone::add_direction() {
-  if (rank_ == known_.rows()) return false;
-  remove_known(direction_);
-  double length = direction_.norm();
-  if (length < kRank) return false;
-  direction_ /= length;
-  if (length < 0.5) {  // what cancelled left rounding behind
-    remove_known(direction_);
-    length = direction_.norm();
-    direction_ /= length;
-  }
-  known_.row(rank_++) = direction_;
-  return true;
-}
-
-void DeadZone::remove_known(VectorRef direction) {
-  for (Index j = 0; j < rank_; ++j) parts_[j] = known_.row(j).dot(direction);
-  for (Index j = 0; j < rank_; ++j) direction -= parts_[j] * known_.row(j).transpose();
+  pull_ -= share * direction_.dot(pull_) * direction_;
+  held_shares_[held_count_] = share;
+  held_sources_[static_cast<std::size_t>(held_count_)] = from;
+  held_.row(held_count_++) = direction_;
 }
 
 }  // namespace hurcules

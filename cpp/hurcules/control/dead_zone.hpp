@@ -34,9 +34,9 @@
 
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "hurcules/control/row_space.hpp"
 #include "hurcules/control/saddle_probe.hpp"
 #include "hurcules/control/stack.hpp"
 #include "hurcules/solver/hierarchy.hpp"
@@ -68,7 +68,7 @@ class DeadZone {
   void add_held(Eigen::VectorXi& held) const;
 
  private:
-  using Source = std::pair<std::size_t, Index>;  // a level and its row, or kJoint and a coordinate
+  // the level of a direction that a joint at its limit takes, instead of a row
   static constexpr std::size_t kJoint = std::numeric_limits<std::size_t>::max();
 
   // the slope of a level; leaves its pull
@@ -77,7 +77,7 @@ class DeadZone {
   // 1 where the level whose pull is known stands at a saddle, 0 where not; nudges it off one
   [[nodiscard]] double saddle_at(std::size_t k, const Hierarchy& hierarchy, double gain,
                                  SaddleProbe& probe);
-  // the same along off_; kept: how much of what is known stays as it is
+  // the same along off_; kept: how many of the known directions stay as they are
   [[nodiscard]] double saddle_along(std::size_t k, const Hierarchy& hierarchy, Index kept,
                                     double gain, SaddleProbe& probe);
   void keep_held();
@@ -85,21 +85,18 @@ class DeadZone {
   void find_pull(const Level& level, const std::vector<const Task*>& tasks);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
   void hold_pressed_rows(std::size_t k, const Level& level);
-  void hold_direction(double held, Source from);
-  [[nodiscard]] Source& source(Index j) { return sources_[static_cast<std::size_t>(j)]; }
-  bool add_direction();
-  void remove_known(VectorRef direction);
+  void hold_direction(double share, RowSpace::Source from);
 
-  Matrix known_;                 // (n, n): orthonormal rows, the first rank_ count
-  std::vector<Source> sources_;  // of each
-  Index rank_ = 0;
-  Index last_ = 0;                    // known, and held by limits
+  RowSpace known_;      // what the equality rows above move in
+  Matrix held_;         // (n, n): orthonormal rows that limits hold, the first held_count_ count
+  Vector held_shares_;  // (n): how much of each, 0 to 1
+  std::vector<RowSpace::Source> held_sources_;  // of each
+  Index held_count_ = 0;
   Vector pull_;                       // p (n)
-  Vector direction_, parts_;          // scratch (n)
+  Vector direction_;                  // scratch (n)
   Vector nudge_, off_;                // (n); off_: scratch
   Matrix left_;                       // scratch (rows, n)
   double asked_ = 0.0, lever_ = 0.0;  // |y|, S
-  Vector held_;                       // (n): how much of each further row of known_ counts
   std::vector<double> shares_;
   std::vector<std::vector<const Task*>> tasks_;  // of each level
   std::vector<bool> apart_;                      // levels whose rows stand apart

@@ -13,16 +13,12 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/motor.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::string name_of(const mjModel& m, int type, int id) {
-  const char* name = mj_id2name(&m, type, id);
-  return name && *name ? name : "joint" + std::to_string(id);
-}
 
 // "left_coordinate_HIP" without "coordinate_" is "left_HIP"
 std::optional<std::string> without(const char* name, const std::string& marker) {
@@ -126,7 +122,7 @@ int free_joint_of(const mjModel& m, const std::vector<Coordinate>& coordinates) 
   const int joint = m.body_jntnum[root] > 0 ? m.body_jntadr[root] : -1;
   require(joint >= 0 && m.jnt_type[joint] == mjJNT_FREE,
           "a robot that floats wants a free joint at its root; body '" +
-              name_of(m, mjOBJ_BODY, root) +
+              name_or_number(m, mjOBJ_BODY, root) +
               "' has none: MJCF gives it one by <freejoint/>, hurcules.load_urdf(path, "
               "floating=True) to a URDF");
   return joint;
@@ -363,7 +359,8 @@ std::string part_name(const mjModel& m, int joint, int part) {
 }
 
 std::string joint_name(const mjModel& m, int joint) {
-  return name_of(m, mjOBJ_JOINT, joint);
+  const std::string name = name_of(m, mjOBJ_JOINT, joint);
+  return name.empty() ? "joint" + std::to_string(joint) : name;
 }
 
 bool names_coordinates(const mjModel& m) {

@@ -9,6 +9,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/geom_bounds.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -77,14 +78,6 @@ std::vector<GeomPair> named_geom_pairs(
       for (const int b : theirs) pairs.push_back({a, b});
   }
   return pairs;
-}
-
-std::string geom_name(const Robot& robot, int geom) {
-  const mjModel& m = *robot.model();
-  const char* const name = mj_id2name(&m, mjOBJ_GEOM, geom);
-  if (name && *name) return name;
-  const char* const body = mj_id2name(&m, mjOBJ_BODY, m.geom_bodyid[geom]);
-  return "geom " + std::to_string(geom) + (body && *body ? " of " + std::string(body) : "");
 }
 
 GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, double most,
@@ -429,9 +422,8 @@ void GeomDistance::set_motion(int id, const BodyMotion& motion, Source source) {
     body.angular = motion.angular;
   }
   if (found) return;  // no text in a tick
-  const char* const name = mj_id2name(&m, mjOBJ_BODY, id);
   std::string text = "body ";
-  text += name && *name ? name : std::to_string(id);
+  text += name_or_number(m, mjOBJ_BODY, id);
   throw Error(text + " is in no pair");
 }
 

@@ -34,8 +34,6 @@ struct GeomPair {
 // that no coordinate moves against each other.
 [[nodiscard]] std::vector<GeomPair> named_geom_pairs(
     const Robot& robot, const std::vector<std::pair<std::string, std::string>>& names);
-// "geom 7" for one without a name
-[[nodiscard]] std::string geom_name(const Robot& robot, int geom);
 
 // Where a body is and how it moves that the coordinates do not move.
 struct BodyMotion {

@@ -9,15 +9,11 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
 namespace {
-
-std::string name_of(const mjModel* m, int type, int id) {
-  const char* const name = mj_id2name(m, type, id);
-  return name ? name : "";
-}
 
 void require_affine(const mjModel* m, int actuator, const std::string& joint) {
   const bool affine = m->actuator_gaintype[actuator] == mjGAIN_FIXED &&
@@ -26,7 +22,7 @@ void require_affine(const mjModel* m, int actuator, const std::string& joint) {
                        m->actuator_biastype[actuator] == mjBIAS_AFFINE) &&
                       m->actuator_gainprm[mjNGAIN * actuator] != 0.0;
   require(affine,
-          "the actuator '" + name_of(m, mjOBJ_ACTUATOR, actuator) + "' of joint '" + joint +
+          "the actuator '" + name_of(*m, mjOBJ_ACTUATOR, actuator) + "' of joint '" + joint +
               "' wants to be a motor, or a position or velocity servo without a state of its "
               "own (muscle, filter, integrator): the joint servo commands effort. Take the "
               "actuator out of the model, and hurcules.with_motors gives the joint a motor");
@@ -36,7 +32,7 @@ JointActuator read(const mjModel* m, int a) {
   JointActuator found;
   found.actuator = a;
   found.joint_id = m->actuator_trnid[2 * a];
-  found.joint = name_of(m, mjOBJ_JOINT, found.joint_id);
+  found.joint = name_of(*m, mjOBJ_JOINT, found.joint_id);
   require_affine(m, a, found.joint);
   found.qpos = m->jnt_qposadr[found.joint_id];
   found.dof = m->jnt_dofadr[found.joint_id];
@@ -54,7 +50,7 @@ JointActuator read(const mjModel* m, int a) {
   const bool ball = m->jnt_type[found.joint_id] == mjJNT_BALL;
   if (ball) {
     const int axis = axis_of(*m, a);
-    require(axis >= 0, "the actuator '" + name_of(m, mjOBJ_ACTUATOR, a) + "' of ball joint '" +
+    require(axis >= 0, "the actuator '" + name_of(*m, mjOBJ_ACTUATOR, a) + "' of ball joint '" +
                            found.joint + "' wants a gear about one axis of its body: 1 0 0, " +
                            "0 1 0 or 0 0 1, and joint instead of jointinparent");
     found.part = kTurns + axis;
@@ -127,7 +123,7 @@ void require_three(const mjModel* m, const std::vector<JointActuator>& actuators
     std::array<int, kParts> count = {};
     for (const JointActuator& one : actuators)
       if (one.joint_id == own.joint_id) ++count[static_cast<std::size_t>(one.part)];
-    const std::string name = name_of(m, mjOBJ_JOINT, own.joint_id);
+    const std::string name = name_of(*m, mjOBJ_JOINT, own.joint_id);
     for (int part = kTurns; part < kParts; ++part)
       require(count[static_cast<std::size_t>(part)] == 1,
               "ball joint '" + name + "' wants three actuators, one about each axis of its " +

@@ -7,6 +7,7 @@
 
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -24,9 +25,16 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string named(const mjModel& m, int type, int id) {
-  const char* const name = mj_id2name(&m, type, id);
-  return name && *name ? name : "number " + std::to_string(id);
+// one without a name by what it ties
+std::string constraint_name(const mjModel& m, int equality) {
+  std::string name = name_of(m, mjOBJ_EQUALITY, equality);
+  if (!name.empty()) return name;
+  const bool joints = m.eq_type[equality] == mjEQ_JOINT;
+  const bool tendons = m.eq_type[equality] == mjEQ_TENDON;
+  const int type = joints ? mjOBJ_JOINT : tendons ? mjOBJ_TENDON : m.eq_objtype[equality];
+  const int first = m.eq_obj1id[equality], second = m.eq_obj2id[equality];
+  name.append("that of ").append(name_or_number(m, type, first));
+  return second < 0 ? name : name.append(" and ").append(name_or_number(m, type, second));
 }
 
 class Kept {
@@ -44,7 +52,7 @@ class Kept {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
       if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
-      if (moves(m_.jnt_bodyid[j])) names.push_back(named(m_, mjOBJ_JOINT, j));
+      if (moves(m_.jnt_bodyid[j])) names.push_back(name_or_number(m_, mjOBJ_JOINT, j));
     }
     return names;
   }
@@ -52,7 +60,7 @@ class Kept {
   [[nodiscard]] std::vector<std::string> constraints() const {
     std::vector<std::string> names;
     for (int i = 0; i < m_.neq; ++i)
-      if (m_.eq_active0[i] && !keeps(i)) names.push_back(named(m_, mjOBJ_EQUALITY, i));
+      if (m_.eq_active0[i] && !keeps(i)) names.push_back(constraint_name(m_, i));
     return names;
   }
 
@@ -62,7 +70,7 @@ class Kept {
     for (int a = 0; a < m_.nu; ++a) {
       const int joint = m_.actuator_trnid[2 * a];
       if (m_.actuator_trntype[a] != mjTRN_JOINT || has(joint)) continue;
-      if (!moves(m_.jnt_bodyid[joint])) names.push_back(named(m_, mjOBJ_JOINT, joint));
+      if (!moves(m_.jnt_bodyid[joint])) names.push_back(name_or_number(m_, mjOBJ_JOINT, joint));
     }
     return names;
   }
@@ -101,6 +109,11 @@ class Kept {
 
 }  // namespace
 
+std::vector<std::string> unkept_constraints(const Robot& robot) {
+  if (names_coordinates(*robot.model())) return {};
+  return Kept(robot).constraints();
+}
+
 std::string left_out(const Robot& robot) {
   const Kept kept(robot);
   if (names_coordinates(*robot.model())) {
@@ -111,7 +124,7 @@ std::string left_out(const Robot& robot) {
            "model's coordinates are of: " + listed(others) +
            "; Robot(model, joints=[...]) is a robot of these";
   }
-  const std::vector<std::string> joints = kept.joints(), constraints = kept.constraints();
+  const std::vector<std::string> joints = kept.joints(), constraints = unkept_constraints(robot);
   std::string text;
   if (!joints.empty()) {
     text = std::to_string(joints.size()) + " joints of the robot are held, they belong to no " +

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hurcules/robot/robot.hpp"
 
 namespace hurcules {
 
-// Joints of the trees that the coordinates move which belong to no coordinate (but the free joint of
-// a root), and equality constraints on these trees that the coordinates do not keep: connect, weld,
-// tendon, and joints coupled by a curve. "" where there is neither, or the model says by tuples what
-// its coordinates are.
+// Equality constraints on the trees that the coordinates move, which these do not keep: connect,
+// weld, tendon, and joints coupled by a curve. By name, else by what they tie. None where the model
+// says by tuples what its coordinates are.
+[[nodiscard]] std::vector<std::string> unkept_constraints(const Robot& robot);
+// In words: those, and joints of these trees that belong to no coordinate (but the free joint of a
+// root); where the model names its coordinates, joints with actuators beside them. "" where there is
+// nothing.
 [[nodiscard]] std::string left_out(const Robot& robot);
 
 }  // namespace hurcules

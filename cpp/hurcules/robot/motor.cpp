@@ -9,6 +9,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -69,8 +70,7 @@ EffortRange MotorLimits::at(double velocity) const {
 
 int find_numeric(const mjModel* m, const std::string& marker, const std::string& joint) {
   for (int i = 0; i < m->nnumeric; ++i) {
-    const char* const found = mj_id2name(m, mjOBJ_NUMERIC, i);
-    const std::string name = found ? found : "";
+    const std::string name = name_of(*m, mjOBJ_NUMERIC, i);
     const std::size_t at = name.find(marker);
     if (at == std::string::npos) continue;
     if (name.substr(0, at) + name.substr(at + marker.size()) == joint) return i;
@@ -82,8 +82,7 @@ MotorLimits read_motor_limits(const mjModel* m, int actuator) {
   require(actuator >= 0 && actuator < m->nu && moves_joint(m, actuator),
           "a motor wants to be an actuator of a joint, number " + std::to_string(actuator) +
               " of " + std::to_string(m->nu) + " is none");
-  const char* const name = mj_id2name(m, mjOBJ_JOINT, m->actuator_trnid[2 * actuator]);
-  const std::string joint = name ? name : "";
+  const std::string joint = name_of(*m, mjOBJ_JOINT, m->actuator_trnid[2 * actuator]);
   MotorLimits limits;
   limits.peak = peak_effort(m, actuator);
   limits.speed = find_limit(m, "velocity_limit_", joint);

@@ -2,6 +2,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include <utility>
+
 #include "hurcules/base/error.hpp"
 
 namespace hurcules {
@@ -33,11 +35,29 @@ int count(const mjModel& m, int type) {
 
 }  // namespace
 
+std::string name_of(const mjModel& m, int type, int id) {
+  const char* const name = mj_id2name(&m, type, id);
+  return name ? name : "";
+}
+
+std::string name_or_number(const mjModel& m, int type, int id) {
+  std::string name = name_of(m, type, id);
+  return name.empty() ? "number " + std::to_string(id) : name;
+}
+
+std::string geom_name(const mjModel& m, int geom) {
+  std::string name = name_of(m, mjOBJ_GEOM, geom);
+  if (!name.empty()) return name;
+  const std::string body = name_of(m, mjOBJ_BODY, m.geom_bodyid[geom]);
+  name.append("geom ").append(std::to_string(geom));
+  return body.empty() ? name : name.append(" of ").append(body);
+}
+
 std::vector<std::string> names_of(const mjModel& m, std::initializer_list<int> types) {
   std::vector<std::string> found;
   for (const int type : types)
     for (int i = 0; i < count(m, type); ++i)
-      if (const char* name = mj_id2name(&m, type, i); name && *name) found.emplace_back(name);
+      if (std::string name = name_of(m, type, i); !name.empty()) found.push_back(std::move(name));
   return found;
 }
 

@@ -114,8 +114,7 @@ Frame Robot::support() const {
 }
 
 std::string Robot::support_name() const {
-  const char* const name = support_ < 0 ? nullptr : mj_id2name(model_.get(), mjOBJ_BODY, support_);
-  return name ? name : "";
+  return support_ < 0 ? "" : name_of(*model_, mjOBJ_BODY, support_);
 }
 
 std::vector<std::string> Robot::coordinate_names() const {
@@ -252,8 +251,7 @@ void Robot::stand_on(const std::string& body) {
 void Robot::stand_on(Frame frame) {
   const mjModel& m = *model_;
   require(is_body(frame) && frame.id < m.nbody, "a robot stands on a body of its model");
-  const char* const text = mj_id2name(&m, mjOBJ_BODY, frame.id);
-  const std::string body = text ? text : "";
+  const std::string body = name_of(m, mjOBJ_BODY, frame.id);
   const int root = m.body_rootid[frame.id];
   require(size() > 0 && root == root_body(),
           "'" + body + "' belongs to another tree than the coordinates");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 namespace {
@@ -22,8 +23,7 @@ int spring_hinge(const mjModel& m, const std::string& name) {
   std::vector<std::string> springs;
   for (int j = 0; j < m.njnt; ++j) {
     if (m.jnt_type[j] != mjJNT_HINGE || m.jnt_stiffness[j] <= 0.0) continue;
-    const char* const found = mj_id2name(&m, mjOBJ_JOINT, j);
-    springs.emplace_back(found ? found : "");
+    springs.push_back(name_of(m, mjOBJ_JOINT, j));
     if (springs.back() == name) return j;
   }
   throw Error(unknown_name("hinge with a spring", name, springs));

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/motor.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -49,9 +50,9 @@ Brakes::Brakes(const mjModel* m, const BrakeOptions& options)
   for (int actuator = 0; actuator < m->nu; ++actuator) {
     const int dof = braked_dof(m, actuator);
     if (dof < 0 || brake_of_dof_[static_cast<std::size_t>(dof)] >= 0) continue;  // one a joint
-    const char* const name = mj_id2name(m, mjOBJ_JOINT, m->dof_jntid[dof]);
     brakes_[static_cast<std::size_t>(actuator)] = {
-        name ? name : "", dof, options.strength * read_motor_limits(m, actuator).peak};
+        name_of(*m, mjOBJ_JOINT, m->dof_jntid[dof]), dof,
+        options.strength * read_motor_limits(m, actuator).peak};
     brake_of_dof_[static_cast<std::size_t>(dof)] = actuator;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
@@ -80,8 +81,7 @@ CasualtyMonitor::CasualtyMonitor(const mjModel* m, const std::string& prefix, do
   head_ = row_of(m, prefix + "head_acceleration");
   std::vector<double> limits;
   for (int i = 0; i < m->nbody; ++i) {
-    const char* const text = mj_id2name(m, mjOBJ_BODY, i);
-    const std::string name = text ? text : "";
+    const std::string name = name_of(*m, mjOBJ_BODY, i);
     if (m->body_rootid[i] != root_ || name.rfind(prefix, 0) != 0) continue;
     const std::string region = name.substr(prefix.size());
     if (mj_name2id(m, mjOBJ_SENSOR, (prefix + "force_" + region).c_str()) < 0) continue;

@@ -8,6 +8,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -17,9 +18,9 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // reads `transmission_JOINT`; false without one
 bool read_transmission(const mjModel* m, int joint, Transmission& found) {
-  const char* const name = mj_id2name(m, mjOBJ_JOINT, joint);
-  const std::string marker = "transmission_", numeric = marker + (name ? name : "");
-  const int id = find_numeric(m, marker, name ? name : "");
+  const std::string marker = "transmission_", name = name_of(*m, mjOBJ_JOINT, joint);
+  const std::string numeric = marker + name;
+  const int id = find_numeric(m, marker, name);
   if (id < 0) return false;
   require(m->numeric_size[id] == 5,
           "numeric '" + numeric +

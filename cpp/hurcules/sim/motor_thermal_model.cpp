@@ -6,6 +6,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -28,8 +29,7 @@ MotorThermalModel::MotorThermalModel(const mjModel* m, const MotorLosses& losses
         std::isfinite(limits.peak) ? motor.power.heat(options.continuous * limits.peak) : 0.0;
     if (heat > 0.0) motor.resistance = (options.limit - options.ambient) / heat;
     motors_.push_back(motor);
-    const char* const name = mj_id2name(m, mjOBJ_JOINT, m->actuator_trnid[2 * actuator]);
-    names_.emplace_back(name ? name : "");
+    names_.push_back(name_of(*m, mjOBJ_JOINT, m->actuator_trnid[2 * actuator]));
   }
   temperature_ = Vector::Constant(static_cast<Index>(motors_.size()), options.ambient);
 }

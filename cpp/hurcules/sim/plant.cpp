@@ -9,6 +9,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
@@ -121,8 +122,7 @@ const std::vector<ActuatorStatus>& Plant::actuators() {
 int Plant::find_keyframe(const std::string& text) const {
   std::vector<std::string> names;
   for (int key = 0; key < model_->nkey; ++key) {
-    const char* const name = mj_id2name(model_.get(), mjOBJ_KEY, key);
-    names.emplace_back(name ? name : "");
+    names.push_back(name_of(*model_, mjOBJ_KEY, key));
     if (names.back().find(text) != std::string::npos) return key;
   }
   throw Error(unknown_name("keyframe", text, names));

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/robot/geom_bounds.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -39,11 +40,6 @@ int joints_between(const mjModel* m, int a, int b) {
     lower = m->body_parentid[lower];
   }
   return joints;
-}
-
-std::string name_of(const mjModel* m, int geom) {
-  const char* const name = mj_id2name(m, mjOBJ_GEOM, geom);
-  return name ? name : "geom " + std::to_string(geom);
 }
 
 }  // namespace
@@ -96,7 +92,7 @@ double SelfDistance::measure(const mjModel* m, mjData* d) {
 std::vector<std::pair<std::string, std::string>> SelfDistance::names(const mjModel* m) const {
   std::vector<std::pair<std::string, std::string>> names;
   for (const Pair& pair : pairs_) {
-    names.emplace_back(name_of(m, pair.first), name_of(m, pair.second));
+    names.emplace_back(geom_name(*m, pair.first), geom_name(*m, pair.second));
   }
   return names;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -13,11 +14,6 @@ namespace hurcules {
 namespace {
 
 using Array = SensorSource::Array;
-
-std::string name_of(const mjModel* m, int type, int id) {
-  const char* const name = mj_id2name(m, type, id);
-  return name ? name : "";
-}
 
 void add(SensorSetup& setup, const std::string& entry, SensorSource source) {
   setup.entries.push_back(entry);
@@ -37,7 +33,7 @@ SensorSetup encoders(const mjModel* m, const std::vector<int>& roots, bool speed
   for (const int joint : encoder_joints(m, roots)) {
     const SensorSource source = speed ? SensorSource{Array::Velocity, m->jnt_dofadr[joint], 1.0}
                                       : SensorSource{Array::Position, m->jnt_qposadr[joint], 1.0};
-    add(setup, name_of(m, mjOBJ_JOINT, joint), source);
+    add(setup, name_of(*m, mjOBJ_JOINT, joint), source);
   }
   return setup;
 }
@@ -66,7 +62,7 @@ bool is_on(const mjModel* m, int sensor, const std::vector<int>& roots) {
 SensorSetup inertial(const mjModel* m, const std::vector<int>& roots, int type, SensorSetup setup) {
   for (int s = 0; s < m->nsensor; ++s) {
     if (m->sensor_type[s] != type || !is_on(m, s, roots)) continue;
-    if (!name_of(m, mjOBJ_SENSOR, s).ends_with(setup.name)) continue;
+    if (!name_of(*m, mjOBJ_SENSOR, s).ends_with(setup.name)) continue;
     add_axes(setup, "", Array::Sensor, m->sensor_adr[s]);
     break;
   }
@@ -80,7 +76,7 @@ SensorSetup loads(const mjModel* m, const std::vector<int>& roots) {
     if (m->sensor_type[s] != mjSENS_CONTACT || !is_on(m, s, roots)) continue;
     if (!(data & (1 << mjCONDATA_FORCE)) || m->sensor_intprm[s * mjNSENS + 2] != 1) continue;
     const int skipped = data & (1 << mjCONDATA_FOUND) ? 1 : 0;
-    add_axes(setup, name_of(m, mjOBJ_SENSOR, s), Array::Sensor, m->sensor_adr[s] + skipped);
+    add_axes(setup, name_of(*m, mjOBJ_SENSOR, s), Array::Sensor, m->sensor_adr[s] + skipped);
   }
   return setup;
 }
@@ -100,7 +96,7 @@ double track_radius(const mjModel* m, int tuple) {
 SensorSetup track_speeds(const mjModel* m, const std::vector<int>& roots) {
   SensorSetup setup{"track_speed", "m/s", {}, {}};
   for (int tuple = 0; tuple < m->ntuple; ++tuple) {
-    const std::string name = name_of(m, mjOBJ_TUPLE, tuple);
+    const std::string name = name_of(*m, mjOBJ_TUPLE, tuple);
     const std::size_t at = name.find("track_");
     const int first = m->tuple_adr[tuple];
     if (at == std::string::npos || m->tuple_objtype[first] != mjOBJ_JOINT) continue;

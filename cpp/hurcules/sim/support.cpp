@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/sim/readings.hpp"
 
 namespace hurcules {
@@ -13,8 +14,7 @@ namespace {
 std::vector<bool> find_tracks(const mjModel* m) {
   std::vector<bool> found(static_cast<std::size_t>(m->ngeom), false);
   for (int tuple = 0; tuple < m->ntuple; ++tuple) {
-    const char* const name = mj_id2name(m, mjOBJ_TUPLE, tuple);
-    if (std::string(name ? name : "").find("track_") == std::string::npos) continue;
+    if (name_of(*m, mjOBJ_TUPLE, tuple).find("track_") == std::string::npos) continue;
     for (int i = m->tuple_adr[tuple]; i < m->tuple_adr[tuple] + m->tuple_size[tuple]; ++i) {
       if (m->tuple_objtype[i] == mjOBJ_GEOM)
         found[static_cast<std::size_t>(m->tuple_objid[i])] = true;

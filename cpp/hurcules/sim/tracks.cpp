@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/sim/sparse_columns.hpp"
 
 namespace hurcules {
@@ -80,8 +81,7 @@ void keep_down(mjData* d, const mjContact& contact) {
 
 Tracks::Tracks(const mjModel* m) : track_of_geom_(static_cast<std::size_t>(m->ngeom), -1) {
   for (int tuple = 0; tuple < m->ntuple; ++tuple) {
-    const char* const found = mj_id2name(m, mjOBJ_TUPLE, tuple);
-    const std::string name = found ? found : "";
+    const std::string name = name_of(*m, mjOBJ_TUPLE, tuple);
     if (!is_track(name)) continue;
     const int first = m->tuple_adr[tuple], size = m->tuple_size[tuple];
     require(size >= 2 && m->tuple_objtype[first] == mjOBJ_JOINT &&

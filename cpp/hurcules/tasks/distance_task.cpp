@@ -6,6 +6,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -144,7 +145,8 @@ std::string DistanceTask::row_name(const Robot& robot, Index row) const {
   const Index index = pair(row);
   if (index < 0) return name_;
   const GeomPair& geoms = pairs()[static_cast<std::size_t>(index)];
-  return name_ + " (" + geom_name(robot, geoms.first) + ", " + geom_name(robot, geoms.second) + ")";
+  return name_ + " (" + geom_name(*robot.model(), geoms.first) + ", " +
+         geom_name(*robot.model(), geoms.second) + ")";
 }
 
 DistanceTask self_collision(const Robot& robot, const CollisionOptions& options) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 
+#include "hurcules/robot/object_names.hpp"
 #include "support/expect.hpp"
 #include "support/no_allocation_guard.hpp"
 #include "support/random_motion.hpp"
@@ -54,7 +55,8 @@ using Names = std::vector<std::pair<std::string, std::string>>;
 Names names_of(const DistanceTask& task, const Robot& robot) {
   Names names;
   for (const GeomPair& pair : task.pairs())
-    names.emplace_back(geom_name(robot, pair.first), geom_name(robot, pair.second));
+    names.emplace_back(geom_name(*robot.model(), pair.first),
+                       geom_name(*robot.model(), pair.second));
   return names;
 }
 
