@@ -72,16 +72,34 @@ void write_events(const Simulation& simulation, std::ostream& out) {
   out << "\n  ]";
 }
 
+bool is_bounded(const hurcules::Figure& figure) {
+  return std::isfinite(figure.least) || std::isfinite(figure.most);
+}
+
+// "at least 0.3, at most 0.5", "" for anything
+std::string wanted(const hurcules::Figure& figure) {
+  std::string words;
+  if (std::isfinite(figure.least)) words = text("at least %.6g", figure.least);
+  if (std::isfinite(figure.most)) {
+    if (!words.empty()) words += ", ";
+    words += text("at most %.6g", figure.most);
+  }
+  return words;
+}
+
 void print_figures(const Simulation& simulation, std::ostream& out) {
-  std::array<char, 120> line{};
-  std::snprintf(line.data(), line.size(), "%-36s %12s %12s\n", "figure", "here", "thesis");
-  out << line.data();
+  const auto line = [&](const std::string& name, const std::string& value,
+                        const std::string& thesis, const std::string& wanted) {
+    std::array<char, 160> words{};
+    std::snprintf(words.data(), words.size(), "%-36s %12s %12s  %s", name.c_str(), value.c_str(),
+                  thesis.c_str(), wanted.c_str());
+    const std::string_view all = words.data();
+    out << all.substr(0, all.find_last_not_of(' ') + 1) << '\n';
+  };
+  line("figure", "here", "thesis", "wanted");
   for (const hurcules::Figure& figure : simulation.figures()) {
-    const std::string value = std::isnan(figure.value) ? "-" : text("%.6g", figure.value);
-    const std::string thesis = std::isnan(figure.thesis) ? "" : text("%.6g", figure.thesis);
-    std::snprintf(line.data(), line.size(), "%-36s %12s %12s\n", figure.name.c_str(), value.c_str(),
-                  thesis.c_str());
-    out << line.data();
+    line(figure.name, std::isnan(figure.value) ? "-" : text("%.6g", figure.value),
+         std::isnan(figure.thesis) ? "" : text("%.6g", figure.thesis), wanted(figure));
   }
 }
 
@@ -124,6 +142,15 @@ void write_json(const Run& run, std::ostream& out) {
     Members thesis(out, "thesis");
     for (const hurcules::Figure& figure : simulation.supervisor()->figures()) {
       if (!std::isnan(figure.thesis)) thesis.add(figure.name, json(figure.thesis));
+    }
+  }
+  {
+    Members wanted(out, "wanted");
+    for (const hurcules::Figure& figure : simulation.figures()) {
+      if (!is_bounded(figure)) continue;
+      std::string bounds = "{\"least\": ";
+      bounds.append(json(figure.least)).append(", \"most\": ").append(json(figure.most));
+      wanted.add(figure.name, bounds + "}");
     }
   }
   {

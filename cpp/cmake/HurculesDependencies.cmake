@@ -1,5 +1,5 @@
 # Eigen, threads and MuJoCo, where pip puts them or where the usual hints point; used by the build and by the installed package.
-# Wants HURCULES_MUJOCO_VERSION; looks in HURCULES_HINTS too.
+# Wants HURCULES_MUJOCO_VERSION; looks in HURCULES_HINTS last.
 find_package(Python 3.11 QUIET COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
 
 # folder of an installed Python package, or "": nothing is imported
@@ -14,8 +14,8 @@ function(hurcules_python_package name folder)
 endfunction()
 
 hurcules_python_package(cmeel HURCULES_CMEEL)
-list(APPEND CMAKE_PREFIX_PATH "${HURCULES_CMEEL}.prefix" ${HURCULES_HINTS})
-find_package(Eigen3 3.4 QUIET NO_MODULE)
+list(APPEND CMAKE_PREFIX_PATH "${HURCULES_CMEEL}.prefix")
+find_package(Eigen3 3.4 QUIET NO_MODULE HINTS ${HURCULES_HINTS})
 if(NOT Eigen3_FOUND)
   message(FATAL_ERROR "Eigen 3.4 is missing. Remedy: pip install cmeel-eigen, or apt-get install libeigen3-dev, "
     "or -DEigen3_DIR=<folder of Eigen3Config.cmake>")

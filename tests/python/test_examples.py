@@ -131,6 +131,11 @@ def follows_a_policy(said: str) -> None:
     assert sagged > 300.0
 
 
+def picks(said: str) -> None:
+    assert re.findall(r"phase (\w+)", said) == ["above", "down", "close", "raise"]
+    assert 0.25 < numbers(r"completed; the cube is (\S+) m up", said)[0] < 0.35
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -152,6 +157,7 @@ RESULTS = {
     "17": rolls,
     "18": wipes,
     "19": follows_a_policy,
+    "20": picks,
 }
 
 

@@ -81,6 +81,8 @@ def test_the_program_gives_the_bits_of_the_command(name: str, tmp_path: Path) ->
     ]
     assert [event["text"] for event in told["events"]] == [event["text"] for event in ran["events"]]
     assert told["figures"].items() <= ran["figures"].items()  # the command adds the battery's
+    assert told["wanted"] == ran["wanted"]
+    assert ("at least" in done.stdout) == bool(ran["wanted"])
 
 
 def test_sensors_and_variation_are_those_of_a_simulation(file: Path, tmp_path: Path) -> None:

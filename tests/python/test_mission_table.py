@@ -155,6 +155,38 @@ phases = ["back"]
         read(held.replace('phases = ["back"]', 'phases = ["home"]'))
 
 
+def test_a_condition_asks_for_a_thing_that_nobody_commands() -> None:
+    """A ball falls past z = 0.3 m after sqrt(2 0.2 m / g), with -sqrt(2 g 0.2 m)."""
+    ball = '<body name="ball" pos="1 0 0.5"><freejoint/><geom size="0.02"/></body></worldbody>'
+    speed = '<sensor><framelinvel name="speed" objtype="body" objname="ball"/></sensor></mujoco>'
+    scene = ARM.replace("</worldbody>", ball).replace("</mujoco>", speed)
+    fallen = ROWS.replace(
+        'done = ["q/j1 <= -0.45 for 0.1 s"]',
+        'done = ["position/ball/z <= 0.3"]',
+    ).replace("q/j2 >= 2.0", "contact_force/lower >= 1")
+    fallen = fallen.replace("seconds = 1.0", "seconds = 0.1").replace('"q/j1"', '"sensor/speed/2"')
+    simulation = loop(fallen.replace("most = -0.4", "most = -1.9"), scene)
+    while simulation.phase == "up":
+        simulation.step(1)
+    assert simulation.time == pytest.approx((2 * 0.2 / 9.81) ** 0.5, abs=0.005)
+    speed_then = -((2 * 9.81 * 0.2) ** 0.5)
+    assert simulation.figures()["reached_rad"] == pytest.approx(speed_then, abs=0.05)
+    log = simulation.log()
+    assert log["position/ball/z"][-1] == pytest.approx(simulation.data.body("ball").xpos[2])
+    assert {"position/ball/x", "sensor/speed/0", "contact_force/lower"} <= set(log)
+    simulation.step(1000)
+    assert simulation.success, simulation.reason
+    for wrong, wanted in (
+        ("position/bal/z", "'position/bal/z': frame 'bal' does not exist; there are: .*ball"),
+        ("position/ball/w", "frame 'ball/w' does not exist"),
+        ("position/ball", "phase 'up': quantity 'position/ball' does not exist"),
+        ("sensor/speed/7", "quantity 'sensor/speed/7' does not exist"),
+        ("joint/j3", "joint 'j3' does not exist; there are: j1, j2"),
+    ):
+        with pytest.raises(Error, match=wanted):
+            loop(fallen.replace("position/ball/z", wrong), scene)
+
+
 def test_a_joint_rests_behind_its_brake_in_the_phases_that_say_so() -> None:
     stiff = 'frictionloss="0.1" solimpfriction="0.9999 0.9999 0.001 0.5 2"'
     rubbing = ARM.replace('axis="0 1 0"', f'axis="0 1 0" {stiff}')

@@ -236,7 +236,7 @@ void DeadZone::hold_pressed_rows(std::size_t k, const Level& level) {
 }
 
 // takes so much of direction_, of length 1, from the pull
-void DeadZone::hold_direction(double share, RowSpace::Source from) {
+void DeadZone::hold_direction(double share, OrthonormalRows::Source from) {
   if (known_.rank() + held_count_ == held_.rows()) return;
   known_.remove_from(direction_);
   for (Index j = 0; j < held_count_; ++j)

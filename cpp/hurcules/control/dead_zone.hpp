@@ -36,7 +36,7 @@
 #include <span>
 #include <vector>
 
-#include "hurcules/control/row_space.hpp"
+#include "hurcules/control/orthonormal_rows.hpp"
 #include "hurcules/control/saddle_probe.hpp"
 #include "hurcules/control/stack.hpp"
 #include "hurcules/solver/hierarchy.hpp"
@@ -85,12 +85,12 @@ class DeadZone {
   void find_pull(const Level& level, const std::vector<const Task*>& tasks);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
   void hold_pressed_rows(std::size_t k, const Level& level);
-  void hold_direction(double share, RowSpace::Source from);
+  void hold_direction(double share, OrthonormalRows::Source from);
 
-  RowSpace known_;      // what the equality rows above move in
-  Matrix held_;         // (n, n): orthonormal rows that limits hold, the first held_count_ count
-  Vector held_shares_;  // (n): how much of each, 0 to 1
-  std::vector<RowSpace::Source> held_sources_;  // of each
+  OrthonormalRows known_;  // what the equality rows above move in
+  Matrix held_;            // (n, n): orthonormal rows that limits hold, the first held_count_ count
+  Vector held_shares_;     // (n): how much of each, 0 to 1
+  std::vector<OrthonormalRows::Source> held_sources_;  // of each
   Index held_count_ = 0;
   Vector pull_;                       // p (n)
   Vector direction_;                  // scratch (n)

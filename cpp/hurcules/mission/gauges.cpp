@@ -1,5 +1,6 @@
 #include "hurcules/mission/gauges.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -9,7 +10,8 @@ namespace hurcules {
 std::vector<Figure> Gauges::figures_of(const MissionTable& table) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<Figure> figures;
-  for (const Measure& measure : table.measures) figures.push_back({measure.name, kNone, kNone});
+  for (const Measure& measure : table.measures)
+    figures.push_back({measure.name, kNone, kNone, measure.least, measure.most});
   return figures;
 }
 
@@ -71,15 +73,13 @@ void Gauges::restore(StateReader& reader) {
   }
 }
 
-std::string out_of_bounds(const std::vector<Measure>& measures,
-                          const std::vector<Figure>& figures) {
-  for (std::size_t i = 0; i < measures.size(); ++i) {
-    const Measure& measure = measures[i];
-    const double value = figures[i].value;
-    if (value >= measure.least && value <= measure.most) continue;
-    const bool high = value > measure.most;
-    return measure.name + " is " + to_text(value) + ", wanted at " + (high ? "most " : "least ") +
-           to_text(high ? measure.most : measure.least);
+std::string out_of_bounds(const std::vector<Figure>& figures) {
+  for (const Figure& figure : figures) {
+    if (std::isinf(figure.least) && std::isinf(figure.most)) continue;
+    if (figure.value >= figure.least && figure.value <= figure.most) continue;
+    const bool high = figure.value > figure.most;
+    return figure.name + " is " + to_text(figure.value) + ", wanted at " +
+           (high ? "most " : "least ") + to_text(high ? figure.most : figure.least);
   }
   return "";
 }

@@ -36,8 +36,7 @@ class Gauges {
 };
 
 // the first figure out of its bounds, in words; "" for none
-[[nodiscard]] std::string out_of_bounds(const std::vector<Measure>& measures,
-                                        const std::vector<Figure>& figures);
+[[nodiscard]] std::string out_of_bounds(const std::vector<Figure>& figures);
 
 // where the log keeps a quantity; throws Error with the columns that exist, `where` for the text
 [[nodiscard]] const double* find_quantity(const Recorder& log, const std::string& quantity,

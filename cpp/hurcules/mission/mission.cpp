@@ -75,9 +75,18 @@ void Mission::attach(const Plant& plant, Recorder& log) {
   scene_.attach(setup_, plant, log);
   find_brakes(plant.brakes());
   for (PhaseRow& row : rows_) row.find_places(plant, root_body_);
+  quantities_.attach(quantities(), plant, log);
   for (PhaseRow& row : rows_) row.find_quantities(log);
   gauges_.attach(table_, log);
   attached_ = true;
+}
+
+std::vector<std::string> Mission::quantities() const {
+  std::vector<std::string> names;
+  for (const PhaseRow& row : rows_)
+    for (std::string& name : row.quantities()) names.push_back(std::move(name));
+  for (const Measure& measure : table_.measures) names.push_back(measure.quantity);
+  return names;
 }
 
 void Mission::find_brakes(const Brakes& brakes) {
@@ -131,6 +140,7 @@ void Mission::reset(WholeBodyController& controller, const Robot& world) {
   answer_.reset();
   paused_ = moved_ = ended_ = false;
   scene_.reset();
+  quantities_.look();
   begin(controller, world);
   enter(0, controller, 0.0);
 }
@@ -176,6 +186,7 @@ void Mission::note_commanded(const WholeBodyController& controller, const TickRe
 
 void Mission::note_measured(const TickReport& report) {
   scene_.look();
+  quantities_.look();
   gauges_.look(phase_, figures_);
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].look(i == phase_);
   measured(report);
@@ -305,7 +316,7 @@ void Mission::tell() {
   const std::string cause = why_.phase > 0 ? words(why_.phase - 1, why_.cause) : "";
   if (why_.final) verdict_ = cause;
   if (why_.final || !ended_) return;
-  verdict_ = out_of_bounds(table_.measures, figures_);
+  verdict_ = out_of_bounds(figures_);
   if (!verdict_.empty() && !cause.empty()) verdict_ += "; " + cause;
 }
 
@@ -331,6 +342,7 @@ void Mission::save(StateWriter& writer) const {
   gauges_.save(writer);
   for (const PhaseRow& row : rows_) row.save(writer);
   scene_.save(writer);
+  quantities_.save(writer);
   save_memory(writer);
 }
 
@@ -358,6 +370,7 @@ void Mission::restore(StateReader& reader) {
   gauges_.restore(reader);
   for (PhaseRow& row : rows_) row.restore(reader);
   scene_.restore(reader);
+  quantities_.restore(reader);
   tell();
   restore_memory(reader);
 }

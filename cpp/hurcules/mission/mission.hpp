@@ -21,6 +21,7 @@
 #include "hurcules/mission/phase_row.hpp"
 #include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/mission/scene_monitors.hpp"
+#include "hurcules/mission/scene_quantities.hpp"
 #include "hurcules/mission/table.hpp"
 #include "hurcules/sim/supervisor.hpp"
 
@@ -82,6 +83,8 @@ class Mission : public Supervisor {
     bool final = false;     // lowered or aborted
   };
   void find_brakes(const Brakes& brakes);
+  // names of what the table asks for
+  [[nodiscard]] std::vector<std::string> quantities() const;
   void enter(std::size_t phase, WholeBodyController& controller, double time);
   [[nodiscard]] bool over(double time);
   // to a trouble, by its number, or to being late; false: the run is over
@@ -103,6 +106,7 @@ class Mission : public Supervisor {
   std::vector<int> brakes_;  // actuators whose brakes the table names
   Gauges gauges_;
   SceneMonitors scene_;
+  SceneQuantities quantities_;
   bool attached_ = false, paused_ = false, ended_ = false;
   bool moved_ = false;  // by somebody else's command while it was paused
   std::optional<bool> answer_;

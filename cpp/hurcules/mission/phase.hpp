@@ -1,6 +1,7 @@
 // One row of a mission's table, as data: which stack rules, what is led where, when it is over, and
 // what happens in trouble. Quantities are columns of the log, by name; those of the mission itself
-// begin with "mission/", those of a casualty with "casualty/".
+// begin with "mission/", those of a casualty with "casualty/", and others of the scene become columns
+// (scene_quantities.hpp).
 #pragma once
 
 #include <limits>

@@ -56,6 +56,17 @@ PhaseRow::Way PhaseRow::way_of(const Lead& lead, const WholeBodyController& cont
   return way;
 }
 
+std::vector<std::string> PhaseRow::quantities() const {
+  std::vector<std::string> names;
+  for (const std::vector<TimedCondition>* conditions : {&done_, &troubles_})
+    for (const TimedCondition& timed : *conditions) names.push_back(timed.condition.quantity);
+  for (const Lead& lead : phase_->leads) {
+    for (const std::string& quantity : lead.to) names.push_back(quantity);
+    names.push_back(lead.hold);
+  }
+  return names;
+}
+
 void PhaseRow::find_quantities(const Recorder& log) {
   const std::string where = "phase '" + phase_->name + "'";
   for (std::vector<TimedCondition>* conditions : {&done_, &troubles_}) {

@@ -18,7 +18,9 @@ class PhaseRow {
  public:
   // Keeps the phase, which check_table has passed. support: body that the robot stands on in it.
   PhaseRow(const Phase& phase, std::string support, const WholeBodyController& controller);
-  // its quantities; throws Error with the columns that exist
+  // names of its quantities
+  [[nodiscard]] std::vector<std::string> quantities() const;
+  // finds them; throws Error with the columns that exist
   void find_quantities(const Recorder& log);
   // its brakes; throws Error with the joints that have one
   void find_brakes(const Brakes& brakes);

@@ -15,8 +15,6 @@ namespace hurcules {
 
 namespace {
 
-enum Source { kPositions, kVelocities, kSensors };
-
 // channels of this name, or all with this part before the "/"
 std::vector<Index> channels_of(const Recorder& recorder, const std::string& name) {
   std::vector<Index> found;
@@ -32,26 +30,6 @@ std::vector<Index> channels_of(const Recorder& recorder, const std::string& name
 
 double part_of(const Excess& excess, Index part) {
   return part == 0 ? excess.position : part == 1 ? excess.velocity : excess.torque;
-}
-
-bool is_below(const mjModel* m, int body, int above) {
-  while (body > above) body = m->body_parentid[body];
-  return body == above;
-}
-
-double force_below(const mjModel* m, const mjData* d, int body) {
-  double sum = 0.0;
-  for (int i = 0; i < d->ncon; ++i) {
-    const mjContact& contact = d->contact[i];
-    if (contact.efc_address < 0 || contact.geom[0] < 0 || contact.geom[1] < 0) continue;
-    const bool first = is_below(m, m->geom_bodyid[contact.geom[0]], body);
-    const bool second = is_below(m, m->geom_bodyid[contact.geom[1]], body);
-    if (first == second) continue;
-    mjtNum force[6];
-    mj_contactForce(m, d, i, force);
-    sum += force[0];
-  }
-  return sum;
 }
 
 int self_contacts(const mjModel* m, const mjData* d, const std::vector<int>& roots) {
@@ -115,21 +93,12 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.places = {std::find(tasks.begin(), tasks.end(), task) - tasks.begin()};
     return found;
   }
-  if (group == "joint" || group == "joint_velocity") {
-    const int joint = find_object(*m, mjOBJ_JOINT, rest);
-    require(m->jnt_type[joint] == mjJNT_HINGE || m->jnt_type[joint] == mjJNT_SLIDE,
-            "quantity '" + name + "' wants a hinge or a slide");
+  // what sensors of the simulation say is a channel
+  const bool says = group == "sensor" && mj_name2id(m, mjOBJ_SENSOR, rest.c_str()) < 0;
+  if (const auto data = says ? std::nullopt : DataQuantity::find(*m, name)) {
     found.kind = Kind::Data;
-    found.source = group == "joint" ? kPositions : kVelocities;
-    found.places = {group == "joint" ? m->jnt_qposadr[joint] : m->jnt_dofadr[joint]};
-    return found;
-  }
-  if (group == "sensor" && mj_name2id(m, mjOBJ_SENSOR, rest.c_str()) >= 0) {
-    const int sensor = mj_name2id(m, mjOBJ_SENSOR, rest.c_str());
-    found.kind = Kind::Data;
-    found.source = kSensors;
-    found.size = m->sensor_dim[sensor];
-    found.places = {m->sensor_adr[sensor]};
+    found.size = data->size();
+    found.data = data;
     return found;
   }
   if (group == "excess" || group == "commanded_excess") {
@@ -138,11 +107,6 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     if (kind == 3) throw Error(unknown_name("excess", rest, kinds));
     found.kind = group == "excess" ? Kind::Excess : Kind::CommandedExcess;
     found.places = {kind};
-    return found;
-  }
-  if (group == "contact_force") {
-    found.kind = Kind::ContactForce;
-    found.places = {find_object(*m, mjOBJ_BODY, rest)};
     return found;
   }
   for (const auto& [word, kind] : {std::pair{"self_contacts", Kind::SelfContacts},
@@ -220,13 +184,9 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       out[0] = static_cast<const ForceTask&>(*simulation.controller().tasks()[number]).force();
       return;
     }
-    case Kind::Data: {
-      const double* const all = quantity.source == kPositions    ? d->qpos
-                                : quantity.source == kVelocities ? d->qvel
-                                                                 : d->sensordata;
-      out = Eigen::Map<const Vector>(all + quantity.places.front(), quantity.size);
+    case Kind::Data:
+      quantity.data->read(*m, *d, out);
       return;
-    }
     case Kind::Observation:
     case Kind::Log: {
       const Recorder& recorder = quantity.kind == Kind::Observation
@@ -243,9 +203,6 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       return;
     case Kind::CommandedExcess:
       out[0] = part_of(simulation.limits().commanded(), quantity.places.front());
-      return;
-    case Kind::ContactForce:
-      out[0] = force_below(m, d, static_cast<int>(quantity.places.front()));
       return;
     case Kind::SelfContacts:
       out[0] = self_contacts(m, d, world.root_bodies());

@@ -17,9 +17,11 @@
 // the part before the "/" ("q").
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hurcules/sim/data_quantity.hpp"
 #include "hurcules/sim/simulation.hpp"
 
 namespace hurcules {
@@ -51,7 +53,6 @@ class Quantities {
     Log,
     Excess,
     CommandedExcess,
-    ContactForce,
     SelfContacts,
     Scaled,
     Finished,
@@ -60,9 +61,9 @@ class Quantities {
     Kind kind = Kind::Scaled;
     Index size = 1;
     Frame frame;
-    std::vector<Index> places;  // channels, addresses or number of the task
-    int source = 0;             // of Data: 0 qpos, 1 qvel, 2 sensordata
-    bool measured = false;      // of Observation: an error of a task
+    std::vector<Index> places;  // channels, or number of the task
+    std::optional<DataQuantity> data;
+    bool measured = false;  // of Observation: an error of a task
   };
   [[nodiscard]] static Quantity find(const Simulation& simulation, const std::string& name);
   static void read(const Quantity& quantity, const Simulation& simulation, VectorRef out);

@@ -2,6 +2,7 @@
 // and tells it what came of it.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,9 @@ struct Figure {
   std::string name;     // with its unit: pelvis_error_m
   double value = 0.0;   // NaN: has not happened
   double thesis = 0.0;  // what the thesis reports, NaN for nothing
+  // what it must be, for success
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
 };
 
 // What came out of a tick, for the figures.

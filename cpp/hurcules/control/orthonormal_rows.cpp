@@ -1,4 +1,4 @@
-#include "hurcules/control/row_space.hpp"
+#include "hurcules/control/orthonormal_rows.hpp"
 
 #include <cmath>
 
@@ -10,19 +10,19 @@ constexpr double kRank = 1e-10;  // as the solver's, of rows of length 1
 
 }  // namespace
 
-void RowSpace::resize(Index n) {
+void OrthonormalRows::resize(Index n) {
   directions_ = Matrix::Zero(n, n);
   sources_.resize(static_cast<std::size_t>(n));
   parts_ = Vector::Zero(n);
   rank_ = 0;
 }
 
-void RowSpace::remove_from(VectorRef v) {
+void OrthonormalRows::remove_from(VectorRef v) {
   for (Index j = 0; j < rank_; ++j) parts_[j] = directions_.row(j).dot(v);
   for (Index j = 0; j < rank_; ++j) v -= parts_[j] * directions_.row(j).transpose();
 }
 
-void RowSpace::add(VectorRef v, Source source) {
+void OrthonormalRows::add(VectorRef v, Source source) {
   if (full()) return;
   remove_from(v);
   double length = v.norm();
@@ -37,7 +37,7 @@ void RowSpace::add(VectorRef v, Source source) {
   directions_.row(rank_++) = v;
 }
 
-double RowSpace::add_rows(MatrixRef rows, double least, double none) {
+double OrthonormalRows::add_rows(MatrixRef rows, double least, double none) {
   for (Index i = 0; i < rows.rows(); ++i) {
     for (Index j = 0; j < rank_; ++j) parts_[j] = directions_.row(j).dot(rows.row(i));
     for (Index j = 0; j < rank_; ++j) rows.row(i) -= parts_[j] * directions_.row(j);

@@ -10,7 +10,7 @@
 
 namespace hurcules {
 
-class RowSpace {
+class OrthonormalRows {
  public:
   using Source = std::pair<std::size_t, Index>;  // a level and its row
 

@@ -1,0 +1,90 @@
+#include "hurcules/sim/data_quantity.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/robot/object_names.hpp"
+
+namespace hurcules {
+
+namespace {
+
+bool is_below(const mjModel& m, int body, int above) {
+  while (body > above) body = m.body_parentid[body];
+  return body == above;
+}
+
+double force_below(const mjModel& m, const mjData& d, int body) {
+  double sum = 0.0;
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& contact = d.contact[i];
+    if (contact.efc_address < 0 || contact.geom[0] < 0 || contact.geom[1] < 0) continue;
+    const bool first = is_below(m, m.geom_bodyid[contact.geom[0]], body);
+    const bool second = is_below(m, m.geom_bodyid[contact.geom[1]], body);
+    if (first == second) continue;
+    mjtNum force[6];
+    mj_contactForce(&m, &d, i, force);
+    sum += force[0];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::string& name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const std::string group = name.substr(0, slash), object = name.substr(slash + 1);
+  if (group == "position") {
+    for (const auto& [type, kind] : {std::pair{mjOBJ_BODY, Kind::Body},
+                                     {mjOBJ_SITE, Kind::Site},
+                                     {mjOBJ_GEOM, Kind::Geom},
+                                     {mjOBJ_CAMERA, Kind::Camera}}) {
+      const int id = mj_name2id(&m, type, object.c_str());
+      if (id >= 0) return DataQuantity(kind, 3 * id, 3);
+    }
+    throw Error(unknown_name("frame", object,
+                             names_of(m, {mjOBJ_BODY, mjOBJ_SITE, mjOBJ_GEOM, mjOBJ_CAMERA})));
+  }
+  if (group == "joint" || group == "joint_velocity") {
+    const int joint = find_object(m, mjOBJ_JOINT, object);
+    require(m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE,
+            "quantity '" + name + "' wants a hinge or a slide");
+    if (group == "joint") return DataQuantity(Kind::Joint, m.jnt_qposadr[joint], 1);
+    return DataQuantity(Kind::JointVelocity, m.jnt_dofadr[joint], 1);
+  }
+  if (group == "sensor") {
+    const int sensor = find_object(m, mjOBJ_SENSOR, object);
+    return DataQuantity(Kind::Sensor, m.sensor_adr[sensor], m.sensor_dim[sensor]);
+  }
+  if (group == "contact_force")
+    return DataQuantity(Kind::ContactForce, find_object(m, mjOBJ_BODY, object), 1);
+  return std::nullopt;
+}
+
+void DataQuantity::read(const mjModel& m, const mjData& d, VectorRef out) const {
+  const auto numbers = [&](const mjtNum* all) {
+    out = Eigen::Map<const Vector>(all + place_, size_);
+  };
+  switch (kind_) {
+    case Kind::Body:
+      return numbers(d.xpos);
+    case Kind::Site:
+      return numbers(d.site_xpos);
+    case Kind::Geom:
+      return numbers(d.geom_xpos);
+    case Kind::Camera:
+      return numbers(d.cam_xpos);
+    case Kind::Joint:
+      return numbers(d.qpos);
+    case Kind::JointVelocity:
+      return numbers(d.qvel);
+    case Kind::Sensor:
+      return numbers(d.sensordata);
+    case Kind::ContactForce:
+      out[0] = force_below(m, d, place_);
+      return;
+  }
+}
+
+}  // namespace hurcules
