@@ -359,30 +359,22 @@ def _touching(setup: RobotSetup, data: mujoco.MjData) -> set[tuple[int, int]]:
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     mujoco.mj_collision(model, data)
-    pairs = set()
-    for contact in data.contact:
-        geoms = (contact.geom1, contact.geom2)
-        if contact.dist >= 0.0 or any(_is_track(setup, geom) for geom in geoms):
-            continue
-        one, other = (int(model.body_weldid[model.geom_bodyid[geom]]) for geom in geoms)
-        if one != other:
-            pairs.add((one, other))
-    return pairs
+    hit = (data.contact.dist < 0.0) & ~_on_tracks(setup, data)
+    welds = model.body_weldid[model.geom_bodyid[data.contact.geom[hit]]]
+    return {(int(one), int(other)) for one, other in welds if one != other}
 
 
 def _stands(setup: RobotSetup, data: mujoco.MjData, robot: hurcules.Robot) -> bool:
     """It stands within its tracks, if it has any; after `_touching`."""
-    feet = [
-        contact.pos[:2].copy()
-        for contact in data.contact
-        if _is_track(setup, contact.geom1) or _is_track(setup, contact.geom2)
-    ]
-    if not feet:
+    feet = data.contact.pos[_on_tracks(setup, data), :2]
+    if not len(feet):
         return True
-    low, high = np.min(feet, axis=0) + STANDS, np.max(feet, axis=0) - STANDS
+    low, high = feet.min(axis=0) + STANDS, feet.max(axis=0) - STANDS
     com = robot.com[:2]
     return bool((com > low).all() and (com < high).all())
 
 
-def _is_track(setup: RobotSetup, geom: int) -> bool:
-    return setup.drives and bool(setup.model.geom_contype[geom] == TRACK)
+def _on_tracks(setup: RobotSetup, data: mujoco.MjData) -> NDArray[np.bool_]:
+    """(contacts) whether a track takes part."""
+    tracks = setup.model.geom_contype[data.contact.geom] == TRACK
+    return np.asarray(setup.drives & tracks.any(axis=1))

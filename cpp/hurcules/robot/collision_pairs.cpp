@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -133,13 +135,76 @@ std::vector<GeomPair> moving(const std::vector<GeomPair>& pairs, const Robot& ro
 }
 
 // how far apart they are now, `near` where it is further
-std::vector<CollisionPair> measured(GeomDistance& distance, const Robot& probe, double near) {
+std::vector<CollisionPair> measured(const std::vector<GeomPair>& pairs, const Robot& probe,
+                                    double near) {
+  GeomDistance distance(probe, pairs, near, pairs.size());
   std::vector<CollisionPair> found;
-  for (const GeomPair& pair : distance.pairs()) found.push_back({pair, near});
+  for (const GeomPair& pair : pairs) found.push_back({pair, near});
   for (const GeomDistance::Near& one : distance.measure(probe))
     if (one.pair >= 0) found[static_cast<std::size_t>(one.pair)].distance = one.distance;
   return found;
 }
+
+// Which of these pairs come near in sampled postures and are not in contact in nearly all. What is
+// decided is measured no more.
+class Sieve {
+ public:
+  Sieve(const std::vector<CollisionPair>& pairs, const Robot& probe,
+        const CollisionSampling& sampling)
+      : pairs_(pairs),
+        near_(sampling.near),
+        clear_enough_((1.0 - kAlways) * sampling.postures),
+        seen_(pairs.size()) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      open_.push_back(i);
+      seen_[i].near = pairs[i].distance < near_;
+    }
+    renew(probe);
+  }
+
+  void look(const Robot& probe) {
+    if (open_.empty()) return;
+    const std::span<const GeomDistance::Near> near = distance_->measure(probe);
+    touches_.assign(open_.size(), false);
+    for (const GeomDistance::Near& one : near) {
+      if (one.pair < 0) continue;
+      seen_[open_[static_cast<std::size_t>(one.pair)]].near = true;
+      touches_[static_cast<std::size_t>(one.pair)] = one.distance < 0.0;
+    }
+    std::size_t decided = 0;
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      seen_[open_[k]].clear += touches_[k] ? 0 : 1;
+      decided += keeps(open_[k]) ? 1 : 0;
+    }
+    if (2 * decided <= open_.size()) return;
+    std::erase_if(open_, [&](std::size_t i) { return keeps(i); });
+    renew(probe);
+  }
+
+  [[nodiscard]] bool keeps(std::size_t i) const {
+    return seen_[i].near && seen_[i].clear >= clear_enough_;
+  }
+
+ private:
+  struct Seen {
+    bool near = false;
+    int clear = 0;  // postures without contact
+  };
+
+  void renew(const Robot& probe) {
+    std::vector<GeomPair> pairs;
+    for (const std::size_t i : open_) pairs.push_back(pairs_[i].geoms);
+    const std::size_t count = pairs.size();
+    if (count > 0) distance_.emplace(probe, std::move(pairs), near_, count);
+  }
+
+  const std::vector<CollisionPair>& pairs_;
+  double near_, clear_enough_;
+  std::vector<Seen> seen_;
+  std::vector<std::size_t> open_;  // those that are not decided
+  std::vector<bool> touches_;      // of these, now
+  std::optional<GeomDistance> distance_;
+};
 
 // those that come near, and are not in contact by construction
 std::vector<CollisionPair> selected(const std::vector<GeomPair>& candidates, const Robot& robot,
@@ -148,28 +213,17 @@ std::vector<CollisionPair> selected(const std::vector<GeomPair>& candidates, con
   Robot probe(robot.model(), robot.coordinate_names());
   stand_alike(robot, probe);
   Postures postures(robot, sampling.seed);
-  std::vector<GeomPair> apart = moving(candidates, robot, postures);
-  const std::size_t count = apart.size();
-  GeomDistance distance(probe, std::move(apart), sampling.near, count);
-  std::vector<CollisionPair> found = measured(distance, probe, sampling.near);
-  std::vector<int> near(found.size(), 0), touches(found.size(), 0);
-  for (std::size_t i = 0; i < found.size(); ++i) near[i] = found[i].distance < sampling.near;
+  std::vector<CollisionPair> found =
+      measured(moving(candidates, robot, postures), probe, sampling.near);
+  Sieve sieve(found, probe, sampling);
   for (int i = 0; i < sampling.postures; ++i) {
     probe.set_configuration(postures.next());
-    for (const GeomDistance::Near& one : distance.measure(probe)) {
-      if (one.pair < 0) continue;
-      near[static_cast<std::size_t>(one.pair)] = 1;
-      touches[static_cast<std::size_t>(one.pair)] += one.distance < 0.0 ? 1 : 0;
-    }
+    sieve.look(probe);
   }
-  std::size_t i = 0;
-  std::erase_if(found, [&](const CollisionPair& pair) {
-    const bool made_so = touches[i] > kAlways * sampling.postures;
-    const bool drop = near[i] == 0 || made_so || pair.distance <= 0.0;
-    ++i;
-    return drop;
-  });
-  return found;
+  std::vector<CollisionPair> kept;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (sieve.keeps(i) && found[i].distance > 0.0) kept.push_back(found[i]);
+  return kept;
 }
 
 // where a robot's bodies go further than any sampled posture: along slides of a wide range, over the
@@ -232,9 +286,7 @@ std::vector<CollisionPair> met(const std::vector<GeomPair>& candidates, const Ro
   std::vector<GeomPair> pairs;
   for (const GeomPair& pair : moving(candidates, robot, Postures(robot, sampling.seed)))
     if (roaming.meets(pair)) pairs.push_back(pair);
-  const std::size_t count = pairs.size();
-  GeomDistance distance(probe, std::move(pairs), sampling.near, count);
-  std::vector<CollisionPair> found = measured(distance, probe, sampling.near);
+  std::vector<CollisionPair> found = measured(pairs, probe, sampling.near);
   std::erase_if(found, [](const CollisionPair& pair) { return pair.distance <= 0.0; });
   return found;
 }
