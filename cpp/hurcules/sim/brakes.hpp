@@ -46,6 +46,7 @@ class Brakes {
   [[nodiscard]] bool exists(int actuator) const { return brake(actuator).torque > 0.0; }
   [[nodiscard]] bool is_shut(int actuator) const { return grip_[actuator] >= 1.0; }
   [[nodiscard]] bool is_open(int actuator) const { return grip_[actuator] <= 0.0; }
+  [[nodiscard]] bool any_shut() const { return (grip_.array() > 0.0).any(); }  // or half shut
   // [N m] or [N] that the brake (and the friction of its joint) bore in the last step, in the
   // joint's direction: a motor that gives it instead keeps the joint still
   [[nodiscard]] double load(int actuator) const { return load_[actuator]; }

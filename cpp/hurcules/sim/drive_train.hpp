@@ -45,6 +45,7 @@ class DriveTrain {
   void limit(mjData_* data);
   void advance(mjData_* data);
 
+  [[nodiscard]] bool empty() const { return drives_.empty(); }
   [[nodiscard]] bool exists(int actuator) const { return find(actuator) != nullptr; }
   // of the actuator's transmission, 1 without one
   [[nodiscard]] double ratio(int actuator) const { return ratio_[actuator]; }

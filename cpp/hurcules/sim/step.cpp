@@ -6,9 +6,13 @@ namespace hurcules {
 
 namespace {
 
+bool steps_in_halves(const mjModel* m) {
+  return m->opt.integrator != mjINT_RK4 && m->opt.integrator != mjINT_DISCRETE;
+}
+
 // histories, callbacks and plugins see every reading; energy is reckoned beside the sensors
 bool can_skip_sensors(const mjModel* m) {
-  return m->nhistory == 0 && m->nplugin == 0 && !mjcb_sensor &&
+  return steps_in_halves(m) && m->nhistory == 0 && m->nplugin == 0 && !mjcb_sensor &&
          !(m->opt.enableflags & (mjENBL_ENERGY | mjENBL_FWDINV));
 }
 
@@ -41,6 +45,10 @@ void push(const mjModel* m, mjData* d, const Tracks& tracks, const Drives& drive
   if (drives.brakes) drives.brakes->tighten(d);
   if (drives.train) drives.train->limit(d);
 }
+bool pushes(const Tracks& tracks, const Drives& drives) {
+  return !tracks.empty() || (drives.brakes && drives.brakes->any_shut()) ||
+         (drives.train && !drives.train->empty());
+}
 void advance(mjData* d, const Drives& drives) {
   if (drives.brakes) drives.brakes->advance(d);
   if (drives.train) drives.train->advance(d);
@@ -49,9 +57,13 @@ void advance(mjData* d, const Drives& drives) {
 }  // namespace
 
 void step(const mjModel* m, mjData* d, const Tracks& tracks, const Drives& drives) {
-  mj_step1(m, d);
-  push(m, d, tracks, drives);
-  mj_step2(m, d);
+  if (!steps_in_halves(m) && !pushes(tracks, drives)) {
+    mj_step(m, d);
+  } else {
+    mj_step1(m, d);
+    push(m, d, tracks, drives);
+    mj_step2(m, d);
+  }
   advance(d, drives);
 }
 

@@ -1,5 +1,6 @@
 // One step of the physics: mj_step, and between its halves the traction of the tracks, the brakes
-// and the limits of the drives.
+// and the limits of the drives. Where one of these acts, a model of integrator RK4 is stepped by Euler:
+// mj_step2 knows no other.
 #pragma once
 
 #include "hurcules/sim/brakes.hpp"

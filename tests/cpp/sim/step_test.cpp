@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 
 #include "hurcules/sim/plant.hpp"
 #include "support/scene.hpp"
@@ -44,6 +45,28 @@ TEST(Step, UnseenLeavesTheSensorsAlone) {
   step_unseen(physics->model(), d, tracks);
   EXPECT_EQ(std::count(d->sensordata, d->sensordata + physics->model()->nsensordata, 7.0),
             physics->model()->nsensordata);
+}
+
+// of every integrator; MuJoCo's own steps are the reference
+TEST(Step, IsThatOfMujoco) {
+  for (const char* integrator : {"Euler", "RK4", "implicit", "implicitfast", "discrete"}) {
+    std::string text = "<mujoco><option timestep='0.005' integrator='";
+    text.append(integrator)
+        .append(
+            "'/><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 1'><joint name='turn' "
+            "axis='0 1 0'"
+            " damping='0.1'/><geom type='capsule' size='0.05' fromto='0 0 0 0.4 0 0' mass='1'/>"
+            "<body pos='0.4 0 0'><joint axis='0 1 0' frictionloss='0.05'/><geom type='capsule'"
+            " size='0.05' fromto='0 0 0 0.3 0 0' mass='1'/></body></body><body pos='0.2 0 0.3'>"
+            "<freejoint/><geom size='0.06' mass='0.5'/></body></worldbody><actuator><motor"
+            " joint='turn'/></actuator></mujoco>");
+    const ModelPtr model = load_model_text(text);
+    Plant plant(model);
+    const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(model.get()), mj_deleteData);
+    for (int i = 0; i < 300; ++i) mj_step(model.get(), d.get());
+    for (int i = 0; i < 60; ++i) EXPECT_EQ(plant.step(5), 5);
+    EXPECT_TRUE(std::equal(plant.qpos().begin(), plant.qpos().end(), d->qpos)) << integrator;
+  }
 }
 
 TEST(Step, UnseenStillReckonsEnergyWhereAsked) {
