@@ -11,7 +11,9 @@ import pytest
 import hurcules
 from hurcules import cli
 from hurcules_envs.environment import Environment
+from hurcules_envs.evaluation import wilson
 
+SHARE = r"(\d+) of (\d+)[^()|;]{0,90}\((\d+) to (\d+) %\)"  # 19 of 20 (76 to 99 %)
 CALLED = r"^\w+$|[A-Za-z_]\w+(?=\()"  # a name alone, or what is called
 
 
@@ -112,3 +114,16 @@ def test_what_other_packages_call_otherwise_exists_here(root: Path) -> None:
     known = {name for one in (hurcules, Environment, *kinds) for name in dir(one)}
     others = {"as_matrix", "rotation", "translation", "zeros"}  # of mink and NumPy
     assert named - known == others
+
+
+def test_the_interval_of_each_share_is_the_one_that_evaluate_tells(root: Path) -> None:
+    shares = []
+    for page in [root / "README.md", *sorted((root / "docs").glob("*.md"))]:
+        shares += re.findall(SHARE, page.read_text(encoding="utf-8"))
+    assert len(shares) > 5
+    wrong = []
+    for successes, n, low, high in (map(int, share) for share in shares):
+        ends = zip(wilson(successes, n), (low, high), strict=True)
+        if any(abs(100 * end - told) > 0.51 for end, told in ends):
+            wrong.append((successes, n, low, high))
+    assert wrong == []
