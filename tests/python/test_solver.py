@@ -120,6 +120,28 @@ def test_row_order_and_scale_of_a_level_change_nothing() -> None:
         assert difference(rhqp.Solver(n).solve(to_levels(levels)).x, before) < 1e-7, f"seed {seed}"
 
 
+def test_rows_of_a_level_may_differ_in_length_by_ten_million() -> None:
+    limits = rhqp.Bounds(np.full(12, -3.0), np.full(12, 3.0))
+    for seed in range(100):
+        rng = np.random.default_rng(seed)
+        levels, rows = [limits], []
+        for _ in range(3):
+            A, wish = rng.normal(size=(6, 12)), 2.0 * rng.normal(size=6)
+            slack = np.abs(rng.normal(size=6)) * (rng.random(6) < 0.4)
+            length = 10.0 ** rng.uniform(-3.5, 3.5, 6)
+            levels.append(
+                rhqp.Level(length[:, None] * A, length * (wish - slack), length * (wish + slack))
+            )
+            rows.append(length)
+        whole = rhqp.Solver(12).solve(levels)
+        for k in range(2, 4):
+            above = rhqp.Solver(12).solve(levels[:k])
+            for length, alone, beside in zip(
+                rows[: k - 1], above.violations[1:], whole.violations[1:], strict=False
+            ):
+                np.testing.assert_allclose(beside / length, alone / length, atol=1e-8)
+
+
 def test_absent_sides_are_infinite_or_large() -> None:
     rows = np.array([[1.0, 0.0]])
     goal = rhqp.Level(np.eye(2), np.array([3.0, 1.0]), np.array([3.0, 1.0]))
