@@ -244,9 +244,7 @@ class Carry(ContactEnvironment):
         levels: list[Any] = [
             [left, right, squeeze, *turns.values()], hurcules.PostureTask("posture", plan),
         ]  # fmt: skip
-        options: dict[str, Any] = {
-            "support": SUPPORT, "servo": hurcules.servo_table("manipulation"),
-        }  # fmt: skip
+        options: dict[str, Any] = {"support": SUPPORT}
         if own is not None:
             levels.insert(0, own.setup.limits(plan))
             slow = hurcules.VelocityControllerOptions(max_acceleration=MAX_ACCELERATION)

@@ -128,7 +128,6 @@ class Door(ContactEnvironment):
             },
             dt=tick,
             support=SUPPORT,
-            servo=hurcules.servo_table("manipulation"),
         )
         simulation = hurcules.Simulation(model=model, controller=controller, record=False)
         controller.sense(down, "R_feel", row=3, sign=-1.0)

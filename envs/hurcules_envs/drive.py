@@ -112,7 +112,6 @@ class Drive(Environment):
             },
             dt=tick,
             base="sensed",
-            servo=hurcules.servo_table("rescue"),
             drive=hurcules.DriveOptions(),
             torque_scaling=physics,
         )

@@ -170,7 +170,6 @@ class Lift(ContactEnvironment):
             | {"drive": hurcules.Drive(speed=1.0, yaw_rate=0.5)},
             dt=tick,
             support=lift.SUPPORT,
-            servo=hurcules.servo_table("rescue"),
             drive=hurcules.DriveOptions(),
         )
         return hurcules.Simulation(model=model, controller=controller, record=False)

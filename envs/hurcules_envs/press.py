@@ -166,7 +166,6 @@ class Press(ContactEnvironment):
             },
             dt=tick,
             support="lower_leg_L",
-            servo=hurcules.servo_table("rescue"),
         )
         simulation = hurcules.Simulation(model=model, controller=controller, record=False)
         controller.sense(down, hurcules.SpringForce(plan, "REBS", "R_tcp"))

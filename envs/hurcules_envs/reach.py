@@ -256,7 +256,6 @@ class Reach(Environment):
             {name: channel for name, (channel, _) in channels.items()},
             dt=tick,
             support=setup.support,
-            servo=setup.servo,
             velocity=hurcules.VelocityControllerOptions(max_acceleration=MAX_ACCELERATION),
             torque_scaling=fidelity != "kinematic",
         )

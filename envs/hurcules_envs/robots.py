@@ -63,7 +63,6 @@ class RobotSetup:
         joints: names of the coordinates.
         keyframe: where it stands at first, "" for the model's initial posture within its limits.
         support: body that it stands on, "" for a fixed base.
-        servo: see hurcules.servo_table; {}: reckoned from the model.
         ranges: by coordinate, narrower than the model's.
         drives: its tracks drive it.
     """
@@ -74,7 +73,6 @@ class RobotSetup:
     joints: tuple[str, ...]
     keyframe: str
     support: str = ""
-    servo: dict[str, tuple[float, float]] = field(default_factory=dict)
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
     drives: bool = False
 
@@ -249,7 +247,6 @@ def _hurcules(name: str) -> RobotSetup:
         tuple(robot.coordinate_names),
         "ready",
         support="lower_leg_L",
-        servo=hurcules.servo_table(name),
         ranges=ranges if name == "rescue" else {},
         drives=True,
     )

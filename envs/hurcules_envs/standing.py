@@ -50,7 +50,7 @@ def place_hands(
     channels = {task.name: hurcules.Target(task) for task in tasks}
     controller = hurcules.WholeBodyController(
         robot, [tasks, posture], channels, dt=0.02, support=SUPPORT,
-        servo=hurcules.servo_table("manipulation"), torque_scaling=False,
+        torque_scaling=False,
     )  # fmt: skip
     simulation = hurcules.Simulation(
         model=coarse, controller=controller, record=False, physics=False

@@ -178,7 +178,6 @@ class Stretch(Environment):
             {task.name: hurcules.Twist(task, self.actions[task.name]) for task in tasks},
             dt=tick,
             support=lift.SUPPORT,
-            servo=hurcules.servo_table("rescue"),
             torque_scaling=physics,
         )
 

@@ -120,7 +120,6 @@ class Valve(ContactEnvironment):
             {"hand": hurcules.Twist(hand, 0.2), "grip": hurcules.JointRate("R_grip_1", 0.05)},
             dt=tick,
             support=SUPPORT,
-            servo=hurcules.servo_table("manipulation"),
         )
         return hurcules.Simulation(model=model, controller=controller, record=False)
 

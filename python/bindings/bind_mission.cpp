@@ -30,7 +30,7 @@ namespace {
 constexpr const char* kCondition = R"(A quantity on one side of a value, for some time on end.
 
 Args:
-  quantity: a column of the log: `simulation.channels`.
+  quantity: a column of the log (`simulation.channels`), or of the scene: position/OBJECT/x, joint/JOINT, sensor/SENSOR, contact_force/BODY.
   above: the quantity is at least the value; False: at most.
   value: in the unit of the quantity.
   seconds: [s].
@@ -103,7 +103,7 @@ constexpr const char* kMeasure = R"(A figure of a run: a quantity over some phas
 
 Args:
   name: of the figure, with its unit.
-  quantity: a column of the log.
+  quantity: a column of the log (`simulation.channels`), or of the scene as in Condition.
   take: "largest", "smallest", "span" (largest less smallest) or "last".
   phases: list of names, none: all.
   least: below, the mission failed.

@@ -250,9 +250,9 @@ void restore(Simulation& self, const Vector& state) {
   self.restore(std::vector<double>(state.begin(), state.end()));
 }
 
-py::dict servo_table(const std::string& robot) {
+py::dict servo_table(const Robot& robot) {
   py::dict table;
-  for (const ServoGains& row : servo_of_robot(robot)) {
+  for (const ServoGains& row : model_servo_gains(joint_actuators(robot))) {
     table[py::str(row.joint)] = py::make_tuple(row.inertia, row.bandwidth);
   }
   return table;

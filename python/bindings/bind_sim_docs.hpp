@@ -19,16 +19,18 @@ Raises:
 inline constexpr const char* kMissions = "Names of the missions.";
 inline constexpr const char* kMissionScene = "Scene file of a mission, under models/.";
 inline constexpr const char* kServoTable =
-    R"(What the servos of a robot's joints reckon with.
+    R"(What the model says that servos of its joints shall reckon with: its numerics `servo_JOINT`.
+
+A WholeBodyController takes them where it is given no others.
 
 Args:
-  robot: "rescue" or "manipulation".
+  robot: whose model has them, as Hurcules has.
 
 Returns:
   By joint: the inertia that it turns [kg m^2], of a slide [kg], and its bandwidth [rad/s].
 
 Raises:
-  Error: an unknown robot.
+  Error: a servo_JOINT that is no two numbers above 0.
 )";
 inline constexpr const char* kModeRanges =
     R"(Ranges of the coordinates in a mode of work: narrower than the hardware's.

@@ -121,11 +121,12 @@ Args:
   base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
     now: targets in the world stay where they are while the robot drives).
   support: body that stands on the ground; by default the robot's own, see Robot.stand_on.
-  servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; of
-    the joints that are left out reckoned from the model. A driven wheel may roll the robot.
+  servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], of the joints
+    that are left out as the model says (servo_table), else reckoned from it. A driven wheel may roll
+    the robot.
   feed_forward: servos are told the torques that the model says.
   decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
-    `servo` is not given, and no wheel is driven.
+    all are reckoned, and no wheel is driven.
   torque_scaling: the motion slows down where a motor would be asked for more than its peak. False
     where drives with servos of their own follow q_des: their sag would be taken for a load.
   drive: DriveOptions of a robot on tracks; needed for a Drive channel.

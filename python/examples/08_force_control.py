@@ -25,7 +25,7 @@ springs = [hurcules.SpringForce(robot, f"{s}EBS", f"{s}_tcp") for s in "LR"]
 controller = hurcules.VelocityController(robot)
 limits, rest = hurcules.JointLimits("joint", robot), hurcules.PostureTask("rest", robot)
 controller.set_stack(Stack([limits, [*slide, *press], rest]))
-player = postures.Player(model, data, "rescue")
+player = postures.Player(model, data)
 player.wait(1.4)
 for tick in range(6000):
     for spring, down, ahead in zip(springs, press, slide, strict=True):

@@ -21,7 +21,6 @@ def main() -> None:
         [hands, posture],
         {"drive": hurcules.Drive(speed=0.5, yaw_rate=0.5)},
         base="sensed",  # targets stay where they are in the world while the robot moves
-        servo=hurcules.servo_table("rescue"),
         drive=hurcules.DriveOptions(),
     )
     simulation = hurcules.Simulation(model=model, controller=controller)

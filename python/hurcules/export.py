@@ -55,17 +55,12 @@ def export(
     if mjx:
         _fit_mjx(spec)
     if actuators == "position":
-        _add_servos(spec, robot or _robot_of(spec))
+        _add_servos(spec)
     mjcf.compile(spec)
     with writing(path):
         _copy_meshes(spec, path.parent / "assets")
         path.write_text(spec.to_xml(), encoding="utf-8")
     return path
-
-
-def _robot_of(spec: mujoco.MjSpec) -> str:
-    """The robot, by a joint that the other one lacks."""
-    return "rescue" if spec.joint("LEBS") is not None else "manipulation"
 
 
 def _copy_meshes(spec: mujoco.MjSpec, folder: Path) -> None:
@@ -81,9 +76,9 @@ def _copy_meshes(spec: mujoco.MjSpec, folder: Path) -> None:
     spec.modelfiledir = str(folder.parent)
 
 
-def _add_servos(spec: mujoco.MjSpec, robot: str) -> None:
+def _add_servos(spec: mujoco.MjSpec) -> None:
     """Position servos with the gains of our own, critically damped; the belts keep their motors."""
-    table = _core.servo_table(robot)
+    table = _core.servo_table(_core.Robot(mjcf.compile(spec)))
     motors = [motor for motor in spec.actuators if not motor.target.endswith("_belt")]
     for motor in motors:
         inertia, bandwidth = table[motor.target]

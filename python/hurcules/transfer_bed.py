@@ -18,6 +18,7 @@ LIFT = 0.38  # [m] to where the arms, level, lay somebody down
 SLIDE = 0.31  # [m] of each plate
 _RIMS = {"L": 0.115, "R": -0.115}  # [m] to the left of the bed's middle
 _RIM_SPEED, _RIM_POWER = 0.05, 6.0  # [m/s], [W] peaks of each
+_RIM_SERVO = [2.5, 20.0]  # [kg] of a pump, [rad/s]
 _BATTERY_STOP = 1.40  # [rad] of the hip, where the torso meets the battery
 
 
@@ -56,6 +57,7 @@ def add_rims(spec: mujoco.MjSpec) -> None:
         for joint in joints:
             spec.add_numeric(name=f"velocity_limit_{joint}", data=[_RIM_SPEED], size=1)
             spec.add_numeric(name=f"power_limit_{joint}", data=[_RIM_POWER], size=1)
+            spec.add_numeric(name=f"servo_{joint}", data=_RIM_SERVO, size=2)
 
 
 def _is_of_bed(name: str) -> bool:

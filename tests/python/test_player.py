@@ -27,13 +27,12 @@ def player() -> postures.Player:
         robot,
         [hand, hurcules.PostureTask("rest", robot)],
         {"hand": hurcules.Twist(hand, 1.0)},
-        servo=hurcules.servo_table("rescue"),
         feed_forward=False,
     )
     options = hurcules.SimulationOptions(record=False, max_seconds=4.0)
     data = mujoco.MjData(model)
     simulation = _core.Simulation(model, data, controller, options)
-    return postures.Player(model, data, "rescue", simulation=simulation)
+    return postures.Player(model, data, simulation=simulation)
 
 
 def test_a_stack_goes_on_from_a_move_and_a_move_from_a_stack(player: postures.Player) -> None:

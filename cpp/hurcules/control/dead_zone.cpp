@@ -50,12 +50,15 @@ void DeadZone::set_stack(const Stack& stack, Index n) {
     rows = std::max(rows, sum);
   }
   left_ = Matrix::Zero(rows, n);
+  pressed_rows_.assign(shares_.size(), {});
+  for (auto& own : pressed_rows_) own.reserve(nearness_.size() * static_cast<std::size_t>(rows));
 }
 
 void DeadZone::apply(std::span<const double> weights, std::span<const double> gains,
                      const JointLimits* limits, SaddleProbe* probe, Hierarchy& hierarchy) {
   known_.truncate(0);
   pressed_.setZero();
+  for (auto& rows : pressed_rows_) rows.clear();
   nudge_.setZero();
   double above = 0.0;  // the largest w of the levels above
   double calm = 1.0;   // share that levels which have stopped leave to those below
@@ -109,7 +112,7 @@ double DeadZone::slope_of(std::size_t k, const Hierarchy& hierarchy, const Joint
   held_count_ = 0;
   if (limits) hold_pressed_joints(k, *limits);
   for (std::size_t j = 0; j < k; ++j)
-    if (!hierarchy[j].bounds) hold_pressed_rows(j, hierarchy[j]);
+    if (!hierarchy[j].bounds) hold_pressed_rows(k, j, hierarchy[j]);
   const double most = asked_ * lever_;
   return most > 0.0 ? pull_.norm() / most : std::numeric_limits<double>::infinity();
 }
@@ -222,16 +225,18 @@ void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
 }
 
 // the same for the inequality rows of a level, which say how fast they may come nearer
-void DeadZone::hold_pressed_rows(std::size_t k, const Level& level) {
+void DeadZone::hold_pressed_rows(std::size_t k, std::size_t above, const Level& level) {
   for (Index row = 0; row < level.rows(); ++row) {
-    if (!nearness_[k][static_cast<std::size_t>(row)] || is_equality(level, row)) continue;
+    if (!nearness_[above][static_cast<std::size_t>(row)] || is_equality(level, row)) continue;
     const double length = level.A.row(row).norm();
     if (length < kFreeJoint) continue;
     direction_ = level.A.row(row) / length;
     const double along = direction_.dot(pull_);
     const double room = (along > 0.0 ? level.upper[row] : -level.lower[row]) / length;
     const double held = std::min(1.0, 1.0 - room / kSlow);
-    if (held > 0.0 && along != 0.0) hold_direction(held, {k, row});
+    if (!(held > 0.0) || along == 0.0) continue;
+    if (held > 0.5) pressed_rows_[k].emplace_back(above, row);
+    hold_direction(held, {above, row});
   }
 }
 

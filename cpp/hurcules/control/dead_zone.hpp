@@ -64,6 +64,11 @@ class DeadZone {
     return pressed_(static_cast<Index>(level), coordinate);
   }
 
+  // rows of levels above, by level and row, that keep a level from where it pulls
+  [[nodiscard]] const std::vector<OrthonormalRows::Source>& pressed_rows(std::size_t level) const {
+    return pressed_rows_[level];
+  }
+
   // adds the coordinates that levels are held at: -1, 0, 1 each (n), where there is none yet
   void add_held(Eigen::VectorXi& held) const;
 
@@ -84,7 +89,8 @@ class DeadZone {
   double add_rows(const Level& level, double least);
   void find_pull(const Level& level, const std::vector<const Task*>& tasks);
   void hold_pressed_joints(std::size_t k, const JointLimits& limits);
-  void hold_pressed_rows(std::size_t k, const Level& level);
+  // those of level `above` that keep level k
+  void hold_pressed_rows(std::size_t k, std::size_t above, const Level& level);
   void hold_direction(double share, OrthonormalRows::Source from);
 
   OrthonormalRows known_;  // what the equality rows above move in
@@ -103,6 +109,7 @@ class DeadZone {
   // rows of a level whose limits say how near something is, not how fast velocities may change
   std::vector<std::vector<bool>> nearness_;
   Eigen::MatrixXi pressed_;  // (levels, n)
+  std::vector<std::vector<OrthonormalRows::Source>> pressed_rows_;
 };
 
 }  // namespace hurcules

@@ -125,6 +125,14 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
   return table;
 }
 
+std::vector<ServoGains> model_servo_gains(const std::vector<JointActuator>& actuators) {
+  std::vector<ServoGains> table;
+  for (const JointActuator& one : actuators)
+    if (one.servo_bandwidth > 0.0)
+      table.push_back({one.joint, one.servo_inertia, one.servo_bandwidth});
+  return table;
+}
+
 JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table, double dt)
     : pid_(triple_pole({}, dt)) {
   const std::vector<JointActuator> actuators = joint_actuators(robot);

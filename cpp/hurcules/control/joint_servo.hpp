@@ -32,6 +32,10 @@ struct ServoGains {
 [[nodiscard]] std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt,
                                                           bool decoupled = false);
 
+// the rows that the model says for its joints: JointActuator::servo_inertia
+[[nodiscard]] std::vector<ServoGains> model_servo_gains(
+    const std::vector<JointActuator>& actuators);
+
 // What the drive of an actuator can do at the moment.
 struct ActuatorStatus {
   EffortRange range;        // [N m] or [N] at the joint, by its motor at its speed

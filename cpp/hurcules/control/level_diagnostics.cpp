@@ -85,17 +85,22 @@ std::string above(const SolvedStack& solved, int k) {
 // what pushes back on level k
 std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelReport* report) {
   std::vector<std::string> names;
+  const auto add = [&names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
   for (const ActiveRow& active : solved.solution.working_set) {
     if (active.held_by != k || active.multiplier <= 0.0) continue;
-    const std::string name = holder(solved, active);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    add(holder(solved, active));
+  }
+  if (solved.zone) {
+    for (const auto& [level, row] : solved.zone->pressed_rows(static_cast<std::size_t>(k)))
+      add(row_name(solved.robot, solved.problem.stack().levels()[level], row));
   }
   for (Index i = 0; solved.zone && i < solved.active_limits.size(); ++i) {
     const int side = solved.zone->pressed(static_cast<std::size_t>(k), i);
     if (side == 0) continue;
     const Coordinate& coordinate = solved.robot.coordinates()[static_cast<std::size_t>(i)];
-    const std::string name = coordinate.name + (side > 0 ? " upper limit" : " lower limit");
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    add(coordinate.name + (side > 0 ? " upper limit" : " lower limit"));
   }
   if (!report) return names;
   const Level& level = solved.problem.hierarchy()[static_cast<std::size_t>(k)];

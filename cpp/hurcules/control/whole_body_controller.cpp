@@ -43,31 +43,33 @@ void require_distinct(const std::vector<Named>& all, const char* kind) {
   }
 }
 
-// Rows that are given, and reckoned ones for the other joints. A table that is whole may name joints
-// of another form of the robot; one that is not may have a name mistyped.
-std::vector<ServoGains> all_gains(const Robot& robot, const std::vector<ServoGains>& given,
+// Rows that are given, those of the model, and reckoned ones for the other joints. A table that is whole
+// may name joints of another form of the robot; one that is not may have a name mistyped.
+std::vector<ServoGains> all_gains(const Robot& robot, std::vector<ServoGains> given,
+                                  const std::vector<ServoGains>& of_model,
                                   const std::vector<JointActuator>& actuators, double dt,
                                   bool decoupled) {
-  const auto row_of = [&given](const std::string& joint) {
-    return std::find_if(given.begin(), given.end(),
-                        [&joint](const ServoGains& row) { return row.joint == joint; });
+  const auto has = [&given](const std::string& joint) {
+    return std::any_of(given.begin(), given.end(),
+                       [&joint](const ServoGains& row) { return row.joint == joint; });
   };
+  const auto whole = [&] {
+    return std::all_of(actuators.begin(), actuators.end(),
+                       [&](const JointActuator& actuator) { return has(actuator.joint); });
+  };
+  if (whole()) return given;
   std::vector<std::string> joints;
-  bool whole = true;
-  for (const JointActuator& actuator : actuators) {
-    joints.push_back(actuator.joint);
-    whole = whole && row_of(actuator.joint) != given.end();
-  }
-  if (whole) return given;
+  for (const JointActuator& actuator : actuators) joints.push_back(actuator.joint);
   for (const ServoGains& row : given) {
     if (std::find(joints.begin(), joints.end(), row.joint) == joints.end())
       throw Error(unknown_name("joint with an actuator", row.joint, joints));
   }
-  std::vector<ServoGains> rows = default_servo_gains(robot, dt, decoupled);
-  for (ServoGains& row : rows) {
-    if (const auto own = row_of(row.joint); own != given.end()) row = *own;
-  }
-  return rows;
+  for (const ServoGains& row : of_model)
+    if (!has(row.joint)) given.push_back(row);
+  if (whole()) return given;
+  for (const ServoGains& row : default_servo_gains(robot, dt, decoupled))
+    if (!has(row.joint)) given.push_back(row);
+  return given;
 }
 
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
@@ -76,10 +78,12 @@ WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOpti
   const bool rolls =
       std::any_of(actuators.begin(), actuators.end(),
                   [](const JointActuator& actuator) { return actuator.rolling_inertia > 0.0; });
-  options.decoupled =
-      options.decoupled.value_or(options.servo.empty() && options.feed_forward && !rolls);
+  const std::vector<ServoGains> of_model = model_servo_gains(actuators);
+  const bool reckoned = options.servo.empty() && of_model.empty();
+  options.decoupled = options.decoupled.value_or(reckoned && options.feed_forward && !rolls);
   require(!*options.decoupled || options.feed_forward, "decoupled servos want feed_forward");
-  options.servo = all_gains(robot, options.servo, actuators, options.dt, *options.decoupled);
+  options.servo =
+      all_gains(robot, options.servo, of_model, actuators, options.dt, *options.decoupled);
   if (options.support.empty()) options.support = robot.support_name();
   if (options.drive) options.drive->drive.dt = options.dt;
   return options;

@@ -58,13 +58,14 @@ struct WholeBodyControllerOptions {
   AccelerationControllerOptions torque = {.max_acceleration = 200.0};
   std::string support = "";  // body that stands, "" for the root
   BaseSource base = BaseSource::Held;
-  std::vector<ServoGains> servo = {};  // of the joints that are left out: default_servo_gains
+  // of the joints that are left out those of the model (model_servo_gains), else default_servo_gains
+  std::vector<ServoGains> servo = {};
   // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
   // whatever the robot carries is a disturbance to them.
   bool feed_forward = true;
   // what the servos ask for as accelerations is given by the mass matrix, so that no joint's motion
-  // disturbs another; wants feed_forward; not given: where servo is empty and no wheel is driven (the
-  // mass matrix does not know what a wheel on the ground moves)
+  // disturbs another; wants feed_forward; not given: where all gains are reckoned and no wheel is driven
+  // (the mass matrix does not know what a wheel on the ground moves)
   std::optional<bool> decoupled = {};
   // the motion slows down where a motor would be asked for more than its peak
   bool torque_scaling = true;

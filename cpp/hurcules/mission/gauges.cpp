@@ -87,7 +87,10 @@ std::string out_of_bounds(const std::vector<Figure>& figures) {
 const double* find_quantity(const Recorder& log, const std::string& quantity,
                             const std::string& where) {
   const double* const source = log.source(quantity);
-  if (!source) throw Error(where + ": " + unknown_name("quantity", quantity, log.channels()));
+  if (!source)
+    throw Error(where + ": " + unknown_name("quantity", quantity, log.channels()) +
+                "; simulation.channels has all, and the model may have position/OBJECT/x, "
+                "joint/JOINT, sensor/SENSOR, contact_force/BODY");
   return source;
 }
 

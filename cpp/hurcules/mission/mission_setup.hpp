@@ -3,9 +3,6 @@
 
 #include <limits>
 #include <string>
-#include <vector>
-
-#include "hurcules/control/joint_servo.hpp"
 
 namespace hurcules {
 
@@ -16,9 +13,8 @@ struct MissionSetup {
   std::string support = "";   // body that the robot stands on
   double max_seconds =
       std::numeric_limits<double>::infinity();  // [s] it fails when it takes longer
-  double min_height = 0.0;  // [m] of the pelvis above the support; below, the robot fell
-  double max_tilt = 0.0;    // [rad] of the support against its start; above, the robot fell
-  std::vector<ServoGains> servo = {};
+  double min_height = 0.0;    // [m] of the pelvis above the support; below, the robot fell
+  double max_tilt = 0.0;      // [rad] of the support against its start; above, the robot fell
   std::string casualty = "";  // prefix of the person's names in the model, "" for nobody to watch
   double stand_off = 0.0;  // [m] of the robot's centre of mass from the person's, before contact,
                            // or from the load

@@ -1,11 +1,9 @@
-// What is known about Hurcules in numbers, beside its model: the ranges of its modes and the servo
-// of its joints.
+// What is known about Hurcules in numbers, beside its model: the ranges of its modes.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/tasks.hpp"
 
 namespace hurcules {
@@ -23,11 +21,6 @@ struct ModeRange {
 [[nodiscard]] const std::vector<ModeRange>& rescue_without_bed_ranges();
 // The ranges of a mode: "rescue_ready", "rescue_ready_without_bed". Throws Error with the names.
 [[nodiscard]] const std::vector<ModeRange>& ranges_of_mode(const std::string& mode);
-
-[[nodiscard]] const std::vector<ServoGains>& rescue_servo();
-[[nodiscard]] const std::vector<ServoGains>& manipulation_servo();
-// of robot "rescue" or "manipulation"; throws Error with the names
-[[nodiscard]] const std::vector<ServoGains>& servo_of_robot(const std::string& robot);
 
 void set_ranges(JointLimits& limits, const std::vector<ModeRange>& ranges);
 

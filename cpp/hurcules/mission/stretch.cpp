@@ -50,7 +50,6 @@ MissionSetup Stretch::setup_of() {
   setup.max_seconds = 90.0;  // twice what the operator takes: a policy may be slower
   setup.min_height = 0.15;   // the stretch ends with the pelvis 0.35 above the knees
   setup.max_tilt = 0.35;     // the rear edge is the first to tip over, at 0.38 (22 degrees)
-  setup.servo = rescue_servo();
   return setup;
 }
 
@@ -84,7 +83,6 @@ std::shared_ptr<WholeBodyController> Stretch::make_controller(const Robot& robot
   whole.velocity.solver.handover = Handover::Smooth;
   whole.support = setup_of().support;
   whole.base = options.base;
-  whole.servo = setup_of().servo;
   whole.feed_forward = false;  // the thesis' servos know no model
   auto controller = std::make_shared<WholeBodyController>(
       robot, std::vector<NamedStack>{{"stretch", stack}}, std::move(channels), std::move(whole));

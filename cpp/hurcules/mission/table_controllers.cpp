@@ -59,10 +59,10 @@ ForceTaskOptions press_options(double dt) {
   return options;
 }
 
-// all that have a servo but those whose names end like this
-Channel joints_but(const std::vector<ServoGains>& servo, const std::vector<std::string>& endings) {
+// all that have a motor but those whose names end like this
+Channel joints_but(const Robot& robot, const std::vector<std::string>& endings) {
   std::vector<std::string> names;
-  for (const ServoGains& row : servo) {
+  for (const JointActuator& row : joint_actuators(robot)) {
     bool left_out = false;
     for (const std::string& ending : endings) left_out = left_out || row.joint.ends_with(ending);
     if (!left_out) names.push_back(row.joint);
@@ -70,36 +70,24 @@ Channel joints_but(const std::vector<ServoGains>& servo, const std::vector<std::
   return Channel::joints("joints", names, std::numeric_limits<double>::infinity());
 }
 
-// the rims of the bed, where it has them: pumps, 2.5 kg each
-std::vector<ServoGains> with_rims(const Robot& robot, std::vector<ServoGains> servo) {
-  for (const JointActuator& actuator : joint_actuators(robot)) {
-    if (actuator.joint.find("_bed_rim_") != std::string::npos)
-      servo.push_back({actuator.joint, 2.5, 20.0});
-  }
-  return servo;
-}
-
 Channel tracks() {
   return Channel::drive("drive", 1.0, 0.5);
 }
 
-WholeBodyControllerOptions options_of(const Robot& robot, const std::vector<ServoGains>& servo,
-                                      const std::string& method) {
+WholeBodyControllerOptions options_of(const Robot& robot, const std::string& method) {
   WholeBodyControllerOptions options;
   options.velocity.solver.method = method;
   options.dt = robot.timestep();
-  options.servo = servo;
   options.drive = TrackDriveOptions{};
   return options;
 }
 
-std::shared_ptr<WholeBodyController> make(const Robot& robot, const std::vector<ServoGains>& servo,
-                                          std::vector<NamedStack> stacks,
+std::shared_ptr<WholeBodyController> make(const Robot& robot, std::vector<NamedStack> stacks,
                                           std::vector<Channel> channels,
                                           std::unique_ptr<JointLimits> limits, Tasks& tasks,
                                           const std::string& method) {
   auto controller = std::make_shared<WholeBodyController>(
-      robot, std::move(stacks), std::move(channels), options_of(robot, servo, method));
+      robot, std::move(stacks), std::move(channels), options_of(robot, method));
   controller->keep(std::move(limits));
   tasks.give_to(*controller);
   return controller;
@@ -141,10 +129,9 @@ std::shared_ptr<WholeBodyController> lift_controller(const ModelPtr& model,
   };
   std::vector<Channel> channels = tasks.channels();
   channels.push_back(tracks());
-  const std::vector<ServoGains> servo = with_rims(robot, rescue_servo());
-  channels.push_back(joints_but(servo, {"_belt"}));
+  channels.push_back(joints_but(robot, {"_belt"}));
   auto controller =
-      make(robot, servo, std::move(stacks), std::move(channels), std::move(limits), tasks, method);
+      make(robot, std::move(stacks), std::move(channels), std::move(limits), tasks, method);
   controller->sense(left_press, std::make_unique<SpringForce>(model, "LEBS", "L_tcp"));
   controller->sense(right_press, std::make_unique<SpringForce>(model, "REBS", "R_tcp"));
   return controller;
@@ -170,11 +157,10 @@ std::shared_ptr<WholeBodyController> disposal_controller(const ModelPtr& model,
   };
   std::vector<Channel> channels = tasks.channels();
   channels.push_back(tracks());
-  channels.push_back(joints_but(manipulation_servo(), {"_belt", "_grip_1"}));
+  channels.push_back(joints_but(robot, {"_belt", "_grip_1"}));
   channels.push_back(Channel::joint("left_grip", "L_grip_1", 0.05));
   channels.push_back(Channel::joint("right_grip", "R_grip_1", 0.05));
-  return make(robot, manipulation_servo(), std::move(stacks), std::move(channels),
-              std::move(limits), tasks, method);
+  return make(robot, std::move(stacks), std::move(channels), std::move(limits), tasks, method);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@
 namespace hurcules {
 
 struct TableFile {
-  MissionSetup setup;  // without scene, keyframe and servo: the model's and the controller's
+  MissionSetup setup;           // without scene and keyframe: the model's
   std::string controller = "";  // by name
   std::string model = "";       // file name, MJB
   std::string checksum = "";    // of that file's bytes

@@ -116,6 +116,20 @@ void read_wheels(const mjModel* m, std::vector<JointActuator>& actuators) {
   }
 }
 
+void read_servos(const mjModel* m, std::vector<JointActuator>& actuators) {
+  for (JointActuator& own : actuators) {
+    const int numeric = find_numeric(m, "servo_", own.joint);
+    if (numeric < 0) continue;
+    const mjtNum* const data = m->numeric_data + m->numeric_adr[numeric];
+    require(m->numeric_size[numeric] == 2 && data[0] > 0.0 && data[1] > 0.0,
+            "numeric '" + name_of(*m, mjOBJ_NUMERIC, numeric) +
+                "' wants two numbers above 0: the inertia that joint '" + own.joint +
+                "' turns and the bandwidth of its servo");
+    own.servo_inertia = data[0];
+    own.servo_bandwidth = data[1];
+  }
+}
+
 // where a ball joint has one, it has three
 void require_three(const mjModel* m, const std::vector<JointActuator>& actuators) {
   for (const JointActuator& own : actuators) {
@@ -157,6 +171,7 @@ std::vector<JointActuator> joint_actuators(const Robot& robot) {
   }
   require_three(m, found);
   read_wheels(m, found);
+  read_servos(m, found);
   return found;
 }
 

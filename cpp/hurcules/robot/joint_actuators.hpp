@@ -39,6 +39,9 @@ struct JointActuator {
   // wheel has a hinge without a range, on a robot that can move; it bears no other body, and its
   // shapes are round about the axis
   double rolling_inertia = 0.0;
+  // [kg m^2] or [kg], [rad/s] what its servo shall reckon with, as the model's numeric servo_JOINT
+  // says; 0 without one
+  double servo_inertia = 0.0, servo_bandwidth = 0.0;
 
   // [rad] or [m] where it is, in all of qpos (nq)
   [[nodiscard]] double position(const Vector& all) const;
@@ -66,8 +69,8 @@ struct JointActuator {
 };
 
 // All of them, in the model's order. Throws Error for an actuator of a joint whose force is no
-// affine function of its control (muscles, actuators with a state of their own), and for a ball joint
-// that has others than one about each axis of its body.
+// affine function of its control (muscles, actuators with a state of their own), for a ball joint that
+// has others than one about each axis of its body, and for a servo_JOINT that is no two numbers above 0.
 [[nodiscard]] std::vector<JointActuator> joint_actuators(const Robot& robot);
 // joints of a model that are driven wheels, see JointActuator::rolling_inertia; of any actuators
 [[nodiscard]] std::vector<int> driven_wheels(const mjModel_& model);

@@ -49,7 +49,6 @@ def simulation(
     model: mujoco.MjModel,
     qpos: ArrayLike | None = None,
     *,
-    robot: str = "rescue",
     steps: int = 2,
     channels: Mapping[str, Any] | None = None,
     support: str = "",
@@ -65,20 +64,18 @@ def simulation(
     Args:
         model: a scene with the robot.
         qpos: (nq,) where everything starts, at rest; by default the keyframe "drive".
-        robot: "rescue" or "manipulation", whose servo table is taken.
         steps: of the physics in a tick.
         channels: by name, as `WholeBodyController` takes them.
         support: the body whose tilt `fall` watches; by default the root.
         fall: when the robot counts as fallen; None: never.
 
     Raises:
-        Error: an unknown robot, a motor that its table does not know, a channel of an unknown
+        Error: a motor for which the model has no servo, a channel of an unknown
             joint, or a model without the robot's tracks.
     """
     controller = joint_controller(
         model,
         model.key("drive").qpos if qpos is None else qpos,
-        robot,
         channels=dict(channels or {}),
         dt=steps * float(model.opt.timestep),
         support=support,

@@ -3,7 +3,7 @@
 model = hurcules.models.load("rescue")
 data = mujoco.MjData(model)
 mujoco.mj_resetDataKeyframe(model, data, model.key("drive").id)
-player = postures.Player(model, data, "rescue")
+player = postures.Player(model, data)
 for result in player.play(postures.stand_up("rescue")):
     print(result.name, result.margin, result.worst_torque)
 """

@@ -49,7 +49,6 @@ class Player:
         model: a scene with the robot; its actuators are motors at joints.
         data: of this model, in the posture to begin with; the player steps it. It begins at rest,
             at time 0, no brake shut.
-        robot: "rescue" or "manipulation": whose servo table is taken.
         carried: bodies that count to the robot's centre of mass when they are above the ground.
         simulation: of this model and data that goes on instead of one of the player's own; its
             controller's stacks may rule between two moves.
@@ -62,7 +61,7 @@ class Player:
         watch: called after every step.
 
     Raises:
-        Error: an unknown robot, or a motor that the table does not know. Every move raises it, too,
+        Error: a motor for which the model has no numeric `servo_JOINT`. Every move raises it, too,
             when the run is over: the physics diverged, say.
     """
 
@@ -70,13 +69,12 @@ class Player:
         self,
         model: mujoco.MjModel,
         data: mujoco.MjData,
-        robot: str,
         carried: Sequence[str] = (),
         simulation: _core.Simulation | None = None,
     ) -> None:
         self.model, self.data, self.carried = model, data, list(carried)
         self.watch: Callable[[], None] | None = None
-        self.simulation = simulation or joint_loop(model, data, robot)
+        self.simulation = simulation or joint_loop(model, data)
         self.controller = self.simulation.controller
         self.joints = self.controller.joints
         ids = [model.joint(joint).id for joint in self.joints]
@@ -243,7 +241,7 @@ def look(
 def joint_controller(
     model: mujoco.MjModel,
     qpos: ArrayLike,
-    servo: str | Mapping[str, tuple[float, float]],
+    servo: Mapping[str, tuple[float, float]] | None = None,
     **options: Any,
 ) -> _core.WholeBodyController:
     """A controller that moves joints one by one.
@@ -252,13 +250,13 @@ def joint_controller(
         model: of a robot whose actuators are motors at joints.
         qpos: (nq,) where it starts, at rest.
         servo: by joint with a motor the inertia that it turns [kg m^2] and its bandwidth [rad/s];
-            or the robot whose table is taken, "rescue" or "manipulation".
+            None: the model's numerics `servo_JOINT`.
         **options: further ones of `WholeBodyController`.
 
     Raises:
-        Error: an unknown robot, or a motor without a row in `servo`.
+        Error: a motor without a row in `servo`.
     """
-    table = _table_of(model, servo) if isinstance(servo, str) else dict(servo)
+    table = _table_of(model) if servo is None else dict(servo)
     plan = _core.Robot(model)
     plan.set_qpos(np.asarray(qpos, np.float64))
     # no feed-forward: whatever the robot carries is a disturbance that the gains are made for
@@ -267,7 +265,9 @@ def joint_controller(
 
 
 def joint_loop(
-    model: mujoco.MjModel, data: mujoco.MjData, servo: str | Mapping[str, tuple[float, float]]
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    servo: Mapping[str, tuple[float, float]] | None = None,
 ) -> _core.Simulation:
     """A closed loop that moves joints one by one, from where the data stand, at rest.
 
@@ -277,17 +277,17 @@ def joint_loop(
         servo: as `joint_controller` takes it.
 
     Raises:
-        Error: an unknown robot, or a motor without a row in `servo`.
+        Error: a motor without a row in `servo`.
     """
     controller = joint_controller(model, data.qpos, servo)
     options = _core.SimulationOptions(record=False, monitors=_core.MonitorOptions(on=False))
     return _core.Simulation(model, data, controller, options)
 
 
-def _table_of(model: mujoco.MjModel, robot: str) -> dict[str, tuple[float, float]]:
-    table = _core.servo_table(robot)
+def _table_of(model: mujoco.MjModel) -> dict[str, tuple[float, float]]:
+    table = _core.servo_table(_core.Robot(model))
     joints = [model.joint(int(j)).name for j in model.actuator_trnid[: model.nu, 0]]
     missing = [joint for joint in joints if joint not in table]
     if missing:
-        raise Error(f"the servo table of '{robot}' lacks the joints {', '.join(missing)}")
+        raise Error(f"the model has no servo_JOINT for the joints {', '.join(missing)}")
     return table

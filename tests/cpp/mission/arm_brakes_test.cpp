@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "hurcules/control/joint_servo.hpp"
-#include "hurcules/mission/robot_tables.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "support/expect.hpp"
 #include "support/held_posture.hpp"
@@ -27,7 +26,7 @@ class Arms {
   explicit Arms(const std::string& keyframe = "ready")
       : physics(load_model(hurcules_test::models("/scenes/stretch.xml"))),
         robot(physics.model_ptr()),
-        servo(robot, rescue_servo(), physics.dt()) {
+        servo(robot, model_servo_gains(joint_actuators(robot)), physics.dt()) {
     physics.reset(physics.find_keyframe(keyframe));
     robot.set_qpos(std::as_const(physics).qpos());
     place = robot.configuration();

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "hurcules/mission/robot_tables.hpp"
+#include "hurcules/control/joint_servo.hpp"
 #include "hurcules/sim/battery.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
@@ -107,7 +107,7 @@ class Vehicle {
 double working_power() {
   Plant physics(scene());
   Robot robot(physics.model_ptr());
-  JointServo servo(robot, rescue_servo(), physics.dt());
+  JointServo servo(robot, model_servo_gains(joint_actuators(robot)), physics.dt());
   physics.reset(physics.find_keyframe("acquisition"));
   robot.set_qpos(std::as_const(physics).qpos());
   const Vector place = robot.configuration();

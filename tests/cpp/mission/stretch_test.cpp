@@ -152,7 +152,7 @@ void servo_reckons_with_the_inertia_of_the_model(const Recorded& run) {
     robot.mass_matrix(M);
     largest = largest.cwiseMax(M.diagonal());
   }
-  for (const ServoGains& row : rescue_servo()) {
+  for (const ServoGains& row : model_servo_gains(joint_actuators(robot))) {
     if (contains(row.joint, "belt") || contains(row.joint, "bed")) continue;
     const bool knee = contains(row.joint, "KN");
     const Index i = robot.coordinate(knee ? "KN" : row.joint);

@@ -67,7 +67,7 @@ def run() -> Sequence:
     done = Sequence()
     robot = PressRobot(Setting(gains=second(ForceLoop.Velocity), environment=G), {}, "drive")
     model, data = robot.model, robot.data
-    player = postures.Player(model, data, "rescue", simulation=robot.simulation)
+    player = postures.Player(model, data, simulation=robot.simulation)
     turn = WAY / TRACK_RADIUS
     drive = postures.move("drive", 5.0, L_lower_belt=turn, R_lower_belt=turn)
     begin = float(data.qpos[0])
@@ -85,7 +85,7 @@ def run() -> Sequence:
         if name == "drive":
             done.drove = float(data.qpos[0]) - begin
     press(robot, done)
-    player = postures.Player(model, data, "rescue", simulation=robot.simulation)
+    player = postures.Player(model, data, simulation=robot.simulation)
     embrace = postures.standing("embrace", 5, (1.0, 1.147, 1.418, -0.3, 1.62))
     lift = [
         postures.standing("lift", 8, (1.0, 1.3, 0.8, -0.3, 1.65)),

@@ -67,7 +67,6 @@ class Hand:
             body.robot,
             body.stack(),
             channels,
-            servo=hurcules.servo_table("manipulation"),
             feed_forward=False,
             velocity=body.setting.options,
         )
@@ -77,7 +76,7 @@ class Hand:
         self.data = mujoco.MjData(model)
         simulation = _core.Simulation(model, self.data, controller, options)
         mujoco.mj_forward(model, self.data)
-        self.player = postures.Player(model, self.data, "manipulation", ["case"], simulation)
+        self.player = postures.Player(model, self.data, ["case"], simulation)
 
     def straight(self, goal: Array, yaw: float, seconds: float) -> postures.Result:
         """The left hand to a point [m], turned by an angle about the vertical."""

@@ -111,7 +111,7 @@ class PressRobot:
         plan.stand_on(SUPPORT)
         plan.set_configuration(_configured(plan, posture))
         self._make_tasks()
-        table = hurcules.servo_table("rescue")
+        table = hurcules.servo_table(plan)
         smooth = "smooth" if setting.method == "lexicographic" else "strict"
         solver = hurcules.rhqp.SolverOptions(method=setting.method, handover=smooth)
         self.accelerates = setting.gains.loop != hurcules.ForceLoop.FirstOrder

@@ -135,7 +135,7 @@ def start(
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
     mujoco.mj_forward(model, data)
-    return data, postures.Player(model, data, robot, carried=loads)
+    return data, postures.Player(model, data, carried=loads)
 
 
 def touching(model: mujoco.MjModel, data: mujoco.MjData) -> set[tuple[str, ...]]:

@@ -88,9 +88,9 @@ def led(model: mujoco.MjModel, qpos: Array, gains: Gains, q: Array, qd: Array) -
     """
     data = mujoco.MjData(model)
     data.qpos[:] = qpos
-    hands = any(model.joint(i).name == "L_grip_1" for i in range(model.njnt))
-    table = hurcules.servo_table("manipulation" if hands else "rescue")
-    simulation = postures.joint_loop(model, data, {**table, **gains})
+    simulation = postures.joint_loop(
+        model, data, {**hurcules.servo_table(hurcules.Robot(model)), **gains}
+    )
     controller = simulation.controller
     names = controller.joints
     pairs = [
