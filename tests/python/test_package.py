@@ -104,6 +104,11 @@ def test_all_names_exactly_what_is_there(name: str) -> None:
     assert [entry for entry in module.__all__ if not hasattr(module, entry)] == []
 
 
+def test_what_completes_names_sees_those_that_are_meant_to_be_used() -> None:
+    assert dir(hurcules) == sorted(hurcules.__all__)
+    assert "Robot" in dir(hurcules) and "warnings" not in dir(hurcules)
+
+
 def test_error_is_a_value_error_of_the_package() -> None:
     assert issubclass(hurcules.Error, ValueError)
     assert f"{hurcules.Error.__module__}.{hurcules.Error.__qualname__}" == "hurcules.Error"
