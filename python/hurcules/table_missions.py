@@ -89,7 +89,7 @@ def table_mission(name: str) -> TableMission | None:
     if not table.scene and scene not in TABLE_MISSIONS:
         known = ", ".join(TABLE_MISSIONS)
         raise Error(
-            f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; with a robot of "
+            f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; a robot of "
             "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)"
         )
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
