@@ -68,7 +68,7 @@ NAMES = {
 }
 # of a class that only the library makes objects of: pybind11's refuses at run time
 # put there by hurcules._reprs and hurcules._subclasses
-INSTALLED = ("__repr__", "_repr_html_", "__init_subclass__")
+INSTALLED = ("__repr__", "_repr_html_", "__init_subclass__", "__signature__")
 NO_INIT = "def __init__(self, *args: object, **kwargs: object) -> None: ..."
 # what a bare container holds
 BARE = {
@@ -140,7 +140,9 @@ class _Types(ast.NodeTransformer):
         self._clean(node)
         return node
 
-    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST | None:
+        if _target(node) in INSTALLED:
+            return None
         node.annotation = _type(node.annotation)
         return node
 

@@ -23,6 +23,7 @@ from hurcules import (  # noqa: E402
     _subclasses,
     cameras,
     casualties,
+    disposal,
     driving,
     lift,
     models,
@@ -162,6 +163,11 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(text, name=name, obj=sys.modules[__name__])  # Python says what is near
 
 
+def __dir__() -> list[str]:
+    """What is meant to be used, for whoever completes names."""
+    return __all__
+
+
 __all__ = [
     "AccelerationController",
     "AccelerationControllerOptions",
@@ -256,6 +262,7 @@ __all__ = [
     "__version__",
     "cameras",
     "casualties",
+    "disposal",
     "driving",
     "film",
     "inverse_kinematics",

@@ -1,11 +1,13 @@
-"""How solutions, options and diagnostics look at a prompt and in a notebook.
+"""How solutions, options and diagnostics look at a prompt and in a notebook; what classes take.
 
 The classes are those of the compiled module; what they show is read from their properties.
 """
 
 from __future__ import annotations
 
+import re
 from html import escape
+from inspect import Parameter, Signature
 from typing import Any
 
 import numpy as np
@@ -35,9 +37,61 @@ def install() -> None:
             continue
         if kind.__repr__ is object.__repr__:  # type: ignore[comparison-overlap]
             kind.__repr__ = _text  # type: ignore[assignment]
+        if "self: " in (vars(kind).get("__init__", _text).__doc__ or ""):
+            kind.__signature__ = _Arguments(kind)  # type: ignore[attr-defined]
         if not (name in SHOWN or name.endswith("Options")):
             continue
         kind._repr_html_ = _html  # type: ignore[attr-defined]
+
+
+# what `inspect.signature` says of a class: pybind11 says it in the text of `__init__`
+class _Arguments:
+    def __init__(self, kind: type) -> None:
+        self.kind = kind
+
+    def __get__(self, made: object, owner: type) -> Signature:
+        first = next(one for one in owner.__mro__ if "__init__" in vars(one))
+        if first is not self.kind:  # a class of one's own that is made in another way
+            raise AttributeError("__signature__")
+        return _signature(str(vars(first)["__init__"].__doc__))
+
+
+class _Default:
+    """A default value, of which the text is known."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def _signature(text: str) -> Signature:
+    line = next(line for line in text.splitlines() if "(self: " in line)
+    parameters: list[Parameter] = []
+    parts = _parts(line.partition("(")[2].rpartition(")")[0])[1:]
+    star = parts.index("*") if "*" in parts else len(parts)
+    for place, part in enumerate(parts):
+        if place == star:
+            continue
+        kind = Parameter.KEYWORD_ONLY if place > star else Parameter.POSITIONAL_OR_KEYWORD
+        name, _, rest = part.partition(": ")
+        annotation, found, default = rest.partition(" = ")
+        value = _Default(default) if found else Parameter.empty
+        parameters.append(Parameter(name, kind, default=value, annotation=_Default(annotation)))
+    return Signature(parameters)
+
+
+def _parts(text: str) -> list[str]:
+    """A text, split at the commas that are in no bracket."""
+    parts, depth = [""], 0
+    for piece in re.findall(r"'[^']*'|\"[^\"]*\"|.", text):
+        depth += (piece in "([{<") - (piece in ")]}>")
+        if piece == "," and not depth:
+            parts.append("")
+        else:
+            parts[-1] += piece
+    return [part.strip() for part in parts]
 
 
 def _values(shown: Any) -> dict[str, str]:

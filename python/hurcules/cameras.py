@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 from hurcules.rendering import open_renderer
+from hurcules.validation import require_known
 
 __all__ = ["ROBOT_CAMERAS", "Camera", "baseline", "find", "names", "picture"]
 
@@ -124,5 +125,5 @@ def _index(model: mujoco.MjModel, name: str) -> int:
     found = [i for i, other in enumerate(known) if other == name or other.endswith(f"_{name}")]
     exact = [i for i in found if known[i] == name]
     if not exact and len(found) != 1:
-        raise Error(f"camera '{name}' does not exist; there are: {', '.join(known)}")
+        require_known("camera", name, known)
     return (exact or found)[0]

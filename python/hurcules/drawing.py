@@ -259,7 +259,7 @@ def html(loop: Loop) -> str:
     """For a notebook: time, levels, limits, and a picture where there is OpenGL."""
     rows = [("time", f"{loop.time:.3f} s")]
     levels = zip(loop.levels, loop.level_errors(), strict=True)
-    rows += [(f"error of {level_words(name)}", f"{error:.4g}") for name, error in levels]
+    rows += [(f"error of {level_words(name)} [m, rad]", f"{error:.4g}") for name, error in levels]
     limits = ", ".join(mark.text for mark in limit_marks(loop))
     rows.append(("held by", limits or "no joint limit"))
     cells = "".join(

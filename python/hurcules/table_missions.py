@@ -88,7 +88,10 @@ def table_mission(name: str) -> TableMission | None:
     scene = table.scene or table.setup.name
     if not table.scene and scene not in TABLE_MISSIONS:
         known = ", ".join(TABLE_MISSIONS)
-        raise Error(f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}")
+        raise Error(
+            f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; a robot of "
+            "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)"
+        )
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)
 

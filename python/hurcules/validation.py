@@ -23,7 +23,8 @@ def require_known(noun: str, name: str, known: Iterable[str]) -> None:
     """
     known = list(known)
     if name not in known:
-        raise Error(f"{noun} '{name}' does not exist; there are: {', '.join(known)}")
+        there = f"there are: {', '.join(known)}" if known else "there is none"
+        raise Error(f"{noun} '{name}' does not exist; {there}")
 
 
 @contextmanager

@@ -241,7 +241,8 @@ def require_display() -> None:
         raise Error(
             "the viewer needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set; remedy: "
             "run it at a desktop or with ssh -X; without a display, hurcules run films a mission, "
-            "simulation.picture() and hurcules.film(simulation, ...) draw one of your own"
+            "simulation.picture() and hurcules.film(simulation, ...) draw one of your own, and "
+            "render_mode='rgb_array' an environment"
         )
     import glfw
 

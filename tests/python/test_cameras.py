@@ -116,6 +116,8 @@ def test_depth_is_the_distance_along_the_view(
 
 
 def test_what_cannot_be_is_refused(robot: mujoco.MjModel) -> None:
+    with pytest.raises(hurcules.Error, match=r"camera 'side' does not exist; there is none"):
+        cameras.find(mujoco.MjModel.from_xml_string("<mujoco/>"), "side")
     with pytest.raises(hurcules.Error, match=r"camera .heed. does not exist; there are: .*head_w"):
         cameras.find(robot, "heed")
     with pytest.raises(hurcules.Error, match="different bodies"):

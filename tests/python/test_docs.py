@@ -6,15 +6,30 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import pytest
 
 import hurcules
 from hurcules import cli
+from hurcules.recording import CHANNELS, FORCE_CHANNELS, LOAD_CHANNELS, PERSON_CHANNELS
 from hurcules_envs.environment import Environment
 from hurcules_envs.evaluation import wilson
 
 SHARE = r"(\d+) of (\d+)[^()|;]{0,90}\((\d+) to (\d+) %\)"  # 19 of 20 (76 to 99 %)
 CALLED = r"^\w+$|[A-Za-z_]\w+(?=\()"  # a name alone, or what is called
+SLIDES = """
+<mujoco>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="x" type="slide" axis="1 0 0"/>
+      <joint name="y" type="slide" axis="0 1 0"/>
+      <joint name="z" type="slide"/>
+      <geom size="0.05" mass="1"/>
+      <site name="tip"/>
+    </body>
+  </worldbody>
+  <actuator><motor joint="x"/><motor joint="y"/><motor joint="z"/></actuator>
+</mujoco>"""
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +66,32 @@ def test_the_mission_of_the_loop_runs_where_there_is_no_checkout(
     exec(block, names)
     names["simulation"].step(1)
     assert names["simulation"].phase == "wait"
+
+
+def test_a_mission_of_an_own_robot_is_what_the_page_says(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = (root / "docs/loop.md").read_text(encoding="utf-8")
+    table = next(block for block in blocks(page, "toml") if "lower" in block)
+    (tmp_path / "lower.toml").write_text(table)
+    monkeypatch.chdir(tmp_path)
+    model = mujoco.MjModel.from_xml_string(SLIDES)
+    robot = hurcules.Robot(model)
+    names: dict[str, Any] = {"hurcules": hurcules, "robot": robot, "model": model}
+    names["hand"] = hurcules.PositionTask("hand", robot, "tip")
+    names["posture"] = hurcules.PostureTask("posture", robot)
+    exec(next(block for block in blocks(page, "python") if "lower.toml" in block), names)
+    simulation = names["simulation"]
+    assert simulation.success and simulation.figures()["hand_error_m"] < 0.02
+    assert simulation.data.site("tip").xpos[2] == pytest.approx(0.95, abs=1e-4)
+
+
+def test_the_columns_of_the_log_are_those_that_the_page_says(root: Path) -> None:
+    page = (root / "docs/loop.md").read_text(encoding="utf-8")
+    table = page.partition("| column | value |\n|---|---|\n")[2].partition("\n\n")[0]
+    told = [row.strip("|").split("|") for row in table.splitlines()]
+    columns = (*CHANNELS, *FORCE_CHANNELS, *PERSON_CHANNELS, *LOAD_CHANNELS)
+    assert [(names.replace("`", "").strip(), text.strip()) for names, text in told] == [*columns]
 
 
 def test_the_loop_on_the_first_screen_has_ten_lines(readme: str) -> None:

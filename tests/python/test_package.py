@@ -5,6 +5,7 @@ of another libmujoco.
 """
 
 import importlib
+import inspect
 import os
 import re
 import subprocess
@@ -102,6 +103,31 @@ def test_all_names_exactly_what_is_there(name: str) -> None:
     module = importlib.import_module(name)
     assert len(set(module.__all__)) == len(module.__all__)
     assert [entry for entry in module.__all__ if not hasattr(module, entry)] == []
+
+
+def test_what_completes_names_sees_those_that_are_meant_to_be_used() -> None:
+    assert dir(hurcules) == sorted(hurcules.__all__)
+    assert "Robot" in dir(hurcules) and "warnings" not in dir(hurcules)
+
+
+def test_what_a_compiled_class_takes_is_its_signature() -> None:
+    class Height(hurcules.CustomTask):
+        def __init__(self, frame: str) -> None:
+            """Made in another way."""
+
+    class Same(hurcules.CustomTask):
+        pass
+
+    taken = inspect.signature(hurcules.PositionTask).parameters
+    assert [*taken] == ["name", "robot", "frame", "reference", "axes"]
+    assert taken["frame"].default is inspect.Parameter.empty
+    assert str(taken["reference"]) == "reference: str = ''"
+    servo = inspect.signature(hurcules.WholeBodyController).parameters["servo"]
+    assert servo.kind is inspect.Parameter.KEYWORD_ONLY and str(servo.default) == "{}"
+    assert [*inspect.signature(hurcules.Robot).parameters] == ["model", "joints", "floating"]
+    assert [*inspect.signature(Height).parameters] == ["frame"]
+    assert [*inspect.signature(Same).parameters] == ["name", "robot", "rows", "measure"]
+    assert "mission" in inspect.signature(hurcules.Simulation).parameters
 
 
 def test_error_is_a_value_error_of_the_package() -> None:

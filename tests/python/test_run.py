@@ -169,6 +169,7 @@ def test_the_report_needs_no_other_file(result: tuple[Path, str]) -> None:
     assert 'src="http' not in page
     assert 'href="http' not in page
     assert "data:video/mp4;base64," in page
+    assert "break-after: avoid" in page  # no heading alone at the foot of a printed page
     assert page.count("<svg") == 20  # panels, that a phone shows one below the other
     for title in ("Joint positions", "Control errors", "Task errors", "Active limits"):
         assert f"<h2>{title}</h2>" in page
@@ -232,7 +233,9 @@ def test_summary_and_report_say_what_was_asked_of_the_mission(tmp_path: Path) ->
     line = "mass 90 · offset 0.05, -0.1 · yaw 0.0 · friction 0.45 · pose back · seed 0"
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert line in page
+    assert "The mission was not finished: stopped at 0.100 s, as asked." in page
     assert "<h2>Monitors</h2>" in page and "Joint positions" not in page  # none has moved yet
+    assert "Task errors" not in page  # nor missed anything
 
 
 def test_plots_leave_no_coordinate_out() -> None:

@@ -55,6 +55,7 @@ def write(
     origin = recording.origin
     page = template.render(
         summary=summary,
+        cut=summary["reason"].startswith(("interrupted at", "stopped at")),
         origin=origin,
         names=_names(recording.log),
         events=[(e["time_s"] - origin, event_words(e["text"])) for e in summary["events"]],
@@ -142,10 +143,11 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     if "load/off_m" in log:
         drawn.insert(0, (plots.load, log, "The load", _LOAD))
     with applied():
-        return [
+        made = [
             {"title": title, "text": text, "svg": draw(part, events)}
             for draw, part, title, text in drawn
         ]
+    return [plot for plot in made if "<svg" in plot["svg"]]
 
 
 def _regions(log: dict[str, Any]) -> str:
