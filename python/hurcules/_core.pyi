@@ -2718,11 +2718,12 @@ class WholeBodyController:
       base: "held" (the plan stands where the robot stood at the start) or "sensed" (where it stands
         now: targets in the world stay where they are while the robot drives).
       support: body that stands on the ground; by default the robot's own, see Robot.stand_on.
-      servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], see servo_table; of
-        the joints that are left out reckoned from the model. A driven wheel may roll the robot.
+      servo: by joint the inertia that it turns [kg m^2] and its bandwidth [rad/s], of the joints
+        that are left out as the model says (servo_table), else reckoned from it. A driven wheel may roll
+        the robot.
       feed_forward: servos are told the torques that the model says.
       decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
-        `servo` is not given, and no wheel is driven.
+        all are reckoned, and no wheel is driven.
       torque_scaling: the motion slows down where a motor would be asked for more than its peak. False
         where drives with servos of their own follow q_des: their sag would be taken for a load.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.
@@ -3069,7 +3070,7 @@ class Condition:
     """A quantity on one side of a value, for some time on end.
 
     Args:
-      quantity: a column of the log: `simulation.channels`.
+      quantity: a column of the log (`simulation.channels`), or of the scene: position/OBJECT/x, joint/JOINT, sensor/SENSOR, contact_force/BODY.
       above: the quantity is at least the value; False: at most.
       value: in the unit of the quantity.
       seconds: [s]."""
@@ -3376,7 +3377,7 @@ class Measure:
 
     Args:
       name: of the figure, with its unit.
-      quantity: a column of the log.
+      quantity: a column of the log (`simulation.channels`), or of the scene as in Condition.
       take: "largest", "smallest", "span" (largest less smallest) or "last".
       phases: list of names, none: all.
       least: below, the mission failed.
@@ -4525,17 +4526,19 @@ def self_collision(
     Raises:
       Error: most <= margin, or postures or rows below 1."""
 
-def servo_table(robot: str) -> dict[str, Any]:
-    """What the servos of a robot's joints reckon with.
+def servo_table(robot: Robot) -> dict[str, Any]:
+    """What the model says that servos of its joints shall reckon with: its numerics `servo_JOINT`.
+
+    A WholeBodyController takes them where it is given no others.
 
     Args:
-      robot: "rescue" or "manipulation".
+      robot: whose model has them, as Hurcules has.
 
     Returns:
       By joint: the inertia that it turns [kg m^2], of a slide [kg], and its bandwidth [rad/s].
 
     Raises:
-      Error: an unknown robot."""
+      Error: a servo_JOINT that is no two numbers above 0."""
 
 def sole_points(robot: Robot, body: str) -> NDArray[np.float64]:
     """The lowest points of the collision geoms of a body, and of what is welded to it, as the robot stands.
