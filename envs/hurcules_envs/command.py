@@ -39,6 +39,10 @@ Robot = Annotated[str | None, typer.Option(help="rescue, manipulation or a path.
 Frame = Annotated[
     list[str] | None, typer.Option(help="Of a hand, where --robot is a path; twice for two.")
 ]
+Rate = Annotated[
+    float | None,
+    typer.Option(help="Of the policy [Hz].", show_default="the environment's", min=1.0),
+]
 Vary = Annotated[
     list[str] | None,
     typer.Option(help="What differs between episodes: friction=0.6,1.2; several times."),
@@ -56,9 +60,7 @@ def train(
     frame: Frame = None,
     action: Annotated[str | None, typer.Option(help="twist, delta, pose or joint.")] = None,
     sparse: Annotated[bool, typer.Option("--sparse", help="No shaped reward.")] = False,
-    rate: Annotated[
-        float | None, typer.Option(help="Of the policy [Hz].", show_default="the environment's")
-    ] = None,
+    rate: Rate = None,
     vary: Vary = None,
     demonstrations: Annotated[
         int, typer.Option(help="Episodes of the scripted expert; PPO starts as its clone.", min=0)
@@ -155,6 +157,7 @@ def evaluate(
     camera: Annotated[
         list[str] | None, typer.Option(help="Whose pictures the policy sees; several times.")
     ] = None,
+    rate: Rate = None,
     vary: Vary = None,
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
@@ -166,7 +169,9 @@ def evaluate(
     For example `hurcules evaluate out/train/Reach-v0 --robot manipulation`, or
     `hurcules evaluate Drive-v0`
     """
-    chosen = _given(fidelity=fidelity, robot=robot, frames=frame, cameras=camera, **_ranges(vary))
+    chosen = _given(
+        fidelity=fidelity, robot=robot, frames=frame, cameras=camera, rate=rate, **_ranges(vary)
+    )  # fmt: skip
     _judge(policy, environment, episodes, chosen, out, Console())
 
 
@@ -185,6 +190,7 @@ def record(
     camera: Annotated[
         list[str] | None, typer.Option(help="Whose pictures are recorded too; several times.")
     ] = None,
+    rate: Rate = None,
     vary: Vary = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     author: Annotated[
@@ -203,7 +209,7 @@ def record(
     name, kind, source = _known(environment), "expert", ""
     options = _given(
         fidelity=fidelity or ("exact" if fidelities_of(name) else None), cameras=camera or None,
-        robot=robot, frames=frame or None, **_ranges(vary),
+        robot=robot, frames=frame or None, rate=rate, **_ranges(vary),
     )  # fmt: skip
     act: Any = _expert
     if policy != "expert":

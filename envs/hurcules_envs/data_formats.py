@@ -12,6 +12,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -129,9 +130,11 @@ def _robomimic(recording: Recording, env: Any, episodes: Iterable[Episode], out:
             demo.create_dataset("rewards", data=one.rewards)
             demo.create_dataset("dones", data=one.done.astype(int))
             for name, values in one.observations.items():
-                packed = "gzip" if _is_picture(values) else None
-                demo.create_dataset(f"obs/{name}", data=values[:-1], compression=packed)
-                demo.create_dataset(f"next_obs/{name}", data=values[1:], compression=packed)
+                packed: dict[str, Any] = {}
+                if _is_picture(values):  # each is read alone
+                    packed = {"compression": "gzip", "chunks": (1, *values.shape[1:])}
+                demo.create_dataset(f"obs/{name}", data=values[:-1], **packed)
+                demo.create_dataset(f"next_obs/{name}", data=values[1:], **packed)
             total += len(one.actions)
         data.attrs["total"] = total
         file["mask/success"] = np.array(succeeded, dtype="S")
@@ -177,9 +180,9 @@ def _lerobot(recording: Recording, env: Any, episodes: Iterable[Episode], out: P
             dataset = LeRobotDataset.create(
                 f"hurcules/{root.name}",
                 fps=env.metadata["render_fps"],
-                features=_features(one, env.unwrapped.action_names),
+                features=_features(one, env.unwrapped),
                 root=root,
-                robot_type=str(recording.options.get("robot", "rescue")),
+                robot_type=_robot_type(recording, env.unwrapped.model),
                 use_videos=False,
             )
         for k in range(len(one.actions)):
@@ -204,8 +207,25 @@ def _lerobot(recording: Recording, env: Any, episodes: Iterable[Episode], out: P
     (root / "meta" / "hurcules.json").write_text(json.dumps(about, indent=1) + "\n")
 
 
-def _features(episode: Episode, action_names: list[str]) -> dict[str, dict[str, Any]]:
+def _robot_type(recording: Recording, model: mujoco.MjModel) -> str | None:
+    """The robot that was asked for, else that of the package whose bodies are there."""
+    if "robot" in recording.options:
+        return str(recording.options["robot"])
+    there = {model.body(i).name for i in range(model.nbody)}
+    for name in hurcules.models.names():
+        bodies = {body.name for body in hurcules.models.make(name).bodies}
+        if {body for body in bodies if "bed" not in body} <= there:  # it may be without its bed
+            return name
+    return None
+
+
+def _features(episode: Episode, env: Any) -> dict[str, dict[str, Any]]:
     """The columns of a data set of LeRobot."""
+    numbers = [
+        f"{one.name}_{k}" if one.size > 1 else one.name
+        for one in getattr(getattr(env, "environment", None), "observation", ())
+        for k in range(one.size)
+    ]
     columns: dict[str, dict[str, Any]] = {}
     for name, values in episode.observations.items():
         picture = _is_picture(values)
@@ -214,8 +234,10 @@ def _features(episode: Episode, action_names: list[str]) -> dict[str, dict[str, 
             "shape": values.shape[1:],
             "names": ["height", "width", "channels"] if picture else None,
         }
+        if name in ("flat", "observation") and values.shape[1:] == (len(numbers),):
+            columns[_lerobot_key(name)]["names"] = numbers
     shape = episode.actions.shape[1:]
-    columns["action"] = {"dtype": "float32", "shape": shape, "names": list(action_names)}
+    columns["action"] = {"dtype": "float32", "shape": shape, "names": list(env.action_names)}
     for name, kind in (("reward", "float32"), ("done", "bool"), ("success", "bool")):
         columns[f"next.{name}"] = {"dtype": kind, "shape": (1,), "names": None}
     return columns

@@ -21,8 +21,11 @@ from hurcules.output import write_whole
 __all__ = ["Graph", "Node", "read", "write"]
 
 IR_VERSION, OPERATORS = 8, 13
-FLOAT, INT64, DOUBLE = 1, 7, 11  # TensorProto.DataType
-_TYPES = {FLOAT: np.float32, INT64: np.int64, DOUBLE: np.float64}
+FLOAT = 1  # TensorProto.DataType
+_TYPES: Mapping[int, Any] = {
+    FLOAT: np.float32, 2: np.uint8, 3: np.int8, 6: np.int32, 7: np.int64, 9: np.bool_,
+    10: np.float16, 11: np.float64,
+}  # fmt: skip
 _ATTRIBUTE_FLOAT, _ATTRIBUTE_INT = 1, 2  # AttributeProto.AttributeType
 
 Message = dict[int, list[Any]]  # by the number of a field, its values
@@ -216,6 +219,9 @@ def _named_tensor(data: bytes) -> tuple[str, NDArray[Any]]:
         values = np.frombuffer(message[9][-1], dtype=np.dtype(kind).newbyteorder("<"))
     elif kind is np.int64:
         values = np.array(list(_whole(message.get(7, []))), dtype=np.int64)
+    elif kind not in (np.float32, np.float64):  # float16 as its bits
+        whole = np.array(list(_whole(message.get(5, []))), dtype=np.int64)
+        values = whole.astype(np.uint16).view(kind) if kind is np.float16 else whole.astype(kind)
     else:
         parts = message.get(4 if kind is np.float32 else 10, [])
         values = np.concatenate([

@@ -46,7 +46,9 @@ OPERATORS: Mapping[str, Callable[..., Any]] = {
 }
 
 
-_TYPES = {"tensor(uint8)": np.uint8, "tensor(double)": np.float64}  # onnxruntime's names
+_TYPES = {  # onnxruntime's names
+    "tensor(uint8)": np.uint8, "tensor(double)": np.float64, "tensor(float16)": np.float16,
+}  # fmt: skip
 
 
 class Policy:

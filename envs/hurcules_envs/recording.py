@@ -84,7 +84,9 @@ def record(
     recording = _wanted(environment, episodes, seed, author, source, options)
     target = Path(out) / written.place(recording)
     if target.exists():
-        raise hurcules.Error(f"{target} exists: give another folder")
+        raise hurcules.Error(
+            f"{target} exists: give another folder, and for more episodes the seed after its last"
+        )
     part = target.with_name(target.name + ".part")
     paths = [part / f"{i:06d}.npz" for i in range(episodes)]
     env: Any = gymnasium.make(recording.environment, **recording.options)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import os
 import threading
 import weakref
 from collections.abc import Iterator
@@ -85,6 +86,21 @@ def _close_all() -> None:
             renderer.close()
 
 
+_drawing: list[int] = []  # the process that drew first; a fork inherits it
+
+
+def _refuse_fork() -> None:
+    """Mesa draws on threads that a fork does not have, and other drivers bear none either."""
+    _drawing.append(os.getpid())
+    del _drawing[1:]
+    if _drawing != [os.getpid()] and os.environ.get("LP_NUM_THREADS") != "0":
+        raise RendererError(
+            "this process was forked from one that has drawn, and would hang in OpenGL: make the "
+            "processes before the first picture or start them by spawn (of Gymnasium's vectors "
+            "vector_kwargs={'context': 'spawn'}); where Mesa draws, LP_NUM_THREADS=0 does too"
+        )
+
+
 def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
     """Makes an off-screen renderer that the caller closes.
 
@@ -95,8 +111,9 @@ def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
 
     Raises:
         Error: a size that no picture has.
-        RendererError: there is no OpenGL that works.
+        RendererError: there is no OpenGL that works, or the process was forked from one that drew.
     """
+    _refuse_fork()
     for size in (width, height):  # before the model's buffer has it
         if not isinstance(size, int | np.integer) or not 1 <= size <= MOST:
             wanted = f"width and height of a picture want whole numbers from 1 to {MOST}"

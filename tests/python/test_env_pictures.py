@@ -274,3 +274,34 @@ def test_another_thread_is_told_who_draws(tmp_path: Path) -> None:
     told, shape = done.stdout.splitlines()
     assert told.startswith("RendererError pictures are drawn by the thread that drew the first one")
     assert shape == "(96, 128, 3)"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="no fork")
+@pytest.mark.parametrize("threads", [None, "0"])
+def test_a_fork_of_a_process_that_drew_does_not_hang(threads: str | None, tmp_path: Path) -> None:
+    """Workers of Gymnasium's Async waited for ever for Mesa's threads, which they do not have."""
+    program = (
+        "import gymnasium, hurcules_envs\n"
+        "options = dict(cameras=['auxiliary'], fidelity='kinematic')\n"
+        "env = gymnasium.make('Hurcules/Reach-v0', **options)\n"
+        "env.reset(seed=0)\n"
+        "mode = dict(vectorization_mode='async', vector_kwargs=dict(context='fork'))\n"
+        "vector = gymnasium.make_vec('Hurcules/Reach-v0', num_envs=1, **mode, **options)\n"
+        "try:\n"
+        "    print(vector.reset(seed=0)[0]['auxiliary'].shape)\n"
+        "except Exception as error:\n"
+        "    print(type(error).__name__, error)\n"
+        "vector.close()\n"
+        "env.close()\n"
+    )
+    rest = {n: v for n, v in os.environ.items() if n not in ("PYOPENGL_PLATFORM", "LP_NUM_THREADS")}
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=tmp_path,
+        env=rest | ({"LP_NUM_THREADS": threads} if threads else {}),
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    said = "(1, 96, 128, 3)" if threads else "RendererError this process was forked from one that"
+    assert done.stdout.startswith(said), done.stderr

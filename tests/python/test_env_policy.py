@@ -194,6 +194,29 @@ def test_policies_of_others_are_refused(tmp_path: Path, capsys: pytest.CaptureFi
     assert "not with --policy" in complaint("run", "--policy", reach, "--seconds", "3")
 
 
+@pytest.mark.parametrize("raw", [True, False])
+def test_weights_of_other_types_are_read(tmp_path: Path, raw: bool) -> None:
+    """A network of half the precision was called a broken file."""
+    onnx = pytest.importorskip("onnx", reason="pip install onnx")
+    make, path = onnx.helper, tmp_path / "half.onnx"
+    half, values = onnx.TensorProto.FLOAT16, np.array([[0.5, -0.25], [0.0, 1.0]], np.float16)
+    given = {"vals": values.tobytes() if raw else values, "raw": raw}
+    weights = [make.make_tensor("w", half, (2, 2), **given)]
+    whole = {"vals": np.array([7, -3], np.int32).tobytes() if raw else [7, -3], "raw": raw}
+    weights += [make.make_tensor("n", onnx.TensorProto.INT32, (2,), **whole)]
+    ports = [[make.make_tensor_value_info(name, half, ["n", 2])] for name in ("observation", "a")]
+    node = make.make_node("MatMul", ["observation", "w"], ["a"])
+    onnx.save(make.make_model(make.make_graph([node], "g", *ports, weights)), path)
+    assert np.array_equal(read(path).weights["n"], [7, -3])
+    assert np.array_equal(Policy(path).one(np.ones(2)), [0.5, 0.75])
+
+
+def test_the_command_line_judges_at_another_rate(tmp_path: Path) -> None:
+    path, out = linear(tmp_path / "reach.onnx"), str(tmp_path / "out")
+    assert main(["evaluate", str(path), "--episodes", "1", "--rate", "50", "--out", out]) == 0
+    assert json.loads((tmp_path / "out" / "evaluation.json").read_text())["options"]["rate"] == 50
+
+
 def test_numbers_that_are_not_finite_are_no_action(tmp_path: Path) -> None:
     policy = Policy(linear(tmp_path / "a.onnx"))
     with pytest.raises(hurcules.Error, match="not finite"):

@@ -9,17 +9,20 @@ import json
 import resource
 import signal
 import warnings
+from contextlib import closing
 from itertools import count
 from pathlib import Path
 
 import gymnasium as gym
+import mujoco
 import numpy as np
 import pytest
 
 import hurcules
 from hurcules.cli import main
 from hurcules_envs import recording
-from hurcules_envs.data_formats import Format
+from hurcules_envs.data_formats import FORMATS, Format, _robot_type
+from hurcules_envs.episode_data import Episode, Recording
 from hurcules_envs.onnx_file import Graph, write
 from hurcules_envs.stretch import StretchEnv
 
@@ -174,6 +177,8 @@ def test_a_data_set_of_lerobot_gives_the_same_episode(tmp_path):
     env = gym.make(about["environment"], **about["options"])
     rate = env.unwrapped.environment.rate
     assert (data.num_episodes, data.fps) == (2, rate)
+    assert data.meta.robot_type == "rescue"
+    assert data.features["observation.state"]["names"][-3:] == ["up_2", "legs", "margin"]
     for number, seed in enumerate(about["seeds"]):
         observation, _ = env.reset(seed=seed)
         episode = [one for one in frames if one["episode_index"] == number]
@@ -190,6 +195,44 @@ def test_a_data_set_of_lerobot_gives_the_same_episode(tmp_path):
             observation, reward, over, cut, _ = env.step(one["action"].numpy())
             assert np.float32(reward) == one["next.reward"].item()
             assert (over or cut) == bool(one["next.done"])
+
+
+def test_a_data_set_of_lerobot_says_whose_robot_it_is():
+    """It said "rescue" of the hands with fingers, and of robots of one's own."""
+    for options, wanted in (({}, "manipulation"), ({"robot": "arm.xml"}, "arm.xml")):
+        recording = Recording("Hurcules/Valve-v0", 1, 0, "expert", "", options)
+        with closing(gym.make(recording.environment)) as env:
+            assert _robot_type(recording, env.unwrapped.model) == wanted
+    recording = Recording("Own/Arm-v0", 1, 0, "expert", "", {})
+    arm = Path(gym.__file__).parent / "envs/mujoco/assets/pusher_v5.xml"
+    assert _robot_type(recording, mujoco.MjModel.from_xml_path(str(arm))) is None
+
+
+def test_a_picture_in_a_file_of_robomimic_is_read_alone(tmp_path):
+    """A read of one unpacked parts of twelve."""
+    h5py = pytest.importorskip("h5py", reason="pip install h5py")
+    seen = np.zeros((14, 96, 128, 3), np.uint8)
+    flags, rewards = np.zeros(13, bool), np.zeros(13)
+    one = Episode(0, {"eye": seen}, np.zeros((13, 2)), rewards, flags, flags, {"is_success": flags})
+    recording = Recording("Own/Arm-v0", 1, 0, "expert", "", {})
+    FORMATS["robomimic"].write(recording, None, [one], tmp_path / "whole")
+    with h5py.File(next((tmp_path / "whole").iterdir())) as file:
+        assert {file[f"data/demo_0/{part}/eye"].chunks for part in ("obs", "next_obs")} == {
+            (1, 96, 128, 3)
+        }
+
+
+def test_the_command_records_at_another_rate(tmp_path, plain):
+    given = ["--rate", "20", "--episodes", "1", "--format", "plain", "--out", str(tmp_path)]
+    assert main(["record", "Drive-v0", "--fidelity", "kinematic", *given]) == 0
+    (episode,) = plain
+    assert np.diff(episode.infos["time"]) == pytest.approx(0.05)
+
+
+def test_a_data_set_that_exists_is_told_how_more_are_had(tmp_path, plain):
+    (tmp_path / "data").mkdir()
+    with pytest.raises(hurcules.Error, match="another folder, and for more episodes the seed aft"):
+        recording.record(NAME, expert, 1, tmp_path, form="plain", **FAST)
 
 
 def test_a_recording_that_was_stopped_goes_on(tmp_path):
