@@ -43,7 +43,7 @@ class Robot:
 
     def __init__(self, robot: str, pose: str, kind: str = "flat", **values: Any) -> None:
         model = scenes.load(kind, robot, **values)
-        self.simulation = driving.simulation(model, model.key(pose).qpos, robot=robot)
+        self.simulation = driving.simulation(model, model.key(pose).qpos)
         self.model, self.data = self.simulation.model, self.simulation.data
         self.drive = self.simulation.controller.drive
         self.run(SETTLE)

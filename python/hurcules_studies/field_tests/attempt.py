@@ -123,7 +123,6 @@ def repeat(
     simulation = driving.simulation(
         model,
         start.qpos,
-        robot=robot,
         channels=CHANNELS,
         support="lower_leg_L" if chosen.climbs else "",
         fall=TIPPED,
