@@ -1,8 +1,8 @@
 """What a controller does, drawn: targets, errors, and the joints that a limit holds.
 
 A green ball is where a point shall be, with the axes of a pose; an orange line leads there from
-where it is planned to be; a red ball is a joint at its limit. Any robot, in MuJoCo's viewer
-(`hurcules.watch`), as a picture (`Simulation.picture`) or in a notebook.
+where it is planned to be; a red ball is a joint at its limit, named at the top left. Any robot, in
+MuJoCo's viewer (`hurcules.watch`), as a picture (`Simulation.picture`) or in a notebook.
 """
 
 from __future__ import annotations
@@ -22,13 +22,14 @@ from numpy.typing import NDArray
 
 from hurcules import _core
 from hurcules.legend import joint_words, level_words
-from hurcules.rendering import RendererError, make_renderer
+from hurcules.rendering import RendererError, TrackRenderer, make_renderer
 from hurcules.validation import require_known
 
 __all__ = [
     "ErrorMark",
     "LimitMark",
     "Loop",
+    "caption",
     "draw",
     "error_marks",
     "html",
@@ -162,11 +163,16 @@ def draw(scene: mujoco.MjvScene, loop: Loop) -> None:
             for axis, colour in zip(mark.orientation.T, AXES, strict=True):
                 _line(scene, size / 3, mark.target, mark.target + 4 * size * axis, colour)
     for limit in limit_marks(loop):
-        _ball(scene, 2.5 * size, limit.position, LIMIT, limit.text)
+        _ball(scene, 2.5 * size, limit.position, LIMIT)
+
+
+def caption(loop: Loop) -> str:
+    """The joints at their limits, one a line."""
+    return "\n".join(mark.text for mark in limit_marks(loop))
 
 
 def _ball(
-    scene: mujoco.MjvScene, size: float, place: Array, colour: tuple[float, ...], label: str
+    scene: mujoco.MjvScene, size: float, place: Array, colour: tuple[float, ...], label: str = ""
 ) -> None:
     for geom in _new(scene):
         turn, sphere = np.eye(3).ravel(), mujoco.mjtGeom.mjGEOM_SPHERE
@@ -220,6 +226,7 @@ def picture(
     renderer = _kept_renderer(model, width, height)
     renderer.update_scene(loop.data, overview(loop) if camera is None else camera)
     draw(renderer.scene, loop)
+    renderer.caption = caption(loop)
     return np.array(renderer.render())
 
 
@@ -238,14 +245,14 @@ def overview(loop: Loop) -> mujoco.MjvCamera:
 class _Own(threading.local):
     """The last renderer of each thread: to make one takes longer than to draw."""
 
-    renderer: mujoco.Renderer | None = None
+    renderer: TrackRenderer | None = None
     size: tuple[int, int, int] = (0, 0, 0)  # id of its model, which it keeps, width, height
 
 
 _own = _Own()
 
 
-def _kept_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
+def _kept_renderer(model: mujoco.MjModel, width: int, height: int) -> TrackRenderer:
     wanted = (id(model), width, height)
     if _own.renderer is None or _own.size != wanted:
         if _own.renderer is not None:

@@ -37,7 +37,13 @@ class RendererError(Error):
 
 
 class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the package mujoco
-    """MuJoCo's renderer with tracks that move."""
+    """MuJoCo's renderer with tracks that move.
+
+    Attributes:
+        caption: lines at the top left of a picture in colour.
+    """
+
+    caption = ""
 
     def __init__(self, model: mujoco.MjModel, height: int, width: int) -> None:
         super().__init__(model, height, width)
@@ -61,7 +67,8 @@ class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the pa
             RendererError: it was made in another thread, and this OpenGL draws in that one alone.
         """
         try:
-            return super().render(out=out)
+            shown = super().render(out=out)
+            return self._captioned(shown) if self.caption else shown
         except Exception as error:  # each OpenGL has its own
             if threading.get_ident() == self._thread:
                 raise
@@ -69,6 +76,13 @@ class TrackRenderer(mujoco.Renderer):  # type: ignore[misc]  # untyped in the pa
                 "pictures are drawn by the thread that drew the first one; make the environment or "
                 "the simulation, and reset it, in the thread that steps it"
             ) from error
+
+    def _captioned(self, shown: NDArray[Any]) -> NDArray[Any]:
+        font, place = mujoco.mjtFont.mjFONT_NORMAL, mujoco.mjtGridPos.mjGRID_TOPLEFT
+        mujoco.mjr_overlay(font, place, self._rect, self.caption, "", self._mjr_context)
+        mujoco.mjr_readPixels(shown, None, self._rect, self._mjr_context)
+        shown[:] = np.flipud(shown)
+        return shown
 
     def close(self) -> None:
         """Gives back what it has, in its own context: in another one these would be another's."""
@@ -101,7 +115,7 @@ def _refuse_fork() -> None:
         )
 
 
-def make_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
+def make_renderer(model: mujoco.MjModel, width: int, height: int) -> TrackRenderer:
     """Makes an off-screen renderer that the caller closes.
 
     Args:

@@ -17,7 +17,7 @@ import mujoco
 
 from hurcules import models
 from hurcules._core import Error, Plant
-from hurcules.drawing import Picture, draw
+from hurcules.drawing import Picture, caption, draw
 from hurcules.extras import without
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
@@ -50,7 +50,7 @@ def view(
     if name in missions() or name.endswith(".toml"):
         watch(Simulation(name, seed, record=False, parameters=parameters), seconds=seconds)
     else:
-        _show(*_subject(name), lambda scene: None, seconds)
+        _show(*_subject(name), lambda scene: "", seconds)
 
 
 def watch(
@@ -82,9 +82,10 @@ def watch(
         if ticks and not simulation.finished:
             simulation.step(ticks, now)
 
-    def mark(scene: mujoco.MjvScene) -> None:
+    def mark(scene: mujoco.MjvScene) -> str:
         scene.ngeom = 0
         draw(scene, simulation)
+        return caption(simulation)
 
     _show(simulation.model, simulation.data, advance, mark, seconds)
 
@@ -150,10 +151,14 @@ def _show(
     model: Any,
     data: Any,
     advance: Callable[[int], Any],
-    mark: Callable[[Any], None],
+    mark: Callable[[Any], str],
     seconds: float | None,
 ) -> None:
-    """Opens the window; `advance` takes steps of the physics, `mark` draws into its own scene."""
+    """Opens the window.
+
+    `advance` takes steps of the physics, `mark` draws into the window's own scene and says what
+    stands at its top left.
+    """
     with opened(model, data, show_left_ui=False) as window:
         started, begun = time.perf_counter(), data.time
         while window.is_running():
@@ -164,7 +169,8 @@ def _show(
                 # a machine that is too slow shows slow motion, not ever longer leaps
                 until = min(begun + passed, data.time + 2.0 / FPS)
                 advance(round((until - data.time) / model.opt.timestep))
-                mark(window.user_scn)
+                text = mark(window.user_scn)
+            window.set_texts((None, None, text, None))
             window.sync()
             time.sleep(max(0.0, 1.0 / FPS - (time.perf_counter() - started - passed)))
 

@@ -13,7 +13,7 @@ namespace hurcules {
 
 namespace {
 
-int id_of(const mjModel* m, mjtObj kind, const std::string& name) {
+int thing_id(const mjModel* m, mjtObj kind, const std::string& name) {
   return require_id(m, kind, name, "a watched thing");
 }
 
@@ -34,10 +34,10 @@ const std::vector<std::string>& PlaceMonitor::names() {
 }
 
 PlaceMonitor::PlaceMonitor(const mjModel* m, const std::string& body, double stand_off)
-    : body_(id_of(m, mjOBJ_BODY, body)),
-      robot_(id_of(m, mjOBJ_BODY, "upper_legs")),
-      eyes_(id_of(m, mjOBJ_SITE, "gaze")),
-      tips_{id_of(m, mjOBJ_SITE, "L_tcp"), id_of(m, mjOBJ_SITE, "R_tcp")},
+    : body_(thing_id(m, mjOBJ_BODY, body)),
+      robot_(thing_id(m, mjOBJ_BODY, "upper_legs")),
+      eyes_(thing_id(m, mjOBJ_SITE, "gaze")),
+      tips_{thing_id(m, mjOBJ_SITE, "L_tcp"), thing_id(m, mjOBJ_SITE, "R_tcp")},
       places_{mj_name2id(m, mjOBJ_SITE, (body + "_left").c_str()),
               mj_name2id(m, mjOBJ_SITE, (body + "_right").c_str())},
       stand_off_(stand_off) {

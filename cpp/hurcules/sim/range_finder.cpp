@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "hurcules/base/error.hpp"
@@ -16,7 +17,7 @@ namespace hurcules {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
-constexpr double kTurn = 2.0 * 3.14159265358979323846;   // [rad]
+constexpr double kCircle = 2.0 * std::numbers::pi;       // [rad]
 constexpr mjtByte kSeen[mjNGROUP] = {1, 1, 0, 1, 1, 1};  // group 2 is looks alone
 
 void check(const RangeFinderOptions& o) {
@@ -24,7 +25,7 @@ void check(const RangeFinderOptions& o) {
           "range finder: rays wants 0 to 100000, " + std::to_string(o.rays) + " came");
   require(o.period >= 1,
           "range finder: period wants 1 tick or more, " + std::to_string(o.period) + " came");
-  require(o.angle >= 0.0 && o.angle <= kTurn,
+  require(o.angle >= 0.0 && o.angle <= kCircle,
           "range finder: angle wants 0 to 2 pi, " + number_text(o.angle) + " came");
   require(o.min_range >= 0.0 && o.min_range < o.max_range && std::isfinite(o.max_range),
           "range finder: ranges want 0 <= min_range < max_range, " + number_text(o.min_range) +
@@ -57,7 +58,7 @@ void RangeFinder::reset(std::uint64_t seed) {
 
 double RangeFinder::ray_angle(Index ray) const {
   // a full turn does not see its first direction twice
-  const bool whole = options_.angle >= kTurn;
+  const bool whole = options_.angle >= kCircle;
   const double gaps = std::max(whole ? options_.rays : options_.rays - 1, 1);
   return options_.angle * (static_cast<double>(ray) / gaps - 0.5);
 }
