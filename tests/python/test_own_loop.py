@@ -5,7 +5,9 @@ simulation is what says that nothing is left out. Then what is refused.
 """
 
 from collections.abc import Callable
+from pathlib import Path
 
+import gymnasium
 import mujoco
 import numpy as np
 import pytest
@@ -204,3 +206,19 @@ def test_a_hand_that_a_wall_stops_is_told_of() -> None:
     assert told.short_by == pytest.approx(np.linalg.norm(tip.target - wanted), abs=1e-3)
     assert told.short_by > 0.02
     assert any(reason.startswith("torque limit of j") for reason in told.held_by)
+
+
+def test_a_target_that_gave_way_before_says_so_after_the_motors_have_recovered() -> None:
+    arm = Path(gymnasium.__file__).parent / "envs/mujoco/assets/pusher_v5.xml"
+    robot = hurcules.Robot(arm)
+    hand = hurcules.PositionTask("hand", robot, "tips_arm")
+    posture = hurcules.PostureTask("posture", robot)
+    channels = {"hand": hurcules.Twist(hand, 0.3)}
+    controller = hurcules.WholeBodyController(robot, [hand, posture], channels)
+    simulation = hurcules.Simulation(model=arm, controller=controller)
+    simulation.step(100, {"hand": [-0.1, 0.1, 0.1]})
+    simulation.step(300, {"hand": [0.1, 0.25, 0.2]})
+    simulation.step(300)
+    told = [one for level in controller.diagnostics() for one in level.shortfalls]
+    assert ["a torque limit before"] in [one.held_by for one in told]
+    assert all(one.held_by for one in told)

@@ -253,7 +253,10 @@ std::vector<LevelDiagnostics> WholeBodyController::diagnostics() const {
   for (std::size_t k = 0; k < levels.size() && !moves_joints_; ++k) {
     for (const Task* const task : law().stack().levels()[k].tasks) {
       const double by = yielding_.given_way(*task);
-      if (by > kTold) levels[k].shortfalls.push_back(gave_way(*task, by, servo_.at_peak()));
+      if (!(by > kTold)) continue;
+      std::vector<std::string> held = servo_.at_peak();
+      if (held.empty()) held = {"a torque limit before"};
+      levels[k].shortfalls.push_back(gave_way(*task, by, std::move(held)));
     }
   }
   return levels;
