@@ -17,7 +17,7 @@ from hurcules.rendering import make_renderer
 from hurcules_envs.environment import Environment
 from hurcules_envs.episodes import Episodes
 
-__all__ = ["SIZE", "Eyes", "Pictures", "Views"]
+__all__ = ["HEIGHT", "SIZE", "WIDTH", "Eyes", "Pictures", "Views"]
 
 MOST = 2048  # [pixels] a side
 SIZE = (128, 96)  # [pixels] of what is observed, where nothing else is asked for
@@ -27,19 +27,28 @@ WIDTH, HEIGHT = 640, 368  # [pixels] of a view, multiples of 16 as encoders want
 class Views:
     """Episodes as the environment's own camera sees them, with what it draws."""
 
-    def __init__(self, environment: Environment) -> None:
-        self._environment = environment
+    def __init__(self, environment: Environment, width: int, height: int) -> None:
+        """A view of width and height [pixels].
+
+        Raises:
+            hurcules.Error: no such size.
+        """
+        if not (_is_side(width) and _is_side(height)):
+            raise hurcules.Error(
+                f"width and height: wanted 1 to {MOST} pixels each, got {width!r} and {height!r}"
+            )
+        self._environment, self._size = environment, (int(width), int(height))
         self._renderer: mujoco.Renderer | None = None
 
     def take(self, episodes: Any, i: int) -> NDArray[np.uint8]:
-        """(368, 640, 3) of episode i now.
+        """(height, width, 3) of episode i now.
 
         Raises:
             hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
         """
         model, data = self._environment.pictured(episodes, i)
         if self._renderer is None:
-            self._renderer = make_renderer(model, WIDTH, HEIGHT)
+            self._renderer = make_renderer(model, *self._size)
         self._renderer.update_scene(data, self._environment.camera())
         self._environment.draw(episodes, i, self._renderer.scene)
         return self._renderer.render()
@@ -137,6 +146,8 @@ class Eyes:
         self._pictures: Pictures | None = None
         self._views: dict[str, NDArray[np.uint8]] = {}
         self.observation_space = episodes.single_observation_space
+        if not cameras and not np.array_equal(camera_size, SIZE):
+            raise hurcules.Error(f"camera_size={camera_size!r} wants cameras=[...] beside it")
         if cameras:
             self._pictures = Pictures(
                 episodes.environment, cameras, camera_size, self.observation_space

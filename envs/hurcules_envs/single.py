@@ -20,13 +20,14 @@ from hurcules.view import opened
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
-from hurcules_envs.pictures import SIZE, Eyes, Views
+from hurcules_envs.pictures import HEIGHT, SIZE, WIDTH, Eyes, Views
 from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
 __all__ = ["SingleEnv"]
 
-OWN = ("flat", "render_mode", "cameras", "camera_size")  # keywords beside the environment's
+# keywords beside the environment's
+OWN = ("flat", "render_mode", "cameras", "camera_size", "width", "height")
 
 _ALL = np.ones(1, dtype=bool)
 Observation = NDArray[np.float32] | dict[str, NDArray[Any]]
@@ -53,6 +54,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         flat: bool = False,
         cameras: Sequence[str] = (),
         camera_size: Sequence[int] = SIZE,
+        width: int = WIDTH,
+        height: int = HEIGHT,
         **options: Any,
     ) -> None:
         """Builds the environment.
@@ -65,13 +68,17 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
                 scene, whose pictures are observed too: an observation is then a dictionary of
                 "observation", the goals, and the pictures by camera, (height, width, 3) uint8.
             camera_size: (width, height) of these pictures [pixels].
+            width: [pixels] of what `render` gives.
+            height: [pixels].
             options: of the environment, by keyword, and ranges of what differs between episodes:
                 see `randomisation`.
 
         Raises:
             hurcules.Error: an unknown render mode or option, or a bad value.
         """
-        Copied.__init__(self, environment, render_mode, flat, cameras, camera_size, **options)
+        Copied.__init__(
+            self, environment, render_mode, flat, cameras, camera_size, width, height, **options
+        )
         hurcules.validation.require_known(
             "render mode", render_mode or "rgb_array", self.metadata["render_modes"]
         )
@@ -93,7 +100,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._viewer: Any = None
         self._window = ExitStack()  # waits for the viewer's thread
         self._due = 0.0  # [s] when the next step may be shown
-        self._views = Views(self.environment)
+        self._views = Views(self.environment, width, height)
 
     @property
     def numbers(self) -> Numbers:

@@ -18,7 +18,7 @@ import hurcules
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
-from hurcules_envs.pictures import SIZE, Eyes, Views
+from hurcules_envs.pictures import HEIGHT, SIZE, WIDTH, Eyes, Views
 from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
 
@@ -47,6 +47,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         flat: bool = False,
         cameras: Sequence[str] = (),
         camera_size: Sequence[int] = SIZE,
+        width: int = WIDTH,
+        height: int = HEIGHT,
         **options: Any,
     ) -> None:
         """Builds the environment once, and its episodes.
@@ -62,6 +64,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             cameras: whose pictures are observed too, drawn one after the other: an observation is
                 then a dictionary, with (num_envs, height, width, 3) uint8 by camera.
             camera_size: (width, height) of these pictures [pixels].
+            width: [pixels] of what `render` gives.
+            height: [pixels].
             options: of the environment, by keyword, and ranges of what differs between episodes:
                 see `randomisation`.
 
@@ -70,7 +74,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         """
         Copied.__init__(
             self, environment, num_envs, max_episode_steps, threads, autoreset_mode, render_mode,
-            flat, cameras, camera_size, **options,
+            flat, cameras, camera_size, width, height, **options,
         )  # fmt: skip
         hurcules.validation.require_known("render mode", render_mode or MODES[0], MODES)
         _require_whole("num_envs", num_envs, 1)
@@ -79,7 +83,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             _require_whole("max_episode_steps", max_episode_steps, 1)
         self.num_envs = num_envs
         ranges, options = split(options)
-        known = ("flat", "threads", "autoreset_mode", "cameras", "camera_size")
+        known = ("flat", "threads", "autoreset_mode", "cameras", "camera_size", "width", "height")
         self.environment = make_environment(environment, options, known)
         self._episodes = Episodes(self.environment, num_envs, threads, flat=flat, ranges=ranges)
         mode = str(getattr(autoreset_mode, "value", autoreset_mode))
@@ -93,7 +97,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             "render_fps": round(1.0 / self._episodes.period),
         }
         self.render_mode = render_mode
-        self._views = Views(self.environment)
+        self._views = Views(self.environment, width, height)
         self._eyes = Eyes(self._episodes, cameras, camera_size)
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale

@@ -142,6 +142,10 @@ def test_a_policy_that_sees_them_fits(tmp_path: Path) -> None:
         ({"cameras": ("nose",)}, "camera 'nose' does not exist; there are: overview"),
         ({"cameras": ("head_wide",) * 2}, "cameras: wanted names, each once"),
         ({"cameras": ("head_wide",), "camera_size": 5}, "camera_size: wanted .width, height. of"),
+        ({"camera_size": (64, 48)}, "camera_size=.64, 48. wants cameras="),
+        ({"camera_size": 5}, "camera_size=5 wants cameras="),
+        ({"width": 0}, "width and height: wanted 1 to 2048 pixels each, got 0 and 368"),
+        ({"height": 2.5}, "width and height: wanted 1 to 2048 pixels"),
         ({"cameras": ("head_wide",), "camera_size": (0, 9)}, "camera_size: wanted .width, height."),
     ],
 )
@@ -305,3 +309,17 @@ def test_a_fork_of_a_process_that_drew_does_not_hang(threads: str | None, tmp_pa
     )
     said = "(1, 96, 128, 3)" if threads else "RendererError this process was forked from one that"
     assert done.stdout.startswith(said), done.stderr
+
+
+@pytest.mark.parametrize("vector", [False, True])
+def test_a_view_has_the_size_that_is_asked_for(vector: bool) -> None:
+    options = {"fidelity": "kinematic", "render_mode": "rgb_array", "width": 320, "height": 200}
+    env = (
+        gym.make_vec("Hurcules/Reach-v0", 2, vectorization_mode="vector_entry_point", **options)
+        if vector
+        else gym.make("Hurcules/Reach-v0", **options)
+    )
+    env.reset(seed=0)
+    pictures = env.render() if vector else (env.render(),)
+    assert [one.shape for one in pictures] == [(200, 320, 3)] * (1 + vector)
+    env.close()
