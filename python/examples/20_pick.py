@@ -19,7 +19,7 @@ ROBOT = """<mujoco><option timestep="0.002" cone="elliptic" impratio="10"/>
         </body>
       </body></body>
     <body name="cube" pos="0.2 0 0.02"><freejoint/><geom type="box" size="0.02 0.02 0.02"
-      mass="0.5"/></body></worldbody>
+      mass="0.5" rgba="0.9 0.4 0.2 1"/></body></worldbody>
   <actuator><motor joint="x"/><motor joint="z"/><motor joint="left"/><motor joint="right"/>
   </actuator></mujoco>"""
 close = {"left": {"rate": [0.03]}, "right": {"rate": [0.03]}}
