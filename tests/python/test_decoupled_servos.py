@@ -74,3 +74,34 @@ def test_a_table_of_ones_own_may_leave_joints_out_and_names_none_that_is_not_the
     swing({"turn": (0.2, 30.0), "swing": (0.2, 30.0)})
     with pytest.raises(hurcules.Error, match=r"'elbow' does not exist; there are: .*wrist"):
         swing({"elbow": (0.2, 30.0)})
+
+
+def with_servos(**rows: str) -> str:
+    """The arm, whose model says what servos reckon with."""
+    custom = "".join(f'<numeric name="servo_{name}" data="{row}"/>' for name, row in rows.items())
+    return ARM.replace("</worldbody>", f"</worldbody><custom>{custom}</custom>")
+
+
+def led(text: str, **options: object) -> list[float]:
+    """Where the joints are after a swing of 0.4 s."""
+    model = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(model)
+    posture = hurcules.PostureTask("posture", robot)
+    channels = {"joints": hurcules.Twist(posture, 2.0)}
+    controller = hurcules.WholeBodyController(robot, [posture], channels, dt=0.004, **options)
+    simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+    simulation.step(100, {"joints": [1.0, -0.5, 0.5]})
+    return list(simulation.data.qpos)
+
+
+def test_a_model_says_its_servos_and_a_controller_may_say_others() -> None:
+    rows = {"turn": (0.2, 30.0), "swing": (0.3, 25.0), "wrist": (0.02, 20.0)}
+    said = with_servos(**{name: f"{J} {omega}" for name, (J, omega) in rows.items()})
+    robot = hurcules.Robot(mujoco.MjModel.from_xml_string(said))
+    assert hurcules.servo_table(robot) == rows
+    assert led(said) == led(ARM, servo=rows) != led(ARM)
+    other = rows | {"wrist": (0.03, 15.0)}
+    assert led(said, servo={"wrist": (0.03, 15.0)}) == led(ARM, servo=other) != led(said)
+    for wrong in ("0.2", "0.2 30 1", "0 30", "0.2 -1"):
+        with pytest.raises(hurcules.Error, match="'servo_turn' wants two numbers above 0"):
+            led(with_servos(turn=wrong))
