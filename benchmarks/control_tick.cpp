@@ -29,7 +29,6 @@
 #include "hurcules/control/acceleration_controller.hpp"
 #include "hurcules/control/joint_servo.hpp"
 #include "hurcules/control/velocity_controller.hpp"
-#include "hurcules/mission/robot_tables.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -117,7 +116,7 @@ Run by_velocity(double radius, int ticks) {
   Vector ctrl = Vector::Zero(model->nu);
   VelocityController controller(body.robot, {.dt = kDt});
   controller.set_stack(body.stack());
-  JointServo servo(body.robot, manipulation_servo(), kDt);
+  JointServo servo(body.robot, model_servo_gains(joint_actuators(body.robot)), kDt);
   servo.reset(qpos);
   Vector q = body.robot.configuration();
   Run run;
