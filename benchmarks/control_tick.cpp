@@ -28,6 +28,7 @@
 
 #include "hurcules/control/acceleration_controller.hpp"
 #include "hurcules/control/joint_servo.hpp"
+#include "hurcules/control/tasks.hpp"
 #include "hurcules/control/velocity_controller.hpp"
 #include "measure.hpp"
 
