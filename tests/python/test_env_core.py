@@ -380,7 +380,8 @@ def test_options_beside_those_of_the_class_are_listed_and_checked():
     ):
         gym.make("Hurcules/Drive-v0", colour="red", **FAST)
     with pytest.raises(
-        hurcules.Error, match="safe, flat, threads, autoreset_mode, cameras, camera_size, friction"
+        hurcules.Error,
+        match="safe, flat, threads, autoreset_mode, cameras, camera_size, width, height, friction",
     ):
         gym.make_vec("Hurcules/Reach-v0", num_envs=2, colour="red", **FAST)
     for make in (gym.make, gym.make_vec):

@@ -196,7 +196,7 @@ def test_all_trees_of_a_robot_have_sensors_and_are_watched() -> None:
     pairs = {
         frozenset(geom.split()[-1] for geom in pair) for pair in simulation.self_collision_pairs()
     }
-    assert frozenset("25") in pairs  # both last links
+    assert frozenset(("L2", "R2")) in pairs  # both last links
     contacts = hurcules.Quantities(simulation, ["self_contacts"])
     batch = hurcules.SimulationBatch(simulation, 1)
     touched = 0

@@ -127,8 +127,10 @@ def test_bad_moves_are_refused():
     _, player = start(model, "rescue", "drive")
     with pytest.raises(hurcules.Error, match="no motor at LWY, RWY"):
         player.play([postures.move("a", 1.0, WY=1.0)])
-    with pytest.raises(hurcules.Error, match="lacks the joints bed_lift"):
-        start(model, "manipulation", "drive")
+    spec = models.make("rescue")
+    spec.delete(spec.numeric("servo_HIP"))
+    with pytest.raises(hurcules.Error, match="no servo_JOINT for the joints HIP"):
+        start(spec.compile(), "rescue", "drive")
 
 
 def test_a_margin_of_an_unknown_body_is_refused():
