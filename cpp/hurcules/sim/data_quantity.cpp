@@ -36,12 +36,12 @@ std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::stri
   if (slash == std::string::npos) return std::nullopt;
   const std::string group = name.substr(0, slash), object = name.substr(slash + 1);
   if (group == "position") {
-    for (const auto& [type, kind] : {std::pair{mjOBJ_BODY, Kind::Body},
-                                     {mjOBJ_SITE, Kind::Site},
-                                     {mjOBJ_GEOM, Kind::Geom},
-                                     {mjOBJ_CAMERA, Kind::Camera}}) {
+    for (const auto& [type, array] : {std::pair{mjOBJ_BODY, &mjData::xpos},
+                                      {mjOBJ_SITE, &mjData::site_xpos},
+                                      {mjOBJ_GEOM, &mjData::geom_xpos},
+                                      {mjOBJ_CAMERA, &mjData::cam_xpos}}) {
       const int id = mj_name2id(&m, type, object.c_str());
-      if (id >= 0) return DataQuantity(kind, 3 * id, 3);
+      if (id >= 0) return DataQuantity(array, 3 * id, 3);
     }
     throw Error(unknown_name("frame", object,
                              names_of(m, {mjOBJ_BODY, mjOBJ_SITE, mjOBJ_GEOM, mjOBJ_CAMERA})));
@@ -50,40 +50,22 @@ std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::stri
     const int joint = find_object(m, mjOBJ_JOINT, object);
     require(m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE,
             "quantity '" + name + "' wants a hinge or a slide");
-    if (group == "joint") return DataQuantity(Kind::Joint, m.jnt_qposadr[joint], 1);
-    return DataQuantity(Kind::JointVelocity, m.jnt_dofadr[joint], 1);
+    if (group == "joint") return DataQuantity(&mjData::qpos, m.jnt_qposadr[joint], 1);
+    return DataQuantity(&mjData::qvel, m.jnt_dofadr[joint], 1);
   }
   if (group == "sensor") {
     const int sensor = find_object(m, mjOBJ_SENSOR, object);
-    return DataQuantity(Kind::Sensor, m.sensor_adr[sensor], m.sensor_dim[sensor]);
+    return DataQuantity(&mjData::sensordata, m.sensor_adr[sensor], m.sensor_dim[sensor]);
   }
-  if (group == "contact_force")
-    return DataQuantity(Kind::ContactForce, find_object(m, mjOBJ_BODY, object), 1);
+  if (group == "contact_force") return DataQuantity(nullptr, find_object(m, mjOBJ_BODY, object), 1);
   return std::nullopt;
 }
 
 void DataQuantity::read(const mjModel& m, const mjData& d, VectorRef out) const {
-  const auto numbers = [&](const mjtNum* all) {
-    out = Eigen::Map<const Vector>(all + place_, size_);
-  };
-  switch (kind_) {
-    case Kind::Body:
-      return numbers(d.xpos);
-    case Kind::Site:
-      return numbers(d.site_xpos);
-    case Kind::Geom:
-      return numbers(d.geom_xpos);
-    case Kind::Camera:
-      return numbers(d.cam_xpos);
-    case Kind::Joint:
-      return numbers(d.qpos);
-    case Kind::JointVelocity:
-      return numbers(d.qvel);
-    case Kind::Sensor:
-      return numbers(d.sensordata);
-    case Kind::ContactForce:
-      out[0] = force_below(m, d, place_);
-      return;
+  if (array_) {
+    out = Eigen::Map<const Vector>(d.*array_ + place_, size_);
+  } else {
+    out[0] = force_below(m, d, place_);
   }
 }
 

@@ -26,11 +26,11 @@ class DataQuantity {
   void read(const mjModel_& model, const mjData_& data, VectorRef out) const;
 
  private:
-  enum class Kind { Body, Site, Geom, Camera, Joint, JointVelocity, Sensor, ContactForce };
-  DataQuantity(Kind kind, int place, Index size) : kind_(kind), place_(place), size_(size) {}
+  using Array = double* mjData_::*;
+  DataQuantity(Array array, int place, Index size) : array_(array), place_(place), size_(size) {}
 
-  Kind kind_;
-  int place_;  // an address, or the id of a body
+  Array array_;  // null: the contact force
+  int place_;    // address in the array, or the id of a body
   Index size_;
 };
 
