@@ -114,7 +114,7 @@ Args:
     JointRates, ControlRate.
   stacks: by name further stacks for `use`, each levels as above or (levels, control); the first one
     rules at the start if no `levels` are given.
-  control: by what `levels` rule: "velocity", "acceleration", or "torque": then the accelerations are
+  control: by what stacks rule that do not say it: "velocity", "acceleration", or "torque": then the accelerations are
     those of the robot as it is sensed, and its drives get what inverse dynamics says. Contacts
     (ContactTask) carry a robot that floats.
   dt: control period [s]; by default the time step of the model.
@@ -126,7 +126,7 @@ Args:
     the robot.
   feed_forward: servos are told the torques that the model says.
   decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
-    all are reckoned, and no wheel is driven.
+    those of all coordinates are reckoned, and no wheel is driven.
   torque_scaling: the motion slows down where a motor would be asked for more than its peak. False
     where drives with servos of their own follow q_des: their sag would be taken for a load.
   drive: DriveOptions of a robot on tracks; needed for a Drive channel.
@@ -183,7 +183,9 @@ Raises:
   Error: an unknown name, with those that exist.
 )";
 constexpr const char* kMove =
-    R"(Where a joint shall be in the next tick; no stack rules until `use`.
+    R"(Where a joint shall be from now on; no stack rules until `use`.
+
+Joints that a stack left in motion stop within the acceleration limit.
 
 Args:
   joint: name of a joint with an actuator.
@@ -291,7 +293,8 @@ std::shared_ptr<WholeBodyController> make(
     all.push_back({name, stack.stack, how});
     for (py::object& object : stack.kept) held->kept.push_back(std::move(object));
   };
-  if (levels && !levels->is_none()) add("stack", *levels, control_of(control));
+  const ControlOrder usual = control_of(control);
+  if (levels && !levels->is_none()) add("stack", *levels, usual);
   for (const auto& [name, source] : stacks) {
     const auto object = py::reinterpret_borrow<py::object>(source);
     if (py::isinstance<py::tuple>(object) && py::len(object) == 2 &&
@@ -299,7 +302,7 @@ std::shared_ptr<WholeBodyController> make(
       add(name.cast<std::string>(), object[py::int_(0)],
           control_of(object[py::int_(1)].cast<std::string>()));
     } else {
-      add(name.cast<std::string>(), object, ControlOrder::Velocity);
+      add(name.cast<std::string>(), object, usual);
     }
   }
   std::vector<Channel> made;
@@ -503,10 +506,9 @@ void bind_whole_body(py::module_& module) {
     return self.drive() ? &self.drive()->controller() : nullptr;
   };
   const auto joints = [](const WholeBodyController& self) { return self.servo().names(); };
-  const auto move_one = [](WholeBodyController& self, const std::string& joint, double position,
-                           double velocity) { self.move(joint, position, velocity); };
-  const auto move_all = [](WholeBodyController& self, const Vector& positions,
-                           const Vector& velocities) { self.move(positions, velocities); };
+  using Controller = WholeBodyController;
+  void (Controller::* const move_one)(const std::string&, double, double) = &Controller::move;
+  void (Controller::* const move_all)(const Vector&, const Vector&) = &Controller::move;
   const auto places = [](const WholeBodyController& self) { return self.servo().position(); };
   const auto torque = [](const WholeBodyController& self) { return self.servo().torque(); };
   const auto demand = [](const WholeBodyController& self) { return self.servo().demand(); };
@@ -516,27 +518,28 @@ void bind_whole_body(py::module_& module) {
       .def("tick", &tick, "qpos"_a, "qvel"_a, "command"_a = py::none(), py::kw_only(),
            "sensors"_a = py::none(), "first"_a = true, kTick)
       .def("reset", &reset, "qpos"_a = py::none(), kReset)
-      .def("use", &WholeBodyController::use, "stack"_a, kUse)
-      .def("move", move_one, "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
-      .def("move_all", move_all, "positions"_a, "velocities"_a, kMoveAll)
-      .def("move_joints", &WholeBodyController::move_joints,
-           "No stack rules until `use`: joints stay where they are, JointRates moves them.")
-      .def("stand_on", &WholeBodyController::stand_on, "body"_a, kStandOn)
+      .def("use", waiting(&Controller::use), "stack"_a, kUse)
+      .def("move", waiting(move_one), "joint"_a, "position"_a, "velocity"_a = 0.0, kMove)
+      .def("move_all", waiting(move_all), "positions"_a, "velocities"_a, kMoveAll)
+      .def("move_joints", waiting(&Controller::move_joints),
+           "No stack rules until `use`: joints stop within the acceleration limit, and stay; "
+           "JointRates moves them.")
+      .def("stand_on", waiting(&Controller::stand_on), "body"_a, kStandOn)
       .def_property_readonly("unfed_forces", &unfed_forces,
                              "Names of the force tasks that no `sense` feeds and that were never "
                              "told a force.")
       .def_property_readonly("unseen_references", &unseen_references,
                              "(task, frame, whether by mocap) where a task is measured in a frame "
                              "that may move and whose motion the plan does not see")
-      .def("hold_targets", &WholeBodyController::hold_targets,
+      .def("hold_targets", waiting(&Controller::hold_targets),
            "The targets of all tasks come to where the plan is.")
       .def("task", &WholeBodyController::task, "name"_a,
            py::return_value_policy::reference_internal,
            "A task of its stacks, by name. Raises Error with the names that exist.")
-      .def("sense", &sense, "task"_a, "source"_a, "row"_a = py::none(), "sign"_a = py::none(),
-           py::keep_alive<1, 2>(), kSense)
-      .def("state", &state<WholeBodyController>, kState)
-      .def("restore", &restore<WholeBodyController>, "state"_a, kRestore)
+      .def("sense", waiting(&sense), "task"_a, "source"_a, "row"_a = py::none(),
+           "sign"_a = py::none(), py::keep_alive<1, 2>(), kSense)
+      .def("state", waiting(&state<const Controller>), kState)
+      .def("restore", waiting(&restore<Controller>), "state"_a, kRestore)
       .def(
           "diagnostics",
           [](const WholeBodyController& self) {

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hurcules/base/error.hpp"
@@ -103,5 +104,21 @@ class InUse {
 
   std::array<const void*, 2> mine_;
 };
+
+// a method, or a function of the object, that waits until no other thread works with it
+template <typename Self, typename Result, typename... Args>
+auto waiting(Result (Self::*method)(Args...)) {
+  return [method](Self& self, Args... args) -> Result {
+    InUse::wait(&self);
+    return (self.*method)(std::forward<Args>(args)...);
+  };
+}
+template <typename Self, typename Result, typename... Args>
+auto waiting(Result (*function)(Self&, Args...)) {
+  return [function](Self& self, Args... args) -> Result {
+    InUse::wait(&self);
+    return function(self, std::forward<Args>(args)...);
+  };
+}
 
 }  // namespace hurcules_bindings

@@ -17,6 +17,7 @@ std::vector<double> state(const Object& object) {
   std::vector<double> values;
   hurcules::StateWriter writer(values);
   object.save(writer);
+  if constexpr (requires { object.save_settings(writer); }) object.save_settings(writer);
   return values;
 }
 
@@ -24,6 +25,7 @@ template <typename Object>
 void restore(Object& object, const std::vector<double>& values) {
   hurcules::StateReader reader(values);
   object.restore(reader);
+  if constexpr (requires { object.restore_settings(reader); }) object.restore_settings(reader);
   hurcules::require(reader.at_end(),
                     "restore: the state is too long: it belongs to something else");
 }

@@ -4,6 +4,7 @@ Strategy: the planar arm of test_whole_body_loop.py, stepped by MuJoCo itself; t
 simulation is what says that nothing is left out. Then what is refused.
 """
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -222,3 +223,184 @@ def test_a_target_that_gave_way_before_says_so_after_the_motors_have_recovered()
     told = [one for level in controller.diagnostics() for one in level.shortfalls]
     assert ["a torque limit before"] in [one.held_by for one in told]
     assert all(one.held_by for one in told)
+
+
+@pytest.mark.parametrize("law", ["velocity", "acceleration", "torque"])
+def test_control_is_that_of_stacks_that_do_not_say_it(law: str) -> None:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    states = []
+    for told in ("levels", "stack", "itself"):
+        posture = hurcules.PostureTask("posture", robot)
+        controller = hurcules.WholeBodyController(
+            robot,
+            [posture] if told == "levels" else None,
+            {"posture": hurcules.Twist(posture, 1.0)},
+            stacks={"stack": [posture], "itself": ([posture], law)} if told != "levels" else {},
+            control=law if told != "itself" else "velocity",
+        )
+        controller.use("itself" if told == "itself" else "stack")
+        for _ in range(20):
+            controller.tick(robot.qpos, np.zeros(model.nv), {"posture": [0.3, 0.0, -0.1]})
+        states.append(controller.q_des.tolist() + controller.demand.tolist())
+    assert states[0] == states[1] == states[2]
+    with pytest.raises(hurcules.Error, match="'nonsense' does not exist"):
+        hurcules.WholeBodyController(robot, stacks={"a": [posture]}, control="nonsense")
+
+
+def test_a_state_has_what_was_set_of_its_tasks() -> None:
+    controller, data = own_loop()
+    tip = controller.task("tip")
+    tip.set_gain([3.0, 4.0])
+    tip.set_weights([1.0, 0.5])
+    tip.set_max_speed(0.2)
+    again, _ = own_loop()
+    again.restore(controller.state())
+    for _ in range(50):
+        one, other = (
+            each.tick(data.qpos, data.qvel, {"tip": [0.2, -0.3]}) for each in (controller, again)
+        )
+        assert np.array_equal(one, other)
+    assert again.task("tip").max_speed == 0.2
+    plain, _ = own_loop()
+    plain.restore(again.state())
+    assert plain.state() == again.state()
+    by_torques, _ = own_loop(control="torque")
+    with pytest.raises(hurcules.Error, match="another controller: of other coordinates, tasks, st"):
+        by_torques.restore(controller.state())
+
+
+@pytest.mark.parametrize("first", ["move_joints", "move"])
+def test_joints_that_no_stack_moves_any_more_stop_within_the_limit(first: str) -> None:
+    limits = hurcules.VelocityControllerOptions(max_acceleration=5.0)
+    controller, data = own_loop(velocity=limits)
+    for _ in range(300):
+        data.ctrl[:] = controller.tick(data.qpos, data.qvel, {"tip": [0.2, 0.1]})
+        mujoco.mj_step(data.model, data)
+    before = controller.qd_des
+    assert np.abs(before).max() > 0.1
+    if first == "move_joints":
+        controller.move_joints()
+    else:
+        controller.move("finger", 0.0)
+    places = [controller.q_des]
+    for _ in range(400):
+        data.ctrl[:] = controller.tick(data.qpos, data.qvel)
+        mujoco.mj_step(data.model, data)
+        places.append(controller.q_des)
+    speeds = np.diff([places[0] - before * controller.dt, *places], axis=0) / controller.dt
+    assert np.abs(np.diff(speeds, axis=0)).max() <= 5.0 * controller.dt * 1.001
+    assert not controller.qd_des.any()
+    ran_on = np.abs(places[-1] - places[0]).max()  # v^2 / (2 a)
+    assert ran_on == pytest.approx(np.abs(before).max() ** 2 / 10.0, rel=0.05)
+
+
+def test_a_speed_limit_that_is_lowered_is_braked_for() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    limits = hurcules.JointLimits("limits", robot)
+    posture = hurcules.PostureTask("posture", robot)
+    controller = hurcules.WholeBodyController(
+        robot,
+        [limits, posture],
+        {"posture": hurcules.Twist(posture, 1.0)},
+        velocity=hurcules.VelocityControllerOptions(max_acceleration=5.0),
+    )
+    data = mujoco.MjData(model)
+    data.qpos[:] = robot.qpos
+    speeds = []
+    for tick in range(600):
+        if tick == 400:
+            limits.set_max_velocities(0.1)
+        data.ctrl[:] = controller.tick(data.qpos, data.qvel, {"posture": [-0.8, 0.0, 0.0]})
+        mujoco.mj_step(model, data)
+        speeds.append(controller.qd_des)
+    change = np.abs(np.diff(speeds, axis=0)).max()
+    assert np.abs(speeds[399]).max() == pytest.approx(0.8, rel=0.05)
+    assert np.abs(speeds[-1]).max() <= 0.1 + 1e-12
+    assert change <= 5.0 * controller.dt * 1.001
+
+
+@pytest.mark.parametrize("what", ["restore", "state", "use", "move_joints", "hold_targets"])
+def test_another_thread_may_change_it_between_ticks(what: str) -> None:
+    """Each change waits for the tick: with none of them waiting this aborted, or was torn."""
+    controller, data = own_loop()
+    fresh = controller.state()
+    calls: dict[str, Callable[[], object]] = {
+        "restore": lambda: controller.restore(fresh),
+        "state": controller.state,
+        "use": lambda: controller.use("stack"),
+        "move_joints": controller.move_joints,
+        "hold_targets": controller.hold_targets,
+    }
+    done, stop = [0], threading.Event()
+
+    def change() -> None:
+        while not stop.is_set():
+            calls[what]()
+            done[0] += 1
+
+    other = threading.Thread(target=change)
+    other.start()
+    for _ in range(1500):
+        assert np.isfinite(controller.tick(data.qpos, data.qvel, {"tip": [0.1, 0.0]})).all()
+    stop.set()
+    other.join()
+    assert done[0] > 0
+
+
+def test_an_arm_whose_gripper_is_left_out_rests_at_any_period() -> None:
+    """Light fingers loosen the arm by nothing; a slow servo let it fall at 10 ms."""
+    finger = """<body name="jaw" pos="{x} 0 0.02"><joint name="jaw" type="slide" axis="0 0 1"
+      range="0 0.04"/><geom size="0.01" mass="0.02"/></body>"""
+    links = ""
+    for k in range(3, 0, -1):
+        inside = links or finger.format(x=0.3)
+        links = f"""<body name="l{k}" pos="{0.0 if k == 1 else 0.3} 0 0">
+          <joint name="j{k}" axis="{"0 0 1" if k == 1 else "0 1 0"}" range="-3 3"/>
+          <geom type="capsule" size="0.03" fromto="0 0 0 0.3 0 0" mass="2"/>{inside}</body>"""
+    motors = "".join(f'<motor joint="{name}"/>' for name in ("j1", "j2", "j3", "jaw"))
+    text = f"""<mujoco><compiler angle="radian"/><option timestep="0.001"/>
+      <worldbody>{links}</worldbody><actuator>{motors}</actuator></mujoco>"""
+    for joints in (None, ["j1", "j2", "j3"]):
+        model = mujoco.MjModel.from_xml_string(text)
+        robot = hurcules.Robot(model, joints=joints)
+        posture = hurcules.PostureTask("posture", robot)
+        controller = hurcules.WholeBodyController(robot, [posture], dt=0.01)
+        data = mujoco.MjData(model)
+        data.qpos[:] = robot.qpos
+        data.qvel[0] = 0.05
+        for _ in range(400):
+            data.ctrl[:] = controller.tick(data.qpos, data.qvel)
+            for _ in range(10):
+                mujoco.mj_step(model, data)
+        assert np.abs(data.qvel).max() < 1e-4
+        assert np.abs(controller.joint_error[:3]).max() < 1e-4
+
+
+def test_a_force_that_is_read_no_more_is_a_lost_sensor() -> None:
+    """The driver of the sensor has died: patience is 10 ms; one that reads now and then is not."""
+    for reads_on in (True, False):
+        model = mujoco.MjModel.from_xml_string(ARM)
+        robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+        robot.set_configuration(START)
+        press = hurcules.ForceTask("press", robot, "tip", gains=hurcules.ForceGains(dt=0.002))
+        posture = hurcules.PostureTask("posture", robot)
+        controller = hurcules.WholeBodyController(
+            robot, [press, posture], {"press": hurcules.Twist(press, 0.3)}
+        )
+        data = mujoco.MjData(model)
+        data.qpos[:] = robot.qpos
+        states = []
+        for tick in range(100):
+            if tick < 50 or (reads_on and tick % 4 == 0):
+                press.sense(controller.plan, 0.0)
+            data.ctrl[:] = controller.tick(data.qpos, data.qvel, {"press": [-0.05]})
+            mujoco.mj_step(model, data)
+            states.append(press.contact)
+        lost = hurcules.ContactState.SensorLost
+        assert (lost in states) is not reads_on
+        if not reads_on:
+            assert 54 <= states.index(lost) <= 61

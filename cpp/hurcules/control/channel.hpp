@@ -37,6 +37,8 @@ class Channel {
   [[nodiscard]] bool sets() const {
     return kind_ == ChannelKind::Target || kind_ == ChannelKind::Force;
   }
+  // in the first tick of a call alone
+  [[nodiscard]] bool acts_once() const { return sets() || kind_ == ChannelKind::Delta; }
   [[nodiscard]] Index size() const { return scale_.size(); }
   [[nodiscard]] const Vector& scale() const { return scale_; }  // (size)
   [[nodiscard]] Task* task() const { return task_; }            // null where it moves none

@@ -12,6 +12,7 @@
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 #include "hurcules/robot/left_out.hpp"
+#include "hurcules/robot/loose_joints.hpp"
 
 namespace hurcules {
 
@@ -68,6 +69,19 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
   Vector least = Vector::Constant(n, std::numeric_limits<double>::infinity());
   Vector most = Vector::Zero(n), q = start;
   Matrix M(n, n);
+  const std::vector<JointActuator> actuators = joint_actuators(robot);
+  const auto place_of = [&robot, n](const JointActuator& actuator) {
+    for (Index k = 0; k < n; ++k)
+      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints)
+        if (joint.dof == actuator.dof) return std::pair(k, joint.factor);
+    return std::pair(Index{-1}, 1.0);
+  };
+  std::vector<int> others;
+  for (const JointActuator& actuator : actuators)
+    if (place_of(actuator).first < 0) others.push_back(actuator.dof);
+  LooseJoints loose(robot, others);
+  double gain =
+      1.0;  // by what the others do beside the decoupling, which knows of coordinates alone
   for (int i = 0; i < kSamples; ++i) {
     for (Index k = 0; k < n && i > 0; ++k) {  // the first sample is the start
       const Coordinate& c = robot.coordinates()[static_cast<std::size_t>(k)];
@@ -81,19 +95,11 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       continue;
     }
     sampled.mass_matrix(M);
+    gain = std::max(gain, loose.gain(sampled));
     const Matrix inverse = M.inverse();
     most = most.cwiseMax(M.diagonal());
     least = least.cwiseMin(inverse.diagonal().cwiseInverse());
   }
-  const std::vector<JointActuator> actuators = joint_actuators(robot);
-  const auto place_of = [&robot, n](const JointActuator& actuator) {
-    for (Index k = 0; k < n; ++k)
-      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints)
-        if (joint.dof == actuator.dof) return std::pair(k, joint.factor);
-    return std::pair(Index{-1}, 1.0);
-  };
-  const bool all = std::all_of(actuators.begin(), actuators.end(),
-                               [&](const auto& actuator) { return place_of(actuator).first >= 0; });
   std::vector<ServoGains> table;
   for (const JointActuator& actuator : actuators) {
     const auto [k, factor] = place_of(actuator);
@@ -105,14 +111,14 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       low = least[k] / share;
       high = most[k] / share;
       rated = std::sqrt(low * high);
-      if (!all) low = std::min(low, actuator.least_inertia);
+      if (!others.empty()) low = std::min(low, actuator.least_inertia);
     }
     if (actuator.rolling_inertia > 0.0) {  // off the ground it turns itself alone
       high = std::max(high, actuator.rolling_inertia);
       rated = std::max(std::sqrt(low * high), high / kRolling);
     }
-    // the decoupling knows of coordinates alone
-    const double slowest = decoupled && all ? 1.0 : std::min(1.0, low / rated);
+    const double slowest =
+        decoupled && std::isfinite(gain) ? 1.0 / gain : std::min(1.0, low / rated);
     const double bandwidth = std::min(kBandwidth, kFastest * slowest / (3.0 * dt));
     if (!(rated > 0.0 && std::isfinite(rated))) {
       throw Error("no servo can be made for joint '" + actuator.joint +

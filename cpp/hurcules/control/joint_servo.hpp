@@ -27,7 +27,8 @@ struct ServoGains {
 // inertias from 1 / (M^-1)_ii (all others free) to M_ii (all others held). The rated inertia is
 // their geometric mean, so that a triple pole, stable from a ninth of it upwards, covers them; the
 // bandwidth is 30 rad/s, less where the smallest inertia would make the loop too fast for dt. Where
-// the servos are decoupled, the joints feel nothing of each other, and dt alone bounds it. A driven
+// the servos are decoupled, the joints feel nothing of each other: dt alone bounds it, and joints that
+// are left out, by as much as they loosen the coordinates (loose_joints.hpp). A driven
 // wheel may hang in the air or roll the robot (JointActuator::rolling_inertia).
 [[nodiscard]] std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt,
                                                           bool decoupled = false);

@@ -22,12 +22,15 @@ RateInterval rate_interval(const RateState& state, const RateLimits& limits) {
   const double limit_upper = approach_speed(state.to_upper, limits);
   const double limit_lower = std::min(-approach_speed(-state.to_lower, limits), limit_upper);
 
-  // then velocity: never empty, since a coordinate is driven back no faster than max_velocity
-  const double lower = std::max(limit_lower, -limits.max_velocity);
-  const double upper = std::min(limit_upper, limits.max_velocity);
+  // then velocity: never empty, since a coordinate is driven back no faster than max_velocity; one
+  // that is faster than a limit which was lowered brakes
+  const double change = limits.max_acceleration * limits.dt;
+  const double lower =
+      std::max(limit_lower, std::min(-limits.max_velocity, state.velocity + change));
+  const double upper =
+      std::min(limit_upper, std::max(limits.max_velocity, state.velocity - change));
 
   // acceleration last: what it cannot reach within a step is given up
-  const double change = limits.max_acceleration * limits.dt;
   RateInterval interval;
   interval.least = lower;
   interval.most = upper;

@@ -36,7 +36,8 @@ struct RateInterval {
 // the largest velocity towards a limit at this distance; negative (away from it) when it was passed
 [[nodiscard]] double approach_speed(double distance, const RateLimits& limits);
 
-// Never empty. Where the three cannot be met together the position limit wins, then velocity.
+// Never empty. Where the three cannot be met together the position limit wins, then velocity,
+// which is braked for where it was lowered below the present one.
 [[nodiscard]] RateInterval rate_interval(const RateState& state, const RateLimits& limits);
 
 }  // namespace hurcules

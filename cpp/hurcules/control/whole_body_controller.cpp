@@ -72,6 +72,15 @@ std::vector<ServoGains> all_gains(const Robot& robot, std::vector<ServoGains> gi
   return given;
 }
 
+// whether the actuator moves a coordinate
+bool moves(const Robot& robot, const JointActuator& actuator) {
+  const auto drives = [&](const DrivenJoint& joint) { return joint.dof == actuator.dof; };
+  return std::any_of(robot.coordinates().begin(), robot.coordinates().end(),
+                     [&](const Coordinate& one) {
+                       return std::any_of(one.joints.begin(), one.joints.end(), drives);
+                     });
+}
+
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
   options.velocity.dt = options.acceleration.dt = options.torque.dt = options.dt;
   const std::vector<JointActuator> actuators = joint_actuators(robot);
@@ -79,7 +88,14 @@ WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOpti
       std::any_of(actuators.begin(), actuators.end(),
                   [](const JointActuator& actuator) { return actuator.rolling_inertia > 0.0; });
   const std::vector<ServoGains> of_model = model_servo_gains(actuators);
-  const bool reckoned = options.servo.empty() && of_model.empty();
+  const auto has_row = [&](const JointActuator& actuator) {
+    const auto is_it = [&](const ServoGains& row) { return row.joint == actuator.joint; };
+    return std::any_of(options.servo.begin(), options.servo.end(), is_it) ||
+           std::any_of(of_model.begin(), of_model.end(), is_it);
+  };
+  const bool reckoned = std::none_of(
+      actuators.begin(), actuators.end(),
+      [&](const JointActuator& actuator) { return moves(robot, actuator) && has_row(actuator); });
   options.decoupled = options.decoupled.value_or(reckoned && options.feed_forward && !rolls);
   require(!*options.decoupled || options.feed_forward, "decoupled servos want feed_forward");
   options.servo =
@@ -138,10 +154,6 @@ std::vector<Task*> tasks_of(const Stack& stack) {
 }
 
 // in the first tick of a command alone
-bool acts_once(const Channel& channel) {
-  return channel.sets() || channel.kind() == ChannelKind::Delta;
-}
-
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -171,7 +183,10 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   std::vector<std::string> task_names;
   for (const Task* task : tasks_) task_names.push_back(task->name());
   const std::vector<std::string> coordinates = plan_.coordinate_names();
-  names_ = hash_of_names({&coordinates, &task_names, &command_names_});
+  std::vector<std::string> stack_names;
+  for (const NamedStack& stack : stacks_)
+    stack_names.push_back(stack.name + std::to_string(static_cast<int>(stack.order)));
+  names_ = hash_of_names({&coordinates, &task_names, &command_names_, &stack_names});
   scale_ = command_ = Vector::Zero(static_cast<Index>(command_names_.size()));
   Index row = 0;
   for (const Channel& channel : channels_) {
@@ -183,6 +198,11 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   delta_ = Vector::Zero(scale_.size());
   seen_ = Vector::Zero(servo_.size());
   carrying_ = carrying_joints(plan_);
+  for (const NamedStack& stack : stacks_) {
+    force_tasks_.emplace_back();
+    for (Task* const task : tasks_of(stack.stack))
+      if (auto* const force = dynamic_cast<ForceTask*>(task)) force_tasks_.back().push_back(force);
+  }
   reset(robot.qpos(), true);
 }
 
@@ -203,6 +223,7 @@ void WholeBodyController::collect_tasks() {
 void WholeBodyController::check_channels() {
   require_distinct(channels_, "channels");
   led_.assign(static_cast<std::size_t>(servo_.size()), false);
+  stopping_ = led_;
   for (const Channel& channel : channels_) {
     for (const std::string& entry : channel.entries()) command_names_.push_back(entry);
     if (channel.kind() == ChannelKind::Drive) {
@@ -309,6 +330,7 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   command_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = begun_ = false;
+  stopping_.assign(stopping_.size(), false);
   for (Task* const task : tasks_) {
     if (keep_targets && task->target_is_set()) {
       task->update(plan_);
@@ -366,13 +388,22 @@ void WholeBodyController::take_over() {
   hold_targets();
 }
 
+void WholeBodyController::move_joints() {
+  if (moves_joints_) return;
+  moves_joints_ = true;
+  std::fill_n(stopping_.begin(), servo_.coordinate_joints(), true);
+  for (const std::vector<Index>& joints : moved_)
+    for (const Index joint : joints) stopping_[static_cast<std::size_t>(joint)] = false;
+}
+
 void WholeBodyController::move(const std::string& joint, double position, double velocity) {
   const Index place = servo_.find(joint);
   require(std::isfinite(position) && std::isfinite(velocity),
           "move wants a finite position and velocity of joint '" + joint + "', " +
               number_text(position) + " and " + number_text(velocity) + " came");
+  move_joints();
   servo_.move(place, position, velocity);
-  moves_joints_ = true;
+  stopping_[static_cast<std::size_t>(place)] = false;
 }
 
 void WholeBodyController::move(const Vector& position, const Vector& velocity) {
@@ -381,8 +412,9 @@ void WholeBodyController::move(const Vector& position, const Vector& velocity) {
           "move wants " + std::to_string(servo_.size()) + " finite positions and velocities, " +
               std::to_string(position.size()) + " and " + std::to_string(velocity.size()) +
               " came");
+  move_joints();
   for (Index i = 0; i < servo_.size(); ++i) servo_.move(i, position[i], velocity[i]);
-  moves_joints_ = true;
+  stopping_.assign(stopping_.size(), false);
 }
 
 void WholeBodyController::stand_on(const std::string& body) {
@@ -503,8 +535,19 @@ void WholeBodyController::kinematics(const RobotState& state) {
   plan_.set_configuration(q_);
 }
 
+// what was told a force before, and none since the last tick, has read nothing
+void WholeBodyController::miss_readings() {
+  if (moves_joints_) return;
+  for (ForceTask* const task : force_tasks_[active_]) {
+    if (task->take_reading() || !task->is_told()) continue;
+    task->sense(plan_, std::numeric_limits<double>::quiet_NaN());
+    (void)task->take_reading();
+  }
+}
+
 void WholeBodyController::apply(const Vector* command, bool first, const RobotState& state) {
   forces_.tell(plan_, state.qpos, state.qvel, state.sensors);
+  miss_readings();
   Index row = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Index size = channels_[i].size();
@@ -512,7 +555,7 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     auto part = command_.segment(row, size);
     const bool moved = !part.isZero(0.0);
     const bool given = command && !std::isnan((*command)[row]) && reaches(i) &&
-                       (first || !acts_once(channels_[i]));
+                       (first || !channels_[i].acts_once());
     if (given) {
       const auto scale = scale_.segment(row, size);
       part = command->segment(row, size).cwiseMax(-scale).cwiseMin(scale);
@@ -527,6 +570,7 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
       apply(channels_[i], part, given, state);
     }
   }
+  if (moves_joints_) stop_joints();
 }
 
 // a rate moves what the stack that rules measures, nothing else
@@ -598,17 +642,32 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
   }
 }
 
-// within the acceleration limit, and no further than the joints go
 void WholeBodyController::lead_joints(const std::vector<Index>& joints,
                                       const ConstVectorRef& rates) {
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    lead_joint(joints[i], rates[static_cast<Index>(i)]);
+}
+
+// within the acceleration limit, and no further than the joint goes
+void WholeBodyController::lead_joint(Index joint, double wanted) {
   const double most = options_.velocity.max_acceleration * dt();
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const JointActuator& actuator = servo_.actuator(joints[i]);
-    const double now = servo_.velocity()[joints[i]];
-    const double rate = std::clamp(rates[static_cast<Index>(i)], now - most, now + most);
-    const double place = servo_.position()[joints[i]] + rate * dt();
-    const double held = std::clamp(place, actuator.lower, actuator.upper);
-    servo_.move(joints[i], held, held == place ? rate : 0.0);
+  const JointActuator& actuator = servo_.actuator(joint);
+  const double now = servo_.velocity()[joint];
+  const double rate = std::clamp(wanted, now - most, now + most);
+  const double place = servo_.position()[joint] + rate * dt();
+  const double held = std::clamp(place, actuator.lower, actuator.upper);
+  servo_.move(joint, held, held == place ? rate : 0.0);
+}
+
+// what a stack left in motion, and nobody has moved since
+void WholeBodyController::stop_joints() {
+  for (Index joint = 0; joint < servo_.coordinate_joints(); ++joint) {
+    if (!stopping_[static_cast<std::size_t>(joint)]) continue;
+    if (servo_.velocity()[joint] == 0.0) {
+      stopping_[static_cast<std::size_t>(joint)] = false;
+    } else {
+      lead_joint(joint, 0.0);
+    }
   }
 }
 
@@ -697,6 +756,7 @@ void WholeBodyController::save(StateWriter& writer) const {
   writer.put(names_);
   writer.put(static_cast<double>(active_));
   writer.put(moves_joints_ ? 1.0 : 0.0);
+  for (const bool stops : stopping_) writer.put(stops ? 1.0 : 0.0);
   writer.put(static_cast<double>(support_.id));
   // joints that follow the coordinates go on from where they are
   writer.put(plan_.closures() ? plan_.qpos() : start_);
@@ -704,7 +764,10 @@ void WholeBodyController::save(StateWriter& writer) const {
   feed_forward_.save(writer);
   writer.put(held_back_);
   writer.put(Vector(command_.array().isNaN().select(0.0, command_)));
-  for (const Task* task : tasks_) task->save(writer);
+  for (const Task* task : tasks_) {
+    task->save(writer);
+    task->save_settings(writer);
+  }
   yielding_.save(writer);
   for (const JointLimits* limits : limits_) limits->save(writer);
   for (const auto& law : laws_) law->save(writer);
@@ -716,16 +779,21 @@ void WholeBodyController::save(StateWriter& writer) const {
 void WholeBodyController::restore(StateReader& reader) {
   require(
       reader.get() == names_,
-      "restore: the state is that of another controller: of other coordinates, tasks or commands");
+      "restore: the state is that of another controller: of other coordinates, tasks, stacks or "
+      "commands");
   active_ = static_cast<std::size_t>(reader.get_count(static_cast<Index>(stacks_.size()) - 1));
   moves_joints_ = reader.get_count(1) > 0;
+  for (std::size_t i = 0; i < stopping_.size(); ++i) stopping_[i] = reader.get_count(1) > 0;
   begun_ = true;
   seen_.setConstant(std::numeric_limits<double>::quiet_NaN());  // nobody knows
   const auto support = static_cast<int>(reader.get_count(kMostBodies));
   for (Vector* vector : {&start_, &ahead_, &q_, &qd_}) reader.get(*vector);
   feed_forward_.restore(reader);
   for (Vector* vector : {&held_back_, &command_}) reader.get(*vector);
-  for (Task* task : tasks_) task->restore(reader);
+  for (Task* task : tasks_) {
+    task->restore(reader);
+    task->restore_settings(reader);
+  }
   yielding_.restore(reader);
   for (JointLimits* limits : limits_) limits->restore(reader);
   for (const auto& law : laws_) law->restore(reader);

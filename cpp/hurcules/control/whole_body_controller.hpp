@@ -64,8 +64,8 @@ struct WholeBodyControllerOptions {
   // whatever the robot carries is a disturbance to them.
   bool feed_forward = true;
   // what the servos ask for as accelerations is given by the mass matrix, so that no joint's motion
-  // disturbs another; wants feed_forward; not given: where all gains are reckoned and no wheel is driven
-  // (the mass matrix does not know what a wheel on the ground moves)
+  // disturbs another; wants feed_forward; not given: where the gains of all coordinates are reckoned
+  // and no wheel is driven (the mass matrix does not know what a wheel on the ground moves)
   std::optional<bool> decoupled = {};
   // the motion slows down where a motor would be asked for more than its peak
   bool torque_scaling = true;
@@ -94,12 +94,14 @@ class WholeBodyController {
   void hold_targets();
   // which stack rules from the next tick on; throws Error with the names that exist
   void use(const std::string& stack);
-  // where a joint with an actuator shall be in this tick [rad], [rad/s]; no stack rules until `use`
+  // Where a joint with an actuator shall be from now on [rad], and how fast it goes there [rad/s]; no
+  // stack rules until `use`.
   void move(const std::string& joint, double position, double velocity);
   // the same for all of them, in the order of the servo: (m) each
   void move(const Vector& position, const Vector& velocity);
-  // no stack rules until `use`: joints stay where they are, channels of joints move them
-  void move_joints() { moves_joints_ = true; }
+  // No stack rules until `use`: joints stop within the acceleration limit, and stay; channels of
+  // joints move them.
+  void move_joints();
   // The plan stands on another body, where it is now: what it takes is told anew, and the integrals
   // of the servos take over the difference, so that no torque jumps (decoupled servos: it may, by
   // what the plan's weight and inertia differ). Until `reset`.
@@ -193,6 +195,9 @@ class WholeBodyController {
   void apply(const Channel& channel, const ConstVectorRef& command, bool given,
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
+  void lead_joint(Index joint, double wanted);
+  void stop_joints();
+  void miss_readings();
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
   void require_near(const Vector& qpos) const;
   void take_over();
@@ -213,11 +218,13 @@ class WholeBodyController {
   std::vector<CarryingJoint> carrying_;      // no coordinate moves them
   std::vector<std::vector<Index>> moved_;    // (channels) joints of Joints channels
   std::vector<bool> led_;                    // (joints of the servo) by a channel of their own
+  std::vector<bool> stopping_;               // (joints of the servo) from what a stack had them do
   std::vector<LedControl> led_controls_;     // of Control channels
   std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack
   std::vector<std::string> command_names_;
   double names_ = 0.0;  // hash of those of coordinates, tasks and commands
   ForceReadings forces_;
+  std::vector<std::vector<ForceTask*>> force_tasks_;  // (stacks)
   JointServo servo_;
   std::vector<ActuatorStatus> motors_;  // (nu) for `tick`
   std::optional<TrackDrive> drive_;

@@ -70,6 +70,10 @@ ModelPtr owned(mjModel* model, const std::string& what, const std::string& compl
 
 ModelPtr load_model(const std::string& path) {
   check_mujoco_version();
+  require(
+      !path.starts_with('<'),
+      "a model's path is wanted, a text of XML came; of MJCF it is for load_model_text (C++) or "
+      "mujoco.MjModel.from_xml_string (Python)");
   if (!std::filesystem::exists(path)) throw Error("model '" + path + "' does not exist");
   if (std::filesystem::is_directory(path)) {
     throw Error("model '" + path + "': wanted a file, it is a folder");

@@ -102,7 +102,7 @@ void ForceTask::sense(const Robot& robot, double force) {
     rate_ = sensed_ ? (s - last_) / dt : 0.0;
   }
   last_ = s;
-  sensed_ = true;
+  sensed_ = fresh_ = true;
   monitor_.look(force, s);
   const double read = monitor_.force();
   told_ = filter_ > dt ? told_ + dt / filter_ * (read - told_) : read;
@@ -237,7 +237,8 @@ void ForceTask::save(StateWriter& writer) const {
   borne_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, entry_, told_, rate_, last_, sensed_ ? 1.0 : 0.0}) {
+        wish_, offset_, age_, entry_, told_, rate_, last_, sensed_ ? 1.0 : 0.0,
+        fresh_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
 }
@@ -257,6 +258,7 @@ void ForceTask::restore(StateReader& reader) {
     *value = reader.get();
   }
   sensed_ = reader.get_count(1) > 0;
+  fresh_ = reader.get_count(1) > 0;
 }
 
 }  // namespace hurcules

@@ -11,9 +11,12 @@
 // with the law's compliance: a servo with an integral would press on, ever harder. With blend = 0 it
 // holds, as in the thesis.
 //
-// Each tick: sense(robot, f), then the controller. FirstOrder is a row for both controllers, the
+// Each tick: sense(robot, f), then the controller; for a whole-body controller a tick without it is a
+// missing reading, once there was one. FirstOrder is a row for both controllers, the
 // other laws for one of accelerations.
 #pragma once
+
+#include <utility>
 
 #include "hurcules/tasks/borne_force.hpp"
 #include "hurcules/tasks/contact_monitor.hpp"
@@ -73,6 +76,8 @@ class ForceTask : public PositionTask {
   void reset(const Robot& robot) override;
 
   [[nodiscard]] bool is_told() const { return sensed_; }  // of a force, since the last reset
+  // whether it was told one since this was asked last
+  [[nodiscard]] bool take_reading() { return std::exchange(fresh_, false); }
   [[nodiscard]] ContactState state() const { return monitor_.state(); }
   [[nodiscard]] double force() const { return monitor_.force(); }  // [N] last reading
   [[nodiscard]] double force_des() const { return force_des_; }    // [N]
@@ -113,7 +118,7 @@ class ForceTask : public PositionTask {
   double told_ = 0.0;    // [N] filtered
   double rate_ = 0.0;    // [m/s] of the frame, by the robot's velocity or by differences
   double last_ = 0.0;    // [m] s at the last sense
-  bool sensed_ = false;
+  bool sensed_ = false, fresh_ = false;
 };
 
 }  // namespace hurcules

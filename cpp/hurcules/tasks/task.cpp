@@ -86,6 +86,24 @@ void Task::restore(StateReader& reader) {
   reader.get(upper_);
 }
 
+void Task::save_settings(StateWriter& writer) const {
+  writer.put(max_speed_);
+  writer.put(weights_);
+  const bool has_gains = gains_.size() > 0;
+  writer.put(has_gains ? 1.0 : 0.0);
+  for (Index row = 0; row < rows(); ++row) writer.put(has_gains ? gains_[row] : 0.0);
+}
+
+void Task::restore_settings(StateReader& reader) {
+  max_speed_ = reader.get();
+  reader.get(weights_);
+  gains_.resize(reader.get_count(1) > 0 ? rows() : 0);
+  for (Index row = 0; row < rows(); ++row) {
+    const double gain = reader.get();
+    if (gains_.size() > 0) gains_[row] = gain;
+  }
+}
+
 void Task::set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper) {
   if (lower.size() != rows() || upper.size() != rows())
     throw Error("interval of task '" + name_ + "' wants " + std::to_string(rows()) + " values, " +

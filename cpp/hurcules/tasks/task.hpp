@@ -52,6 +52,9 @@ class Task {
   // what must be kept between ticks: the target, the feed-forwards and the interval
   virtual void save(StateWriter& writer) const = 0;
   virtual void restore(StateReader& reader) = 0;
+  // and what was set of it besides: speed, gains and weights
+  void save_settings(StateWriter& writer) const;
+  void restore_settings(StateReader& reader);
 
   // the interval that the error shall be in; (m), task unit, -inf and inf for no side
   virtual void set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper);

@@ -53,6 +53,17 @@ TEST(RateInterval, DrivesBackFromOutsideAtABoundedSpeed) {
   EXPECT_DOUBLE_EQ(below.lower, 0.2);
 }
 
+TEST(RateInterval, BrakesForASpeedLimitThatWasLowered) {
+  RateLimits limits = usual();
+  limits.max_velocity = 0.1;
+  limits.max_acceleration = 20.0;
+  for (const double side : {-1.0, 1.0}) {
+    const RateInterval interval = rate_interval({-10.0, 10.0, side * 0.99}, limits);
+    EXPECT_NEAR(side > 0.0 ? interval.upper : interval.lower, side * 0.97, tolerance(1e-12));
+    EXPECT_NEAR(side > 0.0 ? interval.lower : interval.upper, side * 0.97, tolerance(1e-12));
+  }
+}
+
 TEST(RateInterval, IsNeverEmptyWhateverTheState) {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> any(-2.0, 2.0);
@@ -66,8 +77,11 @@ TEST(RateInterval, IsNeverEmptyWhateverTheState) {
     const RateState state{lower - q, upper - q, 3.0 * any(generator)};
     const RateInterval interval = rate_interval(state, limits);
     ASSERT_LE(interval.lower, interval.upper) << i;
-    ASSERT_LE(interval.upper, limits.max_velocity) << i;
-    ASSERT_GE(interval.lower, -limits.max_velocity) << i;
+    // a coordinate that is faster, the limit having been lowered, brakes
+    const double fast = std::abs(state.velocity) - limits.max_acceleration * limits.dt;
+    const double most = std::max(limits.max_velocity, fast);
+    ASSERT_LE(interval.upper, most) << i;
+    ASSERT_GE(interval.lower, -most) << i;
     // one step never leaves the range from inside
     if (q >= lower && q <= upper) {
       ASSERT_LE(q + interval.upper * limits.dt, upper + 1e-15) << i;
