@@ -56,12 +56,14 @@ Args:
   rate: (k,) SI at which it is led, or
   way: until so much has been given [SI s]; inf: on and on.
   by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
-  to: look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
-    begins; "" adds nothing.
+  to: look and move: quantities, one an entry of `by` or `value`, that are added to it as they are
+    when the phase begins; "" adds nothing.
   hold: a quantity that the rate holds at a value: in full where it is `span` or more below, backwards
     above; "": none.
   at: that value, in the quantity's unit.
   span: in the same unit, above 0.
+  value: (k,) what a `Target` or a `ForceReference` is set to, in its unit.
+  follow: the quantities of `to` are added to the value as they are now, tick by tick.
 )";
 constexpr const char* kKey = R"(Angles of coordinates, or places of joints, at a share of a motion.
 
@@ -284,7 +286,8 @@ void bind_rows(py::module_& module) {
       module, "Lead", kLead,
       {required("channel", &Lead::channel), field("rate", &Lead::rate), field("way", &Lead::way),
        field("by", &Lead::by), field("to", &Lead::to), field("hold", &Lead::hold),
-       field("at", &Lead::at), field("span", &Lead::span)});
+       field("at", &Lead::at), field("span", &Lead::span), field("value", &Lead::value),
+       field("follow", &Lead::follow)});
   bind_options<PostureKey>(
       module, "PostureKey", kKey,
       {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});

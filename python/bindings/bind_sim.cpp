@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -133,6 +134,15 @@ py::dict thesis_figures(const Simulation& self) {
   if (!self.supervisor()) return result;
   for (const Figure& figure : self.supervisor()->figures()) {
     if (figure.thesis == figure.thesis) result[py::str(figure.name)] = figure.thesis;
+  }
+  return result;
+}
+
+py::dict wanted_figures(const Simulation& self) {
+  py::dict result;
+  for (const Figure& figure : self.figures()) {
+    if (std::isinf(figure.least) && std::isinf(figure.most)) continue;
+    result[py::str(figure.name)] = py::make_tuple(figure.least, figure.most);
   }
   return result;
 }
@@ -367,6 +377,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("question", &Simulation::question, kQuestion)
       .def_property_readonly("dt", &Simulation::dt, "[s]")
       .def_property_readonly("physics", &Simulation::physics, "False: it moves without forces")
+      .def_property_readonly("records", &Simulation::records, "False: `log` is empty")
       .def_property_readonly("time", &Simulation::time, "[s] since reset")
       .def_property_readonly("finished", &Simulation::finished)
       .def_property_readonly("success", &Simulation::success)
@@ -409,6 +420,7 @@ void bind_results(py::class_<Simulation>& simulation) {
            kTimings)
       .def("figures", at_rest(figures), kFigures)
       .def("thesis_figures", at_rest(thesis_figures), kThesisFigures)
+      .def("wanted_figures", at_rest(wanted_figures), kWantedFigures)
       .def("events", at_rest(events), kEvents)
       .def("limit_violation", at_rest(limit_violation), kViolation);
 }

@@ -165,6 +165,8 @@ inline constexpr const char* kFigures =
     "The mission's own figures and the worst that the monitors saw; NaN: has not happened.";
 inline constexpr const char* kThesisFigures =
     "What the thesis reports for those figures that it gives.";
+inline constexpr const char* kWantedFigures =
+    "(least, most) that those figures must be for success whose mission says so.";
 inline constexpr const char* kEvents = "(time [s], text) of phases, and of limits met and left.";
 inline constexpr const char* kFall = R"(When a run ends because the robot fell.
 

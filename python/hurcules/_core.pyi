@@ -2711,7 +2711,7 @@ class WholeBodyController:
         JointRates, ControlRate.
       stacks: by name further stacks for `use`, each levels as above or (levels, control); the first one
         rules at the start if no `levels` are given.
-      control: by what `levels` rule: "velocity", "acceleration", or "torque": then the accelerations are
+      control: by what stacks rule that do not say it: "velocity", "acceleration", or "torque": then the accelerations are
         those of the robot as it is sensed, and its drives get what inverse dynamics says. Contacts
         (ContactTask) carry a robot that floats.
       dt: control period [s]; by default the time step of the model.
@@ -2723,7 +2723,7 @@ class WholeBodyController:
         the robot.
       feed_forward: servos are told the torques that the model says.
       decoupled: what the servos ask for is given by the mass matrix, wants feed_forward; None: where
-        all are reckoned, and no wheel is driven.
+        those of all coordinates are reckoned, and no wheel is driven.
       torque_scaling: the motion slows down where a motor would be asked for more than its peak. False
         where drives with servos of their own follow q_des: their sag would be taken for a load.
       drive: DriveOptions of a robot on tracks; needed for a Drive channel.
@@ -2767,7 +2767,9 @@ class WholeBodyController:
         """The targets of all tasks come to where the plan is."""
 
     def move(self, joint: str, position: float, velocity: float = 0.0) -> None:
-        """Where a joint shall be in the next tick; no stack rules until `use`.
+        """Where a joint shall be from now on; no stack rules until `use`.
+
+        Joints that a stack left in motion stop within the acceleration limit.
 
         Args:
           joint: name of a joint with an actuator.
@@ -2785,7 +2787,7 @@ class WholeBodyController:
           velocities: (m,) [rad/s] or [m/s]."""
 
     def move_joints(self) -> None:
-        """No stack rules until `use`: joints stay where they are, JointRates moves them."""
+        """No stack rules until `use`: joints stop within the acceleration limit, and stay; JointRates moves them."""
 
     def reset(self, qpos: ArrayLike | None = None) -> None:
         """Starts anew at rest: the first stack rules, all targets go to where the robot is.
@@ -3160,15 +3162,18 @@ class Lead:
       rate: (k,) SI at which it is led, or
       way: until so much has been given [SI s]; inf: on and on.
       by: (k,) the way [SI s] that it is led in the seconds of the phase, smoothly.
-      to: look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
-        begins; "" adds nothing.
+      to: look and move: quantities, one an entry of `by` or `value`, that are added to it as they are
+        when the phase begins; "" adds nothing.
       hold: a quantity that the rate holds at a value: in full where it is `span` or more below, backwards
         above; "": none.
       at: that value, in the quantity's unit.
-      span: in the same unit, above 0."""
+      span: in the same unit, above 0.
+      value: (k,) what a `Target` or a `ForceReference` is set to, in its unit.
+      follow: the quantities of `to` are added to the value as they are now, tick by tick."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     channel: str
+    follow: bool
     hold: str
 
     def __copy__(self) -> Lead: ...
@@ -3185,6 +3190,8 @@ class Lead:
         hold: str = "",
         at: float = 0.0,
         span: float = 0.0,
+        value: ArrayLike = ...,
+        follow: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -3207,6 +3214,10 @@ class Lead:
     def to(self) -> list[str]: ...
     @to.setter
     def to(self, arg0: collections.abc.Sequence[str]) -> None: ...
+    @property
+    def value(self) -> NDArray[np.float64]: ...
+    @value.setter
+    def value(self, arg0: ArrayLike) -> None: ...
     @property
     def way(self) -> float: ...
     @way.setter
@@ -4039,6 +4050,9 @@ class Simulation:
     def timings(self) -> dict[str, Any]:
         """Seconds that each stage of each tick took: dict of (ticks,)."""
 
+    def wanted_figures(self) -> dict[str, Any]:
+        """(least, most) that those figures must be for success whose mission says so."""
+
     @property
     def brakes(self) -> Brakes:
         """Brakes of the joints' drives"""
@@ -4100,6 +4114,10 @@ class Simulation:
     @property
     def reason(self) -> str:
         """'' while running, else why it ended: 'completed', 'fell over at ...'"""
+
+    @property
+    def records(self) -> bool:
+        """False: `log` is empty"""
 
     @property
     def success(self) -> bool: ...

@@ -196,6 +196,8 @@ _LEAD: Mapping[str, Kind] = {
     "hold": str,
     "at": float,
     "span": float,
+    "value": [float],
+    "follow": bool,
 }
 _TROUBLE: Mapping[str, Kind] = {"when": str, "do": [str]}
 _PHASE: Mapping[str, Kind] = {
@@ -384,7 +386,9 @@ def _phase_lines(phase: Phase) -> list[str]:
         parts += [f"by = {_value(lead.by.tolist())}"] if lead.by.size else []
         if lead.hold:
             parts.append(f"hold = {_value(lead.hold)}, at = {lead.at!r}, span = {lead.span!r}")
+        parts += [f"value = {_value(lead.value.tolist())}"] if lead.value.size else []
         parts += [f"to = {_value(list(lead.to))}"] if lead.to else []
+        parts += ["follow = true"] if lead.follow else []
         lines.append(f"lead.{lead.channel} = {{ {', '.join(parts)} }}")
     if phase.keys:
         lines.append("keys = [")

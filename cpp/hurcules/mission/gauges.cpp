@@ -15,12 +15,12 @@ std::vector<Figure> Gauges::figures_of(const MissionTable& table) {
   return figures;
 }
 
-void Gauges::attach(const MissionTable& table, const Recorder& log) {
+void Gauges::attach(const MissionTable& table, SceneQuantities& scene) {
   gauges_.clear();
   for (const Measure& measure : table.measures) {
     const std::string where = "figure '" + measure.name + "'";
     Gauge gauge;
-    gauge.source = find_quantity(log, measure.quantity, where);
+    gauge.source = scene.find(measure.quantity, where);
     gauge.take = measure.take;
     gauge.counts.assign(table.phases.size(), measure.phases.empty());
     for (const std::string& phase : measure.phases) {
@@ -82,16 +82,6 @@ std::string out_of_bounds(const std::vector<Figure>& figures) {
            (high ? "most " : "least ") + to_text(high ? figure.most : figure.least);
   }
   return "";
-}
-
-const double* find_quantity(const Recorder& log, const std::string& quantity,
-                            const std::string& where) {
-  const double* const source = log.source(quantity);
-  if (!source)
-    throw Error(where + ": " + unknown_name("quantity", quantity, log.channels()) +
-                "; simulation.channels has all, and the model may have position/OBJECT/x, "
-                "joint/JOINT, sensor/SENSOR, contact_force/BODY");
-  return source;
 }
 
 }  // namespace hurcules

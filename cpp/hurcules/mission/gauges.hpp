@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hurcules/base/state.hpp"
+#include "hurcules/mission/scene_quantities.hpp"
 #include "hurcules/mission/table.hpp"
-#include "hurcules/sim/recorder.hpp"
 #include "hurcules/sim/supervisor.hpp"
 
 namespace hurcules {
@@ -17,7 +17,7 @@ class Gauges {
   // figures of the table, in the order of its measures, before anything was seen
   [[nodiscard]] static std::vector<Figure> figures_of(const MissionTable& table);
   // finds the quantities; throws Error with the columns that exist. Keeps the table.
-  void attach(const MissionTable& table, const Recorder& log);
+  void attach(const MissionTable& table, SceneQuantities& scene);
   void reset();
   // writes the figures that count in this phase
   void look(std::size_t phase, std::vector<Figure>& figures);
@@ -37,9 +37,5 @@ class Gauges {
 
 // the first figure out of its bounds, in words; "" for none
 [[nodiscard]] std::string out_of_bounds(const std::vector<Figure>& figures);
-
-// where the log keeps a quantity; throws Error with the columns that exist, `where` for the text
-[[nodiscard]] const double* find_quantity(const Recorder& log, const std::string& quantity,
-                                          const std::string& where);
 
 }  // namespace hurcules

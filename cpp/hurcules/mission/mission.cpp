@@ -44,13 +44,20 @@ Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyControll
       initial_qpos_(controller.plan().qpos()),
       root_body_(controller.plan().root_body()),
       dt_(controller.dt()),
-      operated_(Vector::Zero(controller.scale().size())) {
+      idle_(Vector::Zero(controller.scale().size())),
+      operated_(idle_) {
   require(variation_ >= 0.0 && std::isfinite(variation_), "variation wants a number >= 0");
   check_setup(setup_, controller.plan());
   check_table(table_, controller);
   figures_ = Gauges::figures_of(table_);
   for (const Task* task : controller.tasks()) {
     if (dynamic_cast<const ForceTask*>(task)) force_names_.push_back(task->name());
+  }
+  Index row = 0;
+  for (const Channel& channel : controller.channels()) {
+    if (channel.sets())
+      idle_.segment(row, channel.size()).setConstant(std::numeric_limits<double>::quiet_NaN());
+    row += channel.size();
   }
   forces_ = Vector::Zero(static_cast<Index>(force_names_.size()));
   std::string support = setup_.support.empty() ? controller.options().support : setup_.support;
@@ -75,18 +82,10 @@ void Mission::attach(const Plant& plant, Recorder& log) {
   scene_.attach(setup_, plant, log);
   find_brakes(plant.brakes());
   for (PhaseRow& row : rows_) row.find_places(plant, root_body_);
-  quantities_.attach(quantities(), plant, log);
-  for (PhaseRow& row : rows_) row.find_quantities(log);
-  gauges_.attach(table_, log);
+  quantities_.attach(plant, log);
+  for (PhaseRow& row : rows_) row.find_quantities(quantities_);
+  gauges_.attach(table_, quantities_);
   attached_ = true;
-}
-
-std::vector<std::string> Mission::quantities() const {
-  std::vector<std::string> names;
-  for (const PhaseRow& row : rows_)
-    for (std::string& name : row.quantities()) names.push_back(std::move(name));
-  for (const Measure& measure : table_.measures) names.push_back(measure.quantity);
-  return names;
 }
 
 void Mission::find_brakes(const Brakes& brakes) {
@@ -167,7 +166,7 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
 }
 
 const Vector& Mission::command(double dt) {
-  operated_.setZero();
+  operated_ = idle_;
   if (doing_ != Doing::Leading || paused_) return operated_;
   rows_[phase_].command(now_ - phase_start_, dt, operated_);
   return operated_;
@@ -194,6 +193,7 @@ void Mission::note_measured(const TickReport& report) {
 
 bool Mission::advance(WholeBodyController& controller, double time) {
   now_ = time;
+  reacted_.reset();
   if (paused_ || doing_ != Doing::Leading) return wait(time, controller);
   elapsed_ = time - phase_start_;
   progress_ = rows_[phase_].progress(elapsed_);
@@ -222,10 +222,11 @@ bool Mission::over(double time) {
 bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& controller,
                     double time) {
   const std::size_t cause = trouble ? *trouble + 1 : 0;
+  reacted_ = {phase_, cause};
   const Reaction* const reaction = rows_[phase_].react(trouble);
   switch (reaction ? reaction->kind : ReactionKind::Abort) {
     case ReactionKind::Back:
-      if (!why_.final) why_ = {phase_ + 1, cause, false};
+      if (!why_.final) why_ = why(cause);
       enter(find_phase(table_.phases, reaction->phase, ""), controller, time);
       return true;
     case ReactionKind::Hold:
@@ -237,14 +238,14 @@ bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& con
       waiting_ = 1.0;
       return true;
     case ReactionKind::Lower:
-      why_ = {phase_ + 1, cause, true};
+      why_ = why(cause, true);
       tell();
       enter(find_phase(table_.phases, table_.safety, ""), controller, time);
       return true;
     case ReactionKind::Abort:
       break;
   }
-  why_ = {phase_ + 1, cause, true};
+  why_ = why(cause, true);
   ended_ = true;
   tell();
   return false;
@@ -299,21 +300,46 @@ std::optional<double> Mission::asks_until() const {
 }
 
 std::string Mission::question() const {
-  return asks_until() ? words(phase_, cause_) + "; go on?" : "";
+  return asks_until() ? words(why(cause_)) + "; go on?" : "";
 }
 
-std::string Mission::words(std::size_t phase, std::size_t cause) const {
-  const Phase& row = table_.phases[phase];
-  std::string text = "phase '" + row.name + "': ";
-  text += cause == 0 ? std::string("took too long") : to_string(row.troubles[cause - 1].when);
-  return text;
+Mission::Why Mission::why(std::size_t cause, bool final) const {
+  Why why{phase_ + 1, cause, 0, 0.0, final};
+  const std::optional<std::size_t> unmet = rows_[phase_].unmet();
+  if (cause > 0 || !unmet) return why;
+  why.unmet = *unmet + 1;
+  why.value = rows_[phase_].value_of(*unmet);
+  return why;
+}
+
+std::string Mission::text(const Cause& cause) const {
+  const Phase& row = table_.phases[cause.phase];
+  return "phase '" + row.name + "': " +
+         (cause.trouble == 0 ? std::string("took too long")
+                             : to_string(row.troubles[cause.trouble - 1].when));
+}
+
+std::string Mission::unmet_words(const Why& why) const {
+  if (why.unmet == 0) return "";
+  const Condition& condition = table_.phases[why.phase - 1].done[why.unmet - 1];
+  return to_string(condition) + " is not true, it is " + to_text(why.value);
+}
+
+std::string Mission::words(const Why& why) const {
+  const std::string unmet = unmet_words(why);
+  return text({why.phase - 1, why.cause}) + (unmet.empty() ? "" : ": " + unmet);
+}
+
+std::string Mission::waits_for() const {
+  const std::string unmet = unmet_words(why(0));
+  return "phase '" + table_.phases[phase_].name + "'" + (unmet.empty() ? "" : ": " + unmet);
 }
 
 // what is missing, in words: why it was lowered or aborted, else the first figure out of its bounds,
 // and what it went back for
 void Mission::tell() {
   verdict_.clear();
-  const std::string cause = why_.phase > 0 ? words(why_.phase - 1, why_.cause) : "";
+  const std::string cause = why_.phase > 0 ? words(why_) : "";
   if (why_.final) verdict_ = cause;
   if (why_.final || !ended_) return;
   verdict_ = out_of_bounds(figures_);
@@ -327,10 +353,11 @@ std::vector<std::string> Mission::phase_names() const {
 }
 
 void Mission::save(StateWriter& writer) const {
-  for (const std::size_t number : {phase_, cause_, why_.phase, why_.cause}) {
+  for (const std::size_t number : {phase_, cause_, why_.phase, why_.cause, why_.unmet}) {
     writer.put(static_cast<double>(number));
   }
   for (const bool flag : {paused_, moved_, ended_, why_.final}) writer.put(flag ? 1.0 : 0.0);
+  writer.put(why_.value);
   writer.put(static_cast<double>(static_cast<int>(doing_)));
   writer.put(answer_ ? (*answer_ ? 2.0 : 1.0) : 0.0);
   for (const double value :
@@ -354,10 +381,13 @@ void Mission::restore(StateReader& reader) {
   why_.phase = static_cast<std::size_t>(reader.get_count(phases));
   const std::size_t most = why_.phase > 0 ? table_.phases[why_.phase - 1].troubles.size() : 0;
   why_.cause = static_cast<std::size_t>(reader.get_count(static_cast<Index>(most)));
+  const std::size_t asked = why_.phase > 0 ? table_.phases[why_.phase - 1].done.size() : 0;
+  why_.unmet = static_cast<std::size_t>(reader.get_count(static_cast<Index>(asked)));
   paused_ = reader.get_count(1) > 0;
   moved_ = reader.get_count(1) > 0;
   ended_ = reader.get_count(1) > 0;
   why_.final = reader.get_count(1) > 0;
+  why_.value = reader.get_any();
   doing_ = static_cast<Doing>(reader.get_count(static_cast<Index>(Doing::Asking)));
   const Index answered = reader.get_count(2);
   answer_ = answered > 0 ? std::optional(answered == 2) : std::nullopt;

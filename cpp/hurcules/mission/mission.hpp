@@ -52,6 +52,9 @@ class Mission : public Supervisor {
   void pause() override;
   void resume(WholeBodyController& controller, double time) override;
   [[nodiscard]] bool paused() const override { return paused_; }
+  [[nodiscard]] std::optional<Cause> reacted() const override { return reacted_; }
+  [[nodiscard]] std::string text(const Cause& cause) const override;
+  [[nodiscard]] std::string waits_for() const override;
   [[nodiscard]] std::optional<double> asks_until() const override;
   [[nodiscard]] std::string question() const override;
   void answer(bool yes) override { answer_ = yes; }
@@ -80,11 +83,12 @@ class Mission : public Supervisor {
   struct Why {
     std::size_t phase = 0;  // place + 1, 0: nothing
     std::size_t cause = 0;  // 0 late, else the trouble before it
+    std::size_t unmet = 0;  // of one that is late: place + 1 of the condition that was not true
+    double value = 0.0;     // what its quantity was
     bool final = false;     // lowered or aborted
   };
+  [[nodiscard]] Why why(std::size_t cause, bool final = false) const;  // of the present phase
   void find_brakes(const Brakes& brakes);
-  // names of what the table asks for
-  [[nodiscard]] std::vector<std::string> quantities() const;
   void enter(std::size_t phase, WholeBodyController& controller, double time);
   [[nodiscard]] bool over(double time);
   // to a trouble, by its number, or to being late; false: the run is over
@@ -92,8 +96,9 @@ class Mission : public Supervisor {
   bool wait(double time, WholeBodyController& controller);
   [[nodiscard]] bool rules(const WholeBodyController& controller) const;
   void tell();
-  // phase and condition that it is in trouble with, in words; cause as in Why
-  [[nodiscard]] std::string words(std::size_t phase, std::size_t cause) const;
+  // phase and condition that it is in trouble with, in words
+  [[nodiscard]] std::string words(const Why& why) const;
+  [[nodiscard]] std::string unmet_words(const Why& why) const;  // what had not come true
   [[nodiscard]] bool needs_log() const;
 
   MissionSetup setup_;
@@ -120,6 +125,8 @@ class Mission : public Supervisor {
   std::vector<std::string> force_names_;                   // of the controller's force tasks
   Vector forces_;                                          // [N] (force tasks) as they read them
   std::string verdict_;
+  std::optional<Cause> reacted_;  // in the last advance
+  Vector idle_;                   // (k) the command that leaves all as it is
   Vector operated_;
 };
 

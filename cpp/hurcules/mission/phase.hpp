@@ -49,9 +49,12 @@ struct Lead {
   Vector rate = {};  // [unit of the channel] at which it is led on and on, or
   double way = std::numeric_limits<double>::infinity();  // [unit s] until so much has been given
   Vector by = {};  // [unit s] the way that it is led in the seconds of the phase, smoothly
-  // look and move: quantities, one an entry of `by`, that are added to it as they are when the phase
-  // begins; "" adds nothing
+  // of a channel that sets (Target, ForceReference): what it is set to, in the channel's unit
+  Vector value = {};
+  // look and move: quantities, one an entry of `by` or `value`, that are added to it as they are when
+  // the phase begins; "" adds nothing
   std::vector<std::string> to = {};
+  bool follow = false;  // of a value: as they are now
   // a rate that holds a quantity at a value: in full where it is `span` or more below it, none at it,
   // backwards above it
   std::string hold = "";

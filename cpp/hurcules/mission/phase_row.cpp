@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
-#include "hurcules/mission/gauges.hpp"
 
 namespace hurcules {
 
@@ -51,34 +50,28 @@ PhaseRow::Way PhaseRow::way_of(const Lead& lead, const WholeBodyController& cont
     way.length = lead.way;
   }
   if (!lead.to.empty()) way.by = lead.by;
+  if (lead.value.size() > 0) {
+    way.set = true;
+    way.follow = lead.follow;
+    way.along = way.by = lead.value;
+  }
   way.at = lead.at;
   way.span = lead.span;
   return way;
 }
 
-std::vector<std::string> PhaseRow::quantities() const {
-  std::vector<std::string> names;
-  for (const std::vector<TimedCondition>* conditions : {&done_, &troubles_})
-    for (const TimedCondition& timed : *conditions) names.push_back(timed.condition.quantity);
-  for (const Lead& lead : phase_->leads) {
-    for (const std::string& quantity : lead.to) names.push_back(quantity);
-    names.push_back(lead.hold);
-  }
-  return names;
-}
-
-void PhaseRow::find_quantities(const Recorder& log) {
+void PhaseRow::find_quantities(SceneQuantities& scene) {
   const std::string where = "phase '" + phase_->name + "'";
   for (std::vector<TimedCondition>* conditions : {&done_, &troubles_}) {
     for (TimedCondition& timed : *conditions) {
-      timed.source = find_quantity(log, timed.condition.quantity, where);
+      timed.source = scene.find(timed.condition.quantity, where);
     }
   }
   for (std::size_t k = 0; k < ways_.size(); ++k) {
     const Lead& lead = phase_->leads[k];
-    if (!lead.hold.empty()) ways_[k].held = find_quantity(log, lead.hold, where);
+    if (!lead.hold.empty()) ways_[k].held = scene.find(lead.hold, where);
     for (const std::string& quantity : lead.to) {
-      ways_[k].seen.push_back(quantity.empty() ? nullptr : find_quantity(log, quantity, where));
+      ways_[k].seen.push_back(quantity.empty() ? nullptr : scene.find(quantity, where));
     }
   }
 }
@@ -126,10 +119,13 @@ void PhaseRow::forget() {
 
 void PhaseRow::enter(const WholeBodyController& controller) {
   forget();
+  seconds_ = phase_->seconds;
   for (Way& way : ways_) {
-    for (std::size_t i = 0; i < way.seen.size(); ++i) {
-      const auto k = static_cast<Index>(i);
-      way.along[k] = way.by[k] + (way.seen[i] ? *way.seen[i] : 0.0);
+    look(way);
+    if (way.seen.empty() || way.set) continue;
+    for (Index i = 0; i < way.size; ++i) {
+      const double scale = controller.scale()[way.row + i];
+      seconds_ = std::max(seconds_, kSmoothPeak * std::abs(way.along[i]) / scale);
     }
   }
   if (park_) park_->enter();
@@ -140,15 +136,25 @@ void PhaseRow::enter(const WholeBodyController& controller) {
   posture_->start(joints_.empty() ? controller.q_des() : places_);
 }
 
+void PhaseRow::look(Way& way) {
+  for (std::size_t i = 0; i < way.seen.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    way.along[k] = way.by[k] + (way.seen[i] ? *way.seen[i] : 0.0);
+  }
+}
+
 void PhaseRow::command(double time, double dt, Vector& out) {
-  for (const Way& way : ways_) {
+  for (Way& way : ways_) {
     auto part = out.segment(way.row, way.size);
-    if (way.length > 0.0) {  // by a rate; the last tick gives what is left
+    if (way.set) {
+      if (way.follow) look(way);
+      part = way.along;
+    } else if (way.length > 0.0) {  // by a rate; the last tick gives what is left
       part = way.along * std::min(way.speed, (way.length - way.given) / dt);
       if (way.held) part *= std::clamp((way.at - *way.held) / way.span, -1.0, 1.0);
     } else {
-      const double seconds = phase_->seconds;
-      part = way.along * ((smooth_step((time + dt) / seconds) - smooth_step(time / seconds)) / dt);
+      part =
+          way.along * ((smooth_step((time + dt) / seconds_) - smooth_step(time / seconds_)) / dt);
     }
   }
   if (park_) park_->command(out);
@@ -177,7 +183,9 @@ double PhaseRow::given() const {
 
 double PhaseRow::progress(double elapsed) const {
   if (park_ && !park_->done()) return 0.0;
-  return std::min(phase_->seconds > 0.0 ? elapsed / phase_->seconds : 1.0, given());
+  const auto sets = [](const Way& way) { return way.set; };
+  if (elapsed <= 0.0 && std::any_of(ways_.begin(), ways_.end(), sets)) return 0.0;
+  return std::min(seconds_ > 0.0 ? elapsed / seconds_ : 1.0, given());
 }
 
 bool PhaseRow::done(double dt) {
@@ -195,11 +203,22 @@ std::optional<std::size_t> PhaseRow::trouble(double dt) {
 }
 
 bool PhaseRow::TimedCondition::look(double dt) {
-  const bool now = condition.above ? *source >= condition.value : *source <= condition.value;
+  const bool is = now();
   const bool long_enough = since >= condition.seconds;  // so far
-  if (now && since < 0.0) return false;
-  since = now ? since + dt : 0.0;
-  return now && long_enough;
+  if (is && since < 0.0) return false;
+  since = is ? since + dt : 0.0;
+  return is && long_enough;
+}
+
+bool PhaseRow::TimedCondition::now() const {
+  return condition.above ? *source >= condition.value : *source <= condition.value;
+}
+
+std::optional<std::size_t> PhaseRow::unmet() const {
+  for (std::size_t i = 0; i < done_.size(); ++i) {
+    if (!done_[i].now() || done_[i].since < done_[i].condition.seconds) return i;
+  }
+  return std::nullopt;
 }
 
 const std::vector<Reaction>& PhaseRow::reactions(std::optional<std::size_t> trouble) const {
@@ -233,6 +252,7 @@ void PhaseRow::save(StateWriter& writer) const {
   for (const std::vector<int>& times : left_) {
     for (const int left : times) writer.put(left);
   }
+  writer.put(seconds_);
   for (const TimedCondition& timed : done_) writer.put(timed.since);
   for (const TimedCondition& timed : troubles_) writer.put(timed.since);
   for (const Way& way : ways_) {
@@ -248,6 +268,7 @@ void PhaseRow::restore(StateReader& reader) {
   for (std::vector<int>& times : left_) {
     for (int& left : times) left = static_cast<int>(reader.get_count(kMost));
   }
+  seconds_ = reader.get();
   for (TimedCondition& timed : done_) timed.since = reader.get();
   for (TimedCondition& timed : troubles_) timed.since = reader.get();
   for (Way& way : ways_) {

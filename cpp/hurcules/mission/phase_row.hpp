@@ -8,9 +8,9 @@
 
 #include "hurcules/mission/park_way.hpp"
 #include "hurcules/mission/posture_way.hpp"
+#include "hurcules/mission/scene_quantities.hpp"
 #include "hurcules/mission/table.hpp"
 #include "hurcules/sim/brakes.hpp"
-#include "hurcules/sim/recorder.hpp"
 
 namespace hurcules {
 
@@ -18,10 +18,8 @@ class PhaseRow {
  public:
   // Keeps the phase, which check_table has passed. support: body that the robot stands on in it.
   PhaseRow(const Phase& phase, std::string support, const WholeBodyController& controller);
-  // names of its quantities
-  [[nodiscard]] std::vector<std::string> quantities() const;
-  // finds them; throws Error with the columns that exist
-  void find_quantities(const Recorder& log);
+  // throws Error with the columns that exist
+  void find_quantities(SceneQuantities& scene);
   // its brakes; throws Error with the joints that have one
   void find_brakes(const Brakes& brakes);
   // what it parks by; throws Error with the bodies that exist
@@ -32,7 +30,8 @@ class PhaseRow {
 
   // a run begins: all reactions are left
   void reset();
-  // the phase begins where the references are
+  // The phase begins where the references are. A way to what is seen that is longer than the scale
+  // of its channel gives in the seconds of the phase takes the time that it needs.
   void enter(const WholeBodyController& controller);
   // once a tick, after the physics; `rules`: it is the present phase
   void look(bool rules) {
@@ -45,12 +44,17 @@ class PhaseRow {
   void note(const WholeBodyController& controller);
   // mean share of the ways by a rate that has been given, 1 without one
   [[nodiscard]] double given() const;
+  // what it sets counts from the next tick on: until then errors are those of what was set before
   [[nodiscard]] double progress(double elapsed) const;
   // it cannot end as it should: it did not park
   [[nodiscard]] bool failed() const { return park_ && park_->failed(); }
   // one more tick of dt [s]: all its conditions are true; the first of its troubles that there is
   [[nodiscard]] bool done(double dt);
   [[nodiscard]] std::optional<std::size_t> trouble(double dt);
+  // the first of its conditions that is not true, by its number
+  [[nodiscard]] std::optional<std::size_t> unmet() const;
+  // what the quantity of a condition is
+  [[nodiscard]] double value_of(std::size_t condition) const { return *done_[condition].source; }
   // the first reaction that is left, which is then one less; null for none. Of a trouble, by its
   // number, or of being late
   const Reaction* react(std::optional<std::size_t> trouble);
@@ -69,18 +73,21 @@ class PhaseRow {
     const double* source = nullptr;
     double since = 0.0;  // [s], below 0: excused
     bool look(double dt);
+    [[nodiscard]] bool now() const;
   };
   struct Way {
-    Index row = 0, size = 0;          // of the command
-    Vector along;                     // (size) of length 1 for a rate; the whole way, smoothly
-    double speed = 0.0;               // [unit] of a rate, 0 for a whole way
-    double length = 0.0;              // of a rate
-    double given = 0.0;               // of it so far
-    Vector by;                        // (size) of a way to what is seen, besides that
-    std::vector<const double*> seen;  // what is, null for nothing; empty for another way
-    const double* held = nullptr;     // what a rate holds, null for none
+    Index row = 0, size = 0;           // of the command
+    Vector along;                      // (size) of length 1 for a rate; the whole way, smoothly
+    double speed = 0.0;                // [unit] of a rate, 0 for a whole way
+    double length = 0.0;               // of a rate
+    double given = 0.0;                // of it so far
+    Vector by;                         // (size) of a way to what is seen, besides that; or a value
+    bool set = false, follow = false;  // `along` is what the channel is set to
+    std::vector<const double*> seen;   // what is, null for nothing; empty for another way
+    const double* held = nullptr;      // what a rate holds, null for none
     double at = 0.0, span = 0.0;
   };
+  static void look(Way& way);  // at what it goes to
   [[nodiscard]] static Way way_of(const Lead& lead, const WholeBodyController& controller,
                                   const std::string& where);
   // what is done about a trouble, by its number, or about being late
@@ -90,6 +97,7 @@ class PhaseRow {
   const Phase* phase_;
   std::string support_;
   std::vector<Way> ways_;
+  double seconds_ = 0.0;  // of the phase, more where a way to what is seen takes longer
   std::optional<PostureWay> posture_;
   std::optional<ParkWay> park_;
   Index posture_row_ = 0, posture_size_ = 0;

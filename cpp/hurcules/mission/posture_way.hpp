@@ -16,6 +16,7 @@ namespace hurcules {
 
 // 0 to 1 with rest at both ends
 [[nodiscard]] double smooth_step(double x);
+inline constexpr double kSmoothPeak = 1.875;  // its largest slope
 
 // The coordinates that a key means: the one of this name, or the left and the right one, "SP" for
 // "LSP" and "RSP"; empty: none.

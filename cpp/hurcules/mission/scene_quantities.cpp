@@ -1,7 +1,7 @@
 #include "hurcules/mission/scene_quantities.hpp"
 
-#include <algorithm>
 #include <array>
+#include <optional>
 
 #include "hurcules/base/error.hpp"
 
@@ -29,38 +29,47 @@ std::string part_name(const std::string& whole, Index part, Index size) {
 
 }  // namespace
 
-void SceneQuantities::attach(const std::vector<std::string>& names, const Plant& plant,
-                             Recorder& log) {
-  model_ = plant.model();
-  data_ = plant.data();
-  std::vector<std::string> wholes;
-  Index size = 0;
-  for (const std::string& name : names) {
-    const std::string whole = whole_of(name);
-    const bool known = std::find(wholes.begin(), wholes.end(), whole) != wholes.end();
-    if (known || log.source(name)) continue;
+void SceneQuantities::attach(const Plant& plant, Recorder& log) {
+  plant_ = &plant;
+  log_ = &log;
+}
+
+const double* SceneQuantities::find(const std::string& name, const std::string& where) {
+  const std::string whole = whole_of(name);
+  if (!log_->source(name)) {
     std::optional<DataQuantity> quantity;
     try {
-      quantity = DataQuantity::find(*model_, whole);
+      quantity = DataQuantity::find(*plant_->model(), whole);
     } catch (const Error& error) {
-      throw Error("quantity '" + name + "': " + error.what());
+      const bool of_position = name.starts_with("position/") && whole == name;
+      throw Error(where + ", quantity '" + name + "': " + error.what() +
+                  (of_position ? "; a position is told by its /x, /y or /z" : ""));
     }
-    if (!quantity) continue;
-    wholes.push_back(whole);
-    found_.emplace_back(*quantity, size);
-    size += quantity->size();
+    if (quantity) {
+      const Index size = quantity->size();
+      const Vector& values = found_.emplace_back(Found{*quantity, Vector::Zero(size)}).values;
+      for (Index part = 0; part < size; ++part)
+        log_->add(part_name(whole, part, size), values.data() + part);
+    }
   }
-  values_ = Vector::Zero(size);
-  for (std::size_t i = 0; i < found_.size(); ++i) {
-    const auto& [quantity, begin] = found_[i];
-    for (Index part = 0; part < quantity.size(); ++part)
-      log.add(part_name(wholes[i], part, quantity.size()), values_.data() + begin + part);
-  }
+  const double* const source = log_->source(name);
+  if (!source)
+    throw Error(where + ": " + unknown_name("quantity", name, log_->channels()) +
+                "; simulation.channels has all, and the model may have position/OBJECT/x, "
+                "joint/JOINT, sensor/SENSOR, contact_force/BODY");
+  return source;
 }
 
 void SceneQuantities::look() {
-  for (const auto& [quantity, begin] : found_)
-    quantity.read(*model_, *data_, values_.segment(begin, quantity.size()));
+  for (Found& found : found_) found.quantity.read(*plant_->model(), *plant_->data(), found.values);
+}
+
+void SceneQuantities::save(StateWriter& writer) const {
+  for (const Found& found : found_) writer.put(found.values);
+}
+
+void SceneQuantities::restore(StateReader& reader) {
+  for (Found& found : found_) reader.get(found.values);
 }
 
 }  // namespace hurcules

@@ -1,9 +1,8 @@
-// What a table asks of its scene beside the columns of the log: position/OBJECT/x, joint/JOINT,
-// sensor/SENSOR (see data_quantity.hpp). They become columns.
+// Where a table finds its quantities: the columns of the log, and what else it asks of its scene,
+// position/OBJECT/x, joint/JOINT, sensor/SENSOR (see data_quantity.hpp), which become columns.
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hurcules/base/state.hpp"
@@ -15,19 +14,24 @@ namespace hurcules {
 
 class SceneQuantities {
  public:
-  // Of the names that the log has not, those that the model has: one of several numbers by its
-  // part, /x /y /z of a position, /0 /1 ... else. Throws Error for an object that the model has not.
-  // The log reads where they are, so this stays in place.
-  void attach(const std::vector<std::string>& names, const Plant& plant, Recorder& log);
+  // keeps both
+  void attach(const Plant& plant, Recorder& log);
+  // Where the value of this name is, as long as this stays in place. One of several numbers is told
+  // by its part: /x /y /z of a position, /0 /1 ... else. Throws Error with the columns that exist,
+  // `where` for the text.
+  [[nodiscard]] const double* find(const std::string& name, const std::string& where);
   void look();
-  void save(StateWriter& writer) const { writer.put(values_); }
-  void restore(StateReader& reader) { reader.get(values_); }
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
 
  private:
-  const mjModel_* model_ = nullptr;
-  const mjData_* data_ = nullptr;
-  std::vector<std::pair<DataQuantity, Index>> found_;  // and where its values begin
-  Vector values_;
+  struct Found {
+    DataQuantity quantity;
+    Vector values;  // the log reads where they are
+  };
+  const Plant* plant_ = nullptr;
+  Recorder* log_ = nullptr;
+  std::vector<Found> found_;
 };
 
 }  // namespace hurcules

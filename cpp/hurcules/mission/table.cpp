@@ -8,6 +8,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/mission/posture_way.hpp"
+#include "hurcules/sim/monitors.hpp"
 
 namespace hurcules {
 
@@ -24,21 +25,28 @@ std::string where_of(const Phase& phase) {
 }
 
 bool ends(const Lead& lead) {
-  return lead.rate.size() == 0 || std::isfinite(lead.way);
+  return lead.by.size() > 0 || std::isfinite(lead.way);
+}
+
+// what it gives to its channel, in one of three ways
+const Vector& numbers_of(const Lead& lead) {
+  return lead.rate.size() > 0 ? lead.rate : lead.by.size() > 0 ? lead.by : lead.value;
 }
 
 constexpr double kRounding = 1e-4;  // [rad] or [m] beyond a range: tables have four decimals
 
-// of the smooth way in the seconds of a phase: its largest speed over its mean one
-constexpr double kPeak = 1.875;
-
 void check_lead(const Lead& lead, const Phase& phase, const std::string& where) {
   const bool led_by_rate = lead.rate.size() > 0;
-  require(led_by_rate == (lead.by.size() == 0), where + " wants a rate or a way, one of them");
-  require((led_by_rate ? lead.rate : lead.by).allFinite(), where + " wants finite numbers");
-  require(lead.to.empty() || lead.to.size() == static_cast<std::size_t>(lead.by.size()),
-          where + " wants a way of as many numbers as it has quantities to go to, " +
+  const bool has_way = lead.by.size() > 0, has_value = lead.value.size() > 0;
+  require(led_by_rate + has_way + has_value == 1,
+          where + " wants `rate`, `by` (a way) or `value`, one of them");
+  require(numbers_of(lead).allFinite(), where + " wants finite numbers");
+  require(lead.to.empty() ||
+              (!led_by_rate && lead.to.size() == static_cast<std::size_t>(numbers_of(lead).size())),
+          where + " wants a way or a value of as many numbers as it has quantities to go to, " +
               std::to_string(lead.to.size()) + " came");
+  require(!lead.follow || (has_value && !lead.to.empty()),
+          where + ": follow wants a value, and quantities `to` follow");
   require(lead.hold.empty() ? lead.span == 0.0
                             : led_by_rate && lead.span > 0.0 && std::isfinite(lead.at + lead.span),
           where + " wants a rate, a finite value and a span above 0 to hold a quantity by");
@@ -46,7 +54,7 @@ void check_lead(const Lead& lead, const Phase& phase, const std::string& where) 
           where + ": its way wants a number above 0, " + to_text(lead.way) + " came");
   require(!led_by_rate || !std::isfinite(lead.way) || lead.rate.norm() > 0.0,
           where + " never gives its way: its rate is 0");
-  require(led_by_rate || phase.seconds > 0.0, where + ": a way that is led wants seconds above 0");
+  require(!has_way || phase.seconds > 0.0, where + ": a way that is led wants seconds above 0");
 }
 
 void check_leads(const Phase& phase, const std::string& where) {
@@ -125,10 +133,18 @@ void check_times(const Phase& phase, const std::string& where) {
                                              to_text(phase.within) + " s came");
   require(phase.late.empty() || std::isfinite(phase.within),
           where + ", late: it wants `within`, after which that is done");
+  require(!phase.late.empty() || std::isinf(phase.within),
+          where + ": within wants `late`, what is done when it takes longer");
+  for (const Condition& condition : phase.done) {
+    require(condition.seconds < phase.within, where + " is always late: '" + to_string(condition) +
+                                                  "' cannot be true within " +
+                                                  to_text(phase.within) + " s");
+  }
 }
 
 void check_row(const Phase& phase, const MissionTable& table) {
   const std::string where = where_of(phase);
+  for (const Condition& condition : phase.done) check_condition(condition, where);
   check_times(phase, where);
   check_leads(phase, where);
   check_keys(phase, where);
@@ -136,7 +152,6 @@ void check_row(const Phase& phase, const MissionTable& table) {
   const bool led = std::any_of(phase.leads.begin(), phase.leads.end(), ends);
   require(phase.seconds > 0.0 || led || phase.park || !phase.done.empty() || phase.leads.empty(),
           where + " never ends: it wants seconds, a way, or a condition");
-  for (const Condition& condition : phase.done) check_condition(condition, where);
   if (std::isfinite(phase.within)) check_reactions(phase.late, table, where + ", late");
   for (const Trouble& trouble : phase.troubles) {
     check_condition(trouble.when, where);
@@ -152,7 +167,12 @@ void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController&
   require(!channel.task() || phase.stack != kJoints, where + " moves a task, but no stack rules");
   require(channel.kind() != ChannelKind::Joints || phase.stack == kJoints,
           where + " moves joints, which wants the stack '" + kJoints + "'");
-  const Vector& given = lead.rate.size() > 0 ? lead.rate : lead.by;
+  require(channel.kind() != ChannelKind::Delta,
+          where + " counts from what is measured once a call: a mission wants a Twist or a Target");
+  require(channel.sets() == (lead.value.size() > 0),
+          where + (channel.sets() ? " sets something: it wants `value`"
+                                  : " moves something: it wants `rate` or `by`"));
+  const Vector& given = numbers_of(lead);
   require(given.size() == size, where + " wants " + std::to_string(size) + " finite numbers, " +
                                     std::to_string(given.size()) + " came");
   for (Index i = 0; i < lead.rate.size(); ++i) {
@@ -160,9 +180,9 @@ void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController&
             where + " gives at most " + to_text(channel.scale()[i]) + " a second, a rate of " +
                 to_text(given[i]) + " came");
   }
-  if (lead.rate.size() > 0 || !lead.to.empty()) return;
+  if (lead.by.size() == 0 || !lead.to.empty()) return;
   for (Index i = 0; i < size; ++i) {
-    const double seconds = kPeak * std::abs(given[i]) / channel.scale()[i];
+    const double seconds = kSmoothPeak * std::abs(given[i]) / channel.scale()[i];
     require(phase.seconds >= (1.0 - 1e-9) * seconds,
             where + " gives at most " + to_text(channel.scale()[i]) + " a second: its way of " +
                 to_text(given[i]) + " wants " + to_text(seconds) + " s, seconds are " +
@@ -348,6 +368,12 @@ void check_rows(const MissionTable& table) {
   for (const Measure& measure : table.measures) {
     const std::string where = "figure '" + measure.name + "'";
     require(!measure.name.empty(), "a figure wants a name");
+    require(std::count_if(table.measures.begin(), table.measures.end(),
+                          [&](const Measure& other) { return other.name == measure.name; }) == 1,
+            "two figures are called '" + measure.name + "'");
+    const auto& every = Monitors::names();
+    require(std::find(every.begin(), every.end(), measure.name) == every.end(),
+            where + ": every run has one of this name");
     require(measure.least <= measure.most, where + ": least wants to be below most");
     for (const std::string& phase : measure.phases) (void)find_phase(table.phases, phase, where);
   }
@@ -378,11 +404,13 @@ std::string table_text(const MissionTable& table) {
       text += "\n";
     }
     for (const Lead& lead : phase.leads) {
-      const bool by_rate = lead.rate.size() > 0;
-      add(text, {"     ", lead.channel, by_rate ? " at " : " by ",
-                 numbers(by_rate ? lead.rate : lead.by)});
+      const char* const how = lead.rate.size() > 0 ? " at "
+                              : lead.by.size() > 0 ? " by "
+                                                   : " set to ";
+      add(text, {"     ", lead.channel, how, numbers(numbers_of(lead))});
       for (const std::string& quantity : lead.to)
         add(text, {" + ", quantity.empty() ? "0" : quantity});
+      if (lead.follow) text += ", followed";
       if (!lead.hold.empty()) add(text, {" to hold ", lead.hold, " at ", to_text(lead.at)});
       if (std::isfinite(lead.way)) add(text, {" until ", to_text(lead.way)});
       text += "\n";

@@ -9,7 +9,9 @@ namespace hurcules {
 
 namespace {
 
+// of the world: what is fixed to it
 bool is_below(const mjModel& m, int body, int above) {
+  if (above == 0) return m.body_weldid[body] == 0;
   while (body > above) body = m.body_parentid[body];
   return body == above;
 }
@@ -49,7 +51,7 @@ std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::stri
   if (group == "joint" || group == "joint_velocity") {
     const int joint = find_object(m, mjOBJ_JOINT, object);
     require(m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE,
-            "quantity '" + name + "' wants a hinge or a slide");
+            "joint '" + object + "' wants to be a hinge or a slide");
     if (group == "joint") return DataQuantity(&mjData::qpos, m.jnt_qposadr[joint], 1);
     return DataQuantity(&mjData::qvel, m.jnt_dofadr[joint], 1);
   }

@@ -3,7 +3,8 @@
 //   position/OBJECT                    (3) [m] of a body, site, geom or camera, in W
 //   joint/JOINT, joint_velocity/JOINT  (1) of any hinge or slide of the model
 //   sensor/SENSOR                      (its size) a sensor of the model
-//   contact_force/BODY                 (1) [N] sum of the normal forces on a body and all below it
+//   contact_force/BODY                 (1) [N] sum of the normal forces on a body and all below it;
+//                                      world: on what is fixed
 #pragma once
 
 #include <optional>

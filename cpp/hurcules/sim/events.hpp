@@ -14,7 +14,8 @@ enum class EventKind {
   LimitReleased,
   AlarmRaised,
   AlarmFell,
-  Asked,  // in a phase, as the next two
+  Reacted,  // in a phase, as the next three; its side: which trouble, as in Cause
+  Asked,
   Paused,
   Resumed,
 };
@@ -23,7 +24,7 @@ struct Event {
   double time = 0.0;  // [s]
   EventKind kind = EventKind::PhaseStarted;
   Index what = 0;  // phase, coordinate, or quantity of the monitors
-  int side = 0;    // -1 lower, 1 upper limit
+  int side = 0;    // -1 lower, 1 upper limit; which trouble
 };
 
 class EventList {

@@ -103,6 +103,13 @@ void Plant::move(const Vector& configuration, double dt) {
   data_->time += dt;
 }
 
+void Plant::see() {
+  mj_kinematics(model_.get(), data_.get());
+  mj_comPos(model_.get(), data_.get());
+  mj_camlight(model_.get(), data_.get());
+  mj_sensorPos(model_.get(), data_.get());
+}
+
 void Plant::push(int body, const Vector3& force) {
   require(body > 0 && body < model_->nbody, "a push wants a body from 1 to " +
                                                 std::to_string(model_->nbody - 1) + ", got " +

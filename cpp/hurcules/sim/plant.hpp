@@ -32,9 +32,10 @@ class Plant {
   void load_springs();
   // contacts and sensors as they are now, all motors off; the next step has the same bits
   void feel();
-  // everything moves to this configuration (nq) within dt [s], whatever the physics would say; poses
-  // follow, contacts and forces do not
+  // everything moves to this configuration (nq) within dt [s], whatever the physics would say
   void move(const Vector& qpos, double dt);
+  // poses, and sensors that tell of poses, as they are now; contacts and forces stay as they were
+  void see();
   // what the drives can do at the present speeds; valid until the next call, (nu)
   const std::vector<ActuatorStatus>& actuators();
   // n steps, fewer when it ceases to be sound; MuJoCo's sensors are read in the last alone. Returns

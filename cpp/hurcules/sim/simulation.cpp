@@ -240,8 +240,9 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   timer.done(Stage::Kinematics);
   if (supervisor_ && (!command || options_.adds_command)) {
     const Vector& own = supervisor_->command(dt());
-    if (command) summed_ = own + command->array().isNaN().select(0.0, *command);
+    if (command) add_command(*command, first, own);
     command = command ? &summed_ : &own;
+    first = true;  // what a mission sets it sets in each tick
   }
   controller.apply(command, first, state);
   see_obstacles();
@@ -250,6 +251,24 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   controller.solve(state);
   record_.note_solution(controller);
   timer.done(Stage::Solve);
+}
+
+// to the mission's own; what acts once a call does so in the first tick of it, and what is set takes
+// the place of what the mission sets
+void Simulation::add_command(const Vector& command, bool first, const Vector& own) {
+  summed_ = own;
+  Index row = 0;
+  for (const Channel& channel : controller_->channels()) {
+    const auto part = command.segment(row, channel.size());
+    auto sum = summed_.segment(row, channel.size());
+    row += channel.size();
+    if (std::isnan(part[0]) || (channel.acts_once() && !first)) continue;
+    if (channel.sets()) {
+      sum = part;
+    } else {
+      sum += part;
+    }
+  }
 }
 
 // what the joint encoders and the base say
@@ -369,6 +388,7 @@ void Simulation::record() {
     };
     supervisor_->note_commanded(*controller_, report(planned_tasks_));
     measure_world();
+    if (!options_.physics) plant_.see();
     supervisor_->note_measured(report(measured_tasks_));
   } else if (options_.record) {
     measure_world();
@@ -405,7 +425,11 @@ void Simulation::judge() {
   if (!supervisor_) return;
   const std::size_t phase = supervisor_->phase();
   const std::optional<double> asked = supervisor_->asks_until();
-  if (!supervisor_->advance(*controller_, time())) {
+  const bool goes_on = supervisor_->advance(*controller_, time());
+  if (const std::optional<Cause> cause = supervisor_->reacted()) {
+    record_.note(EventKind::Reacted, cause->phase, static_cast<int>(cause->trouble));
+  }
+  if (!goes_on) {
     return end(supervisor_->verdict().empty() ? Ending::Completed : Ending::Missed, now);
   }
   if (supervisor_->phase() != phase) record_.note_phase(supervisor_->phase());
@@ -427,7 +451,7 @@ void Simulation::stand_on_new_support() {
 // what somebody outside sees between two calls: the state as it is now
 void Simulation::observe() {
   if (!plant_.is_sound()) return;
-  if (!options_.physics && data_seen_) mj_kinematics(plant_.model(), plant_.data());
+  if (!options_.physics && data_seen_) plant_.see();
   sense();
 }
 
@@ -478,7 +502,8 @@ std::string Simulation::reason() const {
     case Ending::Missed:
       return std::string(supervisor_->verdict());
     case Ending::TimeUp:
-      return "time is up at " + seconds(ending_time_);
+      return "time is up at " + seconds(ending_time_) +
+             (supervisor_ ? " in " + supervisor_->waits_for() : std::string());
     case Ending::Fell:
       return "fell over at " + seconds(ending_time_) + ": " +
              fall_monitor_.text(world_.orientation(support_), height());
@@ -533,6 +558,7 @@ void Simulation::begin(std::uint64_t seed, const Vector* start, bool keep_target
     plant_.feel();
     monitors_.reset(plant_.model(), plant_.data());
   } else {
+    plant_.see();
     monitors_.reset();
   }
   sensors_.reset(plant_.data(), seed);

@@ -107,7 +107,8 @@ class Simulation {
   [[nodiscard]] bool finished() const { return ending_ != Ending::Running; }
   [[nodiscard]] bool success() const { return ending_ == Ending::Completed; }
   [[nodiscard]] bool physics() const { return options_.physics; }
-  [[nodiscard]] std::string reason() const;  // "" while running
+  [[nodiscard]] bool records() const { return options_.record; }  // its log
+  [[nodiscard]] std::string reason() const;                       // "" while running
   // its sensors cannot be believed: it stands behind its brakes until the run ends
   [[nodiscard]] bool held() const { return finding_.trouble != SensorMonitor::Trouble::None; }
   [[nodiscard]] Vector operator_command();  // of the next tick, (k)
@@ -127,7 +128,9 @@ class Simulation {
   [[nodiscard]] const LimitMonitor& limits() const { return limit_monitor_; }
   [[nodiscard]] const EventList& events() const { return record_.events; }
   [[nodiscard]] std::string text(const Event& event) const {
-    return record_.text(event, monitors_);
+    if (event.kind != EventKind::Reacted) return record_.text(event, monitors_);
+    return supervisor_->text(
+        {static_cast<std::size_t>(event.what), static_cast<std::size_t>(event.side)});
   }
   [[nodiscard]] Plant& plant() { return plant_; }
   [[nodiscard]] const Plant& plant() const { return plant_; }
@@ -152,6 +155,7 @@ class Simulation {
   };
   void tick(const Vector* command, bool first);
   void think(const RobotState& state, const Vector* command, bool first, StageTimer& timer);
+  void add_command(const Vector& command, bool first, const Vector& own);
   void sense();
   void check_sensors();
   void see_obstacles();

@@ -26,6 +26,12 @@ struct Figure {
   double most = std::numeric_limits<double>::infinity();
 };
 
+// Why a supervisor left the way that its phases would go.
+struct Cause {
+  std::size_t phase = 0;
+  std::size_t trouble = 0;  // 0: it took too long, else the number of one of its troubles and 1
+};
+
 // What came out of a tick, for the figures.
 struct TickReport {
   double time = 0.0;                     // [s]
@@ -57,6 +63,11 @@ class Supervisor {
   virtual void note_measured(const TickReport& report) = 0;
   // goes on to the next phase where one is over; false when the last one is
   virtual bool advance(WholeBodyController& controller, double time) = 0;
+  // what it reacted to in the last advance, and that in words
+  [[nodiscard]] virtual std::optional<Cause> reacted() const { return std::nullopt; }
+  [[nodiscard]] virtual std::string text(const Cause& /*cause*/) const { return ""; }
+  // the present phase, and what it waits for, in words
+  [[nodiscard]] virtual std::string waits_for() const { return ""; }
 
   // begins this phase at this time [s]
   virtual void go(std::size_t phase, WholeBodyController& controller, double time) = 0;

@@ -218,7 +218,7 @@ TEST_F(MissionTest, WhatTakesTooLongHoldsThenAborts) {
   while (tick(*mission)) {
   }
   EXPECT_NEAR(time_, 0.6 + 0.3 + 0.1, 1e-9);
-  EXPECT_EQ(mission->verdict(), "phase 'wait': took too long");
+  EXPECT_EQ(mission->verdict(), "phase 'wait': took too long: load >= 5 is not true, it is 0");
 }
 
 TEST_F(MissionTest, AnAnswerGoesOnOrTakesTheNextReaction) {
@@ -329,7 +329,7 @@ TEST_F(MissionTest, ATableIsCheckedWhenItIsLoaded) {
   expect(row, "within wants a time above 0");
   row = bad;
   row.within = 1.0;
-  expect(row, "at least one reaction");
+  expect(row, "within wants `late`");
   row.late = {{ReactionKind::Back, "godo", 0.0, 1}, {ReactionKind::Abort}};
   expect(row, "phase 'godo' does not exist; there are: good, bad");
   row.late = {{ReactionKind::Back, "good", 0.0, 0}, {ReactionKind::Abort}};
