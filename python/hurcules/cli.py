@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.table import Table
 
 import hurcules
-from hurcules import plugins
+from hurcules import own_simulation, plugins
 from hurcules._core import Error
 from hurcules.mission_table import Mission
 from hurcules.outlet import outlet
@@ -78,7 +78,8 @@ def run_mission(
     mission: Annotated[
         str,
         typer.Argument(
-            help="A mission, test method or environment of `hurcules list`, or a TOML file."
+            help="A mission, test method or environment of `hurcules list`, a table (.toml), or a "
+            "file of Python with a function `simulation`."
         ),
     ] = "stretch",
     policy: Annotated[
@@ -150,6 +151,8 @@ def run_mission(
 
     - `hurcules mission lift --out my.toml`, then, changed, `hurcules run my.toml --mass 90`
 
+    - `hurcules run my_robot.py --seed 3`: the simulation that its function `simulation` returns
+
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
 
     - `hurcules run --policy Drive-v0 --seed 3`
@@ -181,7 +184,9 @@ def run_mission(
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
     if any(one == mission or one.endswith(f"/{mission}") for one in plugins.environments()):
         raise Error(f"{mission} is an environment, which wants --policy")
-    if table_mission(mission) is None:
+    if own_simulation.is_own(mission):
+        _refuse(context, ("method", "sensors"), f"for missions by name; {mission} has its own")
+    elif table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
     parameters = _parameters(mission, context.args)
@@ -191,6 +196,8 @@ def run_mission(
 
 def _parameters(mission: str, words: Sequence[str]) -> dict[str, Any]:
     """What the words that are left say of a mission."""
+    if own_simulation.is_own(mission):
+        return own_simulation.parameters_of(mission, words)
     rows = table_mission(mission)
     parameters = rows.parameters_of(words) if rows else {}
     if words and not parameters:
@@ -330,6 +337,8 @@ def view_model(
     - `hurcules view rescue`
 
     - `hurcules view my_robot.xml`
+
+    - `hurcules view my_robot.py`, as for `hurcules run`
     """
     from hurcules.view import view
 

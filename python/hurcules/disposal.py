@@ -16,6 +16,7 @@ from hurcules import _core, mjcf, scenes
 from hurcules._core import WholeBodyController
 from hurcules.mission_options import (
     away_words,
+    defaults_of,
     in_words_of,
     read_options,
     record,
@@ -63,7 +64,7 @@ def parameters_of(words: Sequence[str]) -> dict[str, Any]:
     Raises:
         Error: another option, or a value that is none.
     """
-    return read_options(words, Job)
+    return read_options(words, defaults_of(Job))
 
 
 def model(job: Job) -> mujoco.MjModel:

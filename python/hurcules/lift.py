@@ -18,6 +18,7 @@ from hurcules import _core, mjcf, scenes, transfer_bed
 from hurcules._core import WholeBodyController
 from hurcules.mission_options import (
     away_words,
+    defaults_of,
     in_words_of,
     read_options,
     record,
@@ -108,7 +109,7 @@ def parameters_of(words: Sequence[str], name: str = "lift") -> dict[str, Any]:
     Raises:
         Error: another option, or a value that is none.
     """
-    return read_options(words, MISSIONS[name])
+    return read_options(words, defaults_of(MISSIONS[name]))
 
 
 def model(person: Person) -> mujoco.MjModel:

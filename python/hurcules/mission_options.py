@@ -10,44 +10,52 @@ from typing import Any, TypeVar
 
 from hurcules._core import Error
 
-__all__ = ["away_words", "in_words_of", "read_options", "record", "require_offset"]
+__all__ = ["away_words", "defaults_of", "in_words_of", "read_options", "record", "require_offset"]
 
 Record = TypeVar("Record")
 
-_WORDS = {int: "a whole number", float: "a number", tuple: "numbers between commas"}
+_WORDS = {
+    int: "a whole number",
+    float: "a number",
+    bool: "true or false",
+    tuple: "numbers between commas",
+}
 
 
-def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, Any]:
+def read_options(words: Sequence[str], defaults: Mapping[str, Any]) -> dict[str, Any]:
     """Reads `--mass 90 --offset 0.05,-0.1 --yaw=0.2`.
 
     Args:
         words: of the command line.
-        kind: a dataclass: an option for each field, of the type of its default.
+        defaults: by name: an option for each, of the type of its default.
 
     Raises:
         Error: another option, or a value that is none.
     """
-    defaults: dict[str, Any] = {
-        f"--{field.name}": field.default
-        for field in fields(kind)  # type: ignore[arg-type]
-    }
     found: dict[str, Any] = {}
     rest = list(words)
     while rest:
         option, _, value = rest.pop(0).partition("=")
-        if option not in defaults:
+        name = option.removeprefix("--")
+        if name not in defaults or name == option:
             what = "no such option" if option.startswith("-") else "unexpected argument"
-            raise Error(f"{what}: {option}; options are: {', '.join(defaults)}")
+            known = ", ".join(f"--{one}" for one in defaults)
+            raise Error(f"{what}: {option}; options are: {known}")
         value = value or (rest.pop(0) if rest else "")
         if not value:
             raise Error(f"{option} wants a value")
-        default = defaults[option]
+        default = defaults[name]
         try:
             read = _READERS.get(type(default), type(default))
-            found[option.removeprefix("--")] = read(value)
+            found[name] = read(value)
         except ValueError:
             raise Error(f"{option}: wanted {_WORDS[type(default)]}, got {value!r}") from None
     return found
+
+
+def defaults_of(kind: Callable[..., Any]) -> dict[str, Any]:
+    """The defaults of a dataclass, by name."""
+    return {field.name: field.default for field in fields(kind)}  # type: ignore[arg-type]
 
 
 def _whole(text: str) -> int:
@@ -58,12 +66,18 @@ def _whole(text: str) -> int:
     return int(number)
 
 
+def _truth(text: str) -> bool:
+    if text not in ("true", "false"):
+        raise ValueError
+    return text == "true"
+
+
 def _pair(text: str) -> tuple[float, ...]:
     """Numbers between commas."""
     return tuple(float(number) for number in text.split(","))
 
 
-_READERS: dict[type, Callable[[str], Any]] = {int: _whole, tuple: _pair}
+_READERS: dict[type, Callable[[str], Any]] = {int: _whole, bool: _truth, tuple: _pair}
 
 
 def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]) -> Record:

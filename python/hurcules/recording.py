@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import perf_counter
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -74,20 +75,24 @@ class Recording:
     frames: list[Frame] = field(default_factory=list)
     wall_seconds: float = 0.0  # spent in the simulation alone
     interrupted: bool = False  # stopped before its end
+    settles: bool = False  # in its first phase
+    sliding: tuple[str, ...] = ()  # the coordinates that are counted in metres
 
     @property
     def control_tick_us(self) -> Array:
-        """Time of each control tick, sensing to servo without physics [µs], (ticks,)."""
+        """Time of each control tick, sensing to servo without physics [µs], (ticks,).
+
+        (0,) of a simulation that is not timed.
+        """
+        if not self.timings:
+            return np.empty(0)
         stages = ("sense", "kinematics", "hierarchy", "solve", "servo")
         return np.asarray(1e6 * sum(self.timings[stage] for stage in stages))
 
     @property
     def origin(self) -> float:
-        """Where film and report count from [s]: the end of the first phase, in which it settles.
-
-        0 where there is only one phase.
-        """
-        if not self.log:
+        """Where film and report count from [s]: the end of a first phase called "settle"."""
+        if not self.log or not self.settles:
             return 0.0
         later = np.flatnonzero(self.log["phase"] > 0)
         return float(self.log["time"][later[0]]) if len(later) else 0.0
@@ -108,13 +113,15 @@ def record(
     """Steps to the end of the mission, or until it is stopped: what was recorded is kept.
 
     Args:
-        simulation: made with record=True and timed=True.
+        simulation: made with record=True, and timed=True for the time of its stages.
         ticks: stop after this many at the latest; None lets the mission end.
         ticks_per_frame: between two frames of the film.
         progress: called at each frame with the speed, simulated over real time.
         stopped: whether to end early, asked before each frame.
     """
-    recording = Recording()
+    recording = Recording(
+        settles=list(simulation.phases[:1]) == ["settle"], sliding=_sliding(simulation)
+    )
     moments = [_moment(simulation)]
     done = 0
     while not simulation.finished and (ticks is None or done < ticks):
@@ -127,8 +134,9 @@ def record(
         recording.wall_seconds += perf_counter() - started
         moments.append(_moment(simulation))
         progress(simulation.time / recording.wall_seconds)
-    recording.log, recording.timings = simulation.log(), simulation.timings()
+    recording.log, timings = simulation.log(), simulation.timings()
     recording.log.pop("tick_us", None)
+    recording.timings = timings if len(timings.get("time", ())) else {}
     notes = dict(zip(simulation.phases, simulation.phase_notes, strict=False))
     recording.frames = [
         Frame(
@@ -142,6 +150,15 @@ def record(
         for time, qpos, phase in moments
     ]
     return recording
+
+
+def _sliding(simulation: Simulation) -> tuple[str, ...]:
+    model = simulation.model
+    return tuple(
+        one.name
+        for one in simulation.controller.plan.coordinates
+        if model.jnt_type[model.dof_jntid[one.joints[0].dof]] == mujoco.mjtJoint.mjJNT_SLIDE
+    )
 
 
 def active_limits(log: dict[str, Array], time: float) -> tuple[str, ...]:

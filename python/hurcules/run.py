@@ -9,15 +9,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import mujoco
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from hurcules import extras
+from hurcules import extras, own_simulation
 from hurcules._core import Error
-from hurcules.figures import describe, readable, wanted
+from hurcules.drawing import overview
+from hurcules.figures import describe, readable, tells, wanted
 from hurcules.interrupts import Interrupts
 from hurcules.legend import event_words
 from hurcules.output import Output
@@ -60,7 +60,7 @@ class Pace:
 class RunOptions:
     """What `hurcules run` was asked for."""
 
-    mission: str = "stretch"
+    mission: str = "stretch"  # or the path of a table, or of a file with a `simulation`
     seed: int = 0
     out: Path = Path("out", "stretch")  # folder for the results
     seconds: float | None = None  # [s] stop after this time; None lets the mission end
@@ -84,18 +84,12 @@ def run(options: RunOptions, console: Console) -> int:
         The exit code: DONE, FAILED or INTERRUPTED.
 
     Raises:
-        Error: wrong usage (unknown mission or method, bad number, a folder that cannot be written).
+        Error: wrong usage (unknown mission or method, bad number, a folder that cannot be written,
+            a simulation of one's own that has no end or no log).
         WriteError: a file could not be written; those before it were.
     """
     mission = table_mission(options.mission)
-    simulation = Simulation(
-        options.mission,
-        options.seed,
-        method=options.method,
-        timed=True,
-        sensors=realistic() if options.sensors else None,
-        parameters=options.parameters,
-    )
+    simulation = _made(options)
     ticks = _ticks(options.seconds, simulation.dt)
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
@@ -107,17 +101,7 @@ def run(options: RunOptions, console: Console) -> int:
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
-        measures = mission.table().rows.measures if mission else ()
-        parameters = mission.complete(options.parameters) if mission else {}
-        summary = summarize(
-            simulation,
-            recording,
-            options.seed,
-            options.method,
-            options.sensors,
-            measures,
-            parameters,
-        )
+        summary = summarize(simulation, recording, _told(options, mission, simulation))
         try:
             _save(options, simulation, mission, recording, summary, output, console, interrupts)
         except KeyboardInterrupt:  # the second one
@@ -132,6 +116,40 @@ def run(options: RunOptions, console: Console) -> int:
         failed = simulation.finished and not simulation.success
         _report(summary, "failed: " * failed, output, console)
     return FAILED if failed else DONE
+
+
+def _made(options: RunOptions) -> Simulation:
+    if not own_simulation.is_own(options.mission):
+        return Simulation(
+            options.mission,
+            options.seed,
+            method=options.method,
+            timed=True,
+            sensors=realistic() if options.sensors else None,
+            parameters=options.parameters,
+        )
+    simulation = own_simulation.make(options.mission, options.seed, options.parameters)
+    if not simulation.records:
+        raise Error(f"{options.mission}: a run wants its log, this simulation has record=False")
+    if simulation.mission is None and options.seconds is None:
+        raise Error(f"{options.mission}: its simulation has no mission that ends; --seconds wanted")
+    return simulation
+
+
+def _told(
+    options: RunOptions, mission: TableMission | None, simulation: Simulation
+) -> dict[str, Any]:
+    """What a run was made of; solver and sensors of a simulation of one's own are its own."""
+    parameters = mission.complete(options.parameters) if mission else options.parameters
+    told = {
+        "mission": simulation.mission or Path(options.mission).stem,
+        "parameters": dict(parameters),
+        "seed": options.seed,
+    }
+    if own_simulation.is_own(options.mission):
+        return told
+    sensors = "realistic" if options.sensors else "exact"
+    return {**told, "method": options.method, "sensors": sensors}
 
 
 def _ticks(seconds: float | None, dt: float) -> int | None:
@@ -151,7 +169,8 @@ def _simulate(
 ) -> Recording:
     with progress_bar(console) as bar:
         total = ticks * simulation.dt if ticks else None
-        task = bar.add_task(f"simulate {simulation.mission}", total=total, note="")
+        name = simulation.mission or "a robot"
+        task = bar.add_task(f"simulate {name}", total=total, note="")
 
         def show(speed: float) -> None:
             note = f"{simulation.time:5.1f} s   {speed:4.1f} x real time   {simulation.phase}"
@@ -184,7 +203,8 @@ def _save(
     """
     output.write_json("summary.json", summary)  # it has room on a disk that is all but full
     output.write_arrays("log.npz", recording.log)
-    output.write_arrays("timing.npz", recording.timings)
+    if recording.timings:
+        output.write_arrays("timing.npz", recording.timings)
     if extras.missing():
         return
     video: Path | str = "not asked for (--no-video)"
@@ -193,7 +213,8 @@ def _save(
         video = "the run was interrupted"
     elif options.video:
         try:
-            with _open_painter(simulation.model, mission) as drawing:
+            own = own_simulation.is_own(options.mission)
+            with _open_painter(simulation, mission, own) as drawing:
                 video = _film(drawing, _pace(mission), recording, output, console, interrupts)
                 snapshots = _snapshots(drawing, recording, summary)
         except RendererError as missing:
@@ -211,8 +232,15 @@ def _pace(mission: TableMission | None) -> Pace:
     return Pace(fps=12, speed=6) if mission else Pace()
 
 
-def _open_painter(model: mujoco.MjModel, mission: TableMission | None) -> Painter:
-    """Two cameras that go with what is carried, else those of the painter."""
+def _open_painter(simulation: Simulation, mission: TableMission | None, own: bool) -> Painter:
+    """Two cameras that go with what is carried, else those of the painter.
+
+    Of a simulation of one's own: the model's camera "film", or one that looks at all of it.
+    """
+    model = simulation.model
+    if own:
+        named = any(model.camera(i).name == "film" for i in range(model.ncam))
+        return Painter(model, "film" if named else overview(simulation))
     if mission is None:
         return Painter(model)
     body, distance = mission.followed
@@ -273,6 +301,8 @@ def _report(summary: dict[str, Any], verdict: str, output: Output, console: Cons
     for heading in ("", "measured", beside):
         table.add_column(heading, justify="right" if heading else "left")
     for name, value in summary["figures"].items():
+        if not tells(name, summary):
+            continue
         other = readable(name, summary["thesis"].get(name))
         if summary["wanted"]:
             other = wanted(name, summary["wanted"].get(name), value)
@@ -280,7 +310,9 @@ def _report(summary: dict[str, Any], verdict: str, output: Output, console: Cons
     worst, tick = summary["limit_violation"], summary["control_tick_us"]
     for what, excess in (("commanded", worst["commanded"]), ("physics", worst)):
         table.add_row(f"over a joint limit, {what}", readable("_rad", excess["position_rad"]))
-    table.add_row("control tick, median / p99", f"{tick['median']:.0f} / {tick['p99']:.0f} µs")
+    if tick["median"] is not None:
+        text = f"{tick['median']:.0f} / {tick['p99']:.0f} µs"
+        table.add_row("control tick, median / p99", text)
     table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
     colour = "bold green" if summary["success"] else "bold"
     reason = verdict + escape(summary["reason"])

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._core import Measure
 from hurcules._version import __version__
 from hurcules.recording import Recording
 from hurcules.simulation import Simulation
@@ -20,24 +19,14 @@ __all__ = ["processor", "summarize"]
 
 
 def summarize(
-    simulation: Simulation,
-    recording: Recording,
-    seed: int,
-    method: str,
-    noisy: bool = False,
-    measures: Sequence[Measure] = (),
-    parameters: Mapping[str, Any] | None = None,
+    simulation: Simulation, recording: Recording, told: Mapping[str, Any]
 ) -> dict[str, Any]:
     """Sums up a run.
 
     Args:
         simulation: after the run.
         recording: what it left.
-        seed: of the run.
-        method: of the solver.
-        noisy: whether its sensors were those of `hurcules.sensors.realistic`.
-        measures: of the mission's table, for what its figures must be.
-        parameters: of the mission, by name.
+        told: what it was made of: mission, parameters, seed.
 
     Returns:
         Plain data for JSON: numbers are finite or None.
@@ -45,12 +34,9 @@ def summarize(
     wall = recording.wall_seconds
     return _plain(
         {
-            "mission": simulation.mission,
-            "parameters": dict(parameters or {}),
-            "seed": seed,
+            **told,
             "version": __version__,
-            "method": method,
-            "sensors": "realistic" if noisy else "exact",
+            "finished": simulation.finished,
             "success": simulation.success,
             "reason": _reason(simulation, recording),
             "simulated_seconds": simulation.time,
@@ -59,9 +45,8 @@ def summarize(
             "limit_violation": simulation.limit_violation(),
             "figures": simulation.figures() | _of_log(recording.log, simulation.dt),
             "wanted": {
-                one.name: {"least": one.least, "most": one.most}
-                for one in measures
-                if math.isfinite(one.least) or math.isfinite(one.most)
+                name: {"least": least, "most": most}
+                for name, (least, most) in simulation.wanted_figures().items()
             },
             "thesis": simulation.thesis_figures(),
             "events": [

@@ -90,7 +90,8 @@ def table_mission(name: str) -> TableMission | None:
         known = ", ".join(TABLE_MISSIONS)
         raise Error(
             f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; a robot of "
-            "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)"
+            "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...), "
+            "in a file of Python that hurcules run takes too"
         )
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)

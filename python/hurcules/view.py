@@ -19,6 +19,7 @@ from hurcules import models
 from hurcules._core import Error, Plant
 from hurcules.drawing import Picture, caption, draw
 from hurcules.extras import without
+from hurcules.own_simulation import is_own, make
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
 from hurcules.video import encode
@@ -38,8 +39,8 @@ def view(
 
     Args:
         name: one of `hurcules.missions()`, `models.names()` or `models.scenes()`, the TOML file of
-            a mission, or a file of MJCF, MJB or URDF. A robot of ours has its brakes on; a model
-            of a file moves as MuJoCo has it.
+            a mission, a file of MJCF, MJB or URDF, or of Python as for `hurcules run`. A robot of
+            ours has its brakes on; a model of a file moves as MuJoCo has it.
         seed: of the mission.
         seconds: close the window after this time [s].
         parameters: of the mission, by name.
@@ -47,7 +48,9 @@ def view(
     Raises:
         Error: nothing has this name, a file is no model, or there is no display.
     """
-    if name in missions() or name.endswith(".toml"):
+    if is_own(name):
+        watch(make(name, seed, parameters), seconds=seconds)
+    elif name in missions() or name.endswith(".toml"):
         watch(Simulation(name, seed, record=False, parameters=parameters), seconds=seconds)
     else:
         _show(*_subject(name), lambda scene: "", seconds)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 import jinja2
 import numpy as np
 
-from hurcules.figures import describe, readable, wanted
+from hurcules.figures import describe, readable, tells, wanted
 from hurcules.legend import event_words, joint_words, level_words, region_words
 from hurcules.recording import (
     CHANNELS,
@@ -27,6 +28,8 @@ from hurcules.report.style import applied, data_address, jpeg
 __all__ = ["write"]
 
 SNAPSHOT_WIDTH = 480  # [pixels]
+# how it is drawn, of what, its title and what it shows
+Drawing = tuple[Callable[[plots.Log, Sequence[float]], str], plots.Log, str, str]
 
 
 def write(
@@ -55,7 +58,6 @@ def write(
     origin = recording.origin
     page = template.render(
         summary=summary,
-        cut=summary["reason"].startswith(("interrupted at", "stopped at")),
         origin=origin,
         names=_names(recording.log),
         events=[(e["time_s"] - origin, event_words(e["text"])) for e in summary["events"]],
@@ -102,7 +104,7 @@ def _cards(summary: dict[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
-def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
+def _rows(summary: dict[str, Any]) -> list[dict[str, Any]]:
     thesis = summary["thesis"]
     return [
         {
@@ -113,6 +115,7 @@ def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
             "wanted": wanted(name, summary["wanted"].get(name), value),
         }
         for name, value in summary["figures"].items()
+        if tells(name, summary)
     ]
 
 
@@ -120,7 +123,7 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     if len(recording.log["time"]) < 2:
         return []
     origin = recording.origin
-    log = plots.shifted(recording.log | {"tick_us": recording.control_tick_us}, origin)
+    log = plots.shifted(recording.log, origin)
     times = {round(event["time_s"] - origin, 1) for event in summary["events"] if event["time_s"]}
     events = sorted(times)
     later = plots.settled(log)
@@ -129,14 +132,20 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
         (plots.joint_velocities, later, "Reference velocities", _VELOCITIES),
         (plots.control_errors, later, "Control errors", _ERRORS),
     ]
-    drawn = [
-        *(one for one in moves if plots.moving(one[1])),
+    drawn: list[Drawing] = [
+        *(
+            (partial(draw, sliding=recording.sliding), part, title, text)
+            for draw, part, title, text in moves
+            if plots.moving(part)
+        ),
         (plots.task_errors, later, "Task errors", _TASKS),
         (plots.active_limits, log, "Active limits", _LIMITS),
         (plots.monitors, log, "Monitors", _MONITORS),
         (plots.solver_work, log, "Work of the solver", _SOLVER),
-        (plots.tick_times, log, "Time of a control tick", _TIMES),
     ]
+    if recording.timings:
+        timed = log | {"tick_us": recording.control_tick_us}
+        drawn.append((plots.tick_times, timed, "Time of a control tick", _TIMES))
     if "casualty/contact_share" in log:
         text = f"{_PERSON} {_regions(log)}"
         drawn.insert(0, (plots.person, log, "The person", text))

@@ -45,7 +45,7 @@ Log = dict[str, Array]  # see hurcules.recording.CHANNELS
 MOVES = 0.02  # [rad] a coordinate that moves less is left out of the plots of joints
 
 
-def joint_positions(log: Log, events: Sequence[float]) -> str:
+def joint_positions(log: Log, events: Sequence[float], sliding: Sequence[str] = ()) -> str:
     """Each coordinate that moves, with its limits; shaded while a limit holds it."""
     names = moving(log)
     drawn = cells(len(names))
@@ -55,23 +55,26 @@ def joint_positions(log: Log, events: Sequence[float]) -> str:
         mark(plot, events)
         plot.set_title(_title(name))
         plot.set_xlabel("time [s]")
-        plot.set_ylabel("position [rad]")
+        plot.set_ylabel("position [m]" if name in sliding else "position [rad]")
     return side_by_side(drawn)
 
 
-def joint_velocities(log: Log, events: Sequence[float]) -> str:
+def joint_velocities(log: Log, events: Sequence[float], sliding: Sequence[str] = ()) -> str:
     """Reference velocities of the coordinates (Figure 4.26 a)."""
-    series = {name: log[f"qd_des/{name}"] for name in moving(log)}
-    return _lines(log["time"], series, events, "reference velocity [rad/s]")
+    names = moving(log)
+    series = {name: log[f"qd_des/{name}"] for name in names}
+    units = _units(names, sliding, "rad/s", "m/s")
+    return _lines(log["time"], series, events, f"reference velocity [{units}]")
 
 
-def control_errors(log: Log, events: Sequence[float]) -> str:
+def control_errors(log: Log, events: Sequence[float], sliding: Sequence[str] = ()) -> str:
     """Reference minus measured position of the joints (Figure 4.26 b)."""
     joints = _after(log, "joint_error/")
     # the joint of a coordinate has its name, or L before it: both knees are one coordinate
     shown = [j for name in moving(log) for j in joints if j in (name, f"L{name}")]
     series = {name: 1e3 * log[f"joint_error/{name}"] for name in shown}
-    return _lines(log["time"], series, events, "control error [mrad]")
+    units = _units(moving(log), sliding, "mrad", "mm")
+    return _lines(log["time"], series, events, f"control error [{units}]")
 
 
 def task_errors(log: Log, events: Sequence[float]) -> str:
@@ -242,8 +245,8 @@ def shifted(log: Log, origin: float) -> Log:
 
 
 def settled(log: Log) -> Log:
-    """The log without its first phase, in which the robot takes its stand, where others follow."""
-    later = log["phase"] > 0
+    """The log from 0 s on, which is where the robot has taken its stand."""
+    later = log["time"] >= 0.0
     return {name: values[later] for name, values in log.items()} if np.any(later) else log
 
 
@@ -260,6 +263,12 @@ def moving(log: Log) -> list[str]:
         for name in moved
         if not (name.startswith("R") and "L" + name[1:] in moved and _mirrors(log, name))
     ]
+
+
+def _units(names: Sequence[str], sliding: Sequence[str], turning: str, straight: str) -> str:
+    """Of these coordinates, both where there are both."""
+    kinds = {straight if name in sliding else turning for name in names}
+    return ", ".join(sorted(kinds, reverse=True))
 
 
 def _mirrors(log: Log, name: str) -> bool:

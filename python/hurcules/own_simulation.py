@@ -1,0 +1,93 @@
+"""A simulation of one's own for the command line: a Python file with a function `simulation`."""
+
+from __future__ import annotations
+
+import importlib.util
+import inspect
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from hurcules._core import Error
+from hurcules.mission_options import read_options
+from hurcules.simulation import Simulation
+
+__all__ = ["is_own", "make", "parameters_of"]
+
+FUNCTION = "simulation"
+
+
+def is_own(name: str) -> bool:
+    """Whether this is the path of such a file."""
+    return name.endswith(".py")
+
+
+def make(path: str, seed: int = 0, parameters: Mapping[str, Any] | None = None) -> Simulation:
+    """What its function returns.
+
+    Args:
+        path: of the file, which is executed as an import executes it.
+        seed: for the parameter `seed` of the function.
+        parameters: for others, by name.
+
+    Raises:
+        Error: no file, no such function, a parameter that it has not, or another result.
+    """
+    function = _function(path)
+    given = dict(parameters or {})
+    if "seed" in inspect.signature(function).parameters:
+        given["seed"] = seed
+    elif seed:
+        raise Error(f"{path}: {FUNCTION}() has no parameter seed, got {seed}")
+    try:
+        inspect.signature(function).bind(**given)
+    except TypeError as error:
+        raise Error(f"{path}: {FUNCTION}(): {error}") from None
+    made = function(**given)
+    if not isinstance(made, Simulation):
+        raise Error(f"{path}: {FUNCTION}() wants to return a hurcules.Simulation, got {made!r}")
+    return made
+
+
+def parameters_of(path: str, words: Sequence[str]) -> dict[str, Any]:
+    """What the words of a command line say: an option for each parameter with a default.
+
+    Of numbers, texts, true and false.
+
+    Args:
+        path: of the file.
+        words: `--mass 3`, by the type of the default.
+
+    Raises:
+        Error: as `make`, another option, or a value that is none.
+    """
+    if not words:
+        return {}
+    parameters = inspect.signature(_function(path)).parameters.values()
+    defaults = {
+        one.name: one.default
+        for one in parameters
+        if isinstance(one.default, int | float | str | tuple) and one.name != "seed"
+    }
+    return read_options(words, defaults)
+
+
+def _function(path: str) -> Callable[..., Any]:
+    file = Path(path)
+    if not file.is_file():
+        raise Error(f"{path}: no such file")
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    if spec is None or spec.loader is None:
+        raise Error(f"{path}: not a file of Python")
+    module = importlib.util.module_from_spec(spec)
+    if (folder := str(file.parent.resolve())) not in sys.path:
+        sys.path.insert(0, folder)  # as for a script: it may import its neighbours
+    spec.loader.exec_module(module)
+    function = getattr(module, FUNCTION, None)
+    if not callable(function):
+        raise Error(
+            f"{path}: wanted a function {FUNCTION}(seed=0) that returns a hurcules.Simulation, "
+            "there is none"
+        )
+    return function
