@@ -111,7 +111,7 @@ FORCE = (
         "§5.6.3, Fig. 5.11",
         "Both hands reach out: accelerations and speeds fall gradually from 12 s (singularity).",
         {
-            "straight": near("elbows straight at", 12.0, 1.0, "s", thesis="12 s"),
+            "straight": near("elbows straight at", 12.0, 1.0, "s", thesis="12 s", fitted=_REACH),
             "arms": most("speed of the arms at 12.5 s over 10.5 s", 0.5),
             "bounded": most("largest acceleration after 11.5 s over before", 1.0),
             "whole": most(
