@@ -400,6 +400,20 @@ def test_the_page_of_claims_shows_the_criteria_of_the_list(root: Path) -> None:
     assert lost == []
 
 
+def test_the_page_of_what_moved_has_the_numbers_of_the_table(root: Path) -> None:
+    """What stands under "now" stands in the claim's row, in this unit or a thousand times it."""
+    table = (root / "docs" / "claims.md").read_text(encoding="utf-8")
+    page = (root / "docs" / "thesis.md").read_text(encoding="utf-8")
+    page = page[page.index("## Numbers that moved") :]
+    rows = re.findall(r"^\| ([A-Z]\d\d) \|[^|]*\|[^|]*\| ([\d.]+)[^|]*\|", page, re.MULTILINE)
+    assert len(rows) >= 5
+    for name, now in rows:
+        row = next(line for line in table.splitlines() if line.startswith(f"| {name} |"))
+        half = 0.5 * 10.0 ** -len(now.partition(".")[2]) + 1e-12
+        numbers = [float(number) for number in re.findall(r"\d+\.?\d*(?:e-?\d+)?", row)]
+        assert any(abs(float(now) - k * x) <= half for x in numbers for k in (1.0, 1e3)), name
+
+
 def test_every_page_that_counts_claims_agrees_with_the_table(root: Path) -> None:
     table = (root / "docs" / "claims.md").read_text(encoding="utf-8")
     head = re.search(r"^112 claims: (.*)\.$", table, re.MULTILINE)
