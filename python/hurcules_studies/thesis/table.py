@@ -30,8 +30,8 @@ How to read it:
 - **Fitted**: the thesis prints neither start postures nor operator speeds. A number marked *fitted*
   comes from a posture, a range, a speed or an end of the motion that was chosen so that it comes
   near the thesis. It shows that it can be so, not that it must. Claims with such numbers: {fitted}.
-- **Reference**: numbers that small programs of our own gave, apart from this software. They are no numbers of
-  the thesis.
+- **Reference**: numbers that small programs of our own gave, apart from this software. They are no
+  numbers of the thesis.
 - **Caveat**: what the numbers cannot show.
 """
 COLUMNS = (

@@ -219,9 +219,9 @@ FORCE = (
             "too_small": least("settling with springs, C = 0.002 over C = 0.02", 2.0),
         },
         solvers=(DEFAULT,),
-        caveat="judged at C G = 150 1/s alone: at 5, 20 and 50 1/s the lower bandwidth swings more, "
-        "1.25, 1.53 and 0.44 N in place of 0.004, 0.02 and 0.31 N, as the thesis says (notes of "
-        "report.html)",
+        caveat="judged at C G = 150 1/s alone: at 5, 20 and 50 1/s the lower bandwidth swings "
+        "more, 1.25, 1.53 and 0.44 N in place of 0.004, 0.02 and 0.31 N, as the thesis says (notes "
+        "of report.html)",
     ),
     Claim(
         "K15",
