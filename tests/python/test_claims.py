@@ -8,10 +8,14 @@ by the command alone. The decomposition inside the solver: C++, claims_decomposi
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from hurcules import models
 from hurcules_studies.thesis import CLAIMS, Verdict
 from hurcules_studies.thesis.measures import measured
+from hurcules_studies.thesis.measures.servo_robot import LIFTING, ready, way
+from hurcules_studies.thesis.measures.standing import led
 from hurcules_studies.thesis.worker import examine
 
 QUICK = [name for name in CLAIMS if name[0] in "RE"] + ["H01", "H02", "H03", "P02", "P03"]
@@ -42,3 +46,19 @@ def test_a_claim_on_the_hardware_holds_in_the_physics(name: str) -> None:
 
 def test_every_quick_claim_is_measured() -> None:
     assert [name for name in QUICK if name not in measured()] == []
+
+
+def test_the_servo_of_the_claims_has_the_gains_of_the_model() -> None:
+    """Negative control: with a quarter of the bandwidths a joint follows ten times worse."""
+    errors = []
+    for share in (1.0, 0.25):
+        spec = models.parse([models.path("rescue"), models.path("flat")])
+        for numeric in spec.numerics:
+            if numeric.name.startswith("servo_"):
+                numeric.data = np.asarray(numeric.data) * [1.0, share]
+        model = spec.compile()
+        robot = ready(model)
+        qpos = robot.qpos
+        q, qd = way(robot, LIFTING[:1], 1.5, 0.2)
+        errors.append(np.abs(led(model, qpos, q, qd).of("LS", "LE", "RS", "RE")).max())
+    assert errors[1] > 10.0 * errors[0]

@@ -151,7 +151,8 @@ def test_the_verdict_follows_from_the_numbers(
 def test_what_a_measurement_leaves_out_is_told_and_keeps_the_claim_from_holding() -> None:
     claim = Claim("X01", "here", "a claim", {"a": STATEMENT}, missing="the night")
     assert judge(claim, Finding({"a": 0.5})) == (Verdict.IN_PART, "not shown: the night", True)
-    assert judge(claim, Finding({"a": 1.5}))[0] == Verdict.NOT
+    verdict, reason, _ = judge(claim, Finding({"a": 1.5}))
+    assert verdict == Verdict.NOT and reason.endswith("; not shown: the night")
 
 
 def test_values_under_other_names_are_refused() -> None:
@@ -362,6 +363,18 @@ def test_the_page_of_claims_counts_what_it_shows(root: Path) -> None:
     assert fitted == [name for name, claim in CLAIMS.items() if claim.fitted]
 
 
+def test_a_time_or_a_length_of_a_fitted_motion_is_marked_as_fitted() -> None:
+    """The thesis prints no start posture and no speed: no such number is evidence."""
+    motions = [f"S0{i}" for i in range(1, 7)] + ["M04", "M08", "M14", "K08", "K09", "K10"]
+    bare = [
+        f"{name}: {one.what}"
+        for name in motions
+        for one in CLAIMS[name].expected.values()
+        if one.thesis and one.unit in ("s", "m") and not one.fitted
+    ]
+    assert bare == []
+
+
 def shown_as(one: Expected) -> str:
     return re.escape(f"{one.what} ") + "[^;]*" + re.escape(f" ({claims_table.wanted(one)})")
 
@@ -378,11 +391,28 @@ def test_the_page_of_claims_shows_the_criteria_of_the_list(root: Path) -> None:
             lost.append(f"{name}: {says}")
         elif name in measured():
             lost += [
+                f"{name}: {words}" for words in (claim.missing, claim.caveat) if words not in row
+            ]
+            lost += [
                 f"{name}: {one.what}"
                 for one in claim.expected.values()
                 if not re.search(shown_as(one), row)
             ]
     assert lost == []
+
+
+def test_the_page_of_what_moved_has_the_numbers_of_the_table(root: Path) -> None:
+    """What stands under "now" stands in the claim's row, in this unit or a thousand times it."""
+    table = (root / "docs" / "claims.md").read_text(encoding="utf-8")
+    page = (root / "docs" / "thesis.md").read_text(encoding="utf-8")
+    page = page[page.index("## Numbers that moved") :]
+    rows = re.findall(r"^\| ([A-Z]\d\d) \|[^|]*\|[^|]*\| ([\d.]+)[^|]*\|", page, re.MULTILINE)
+    assert len(rows) >= 5
+    for name, now in rows:
+        row = next(line for line in table.splitlines() if line.startswith(f"| {name} |"))
+        half = 0.5 * 10.0 ** -len(now.partition(".")[2]) + 1e-12
+        numbers = [float(number) for number in re.findall(r"\d+\.?\d*(?:e-?\d+)?", row)]
+        assert any(abs(float(now) - k * x) <= half for x in numbers for k in (1.0, 1e3)), name
 
 
 def test_every_page_that_counts_claims_agrees_with_the_table(root: Path) -> None:

@@ -33,13 +33,15 @@ def judge(claim: Claim, finding: Finding) -> tuple[Verdict, str, bool]:
         for name, expected in claim.expected.items()
         if not expected.met(finding.values[name])
     ]
-    if not missed and claim.missing:
-        return Verdict.IN_PART, f"not shown: {claim.missing}", True
+    reasons = [_reason(expected, value) for expected, value in missed]
+    if claim.missing:
+        reasons.append(f"not shown: {claim.missing}")
     if not missed:
-        return Verdict.HOLDS, "", True
-    verdict = Verdict.ANOTHER_NUMBER if all(e.figure for e, _ in missed) else Verdict.NOT
+        verdict = Verdict.IN_PART if claim.missing else Verdict.HOLDS
+    else:
+        verdict = Verdict.ANOTHER_NUMBER if all(e.figure for e, _ in missed) else Verdict.NOT
     explained = all(e.explained(value) for e, value in missed)
-    return verdict, "; ".join(_reason(e, value) for e, value in missed), explained
+    return verdict, "; ".join(reasons), explained
 
 
 def _reason(expected: Expected, value: float) -> str:

@@ -28,8 +28,10 @@ How to read it:
 - **Solver**: the method that ran. `default` is the product's own; `Algorithm 1` is RHQP as the
   thesis prints it, with the one repair of R14; HQP and DLS-HQP are the thesis' comparisons.
 - **Fitted**: the thesis prints neither start postures nor operator speeds. A number marked *fitted*
-  comes from a posture, a range or a speed that was chosen so that it comes near the thesis. It
-  shows that the event can happen then, not that it must. Claims with such numbers: {fitted}.
+  comes from a posture, a range, a speed or an end of the motion that was chosen so that it comes
+  near the thesis. It shows that it can be so, not that it must. Claims with such numbers: {fitted}.
+- **Reference**: numbers that small programs of our own gave, apart from this software. They are no
+  numbers of the thesis.
 - **Caveat**: what the numbers cannot show.
 """
 COLUMNS = (

@@ -56,6 +56,7 @@ BIMANUAL = (
                 1.0,
                 "s",
                 thesis="12 s",
+                fitted=_POSTURE,
                 figure=True,
                 ours=(13.0, 17.0),
                 why="its set S keeps the limit a while longer (R13); with S of the previous levels "

@@ -2,7 +2,8 @@
 
 13 coordinates, rho = 0.1, joint < hpos (6) < hpitch (2) < pel (1) < gaze (2). Times count from the
 start of the stretch. The thesis prints no geometry and no speed of the operator; ours are assumed
-(models/README.md), the speed so that the hip's time fits.
+(models/README.md), the speed so that the hip's time fits, the length of the way so that the pelvis
+gives way by 0.40 m.
 """
 
 from hurcules_studies.thesis.claim import ALGORITHM_1, DEFAULT, Claim, exactly, least, most, near
@@ -87,7 +88,14 @@ STRETCH = (
         "At the end the pelvis task has an error of 0.40 m; hand position and pitch errors are "
         "small.",
         {
-            "pelvis": near("pelvis error at the end", 0.40, 0.02, "m", thesis="0.40 m"),
+            "pelvis": near(
+                "pelvis error at the end",
+                0.40,
+                0.02,
+                "m",
+                thesis="0.40 m",
+                fitted=f"{_START}, and where it ends",
+            ),
             "hand": most("largest hand error, commanded", 1e-3, "m"),
             "hand_measured": most("hand error at the end, measured", 5e-3, "m"),
             "pitch": most("largest pitch error, commanded", 1e-3, "rad"),

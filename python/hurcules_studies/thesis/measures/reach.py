@@ -13,7 +13,7 @@ import numpy as np
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
-from hurcules_studies.thesis.measures.standing import gains_of, led
+from hurcules_studies.thesis.measures.standing import led
 from hurcules_studies.thesis.measures.whole_body import DT, LEVELS, Body, Log, Setting, follow
 
 START = {
@@ -273,9 +273,8 @@ def control_errors(name: str, start: float) -> tuple[Array, Array, list[str], fl
     log = run(name)
     body = Body(START)
     q, qd = log.q[at(log, start) :], log.qd[at(log, start) :]
-    gains = gains_of(body.robot, body.model, q)
     body.robot.set_configuration(q[0])
-    followed = led(body.model, body.robot.qpos, gains, q, qd)
+    followed = led(body.model, body.robot.qpos, q, qd)
     late = followed.saturated[round(2.0 / DT) :].sum()
     return start + followed.time, followed.error, followed.names, float(late)
 

@@ -12,7 +12,7 @@ from hurcules import models
 from hurcules_studies.thesis.claim import Finding, Note, Plot, line
 from hurcules_studies.thesis.measures.problems import Array
 from hurcules_studies.thesis.measures.registry import measures
-from hurcules_studies.thesis.measures.standing import DT, Followed, gains_of, led
+from hurcules_studies.thesis.measures.standing import DT, Followed, led
 
 SUPPORT = "lower_leg_L"
 REST = 1.5  # [s] before and after each posture
@@ -79,7 +79,7 @@ def tuning_postures() -> Finding:
     robot = ready(model)
     qpos = robot.qpos
     q, qd = way(robot, TUNING, 3.0, REST)
-    run = led(model, qpos, gains_of(robot, model, q), q, qd)
+    run = led(model, qpos, q, qd)
     arm = np.abs(run.of("LS", "LE", "LW"))
     others = np.abs(run.of("LKN", "RKN", "HIP", "WST"))[STAND:]
     return Finding(
@@ -107,13 +107,11 @@ def loaded(kilograms: float) -> mujoco.MjModel:
 
 @measures("P07")
 def any_load() -> Finding:
-    """Gains made for half of the greatest load, and used with every load."""
-    middle = loaded(60.0)
-    robot = ready(middle)
+    """The gains of the missions, with every load."""
+    robot = ready(loaded(60.0))
     qpos = robot.qpos
     q, qd = way(robot, LIFTING, 3.0, REST)
-    gains = gains_of(robot, middle, q)
-    runs = {f"{load:g} kg": led(loaded(load), qpos, gains, q, qd) for load in (0.0, 60.0, 120.0)}
+    runs = {f"{load:g} kg": led(loaded(load), qpos, q, qd) for load in (0.0, 60.0, 120.0)}
     largest = {
         label: float(np.abs(run.of("LS", "LE", "RS", "RE"))[STAND:].max())
         for label, run in runs.items()

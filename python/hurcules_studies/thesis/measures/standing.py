@@ -1,13 +1,10 @@
 """A robot standing on its tracks in the closed loop, its joints led along a reference.
 
-The gains follow the rule of the missions (joint_pid.hpp, `triple_pole`): a joint's inertia is the
-largest along the reference without load, its bandwidth at least the one below, and more where its
-dry friction asks for it. The claims were set with these gains; all else has those of the missions.
+The servo is that of the missions: the gains stand in the models, and no load changes them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import mujoco
@@ -18,14 +15,9 @@ import hurcules
 from hurcules import postures
 from hurcules_studies.thesis.measures.problems import Array
 
-__all__ = ["DT", "Followed", "gains_of", "led"]
+__all__ = ["DT", "Followed", "led"]
 
 DT = 1e-3  # [s]
-BANDWIDTH = {"SP": 30.0, "SR": 30.0, "SY": 40.0, "EB": 50.0, "NKY": 60.0, "NKP": 60.0}  # [rad/s]
-LEAST_BANDWIDTH, MOST_BANDWIDTH = 20.0, 100.0  # [rad/s]
-FRICTION_BEND = 2e-3  # [rad] by which a reversal of dry friction may bend a joint
-
-Gains = Mapping[str, tuple[float, float]]  # by joint: inertia [kg m^2], bandwidth [rad/s]
 
 
 @dataclass(frozen=True)
@@ -53,44 +45,18 @@ class Followed:
         return self.error[:, [i for i, name in enumerate(self.names) if name.startswith(prefixes)]]
 
 
-def gains_of(robot: hurcules.Robot, model: mujoco.MjModel, q: Array) -> Gains:
-    """The gains of a robot's joints for a reference.
-
-    Args:
-        robot: standing on its support.
-        model: its model.
-        q: (ticks, n) [rad] the reference.
-    """
-    inertia = np.zeros(robot.size)
-    for sample in q[:: max(1, len(q) // 20)]:
-        robot.set_configuration(sample)
-        inertia = np.maximum(inertia, np.diag(robot.mass_matrix()))
-    gains = {}
-    for i, coordinate in enumerate(robot.coordinates):
-        for joint in coordinate.joints:
-            J = float(inertia[i]) / len(coordinate.joints)
-            friction = float(model.dof_frictionloss[joint.dof])
-            least = BANDWIDTH.get(coordinate.name.lstrip("LR"), LEAST_BANDWIDTH)
-            omega = np.clip(np.sqrt(0.54 * friction / (J * FRICTION_BEND)), least, MOST_BANDWIDTH)
-            gains[model.joint(joint.joint).name] = J, float(omega)
-    return gains
-
-
-def led(model: mujoco.MjModel, qpos: Array, gains: Gains, q: Array, qd: Array) -> Followed:
+def led(model: mujoco.MjModel, qpos: Array, q: Array, qd: Array) -> Followed:
     """Leads the robot along a reference.
 
     Args:
         model: the robot, with what it carries.
         qpos: (nq,) where it starts, at rest.
-        gains: of the joints that follow.
         q: (ticks, n) [rad] the reference.
         qd: (ticks, n) [rad/s] its velocity.
     """
     data = mujoco.MjData(model)
     data.qpos[:] = qpos
-    simulation = postures.joint_loop(
-        model, data, {**hurcules.servo_table(hurcules.Robot(model)), **gains}
-    )
+    simulation = postures.joint_loop(model, data)
     controller = simulation.controller
     names = controller.joints
     pairs = [

@@ -16,7 +16,7 @@ import numpy as np
 import hurcules
 from hurcules import Stack, StackLevel, models
 from hurcules_studies.thesis.measures.problems import Array
-from hurcules_studies.thesis.measures.standing import gains_of, led
+from hurcules_studies.thesis.measures.standing import led
 from hurcules_studies.thesis.measures.whole_body import DT, Setting
 
 SPEED = 0.0215  # [m/s] of both hands
@@ -108,7 +108,6 @@ def run_printed() -> Run:
     }
     jump = np.abs(np.diff(qd, axis=0)).max(axis=1)
     jumps = {name: float(jump[np.abs(time[1:] - at) < 0.01].max()) for name, at in switches.items()}
-    gains = gains_of(stretch.robot, stretch.model, q)
-    led_by = led(stretch.model, stretch.qpos, gains, q, qd)
+    led_by = led(stretch.model, stretch.qpos, q, qd)
     joints = led_by.names[: led_by.moved]
     return Run(time, led_by.error[:, : led_by.moved], joints, switches, jumps)
