@@ -254,6 +254,11 @@ def _doubts(root: ET.Element, model: mujoco.MjModel) -> Iterator[str]:
     ]
     if empty:
         yield f"the range of {', '.join(empty)} is empty and counts as none"
+    for what in ("effort", "velocity"):
+        limits = {name: one.find("limit") for name, one in moving.items()}
+        zero = [n for n, one in limits.items() if one is not None and _number(one, what) == 0.0]
+        if zero:
+            yield f"the limit of {what} of {', '.join(zero)} is 0 and counts as none"
     mimics = {name: one.find("mimic") for name, one in moving.items()}
     leaders = {name: one.get("joint") for name, one in mimics.items() if one is not None}
     if lost := [f"{name} ({leader})" for name, leader in leaders.items() if leader not in moving]:
@@ -267,6 +272,13 @@ def _doubts(root: ET.Element, model: mujoco.MjModel) -> Iterator[str]:
         yield f"what {names} move has no mass: a link without one counts as 1 g"
 
 
+def _number(limit: ET.Element, what: str) -> float:
+    try:
+        return float(limit.get(what, "nan"))
+    except ValueError:  # MuJoCo's to refuse
+        return math.nan
+
+
 def _range(joint: ET.Element) -> tuple[float, float]:
     limit = joint.find("limit")
     read = {} if limit is None else limit.attrib
@@ -274,8 +286,12 @@ def _range(joint: ET.Element) -> tuple[float, float]:
 
 
 def _check_ranges(root: ET.Element, path: Path) -> None:
-    """MuJoCo takes a range that is none for no range."""
+    """MuJoCo takes a range that is none for no range, and gives continuous joints theirs."""
     for joint in root.findall("joint"):
+        limit = joint.find("limit")
+        if joint.get("type") == "continuous" and limit is not None:
+            limit.attrib.pop("lower", None)
+            limit.attrib.pop("upper", None)
         if joint.get("type") not in ("revolute", "prismatic"):
             continue
         try:

@@ -332,6 +332,8 @@ RANGE, LIMIT = 'lower="-2" upper="2"', 'effort="60" velocity="1.5"/>'
     [
         (ARM.replace(RANGE, 'lower="0" upper="0"'), "the range of shoulder is empty"),
         (ARM.replace(RANGE, ""), "the range of shoulder is empty"),
+        (ARM.replace('effort="60"', 'effort="0"'), "effort of shoulder is 0 and counts as none"),
+        (ARM.replace('velocity="1.5"', 'velocity="0"'), "velocity of shoulder is 0 and counts"),
         (ARM.replace(LIMIT, LIMIT + '<mimic joint="hip"/>'), r"not there: shoulder \(hip\)"),
         (ARM.replace(LIMIT, LIMIT + '<mimic joint="flange"/>'), r"not there: shoulder \(flange\)"),
         (GRIPPER.format(palm=link(1.0), finger=""), "what left, right move has no mass"),
@@ -346,6 +348,14 @@ def test_what_is_read_otherwise_than_the_file_has_it_is_told(
         hurcules.load_urdf(file, shapes=False)
     assert len(caught) == 1
     assert caught[0].filename == __file__
+
+
+def test_a_continuous_joint_has_no_range(file: Path) -> None:
+    file.write_text(ARM.replace('"shoulder" type="revolute"', '"shoulder" type="continuous"'))
+    shoulder, elbow = hurcules.Robot(hurcules.load_urdf(file, shapes=False)).coordinates
+    assert (shoulder.lower, shoulder.upper) == (-np.inf, np.inf)
+    assert (shoulder.max_velocity, shoulder.max_effort) == (1.5, 60.0)
+    assert (elbow.lower, elbow.upper) == (0.2, 2.0)
 
 
 def test_a_mimic_joint_bears_what_hangs_on_it(file: Path) -> None:
