@@ -21,6 +21,16 @@ def install() -> None:
             continue
         if "__deepcopy__" in vars(kind) or name.endswith("Options"):  # bound by their fields
             copyreg.pickle(kind, _options)
+        elif kind is _core.Robot or hasattr(kind, "restore"):
+            copyreg.pickle(kind, _refused)
+
+
+def _refused(thing: Any) -> str:
+    goes_on = ", and restore(state()) of this one" if hasattr(thing, "restore") else ""
+    raise _core.Error(
+        f"a {type(thing).__name__} is neither copied nor pickled: make another one by the lines "
+        f"that made it{goes_on}"
+    )
 
 
 def _level(level: _core.Level) -> tuple[Callable[..., _core.Level], tuple[Any, ...]]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import mujoco
@@ -34,7 +35,13 @@ _COMPILER = {
 }
 
 
-def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) -> mujoco.MjModel:
+def load_urdf(
+    path: str | Path,
+    *,
+    shapes: bool = True,
+    floating: bool = False,
+    packages: Sequence[str | Path] = (),
+) -> mujoco.MjModel:
     """A URDF as a model that `Robot` and `Simulation` take.
 
     All links stay frames, fixed ones too. The limits of position and effort are MuJoCo's, those of
@@ -43,11 +50,14 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
     the first posture never do: their hulls overlap by construction.
 
     Args:
-        path: of the file. Meshes are looked for as it names them, `package://NAME/...` in a folder
-            NAME above the file.
+        path: of the file, or the URDF itself, a text that begins with `<`: what xacro gives, and
+            ROS has as `robot_description`. Meshes are looked for as it names them,
+            `package://NAME/...` in a folder NAME of `packages`, above the file, or of ROS.
         shapes: False leaves out everything to see and to touch.
         floating: the root moves freely (joint "root") above a plane "floor", on which the robot
             stands in its first posture: `on_floor` for any other.
+        packages: folders that hold packages, beside those that ROS_PACKAGE_PATH and
+            AMENT_PREFIX_PATH name.
 
     Raises:
         Error: a file that cannot be read, is no URDF, or is one that MuJoCo refuses.
@@ -56,29 +66,40 @@ def load_urdf(path: str | Path, *, shapes: bool = True, floating: bool = False) 
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
             MuJoCo does not read; joints whose range is empty, that mimic none, or move no mass.
     """
-    return _read(path, shapes, floating)[1]
+    return _read(path, shapes, floating, packages)[1]
 
 
-def urdf_spec(path: str | Path, *, shapes: bool = True, floating: bool = False) -> mujoco.MjSpec:
+def urdf_spec(
+    path: str | Path,
+    *,
+    shapes: bool = True,
+    floating: bool = False,
+    packages: Sequence[str | Path] = (),
+) -> mujoco.MjSpec:
     """The same as a specification, for what a scene has beside the robot.
 
     Arguments, errors and warnings are those of `load_urdf`. `spec.worldbody.add_geom(...)` adds a
     step, say, `spec.option.timestep` is the time step, and `spec.compile()` the model.
     """
-    return _read(path, shapes, floating)[0]
+    return _read(path, shapes, floating, packages)[0]
 
 
-def _read(path: str | Path, shapes: bool, floating: bool) -> tuple[mujoco.MjSpec, mujoco.MjModel]:
-    path = Path(path)
+def _read(
+    path: str | Path, shapes: bool, floating: bool, packages: Sequence[str | Path]
+) -> tuple[mujoco.MjSpec, mujoco.MjModel]:
+    text = path if isinstance(path, str) and path.lstrip().startswith("<") else None
+    path = Path(path if text is None else "URDF")
     try:
-        root = ET.parse(path).getroot()
+        root = ET.parse(path).getroot() if text is None else ET.fromstring(text.lstrip())
     except OSError as error:
         raise Error(f"cannot read {path}: {error.strerror}") from error
     except ET.ParseError as error:
         raise Error(f"{path} is no XML: {error}") from error
     if root.tag != "robot":
         raise Error(f"{path} wants to be a URDF, whose root is <robot>; <{root.tag}> came")
-    _fit_shapes(root, path, shapes)
+    if any("xacro}" in element.tag for element in root.iter()):
+        raise Error(f"{path} wants xacro first, which makes a URDF of it")
+    _fit_shapes(root, path, shapes, packages)
     _fit_inertias(root, path)
     _check_ranges(root, path)
     speeds = _speeds(root, path)
@@ -233,6 +254,11 @@ def _doubts(root: ET.Element, model: mujoco.MjModel) -> Iterator[str]:
     ]
     if empty:
         yield f"the range of {', '.join(empty)} is empty and counts as none"
+    for what in ("effort", "velocity"):
+        limits = {name: one.find("limit") for name, one in moving.items()}
+        zero = [n for n, one in limits.items() if one is not None and _number(one, what) == 0.0]
+        if zero:
+            yield f"the limit of {what} of {', '.join(zero)} is 0 and counts as none"
     mimics = {name: one.find("mimic") for name, one in moving.items()}
     leaders = {name: one.get("joint") for name, one in mimics.items() if one is not None}
     if lost := [f"{name} ({leader})" for name, leader in leaders.items() if leader not in moving]:
@@ -246,6 +272,13 @@ def _doubts(root: ET.Element, model: mujoco.MjModel) -> Iterator[str]:
         yield f"what {names} move has no mass: a link without one counts as 1 g"
 
 
+def _number(limit: ET.Element, what: str) -> float:
+    try:
+        return float(limit.get(what, "nan"))
+    except ValueError:  # MuJoCo's to refuse
+        return math.nan
+
+
 def _range(joint: ET.Element) -> tuple[float, float]:
     limit = joint.find("limit")
     read = {} if limit is None else limit.attrib
@@ -253,8 +286,12 @@ def _range(joint: ET.Element) -> tuple[float, float]:
 
 
 def _check_ranges(root: ET.Element, path: Path) -> None:
-    """MuJoCo takes a range that is none for no range."""
+    """MuJoCo takes a range that is none for no range, and gives continuous joints theirs."""
     for joint in root.findall("joint"):
+        limit = joint.find("limit")
+        if joint.get("type") == "continuous" and limit is not None:
+            limit.attrib.pop("lower", None)
+            limit.attrib.pop("upper", None)
         if joint.get("type") not in ("revolute", "prismatic"):
             continue
         try:
@@ -285,9 +322,12 @@ def _speeds(root: ET.Element, path: Path) -> dict[str, float]:
     return speeds
 
 
-def _fit_shapes(root: ET.Element, path: Path, shapes: bool) -> None:
+def _fit_shapes(root: ET.Element, path: Path, shapes: bool, packages: Sequence[str | Path]) -> None:
     """Meshes by their places; takes out shapes that are not wanted or cannot be had."""
     lost = []
+    if isinstance(packages, (str, Path)):
+        raise Error(f"packages wants a list of folders, {str(packages)!r} came")
+    folders = [*map(Path, packages), *path.resolve().parents, *_packages_of_ros()]
     for link in root.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
             mesh = shape.find("geometry/mesh")
@@ -295,23 +335,38 @@ def _fit_shapes(root: ET.Element, path: Path, shapes: bool) -> None:
                 link.remove(shape)
             elif mesh is not None:
                 name = mesh.get("filename", "")
-                file = _mesh_file(name, path)
+                file = _mesh_file(name, path, folders)
                 if file is None:
                     lost.append(name)
                     link.remove(shape)
                 else:
                     mesh.set("filename", str(file))
     if lost:
+        elsewhere = any(name.startswith("package://") and _is_mesh(name) for name in lost)
         warnings.warn(
             f"{path.name}: {len(lost)} shapes are left out, whose meshes are not there or not "
-            f"STL, OBJ or MSH: {lost[0]}" + ", ..." * (len(lost) > 1),
-            stacklevel=3,
+            f"STL, OBJ or MSH: {lost[0]}"
+            + ", ..." * (len(lost) > 1)
+            + "; packages=[...] names folders that hold packages" * elsewhere,
+            stacklevel=4,
         )
 
 
-def _mesh_file(name: str, path: Path) -> Path | None:
-    file = _find_mesh(name, path)
+def _packages_of_ros() -> list[Path]:
+    """Folders that hold packages, of ROS 1 and of ROS 2."""
+    sources = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
+    installed = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    folders = [Path(folder) for folder in sources if folder]
+    return folders + [Path(folder) / "share" for folder in installed if folder]
+
+
+def _mesh_file(name: str, path: Path, packages: list[Path]) -> Path | None:
+    file = _find_mesh(name, path, packages) if _is_mesh(name) else None
     return file if file is not None and _is_readable(file) else None
+
+
+def _is_mesh(name: str) -> bool:
+    return name.lower().endswith(_MESHES)
 
 
 def _is_readable(file: Path) -> bool:
@@ -323,13 +378,11 @@ def _is_readable(file: Path) -> bool:
     return len(head) == 84 and file.stat().st_size == 84 + 50 * int.from_bytes(head[80:], "little")
 
 
-def _find_mesh(name: str, path: Path) -> Path | None:
-    if not name.lower().endswith(_MESHES):
-        return None
+def _find_mesh(name: str, path: Path, packages: list[Path]) -> Path | None:
     name = name.removeprefix("file://")
     package = name.startswith("package://")
     relative = Path(name.removeprefix("package://"))
-    folders = list(path.resolve().parents) if package else [path.resolve().parent]
+    folders = packages if package else [path.resolve().parent]
     for folder in folders:
         file = folder / relative
         if file.is_file():

@@ -191,8 +191,10 @@ def test_a_rotation_is_a_matrix_or_a_quaternion() -> None:
         pose.set_target([0.1, 0.2, 0.3], np.eye(4))
 
 
-def test_a_simulation_is_not_copied_by_copy() -> None:
+def test_what_runs_is_not_copied_by_copy() -> None:
     simulation, _ = loop()
+    controller = simulation.controller
     for copying in (copy.copy, copy.deepcopy, pickle.dumps):
-        with pytest.raises(hurcules.Error, match="neither copied nor pickled"):
-            copying(simulation)
+        for one in (simulation, controller, controller.tasks[0], controller.plan):
+            with pytest.raises(hurcules.Error, match="neither copied nor pickled"):
+                copying(one)

@@ -236,12 +236,48 @@ def test_a_planar_base_is_three_coordinates_with_its_limit_of_speed(file: Path) 
         (ARM.replace('velocity="1.5"', 'velocity="fast"'), "'shoulder' wants a velocity >= 0"),
         (ARM.replace('ixx="0.1"', 'ixx="much"'), "inertia of link 'base'"),
         (ARM.replace('child link="upper"', 'child link="nobody"'), "arm.urdf"),
+        ('<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arm/></robot>', "wants xacro"),
     ],
 )
 def test_a_file_that_is_none_is_refused(file: Path, text: str, wanted: str) -> None:
     file.write_text(text)
     with pytest.raises(hurcules.Error, match=wanted):
         hurcules.load_urdf(file, shapes=False)
+
+
+def test_a_text_is_read_as_its_file_is(file: Path) -> None:
+    """What xacro gives, or ROS has as `robot_description`."""
+    text = '<?xml version="1.0" encoding="utf-8"?>' + ARM
+    by_text = hurcules.Robot(hurcules.load_urdf(text, shapes=False))
+    by_file = hurcules.Robot(hurcules.load_urdf(file, shapes=False))
+    assert by_text.coordinate_names == by_file.coordinate_names
+    np.testing.assert_array_equal(by_text.mass_matrix(), by_file.mass_matrix())
+    with pytest.raises(hurcules.Error, match="URDF is no XML"):
+        hurcules.load_urdf("<robot")
+
+
+def test_packages_are_found_where_they_are_said_to_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    meshes = tmp_path / "share" / "arm" / "meshes"
+    meshes.mkdir(parents=True)
+    corners, faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n", "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    (meshes / "base.obj").write_text(corners + faces)
+    text = ARM.replace("base.dae", "base.obj").replace("visual>", "collision>")
+    for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
+        monkeypatch.delenv(variable, raising=False)
+    with pytest.warns(UserWarning, match=r"base\.obj; packages=\[\.\.\.\] names folders") as told:
+        assert hurcules.load_urdf(text).nmesh == 0
+    assert [warning.filename for warning in told] == [__file__]
+    for where in (tmp_path / "share", meshes.parent):
+        assert hurcules.load_urdf(text, packages=[where]).nmesh == 1
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/none:{tmp_path}")
+    assert hurcules.urdf_spec(text).compile().nmesh == 1
+    monkeypatch.delenv("AMENT_PREFIX_PATH")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "share"))
+    assert hurcules.load_urdf(text).nmesh == 1
+    with pytest.raises(hurcules.Error, match="packages wants a list"):
+        hurcules.load_urdf(text, packages="share")
 
 
 def test_what_is_not_there_is_refused(tmp_path: Path) -> None:
@@ -296,6 +332,8 @@ RANGE, LIMIT = 'lower="-2" upper="2"', 'effort="60" velocity="1.5"/>'
     [
         (ARM.replace(RANGE, 'lower="0" upper="0"'), "the range of shoulder is empty"),
         (ARM.replace(RANGE, ""), "the range of shoulder is empty"),
+        (ARM.replace('effort="60"', 'effort="0"'), "effort of shoulder is 0 and counts as none"),
+        (ARM.replace('velocity="1.5"', 'velocity="0"'), "velocity of shoulder is 0 and counts"),
         (ARM.replace(LIMIT, LIMIT + '<mimic joint="hip"/>'), r"not there: shoulder \(hip\)"),
         (ARM.replace(LIMIT, LIMIT + '<mimic joint="flange"/>'), r"not there: shoulder \(flange\)"),
         (GRIPPER.format(palm=link(1.0), finger=""), "what left, right move has no mass"),
@@ -310,6 +348,14 @@ def test_what_is_read_otherwise_than_the_file_has_it_is_told(
         hurcules.load_urdf(file, shapes=False)
     assert len(caught) == 1
     assert caught[0].filename == __file__
+
+
+def test_a_continuous_joint_has_no_range(file: Path) -> None:
+    file.write_text(ARM.replace('"shoulder" type="revolute"', '"shoulder" type="continuous"'))
+    shoulder, elbow = hurcules.Robot(hurcules.load_urdf(file, shapes=False)).coordinates
+    assert (shoulder.lower, shoulder.upper) == (-np.inf, np.inf)
+    assert (shoulder.max_velocity, shoulder.max_effort) == (1.5, 60.0)
+    assert (elbow.lower, elbow.upper) == (0.2, 2.0)
 
 
 def test_a_mimic_joint_bears_what_hangs_on_it(file: Path) -> None:
