@@ -18,6 +18,7 @@ from hurcules._core import Error
 from hurcules.mission_table import Mission
 from hurcules.outlet import outlet
 from hurcules.output import WriteError, write_whole
+from hurcules.own_job import is_own_job, make_job, parameters_of_job
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
@@ -78,7 +79,8 @@ def run_mission(
     mission: Annotated[
         str,
         typer.Argument(
-            help="A mission, test method or environment of `hurcules list`, or a TOML file."
+            help="A mission, test method or environment of `hurcules list`, a TOML file, or the "
+            "Python file of a robot of your own."
         ),
     ] = "stretch",
     policy: Annotated[
@@ -150,6 +152,8 @@ def run_mission(
 
     - `hurcules mission lift --out my.toml`, then, changed, `hurcules run my.toml --mass 90`
 
+    - `hurcules run pick.py --seed 3`, whose `job(seed)` returns mission, model and controller
+
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
 
     - `hurcules run --policy Drive-v0 --seed 3`
@@ -181,7 +185,7 @@ def run_mission(
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
     if any(one == mission or one.endswith(f"/{mission}") for one in plugins.environments()):
         raise Error(f"{mission} is an environment, which wants --policy")
-    if table_mission(mission) is None:
+    if not is_own_job(mission) and table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
     parameters = _parameters(mission, context.args)
@@ -191,6 +195,8 @@ def run_mission(
 
 def _parameters(mission: str, words: Sequence[str]) -> dict[str, Any]:
     """What the words that are left say of a mission."""
+    if is_own_job(mission):
+        return parameters_of_job(mission, words)
     rows = table_mission(mission)
     parameters = rows.parameters_of(words) if rows else {}
     if words and not parameters:
@@ -263,7 +269,7 @@ def list_all() -> None:
 def show_mission(
     context: typer.Context,
     name: Annotated[
-        str, typer.Argument(help="A mission of `hurcules list` that is a table, or a TOML file.")
+        str, typer.Argument(help="A mission of `hurcules list` that is a table, or its file.")
     ] = "casualty",
     out: Annotated[
         Path | None,
@@ -289,13 +295,18 @@ def show_mission(
     _require_no_option(name)
     if name.endswith(".toml"):
         table = Mission.load(name)
+    elif is_own_job(name):
+        table, _, _ = make_job(name, 0, {})
     else:
         require_known("table of a mission", name, list(TABLE_MISSIONS))
         table = TABLE_MISSIONS[name].table()
     texts = {".svg": table.drawing, ".toml": table.toml, ".txt": table.table}
     if out is not None:
         require_known("kind of file", out.suffix, [*texts, ".table"])
-        if out.suffix == ".table" and (mission := table_mission(name)):
+        if out.suffix == ".table":
+            mission = None if is_own_job(name) else table_mission(name)
+            if mission is None:
+                raise Error(f"{name}: hurcules-sim runs robots of the project, not of your own")
             write_table(name, mission, mission.parameters_of(context.args), out)
             return
     if context.args:

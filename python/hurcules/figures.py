@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
-__all__ = ["FIGURES", "Figure", "describe", "readable", "wanted"]
+__all__ = ["FIGURES", "Figure", "describe", "readable", "tells", "wanted"]
 
 
 @dataclass(frozen=True)
@@ -109,6 +110,12 @@ _UNITS = {
 def describe(name: str) -> Figure:
     """The description of a figure; one that nobody described is called by its name."""
     return FIGURES.get(name) or Figure(name.replace("_", " "))
+
+
+def tells(name: str, summary: Mapping[str, Any]) -> bool:
+    """Whether a figure is worth a line: it came, or the table or the thesis asks for it."""
+    asked = name in summary["wanted"] or name in summary["thesis"]
+    return asked or summary["figures"][name] is not None
 
 
 def readable(name: str, value: float | None) -> str:

@@ -10,11 +10,16 @@ from typing import Any, TypeVar
 
 from hurcules._core import Error
 
-__all__ = ["away_words", "in_words_of", "read_options", "record", "require_offset"]
+__all__ = ["away_words", "in_words_of", "read_options", "read_words", "record", "require_offset"]
 
 Record = TypeVar("Record")
 
-_WORDS = {int: "a whole number", float: "a number", tuple: "numbers between commas"}
+_WORDS = {
+    int: "a whole number",
+    float: "a number",
+    tuple: "numbers between commas",
+    bool: "true or false",
+}
 
 
 def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, Any]:
@@ -27,26 +32,28 @@ def read_options(words: Sequence[str], kind: Callable[..., Any]) -> dict[str, An
     Raises:
         Error: another option, or a value that is none.
     """
-    defaults: dict[str, Any] = {
-        f"--{field.name}": field.default
-        for field in fields(kind)  # type: ignore[arg-type]
-    }
+    return read_words(words, {one.name: one.default for one in fields(kind)})  # type: ignore[arg-type]
+
+
+def read_words(words: Sequence[str], defaults: Mapping[str, Any]) -> dict[str, Any]:
+    """As `read_options`: an option for each name, of the type of its default."""
     found: dict[str, Any] = {}
     rest = list(words)
     while rest:
         option, _, value = rest.pop(0).partition("=")
-        if option not in defaults:
+        name = option.removeprefix("--")
+        if not option.startswith("--") or name not in defaults:
             what = "no such option" if option.startswith("-") else "unexpected argument"
-            raise Error(f"{what}: {option}; options are: {', '.join(defaults)}")
+            known = ", ".join(f"--{one}" for one in defaults) or "none"
+            raise Error(f"{what}: {option}; options are: {known}")
         value = value or (rest.pop(0) if rest else "")
         if not value:
             raise Error(f"{option} wants a value")
-        default = defaults[option]
+        kind = type(defaults[name])
         try:
-            read = _READERS.get(type(default), type(default))
-            found[option.removeprefix("--")] = read(value)
+            found[name] = _READERS.get(kind, kind)(value)
         except ValueError:
-            raise Error(f"{option}: wanted {_WORDS[type(default)]}, got {value!r}") from None
+            raise Error(f"{option}: wanted {_WORDS.get(kind, kind)}, got {value!r}") from None
     return found
 
 
@@ -63,7 +70,12 @@ def _pair(text: str) -> tuple[float, ...]:
     return tuple(float(number) for number in text.split(","))
 
 
-_READERS: dict[type, Callable[[str], Any]] = {int: _whole, tuple: _pair}
+def _truth(text: str) -> bool:
+    """Either "true" or "false"."""
+    return ["false", "true"].index(text) == 1
+
+
+_READERS: dict[type, Callable[[str], Any]] = {int: _whole, tuple: _pair, bool: _truth}
 
 
 def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]) -> Record:

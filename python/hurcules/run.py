@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import mujoco
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -17,10 +16,12 @@ from rich.table import Table
 
 from hurcules import extras
 from hurcules._core import Error
-from hurcules.figures import describe, readable, wanted
+from hurcules.drawing import overview
+from hurcules.figures import describe, readable, tells, wanted
 from hurcules.interrupts import Interrupts
 from hurcules.legend import event_words
 from hurcules.output import Output
+from hurcules.own_job import is_own_job
 from hurcules.recording import Recording, Snapshot, record
 from hurcules.rendering import RendererError, following_camera
 from hurcules.sensors import realistic
@@ -107,15 +108,15 @@ def run(options: RunOptions, console: Console) -> int:
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
-        measures = mission.table().rows.measures if mission else ()
-        parameters = mission.complete(options.parameters) if mission else {}
+        given = options.parameters
+        parameters = mission.complete(given) if mission else given
         summary = summarize(
             simulation,
             recording,
             options.seed,
             options.method,
             options.sensors,
-            measures,
+            simulation.measures,
             parameters,
         )
         try:
@@ -193,7 +194,8 @@ def _save(
         video = "the run was interrupted"
     elif options.video:
         try:
-            with _open_painter(simulation.model, mission) as drawing:
+            own = is_own_job(options.mission)
+            with _open_painter(simulation, mission, own) as drawing:
                 video = _film(drawing, _pace(mission), recording, output, console, interrupts)
                 snapshots = _snapshots(drawing, recording, summary)
         except RendererError as missing:
@@ -211,8 +213,15 @@ def _pace(mission: TableMission | None) -> Pace:
     return Pace(fps=12, speed=6) if mission else Pace()
 
 
-def _open_painter(model: mujoco.MjModel, mission: TableMission | None) -> Painter:
-    """Two cameras that go with what is carried, else those of the painter."""
+def _open_painter(simulation: Simulation, mission: TableMission | None, own: bool) -> Painter:
+    """Two cameras that go with what is carried, else those of the painter.
+
+    Of a robot of one's own: the model's camera "film", or one that looks at all of it.
+    """
+    model = simulation.model
+    if own:
+        seen = any(model.camera(i).name == "film" for i in range(model.ncam))
+        return Painter(model, "film" if seen else overview(simulation))
     if mission is None:
         return Painter(model)
     body, distance = mission.followed
@@ -273,6 +282,8 @@ def _report(summary: dict[str, Any], verdict: str, output: Output, console: Cons
     for heading in ("", "measured", beside):
         table.add_column(heading, justify="right" if heading else "left")
     for name, value in summary["figures"].items():
+        if not tells(name, summary):
+            continue
         other = readable(name, summary["thesis"].get(name))
         if summary["wanted"]:
             other = wanted(name, summary["wanted"].get(name), value)

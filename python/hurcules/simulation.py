@@ -26,6 +26,7 @@ from hurcules._core import (
     WholeBodyController,
 )
 from hurcules.mission_table import Mission
+from hurcules.own_job import is_own_job, make_job
 from hurcules.start_checks import warn_of_forces, warn_of_physics
 from hurcules.table_missions import TABLE_MISSIONS, table_mission
 from hurcules.urdf import load_urdf
@@ -50,6 +51,7 @@ class Simulation(_core.Simulation):
 
     Attributes:
         mission: name of the mission, None without one.
+        measures: what the table of the mission asks of its figures, () without a table.
         model: mujoco.MjModel of the scene.
         data: mujoco.MjData, the physics. Read it freely; who writes to it changes the run.
     """
@@ -78,7 +80,8 @@ class Simulation(_core.Simulation):
 
         Args:
             mission: one of `hurcules.missions()`, or the path of a TOML file whose table of phases
-                runs in the scene of one; with neither a mission nor a model: "stretch". A
+                runs in the scene of one, or of a Python file whose function `job(seed)` returns
+                mission, model and controller; with neither a mission nor a model: "stretch". A
                 `hurcules.Mission`, a table too, runs in your model with your controller.
             seed: a whole number from 0 to 2**64 - 1; draws what differs between runs.
             model: of a simulation without a mission, or the path of one. It starts where the
@@ -98,7 +101,7 @@ class Simulation(_core.Simulation):
             fall: when a robot without a mission counts as fallen; None: never.
             parameters: of the mission: for "lift" and "casualty" those of `hurcules.lift.Person`,
                 for "crossing" those of `hurcules.lift.Away`, for "disposal" those of
-                `hurcules.disposal.Job`.
+                `hurcules.disposal.Job`, for a Python file those of its `job`.
             adds_command: of a mission: a command is added to what the mission commands, and does
                 not take its place.
             loaded_springs: sprung hinges without a motor start where they bear what hangs on them;
@@ -130,18 +133,23 @@ class Simulation(_core.Simulation):
             raise Error("a simulation without a mission wants both a model and a controller")
         if not isinstance(parameters, Mapping | None):
             raise Error(f"parameters: wanted a mapping, as {{'mass': 90}}, got {parameters!r}")
+        given = parameters or {}
+        if isinstance(mission, str) and is_own_job(mission):
+            mission, model, controller = make_job(mission, self._seed, given)
+            given = {}
         if controller is not None and method != "lexicographic":
             raise Error(f"method: your controller has its own, got {method!r}")
         rows = table_mission(mission) if isinstance(mission, str) else None
-        if parameters and rows is None:
-            raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
+        if given and rows is None:
+            raise Error(f"mission {mission!r} takes no parameters: {', '.join(given)}")
         table = mission if isinstance(mission, Mission) else None
         if table is not None and controller is None:
             raise Error("a table of phases wants a model and a controller")
         if rows is not None:
-            table, model = rows.table(), rows.spec(parameters or {}).compile()
+            table, model = rows.table(), rows.spec(given).compile()
             controller = _core.table_controller(rows.controller, model, method)
         self._may_be_blind = False
+        self.measures = tuple(table.rows.measures) if table else ()
         self.mission: str | None  # last: nothing asks a simulation that is not made
         if controller is not None:
             if not isinstance(controller, WholeBodyController):
@@ -154,6 +162,9 @@ class Simulation(_core.Simulation):
                 phases, setup = table.rows, table.setup
                 with told_at(str(mission)) if isinstance(mission, str) else nullcontext():
                     super().__init__(self.model, self.data, controller, phases, setup, options)
+                for one in self.measures:
+                    if one.name in self.monitors():
+                        raise Error(f"figure {one.name!r}: a monitor has that name already")
             self.mission = table.setup.name if table else None
             if physics:
                 warn_of_physics(self.model, controller)

@@ -37,9 +37,9 @@ def view(
     """Opens the viewer and simulates until its window is closed.
 
     Args:
-        name: one of `hurcules.missions()`, `models.names()` or `models.scenes()`, the TOML file of
-            a mission, or a file of MJCF, MJB or URDF. A robot of ours has its brakes on; a model
-            of a file moves as MuJoCo has it.
+        name: one of `hurcules.missions()`, `models.names()` or `models.scenes()`, the TOML or
+            Python file of a mission, or a file of MJCF, MJB or URDF. A robot of ours has its brakes
+            on; a model of a file moves as MuJoCo has it.
         seed: of the mission.
         seconds: close the window after this time [s].
         parameters: of the mission, by name.
@@ -47,7 +47,7 @@ def view(
     Raises:
         Error: nothing has this name, a file is no model, or there is no display.
     """
-    if name in missions() or name.endswith(".toml"):
+    if name in missions() or name.endswith((".toml", ".py")):
         watch(Simulation(name, seed, record=False, parameters=parameters), seconds=seconds)
     else:
         _show(*_subject(name), lambda scene: "", seconds)

@@ -55,7 +55,7 @@ FLOORS: tuple[set[str], ...] = (
     )},
     {"hurcules.scenes", "hurcules.transfer_bed"},
     {"hurcules.disposal", "hurcules.lift"},
-    {"hurcules.models", "hurcules.table_missions"},
+    {"hurcules.models", "hurcules.own_job", "hurcules.table_missions"},
     {"hurcules.doctor", "hurcules.export", "hurcules.simulation"},
     {"hurcules.driving", "hurcules.view"},
     {"hurcules", "hurcules.recording"},

@@ -10,7 +10,7 @@ from typing import Any
 import jinja2
 import numpy as np
 
-from hurcules.figures import describe, readable, wanted
+from hurcules.figures import describe, readable, tells, wanted
 from hurcules.legend import event_words, joint_words, level_words, region_words
 from hurcules.recording import (
     CHANNELS,
@@ -113,6 +113,7 @@ def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
             "wanted": wanted(name, summary["wanted"].get(name), value),
         }
         for name, value in summary["figures"].items()
+        if tells(name, summary)
     ]
 
 
