@@ -1,6 +1,7 @@
 """A gantry picks a cube: a mission of one's own, that knows whether it has it.
 
 Run:  python python/examples/20_pick.py
+or, with film and report:  hurcules run python/examples/20_pick.py
 """
 
 import mujoco
@@ -33,22 +34,25 @@ PHASES = [
 ]  # fmt: skip
 HEIGHT = {"name": "cube_height_m", "quantity": "position/cube/z", "least": 0.25}
 
-model = mujoco.MjModel.from_xml_string(ROBOT)
-robot = hurcules.Robot(model, joints=["x", "z"])
-hand = hurcules.PositionTask("hand", robot, "grip", axes=[[1, 0, 0], [0, 0, 1]])
-fingers = {name: hurcules.JointRate(name, 0.1) for name in ("left", "right")}
-channels = {"hand": hurcules.Twist(hand, 0.5), **fingers}
-controller = hurcules.WholeBodyController(robot, channels=channels, stacks={"hand": [hand]})
-mission = hurcules.Mission.read(
-    {
-        "mission": {"name": "pick"},
-        "phase": [{"stack": "hand", **phase} for phase in PHASES],
-        "figure": [HEIGHT],
-    }
-)
-simulation = hurcules.Simulation(mission, model=model, controller=controller)
-while not simulation.finished:
-    simulation.step(100)
-for time, event in simulation.events():
-    print(f"{time:6.3f} s  {event}")
-print(f"{simulation.reason}; the cube is {simulation.figures()['cube_height_m']:.3f} m up")
+
+def job(seed):
+    """Mission, model and controller: what `hurcules run 20_pick.py` runs."""
+    model = mujoco.MjModel.from_xml_string(ROBOT)
+    robot = hurcules.Robot(model, joints=["x", "z"])
+    hand = hurcules.PositionTask("hand", robot, "grip", axes=[[1, 0, 0], [0, 0, 1]])
+    fingers = {name: hurcules.JointRate(name, 0.1) for name in ("left", "right")}
+    channels = {"hand": hurcules.Twist(hand, 0.5), **fingers}
+    controller = hurcules.WholeBodyController(robot, channels=channels, stacks={"hand": [hand]})
+    phases = [{"stack": "hand", **phase} for phase in PHASES]
+    table = {"mission": {"name": "pick"}, "phase": phases, "figure": [HEIGHT]}
+    return hurcules.Mission.read(table), model, controller
+
+
+if __name__ == "__main__":
+    mission, model, controller = job(0)
+    simulation = hurcules.Simulation(mission, model=model, controller=controller)
+    while not simulation.finished:
+        simulation.step(100)
+    for time, event in simulation.events():
+        print(f"{time:6.3f} s  {event}")
+    print(f"{simulation.reason}; the cube is {simulation.figures()['cube_height_m']:.3f} m up")

@@ -83,11 +83,8 @@ class Recording:
 
     @property
     def origin(self) -> float:
-        """Where film and report count from [s]: the end of the first phase, in which it settles.
-
-        0 where there is only one phase.
-        """
-        if not self.log:
+        """Where film and report count from [s]: the end of the first phase, if that is "settle"."""
+        if not self.log or self.frames[0].phase != "settle":
             return 0.0
         later = np.flatnonzero(self.log["phase"] > 0)
         return float(self.log["time"][later[0]]) if len(later) else 0.0

@@ -31,8 +31,9 @@ def job(seed, way=WAY, back=False):
     controller = hurcules.WholeBodyController(robot, channels=channels, stacks={"rail": [task]})
     by = (way + 0.01 * seed) * (-1 if back else 1)
     go = {"name": "go", "stack": "rail", "seconds": 0.4, "lead": {"rail": {"by": [by]}}}
-    figure = {"name": "x_m", "quantity": "q/x", "least": 0.1}
-    table = {"mission": {"name": "rail"}, "phase": [go], "figure": [figure]}
+    stay = {"name": "stay", "stack": "rail", "seconds": 0.1}
+    figure = {"name": "x_m", "quantity": "position/hand/x", "least": 0.1}
+    table = {"mission": {"name": "rail"}, "phase": [go, stay], "figure": [figure]}
     return hurcules.Mission.read(table), model, controller
 """
 
@@ -51,10 +52,13 @@ def test_a_robot_of_ones_own_gets_all_that_a_mission_gets(file: Path, tmp_path: 
     assert names == ["log.npz", "report.html", "summary.json", "timing.npz", "video.mp4"]
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["mission"], summary["seed"], summary["success"]) == ("rail", 2, True)
-    assert summary["figures"]["x_m"] == pytest.approx(0.17, abs=2e-3)
+    assert summary["figures"]["x_m"] == pytest.approx(0.17, abs=4e-3)
     assert summary["wanted"]["x_m"]["least"] == 0.1
     page = (tmp_path / "out" / "report.html").read_text()
     assert "centre of mass inside" not in page  # it cannot tip over: no margin, no line
+    assert "static margin" not in page
+    assert "What the mission reads" in page
+    assert "settling phase" not in page  # its first phase is part of the mission
 
 
 def test_the_words_of_the_command_are_the_parameters_of_the_job(
@@ -64,7 +68,7 @@ def test_the_words_of_the_command_are_the_parameters_of_the_job(
     assert cli.main([*words, "--back", "true"]) == FAILED
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["parameters"] == {"way": 0.2, "back": True}
-    assert summary["figures"]["x_m"] == pytest.approx(-0.2, abs=2e-3)
+    assert summary["figures"]["x_m"] == pytest.approx(-0.2, abs=4e-3)
     capsys.readouterr()
     for more, told in (
         (["--wya", "1"], "no such option: --wya; options are: --way, --back"),
@@ -83,7 +87,7 @@ def test_a_simulation_of_a_file_is_the_same(file: Path) -> None:
     simulation = hurcules.Simulation(str(file), 1, variation=0.0, parameters={"way": 0.2})
     simulation.step(1000)
     assert simulation.success
-    assert simulation.data.qpos[0] == pytest.approx(0.21, abs=2e-3)
+    assert simulation.data.qpos[0] == pytest.approx(0.21, abs=4e-3)
 
 
 @pytest.mark.parametrize(

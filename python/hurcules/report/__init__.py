@@ -124,7 +124,7 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     log = plots.shifted(recording.log | {"tick_us": recording.control_tick_us}, origin)
     times = {round(event["time_s"] - origin, 1) for event in summary["events"] if event["time_s"]}
     events = sorted(times)
-    later = plots.settled(log)
+    later = plots.settled(log) if origin else log
     moves = [
         (plots.joint_positions, log, "Joint positions", _POSITIONS),
         (plots.joint_velocities, later, "Reference velocities", _VELOCITIES),
@@ -138,6 +138,8 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
         (plots.solver_work, log, "Work of the solver", _SOLVER),
         (plots.tick_times, log, "Time of a control tick", _TIMES),
     ]
+    if plots.of_model(log):
+        drawn.insert(0, (plots.quantities, log, "What the mission reads", _QUANTITIES))
     if "casualty/contact_share" in log:
         text = f"{_PERSON} {_regions(log)}"
         drawn.insert(0, (plots.person, log, "The person", text))
@@ -196,5 +198,6 @@ _LOAD = (
     "What is carried: how high, how far its handles are from the hands (a step is a slip), how "
     "hard the fingers press, and what bears it."
 )
+_QUANTITIES = "What conditions, ways and figures of the table ask of the model [m, rad, N]."
 _SOLVER = "Factorizations and working-set changes of each solve; a level takes one at least."
 _TIMES = "From sensing to servo, without physics, on the machine named above."
