@@ -349,6 +349,8 @@ def _phase(row: Row, where: str) -> Phase:
         done = [condition(text) for text in given.pop("done", [])]
     with told_at(f"{where}, late"):
         late = [reaction(text) for text in given.pop("late", [])]
+        if given.get("within", 0.0) > 0.0 and not late:
+            raise Error('`within` wants what is done after it, as ["abort"]')
     return Phase(
         **given, leads=leads, keys=keys, park=park, done=done, late=late, troubles=troubles
     )

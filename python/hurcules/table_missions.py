@@ -90,7 +90,7 @@ def table_mission(name: str) -> TableMission | None:
         known = ", ".join(TABLE_MISSIONS)
         raise Error(
             f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; a robot of "
-            "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)"
+            "your own: a Python file with `def job(seed): return mission, model, controller`"
         )
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)

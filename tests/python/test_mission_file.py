@@ -136,7 +136,7 @@ def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureF
         assert cli.main(["run", str(own)]) == 2
     told = capsys.readouterr().err
     assert "own.toml: 'own' has no scene; [mission] wants scene, one of lift, casualty" in told
-    assert "hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)" in told
+    assert "a Python file with `def job(seed): return mission, model, controller`" in told
     assert "scene 'lit' does not exist" in told
     assert "[mission], scene: wanted a text, got 3" in told
     assert cli.main(["run", str(tmp_path / "none.toml")]) == 2

@@ -59,6 +59,7 @@ NO_PHASES = MONITOR.replace('["up"]', "[]") + "[[figure]]"
         ("seconds = 1.0", "secods = 1.0", "no entry 'secods'; is it 'seconds'? there are: name"),
         # times, ways and postures
         ("within = 3.0", "", "phase 'up', late: it wants `within`"),
+        (LATE, "", "phase 'up', late: `within` wants what is done after it, as [\"abort\"]"),
         ("within = 3.0", "within = 0.5", "'up' is always late: it takes 1 s, within wants as much"),
         ("back to up", "back to top", "phase 'up', late: phase 'top' does not exist; there are"),
         ("rate = [0.5, 0.0]", "rate = [0.0, 0.0]", "never gives its way: its rate is 0"),
