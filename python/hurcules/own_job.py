@@ -57,7 +57,7 @@ def make_job(path: str, seed: int, parameters: Mapping[str, Any]) -> Job:
     made = job(seed, **parameters)
     kinds = (Mission, mujoco.MjModel, WholeBodyController)
     parts = made if isinstance(made, tuple) else (made,)
-    if [type(part) for part in parts] != list(kinds):
+    if len(parts) != len(kinds) or not all(map(isinstance, parts, kinds)):
         wanted = "a hurcules.Mission, a mujoco.MjModel and a hurcules.WholeBodyController"
         came = ", ".join(type(part).__name__ for part in parts)
         raise Error(f"{path}: job wants to return {wanted}, it returned {came}")

@@ -32,7 +32,8 @@ def job(seed, way=WAY, back=False):
     by = (way + 0.01 * seed) * (-1 if back else 1)
     go = {"name": "go", "stack": "rail", "seconds": 0.4, "lead": {"rail": {"by": [by]}}}
     stay = {"name": "stay", "stack": "rail", "seconds": 0.1}
-    figure = {"name": "x_m", "quantity": "position/hand/x", "least": 0.1}
+    bounds = {} if back else {"least": 0.1}
+    figure = {"name": "x_m", "quantity": "position/hand/x", **bounds}
     table = {"mission": {"name": "rail"}, "phase": [go, stay], "figure": [figure]}
     return hurcules.Mission.read(table), model, controller
 """
@@ -65,11 +66,13 @@ def test_the_words_of_the_command_are_the_parameters_of_the_job(
     file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["run", str(file), "--way", "0.2", "--no-video", "--out", str(tmp_path / "out")]
-    assert cli.main([*words, "--back", "true"]) == FAILED
+    assert cli.main([*words, "--back", "true"]) == DONE
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["parameters"] == {"way": 0.2, "back": True}
     assert summary["figures"]["x_m"] == pytest.approx(-0.2, abs=4e-3)
-    capsys.readouterr()
+    assert "thesis" not in capsys.readouterr().out
+    assert cli.main([*words[:2], "--way", "0.05", *words[4:]]) == FAILED
+    assert "failed: x_m is 0.05" in capsys.readouterr().out
     for more, told in (
         (["--wya", "1"], "no such option: --wya; options are: --way, --back"),
         (["--way", "far"], "--way: wanted a number, got 'far'"),
