@@ -43,6 +43,7 @@ from __future__ import annotations
 import json
 import math
 import tomllib
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -122,6 +123,7 @@ class Mission:
         measures = [_measure(row, k) for k, row in enumerate(figures, 1)]
         table = MissionTable(phases=phases, safety=safety, measures=measures)
         check_rows(table)
+        _warn_of_unreached(table)
         return cls(MissionSetup(**head), table, scene)
 
     def table(self) -> str:
@@ -375,6 +377,29 @@ def _measure(row: Row, number: int) -> Measure:
     given = take(row, _MEASURE, where, ["name", "quantity"])
     with told_at(where):
         return Measure(**given)
+
+
+def _warn_of_unreached(table: MissionTable) -> None:
+    """Rows behind the last one that no reaction leads to; `Simulation.go` may, by hand."""
+    phases = table.phases
+    names = [phase.name for phase in phases]
+    reached: set[str] = set()
+    ahead = [0, *(k for k, name in enumerate(names) if name == table.safety)]
+    while ahead:
+        k = ahead.pop()
+        if k == len(phases) or names[k] in reached:
+            continue
+        phase = phases[k]
+        reached.add(names[k])
+        ahead += [k + 1] * (not phase.last)
+        reactions = [*phase.late, *(one for each in phase.troubles for one in each.reactions)]
+        ahead += [names.index(one.phase) for one in reactions if one.phase]
+    if left := [name for name in names if name not in reached]:
+        warnings.warn(
+            f"phase {left[0]!r} is never reached: no phase before it goes on, and no reaction goes "
+            f"there{f'; nor are {len(left) - 1} others' * (len(left) > 1)}",
+            stacklevel=3,
+        )
 
 
 def _phase_lines(phase: Phase) -> list[str]:

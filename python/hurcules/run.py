@@ -297,13 +297,13 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
 def _report(summary: dict[str, Any], verdict: str, output: Output, console: Console) -> None:
     """The end in plain figures, a verdict before it, and where everything lies."""
     table = Table(box=None, padding=(0, 3, 0, 0), header_style="dim")
-    beside = "wanted" if summary["wanted"] else "thesis"
+    beside = next((one for one in ("wanted", "thesis") if summary[one]), "")
     for heading in ("", "measured", beside):
         table.add_column(heading, justify="right" if heading else "left")
     for name, value in summary["figures"].items():
         if not tells(name, summary):
             continue
-        other = readable(name, summary["thesis"].get(name))
+        other = readable(name, summary["thesis"].get(name)) if beside else ""
         if summary["wanted"]:
             other = wanted(name, summary["wanted"].get(name), value)
         table.add_row(escape(describe(name).label), readable(name, value), other)

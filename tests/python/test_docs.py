@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -84,6 +85,25 @@ def test_a_mission_of_an_own_robot_is_what_the_page_says(
     simulation = names["simulation"]
     assert simulation.success and simulation.figures()["hand_error_m"] < 0.02
     assert simulation.data.site("tip").xpos[2] == pytest.approx(0.95, abs=1e-4)
+
+
+def test_a_hand_goes_to_a_thing_as_the_page_says(root: Path) -> None:
+    page = (root / "docs/loop.md").read_text(encoding="utf-8")
+    sensor = next(iter(re.findall(r"`(<framepos .*?/>)`", page)))
+    lead = next(line for line in re.findall(r"`(lead\.hand = .*?)`", page) if "sensor/" in line)
+    cube = '<body name="cube" pos="0.2 -0.1 0.7"><geom size="0.02"/></body></worldbody>'
+    text = SLIDES.replace("</worldbody>", cube).replace('"tip"', '"grip"')
+    text = text.replace("</mujoco>", f"<sensor>{sensor}</sensor></mujoco>")
+    model = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(model)
+    hand = hurcules.PositionTask("hand", robot, "grip")
+    controller = hurcules.WholeBodyController(robot, [hand], {"hand": hurcules.Twist(hand, 0.5)})
+    phase = {"name": "to it", "stack": "stack", "seconds": 2.0, **tomllib.loads(lead)}
+    mission = hurcules.Mission.read({"mission": {"name": "reach"}, "phase": [phase]})
+    simulation = hurcules.Simulation(mission, model=model, controller=controller)
+    simulation.step(2000)
+    assert simulation.success
+    assert simulation.data.site("grip").xpos == pytest.approx([0.2, -0.1, 0.8], abs=1e-3)
 
 
 def test_the_columns_of_the_log_are_those_that_the_page_says(root: Path) -> None:

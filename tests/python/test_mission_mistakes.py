@@ -7,6 +7,7 @@ other; what is told without a controller, and by the command.
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ TROUBLE = 'trouble = [{ when = "q/j2 >= 2.0", do = ["ask 5.0 s", "lower"] }]'
 LEAD = "lead.posture = { rate = [0.5, 0.0], way = 0.2 }"
 MONITOR = '[[monitor]]\nwhen = "q/j1 >= 1.5"\ndo = ["abort"]\nphases = ["up"]\n'
 
+FIGURE = '[[figure]]\nname = "reached_rad"\nquantity = "q/j1"\n'
 NO_PHASES = MONITOR.replace('["up"]', "[]") + "[[figure]]"
 
 
@@ -57,9 +59,11 @@ NO_PHASES = MONITOR.replace('["up"]', "[]") + "[[figure]]"
         ("seconds = 1.0", "secods = 1.0", "no entry 'secods'; is it 'seconds'? there are: name"),
         # times, ways and postures
         ("within = 3.0", "", "phase 'up', late: it wants `within`"),
+        (LATE, "", "phase 'up': within wants `late`, what is done when"),
         ("within = 3.0", "within = 0.5", "'up' is always late: it takes 1 s, within wants as much"),
         ("back to up", "back to top", "phase 'up', late: phase 'top' does not exist; there are"),
         ("rate = [0.5, 0.0]", "rate = [0.0, 0.0]", "never gives its way: its rate is 0"),
+        ("[[figure]]", FIGURE + "[[figure]]", "two figures are called 'reached_rad'"),
     ],
 )
 def test_a_file_is_told_with_its_row_when_it_is_read(
@@ -85,6 +89,7 @@ def test_a_file_is_told_with_its_row_when_it_is_read(
         ('name = "wave"', 'name = "wave"\nmax_tilt = -1', "max_tilt wants an angle from 0"),
         ('name = "wave"', 'name = "wave"\nmax_tilt = 20', "to pi [rad], 20 came"),
         ('name = "wave"', 'name = "wave"\nmin_height = 1', "min_height wants a max_tilt above 0"),
+        ('"reached_rad"', '"power_W"', "figure 'power_W': every run has one of this name"),
         ("q/j1 <=", "qdes/j1 <=", "quantity 'qdes/j1' does not exist; there are: q_des/j1, q"),
     ],
 )
@@ -94,6 +99,17 @@ def test_what_does_not_fit_the_robot_is_told(old: str, new: str, wanted: str) ->
         loop(ROWS.replace(old, new, 1))
     assert wanted in str(raised.value)
     assert len(str(raised.value)) < 400
+
+
+def test_a_row_that_is_never_reached_is_warned_of() -> None:
+    rows = ROWS.replace("seconds = 1.0", "seconds = 1.0\nlast = true", 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read(rows)  # `safety` names the row behind the last one
+    more = '[[phase]]\nname = "{}"\nstack = "posture"\n\n'
+    rows = rows.replace('safety = "back"\n', "").replace('"lower"', '"abort"')
+    with pytest.warns(UserWarning, match="phase 'back' is never reached: .*; nor are 1 others"):
+        read(rows.replace("[[figure]]", more.format("after") + "[[figure]]"))
 
 
 def test_two_leads_of_a_channel_are_refused() -> None:

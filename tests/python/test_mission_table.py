@@ -319,7 +319,7 @@ rows = ["up", "back"]
 
 [[monitor]]
 when = "q/j1 >= 1.5"
-do = ["abort"]
+do = ["back to up", "abort"]
 phases = ["before", "up"]
 """
     (tmp_path / "twice.toml").write_text(own)

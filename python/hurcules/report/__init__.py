@@ -146,6 +146,8 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
     if recording.timings:
         timed = log | {"tick_us": recording.control_tick_us}
         drawn.append((plots.tick_times, timed, "Time of a control tick", _TIMES))
+    if plots.of_model(log):
+        drawn.insert(0, (plots.quantities, log, "What the mission reads", _QUANTITIES))
     if "casualty/contact_share" in log:
         text = f"{_PERSON} {_regions(log)}"
         drawn.insert(0, (plots.person, log, "The person", text))
@@ -204,5 +206,6 @@ _LOAD = (
     "What is carried: how high, how far its handles are from the hands (a step is a slip), how "
     "hard the fingers press, and what bears it."
 )
+_QUANTITIES = "What conditions, ways and figures of the table ask of the model [m, rad, N]."
 _SOLVER = "Factorizations and working-set changes of each solve; a level takes one at least."
 _TIMES = "From sensing to servo, without physics, on the machine named above."

@@ -33,7 +33,9 @@ __all__ = [
     "joint_velocities",
     "load",
     "monitors",
+    "of_model",
     "person",
+    "quantities",
     "solver_work",
     "task_errors",
     "tick_times",
@@ -120,9 +122,10 @@ _MONITORS = (
 
 def monitors(log: Log, events: Sequence[float]) -> str:
     """What the monitors saw, with the thresholds of their alarms where these are near."""
-    drawn = cells(len(_MONITORS))
+    seen = [one for one in _MONITORS if not np.all(np.isnan(log[f"monitor/{one[0]}"]))]
+    drawn = cells(len(seen))
     defaults = MonitorOptions()
-    for (_, plot), (name, title, threshold) in zip(drawn, _MONITORS, strict=True):
+    for (_, plot), (name, title, threshold) in zip(drawn, seen, strict=True):
         values = log[f"monitor/{name}"]
         plot.plot(*decimate(log["time"], values), color=INK)
         mark(plot, events)
@@ -135,6 +138,25 @@ def monitors(log: Log, events: Sequence[float]) -> str:
         # zero, or the threshold where it is in sight, belongs into the picture
         if low - 3 * (high - low) - abs(limit) <= limit <= high + 3 * (high - low):
             plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+    return side_by_side(drawn)
+
+
+_OF_MODEL = ("position/", "joint/", "joint_velocity/", "sensor/", "contact_force/")
+
+
+def of_model(log: Log) -> list[str]:
+    """The columns that a mission's table asked for, beside those of every run."""
+    return [name for name in log if name.startswith(_OF_MODEL)]
+
+
+def quantities(log: Log, events: Sequence[float]) -> str:
+    """What the table of a mission reads of its model."""
+    drawn = cells(len(names := of_model(log)))
+    for (_, plot), name in zip(drawn, names, strict=True):
+        plot.plot(*decimate(log["time"], log[name]), color=INK, linewidth=0.9)
+        mark(plot, events)
+        plot.set_title(name)
+        plot.set_xlabel("time [s]")
     return side_by_side(drawn)
 
 
