@@ -37,7 +37,7 @@ BOXES = {
         "outlet", "output", "plugins", "running_gear", "validation",
     ),
     "models": ("mjcf", "models", "scenes", "casualties", "transfer_bed"),
-    "simulation": ("driving", "postures", "sensors", "simulation"),
+    "simulation": ("driving", "own_simulation", "postures", "sensors", "simulation"),
     "pictures": ("cameras", "rendering", "video"),
     "results": ("recording", "report", "summary"),
     "command line": ("cli", "doctor", "run"),
