@@ -126,8 +126,9 @@ Args:
   name: of the mission.
   support: body that the robot stands on.
   max_seconds: [s] it fails when it takes longer.
-  min_height: [m] of the pelvis above the support; below, the robot fell.
+  min_height: [m] of `fall_frame` above the support; below, the robot fell.
   max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
+  fall_frame: body or site whose height is watched; "": none is, `max_tilt` alone tells.
   casualty: what stands before the names of the person to watch, "" for nobody.
   stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body;
     from the centre of the load likewise.
@@ -330,8 +331,9 @@ void bind_mission(py::module_& module) {
       {required("name", &MissionSetup::name), field("support", &MissionSetup::support),
        field("max_seconds", &MissionSetup::max_seconds),
        field("min_height", &MissionSetup::min_height), field("max_tilt", &MissionSetup::max_tilt),
-       field("casualty", &MissionSetup::casualty), field("stand_off", &MissionSetup::stand_off),
-       field("load", &MissionSetup::load), field("container", &MissionSetup::container),
+       field("fall_frame", &MissionSetup::fall_frame), field("casualty", &MissionSetup::casualty),
+       field("stand_off", &MissionSetup::stand_off), field("load", &MissionSetup::load),
+       field("container", &MissionSetup::container),
        field("container_stand", &MissionSetup::container_stand)});
   bind_files(module);
   module.def("check_rows", &check_rows, "table"_a, kCheckRows);

@@ -3467,8 +3467,9 @@ class MissionSetup:
       name: of the mission.
       support: body that the robot stands on.
       max_seconds: [s] it fails when it takes longer.
-      min_height: [m] of the pelvis above the support; below, the robot fell.
+      min_height: [m] of `fall_frame` above the support; below, the robot fell.
       max_tilt: [rad] of the support against its start; above, the robot fell. 0: nobody looks.
+      fall_frame: body or site whose height is watched; "": none is, `max_tilt` alone tells.
       casualty: what stands before the names of the person to watch, "" for nobody.
       stand_off: [m] of the robot's centre of mass from the person's where it stands square to the body;
         from the centre of the load likewise.
@@ -3479,6 +3480,7 @@ class MissionSetup:
     __hash__: ClassVar[None]  # type: ignore[assignment]
     casualty: str
     container: str
+    fall_frame: str
     load: str
     name: str
     support: str
@@ -3494,6 +3496,7 @@ class MissionSetup:
         max_seconds: float = ...,
         min_height: float = 0.0,
         max_tilt: float = 0.0,
+        fall_frame: str = "",
         casualty: str = "",
         stand_off: float = 0.0,
         load: str = "",
@@ -4130,7 +4133,7 @@ class Quantities:
 
     Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FRAME (3 each, in the
     world), matrix/FRAME (9); value/TASK, target/TASK; force/TASK (what a force task read);
-    joint/JOINT, joint_velocity/JOINT; sensor/SENSOR; monitor/NAME; excess/KIND, commanded_excess/KIND
+    distance/OBJECT/OBJECT; joint/JOINT, joint_velocity/JOINT; sensor/SENSOR; monitor/NAME; excess/KIND, commanded_excess/KIND
     (position, velocity, torque: the worst so far); contact_force/BODY; self_contacts; scaled; finished
     (1 where it is over); and each channel of the observation and the log, alone ("q/KN") or as a group
     ("q").

@@ -167,6 +167,7 @@ _SETUP: Mapping[str, Kind] = {
     "max_seconds": float,
     "min_height": float,
     "max_tilt": float,
+    "fall_frame": str,
     "casualty": str,
     "stand_off": float,
     "load": str,

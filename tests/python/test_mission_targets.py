@@ -190,6 +190,30 @@ def test_each_figure_has_its_own_name(names: list[str], wanted: str) -> None:
         simulation(WAIT, table={"figure": figures})
 
 
+def test_a_thing_that_comes_near_is_seen() -> None:
+    """From (0.3, 0.2) at 0.1 m/s along x: 0.5 m away where x = sqrt(0.5^2 - 0.2^2) m."""
+    near = {"name": "wait", "done": ["distance/hand/train >= 0.5"]}
+    made = simulation(near)
+    made.data.qvel[2] = 0.1
+    made.step(5000)
+    assert made.success
+    assert made.time == pytest.approx(((0.25 - 0.04) ** 0.5 - 0.3) / 0.1, abs=0.01)
+    assert made.log()["distance/hand/train"][0] == pytest.approx(0.13**0.5, abs=1e-3)
+    with pytest.raises(hurcules.Error, match="distance of two frames 'hand/tram' does not exist"):
+        simulation({**near, "done": ["distance/hand/tram >= 0.5"]})
+
+
+def test_a_fall_is_watched_on_any_robot() -> None:
+    head = {"name": "carriage", "max_tilt": 0.5}
+    assert simulation(WAIT, table={"mission": head}).step(5000) == 500
+    low = {**head, "fall_frame": "hand", "min_height": 0.2}
+    made = simulation(WAIT, table={"mission": low})
+    made.step(5000)
+    assert made.reason.startswith("fell over at ")
+    with pytest.raises(hurcules.Error, match="min_height wants a fall_frame whose height it is"):
+        simulation(WAIT, table={"mission": {**head, "min_height": 0.2}})
+
+
 def test_values_are_saved_as_they_were_read(tmp_path: Any) -> None:
     mission = hurcules.Mission.read(
         {

@@ -1,6 +1,7 @@
 #include "hurcules/mission/mission_simulation.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -41,7 +42,10 @@ const Entry& find(const std::string& name) {
 SimulationOptions with_setup(const MissionSetup& setup, const MissionOptions& options) {
   SimulationOptions all = options;
   all.max_seconds = std::min(all.max_seconds, setup.max_seconds);
-  if (setup.max_tilt > 0.0) all.fall = {"pelvis", setup.min_height, setup.max_tilt};
+  const double low = -std::numeric_limits<double>::infinity();
+  if (setup.max_tilt > 0.0)
+    all.fall = {setup.fall_frame, setup.fall_frame.empty() ? low : setup.min_height,
+                setup.max_tilt};
   return all;
 }
 

@@ -56,7 +56,7 @@ const double* SceneQuantities::find(const std::string& name, const std::string& 
   if (!source)
     throw Error(where + ": " + unknown_name("quantity", name, log_->channels()) +
                 "; simulation.channels has all, and the model may have position/OBJECT/x, "
-                "joint/JOINT, sensor/SENSOR, contact_force/BODY");
+                "distance/OBJECT/OBJECT, joint/JOINT, sensor/SENSOR, contact_force/BODY");
   return source;
 }
 

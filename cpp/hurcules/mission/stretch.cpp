@@ -49,7 +49,8 @@ MissionSetup Stretch::setup_of() {
   setup.support = "lower_leg_L";
   setup.max_seconds = 90.0;  // twice what the operator takes: a policy may be slower
   setup.min_height = 0.15;   // the stretch ends with the pelvis 0.35 above the knees
-  setup.max_tilt = 0.35;     // the rear edge is the first to tip over, at 0.38 (22 degrees)
+  setup.fall_frame = "pelvis";
+  setup.max_tilt = 0.35;  // the rear edge is the first to tip over, at 0.38 (22 degrees)
   return setup;
 }
 

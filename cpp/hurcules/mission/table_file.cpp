@@ -25,6 +25,7 @@ Words<MissionSetup> setup_words() {
           one("max_seconds", &MissionSetup::max_seconds),
           one("min_height", &MissionSetup::min_height),
           one("max_tilt", &MissionSetup::max_tilt),
+          one("fall_frame", &MissionSetup::fall_frame),
           one("casualty", &MissionSetup::casualty),
           one("stand_off", &MissionSetup::stand_off),
           one("load", &MissionSetup::load),

@@ -31,6 +31,23 @@ double force_below(const mjModel& m, const mjData& d, int body) {
   return sum;
 }
 
+std::vector<std::string> frame_names(const mjModel& m) {
+  return names_of(m, {mjOBJ_SITE, mjOBJ_BODY, mjOBJ_CAMERA, mjOBJ_GEOM});
+}
+
+// where the position of the first of these (Robot::frame has the same order) with this name stands
+std::optional<std::pair<double * mjData_::*, int>> place_of(const mjModel& m,
+                                                            const std::string& name) {
+  for (const auto& [type, array] : {std::pair{mjOBJ_SITE, &mjData::site_xpos},
+                                    {mjOBJ_BODY, &mjData::xpos},
+                                    {mjOBJ_CAMERA, &mjData::cam_xpos},
+                                    {mjOBJ_GEOM, &mjData::geom_xpos}}) {
+    const int id = mj_name2id(&m, type, name.c_str());
+    if (id >= 0) return std::pair(array, 3 * id);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::string& name) {
@@ -38,15 +55,19 @@ std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::stri
   if (slash == std::string::npos) return std::nullopt;
   const std::string group = name.substr(0, slash), object = name.substr(slash + 1);
   if (group == "position") {
-    for (const auto& [type, array] : {std::pair{mjOBJ_BODY, &mjData::xpos},
-                                      {mjOBJ_SITE, &mjData::site_xpos},
-                                      {mjOBJ_GEOM, &mjData::geom_xpos},
-                                      {mjOBJ_CAMERA, &mjData::cam_xpos}}) {
-      const int id = mj_name2id(&m, type, object.c_str());
-      if (id >= 0) return DataQuantity(array, 3 * id, 3);
+    if (const auto found = place_of(m, object)) return DataQuantity(found->first, found->second, 3);
+    throw Error(unknown_name("frame", object, frame_names(m)));
+  }
+  if (group == "distance") {
+    for (std::size_t k = object.find('/'); k != std::string::npos; k = object.find('/', k + 1)) {
+      const auto one = place_of(m, object.substr(0, k)), other = place_of(m, object.substr(k + 1));
+      if (!one || !other) continue;
+      DataQuantity distance(one->first, one->second, 1);
+      distance.other_ = other->first;
+      distance.other_place_ = other->second;
+      return distance;
     }
-    throw Error(unknown_name("frame", object,
-                             names_of(m, {mjOBJ_BODY, mjOBJ_SITE, mjOBJ_GEOM, mjOBJ_CAMERA})));
+    throw Error(unknown_name("distance of two frames", object, frame_names(m)));
   }
   if (group == "joint" || group == "joint_velocity") {
     const int joint = find_object(m, mjOBJ_JOINT, object);
@@ -64,7 +85,10 @@ std::optional<DataQuantity> DataQuantity::find(const mjModel& m, const std::stri
 }
 
 void DataQuantity::read(const mjModel& m, const mjData& d, VectorRef out) const {
-  if (array_) {
+  if (other_) {
+    const Eigen::Map<const Vector3> one(d.*array_ + place_), other(d.*other_ + other_place_);
+    out[0] = (one - other).norm();
+  } else if (array_) {
     out = Eigen::Map<const Vector>(d.*array_ + place_, size_);
   } else {
     out[0] = force_below(m, d, place_);

@@ -1,6 +1,7 @@
 // Named numbers of a scene, straight from MuJoCo's data.
 //
-//   position/OBJECT                    (3) [m] of a body, site, geom or camera, in W
+//   position/OBJECT                    (3) [m] of a site, body, camera or geom, in W
+//   distance/OBJECT/OBJECT             (1) [m] between two of these
 //   joint/JOINT, joint_velocity/JOINT  (1) of any hinge or slide of the model
 //   sensor/SENSOR                      (its size) a sensor of the model
 //   contact_force/BODY                 (1) [N] sum of the normal forces on a body and all below it;
@@ -30,8 +31,10 @@ class DataQuantity {
   using Array = double* mjData_::*;
   DataQuantity(Array array, int place, Index size) : array_(array), place_(place), size_(size) {}
 
-  Array array_;  // null: the contact force
-  int place_;    // address in the array, or the id of a body
+  Array array_;            // null: the contact force
+  Array other_ = nullptr;  // of a distance, to that
+  int other_place_ = 0;
+  int place_;  // address in the array, or the id of a body
   Index size_;
 };
 

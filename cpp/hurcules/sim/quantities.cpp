@@ -125,12 +125,15 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.size = static_cast<Index>(found.places.size());
     if (found.size > 0) return found;
   }
-  std::vector<std::string> known = {"position/FRAME",        "rotation/FRAME", "matrix/FRAME",
-                                    "velocity/FRAME",        "spin/FRAME",     "value/TASK",
-                                    "target/TASK",           "force/TASK",     "joint/JOINT",
-                                    "joint_velocity/JOINT",  "sensor/SENSOR",  "excess/KIND",
-                                    "commanded_excess/KIND", "self_contacts",  "scaled",
-                                    "contact_force/BODY",    "finished"};
+  std::vector<std::string> known = {"position/FRAME",       "rotation/FRAME",
+                                    "matrix/FRAME",         "velocity/FRAME",
+                                    "spin/FRAME",           "value/TASK",
+                                    "target/TASK",          "force/TASK",
+                                    "joint/JOINT",          "distance/OBJECT/OBJECT",
+                                    "joint_velocity/JOINT", "sensor/SENSOR",
+                                    "excess/KIND",          "commanded_excess/KIND",
+                                    "self_contacts",        "scaled",
+                                    "contact_force/BODY",   "finished"};
   for (const Recorder* recorder : {&simulation.observation(), &simulation.log()}) {
     for (const std::string& channel : recorder->channels()) {
       const std::string word = channel.substr(0, channel.find('/'));

@@ -5,6 +5,7 @@
 //   velocity/FRAME, spin/FRAME       (3) [m/s], (3) [rad/s] in W
 //   value/TASK, target/TASK          (m) of a task whose value is a list of numbers, at the real robot
 //   force/TASK                       (1) [N] what a force task read last
+//   distance/OBJECT/OBJECT           (1) [m] between two sites, bodies, cameras or geoms
 //   joint/JOINT, joint_velocity/JOINT  (1) of any hinge or slide of the model
 //   sensor/SENSOR                    (its size) a sensor of the model
 //   monitor/NAME                     (1) see Monitors::names
