@@ -117,8 +117,8 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       high = std::max(high, actuator.rolling_inertia);
       rated = std::max(std::sqrt(low * high), high / kRolling);
     }
-    const double slowest =
-        decoupled && std::isfinite(gain) ? 1.0 / gain : std::min(1.0, low / rated);
+    const bool knows = decoupled && k >= 0 && std::isfinite(gain);
+    const double slowest = knows ? 1.0 / gain : std::min(1.0, low / rated);
     const double bandwidth = std::min(kBandwidth, kFastest * slowest / (3.0 * dt));
     if (!(rated > 0.0 && std::isfinite(rated))) {
       throw Error("no servo can be made for joint '" + actuator.joint +

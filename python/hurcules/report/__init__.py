@@ -104,7 +104,7 @@ def _cards(summary: dict[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
-def _rows(summary: dict[str, Any]) -> list[dict[str, Any]]:
+def _rows(summary: dict[str, Any]) -> list[dict[str, str]]:
     thesis = summary["thesis"]
     return [
         {

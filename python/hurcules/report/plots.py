@@ -141,7 +141,7 @@ def monitors(log: Log, events: Sequence[float]) -> str:
     return side_by_side(drawn)
 
 
-_OF_MODEL = ("position/", "joint/", "joint_velocity/", "sensor/", "contact_force/")
+_OF_MODEL = ("position/", "distance/", "joint/", "joint_velocity/", "sensor/", "contact_force/")
 
 
 def of_model(log: Log) -> list[str]:
@@ -269,7 +269,7 @@ def shifted(log: Log, origin: float) -> Log:
 def settled(log: Log) -> Log:
     """The log from 0 s on, which is where the robot has taken its stand."""
     later = log["time"] >= 0.0
-    return {name: values[later] for name, values in log.items()} if np.any(later) else log
+    return {name: values[later] for name, values in log.items()}
 
 
 def coordinates(log: Log) -> list[str]:
