@@ -12,7 +12,7 @@ ROBOT = """<mujoco><option timestep="0.002" cone="elliptic" impratio="10"/>
   <default><joint type="slide" armature="0.1" range="-0.5 0.5"/><motor ctrlrange="-300 300"/>
     <default class="finger"><geom type="box" size="0.03 0.01 0.06" mass="0.2" friction="1.5"/>
       <joint range="-0.04 0.04" damping="20"/></default></default>
-  <worldbody><light pos="0 -1 2"/><geom type="plane" size="1 1 1"/>
+  <visual><headlight ambient="0.5 0.5 0.5"/></visual><worldbody><geom type="plane" size="1 1 1"/>
     <body pos="0 0 0.6"><joint name="x" axis="1 0 0"/><geom size="0.05" mass="1"/>
       <body><joint name="z"/><geom name="palm" size="0.05" mass="1"/><site name="grip"/>
         <body pos="0 0.05 -0.1" childclass="finger"><geom/><joint name="left" axis="0 -1 0"/></body>

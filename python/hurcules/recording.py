@@ -54,7 +54,9 @@ LOAD_CHANNELS = (
 STAGES = "time, sense, kinematics, hierarchy, solve, servo, physics, record"
 
 
-GIVES_WAY = 0.01  # [m] or [rad] off its target, a level counts as giving way
+# a level gives way that is off its target by more than this, and comes no nearer by that in a while
+GIVES_WAY, NEARER = 0.01, 0.002  # [m] or [rad]
+WHILE = 0.2  # [s]
 
 
 @dataclass(frozen=True)
@@ -175,14 +177,16 @@ def active_limits(log: dict[str, Array], time: float) -> tuple[str, ...]:
 
 
 def yielding_levels(log: dict[str, Array], time: float) -> tuple[str, ...]:
-    """The levels whose commanded motion is off their targets at this time, highest first."""
+    """The levels whose commanded motion is held off their targets at this time, highest first."""
     if not len(log["time"]):
         return ()
-    tick = _tick(log, time)
+    now, later = _tick(log, time), _tick(log, time + WHILE)
     return tuple(
         channel.removeprefix("error/")
         for channel, values in log.items()
-        if channel.startswith("error/") and values[tick] > GIVES_WAY
+        if channel.startswith("error/")
+        and values[now] > GIVES_WAY
+        and values[now] - values[later] < NEARER
     )
 
 

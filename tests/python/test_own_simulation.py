@@ -15,6 +15,7 @@ from rich.console import Console
 
 from hurcules import Error, own_simulation
 from hurcules.cli import main
+from hurcules.recording import yielding_levels
 from hurcules.run import RunOptions, run
 
 PENDULUM = """
@@ -112,3 +113,13 @@ def test_a_mistake_is_told(
 def test_no_file_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "nowhere.py"]) == 2
     assert "nowhere.py: no such file" in capsys.readouterr().err
+
+
+def test_a_level_on_its_way_does_not_give_way() -> None:
+    time = np.arange(0.0, 4.0, 0.01)
+    log = {
+        "time": time,
+        "error/hand": np.clip(0.3 - 0.1 * time, 0.05, None),  # held off its target from 2.5 s on
+        "error/posture": np.full(len(time), 0.005),
+    }
+    assert [yielding_levels(log, t) for t in (0.0, 1.0, 3.0)] == [(), (), ("hand",)]
