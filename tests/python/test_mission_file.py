@@ -163,7 +163,7 @@ def test_a_file_that_was_broken_is_told(file: Path, tmp_path: Path) -> None:
     other = text.replace("mujoco 3", "mujoco 2")
     assert "was written by MuJoCo 2" in told(other, compiled)
     assert f"{own} is cut off" in told(text[:-4], compiled)
-    assert "line 14: word 'phsae' does not exist; there are: mission, support, " in told(
+    assert "line 15: word 'phsae' does not exist; there are: mission, support, " in told(
         text.replace("phase settle", "phsae settle"), compiled
     )
     assert "no table of a mission" in told("[mission]\n", compiled)
