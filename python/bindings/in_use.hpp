@@ -21,13 +21,17 @@ namespace hurcules_bindings {
 
 // Made and destroyed under the interpreter's lock, which guards the lists too.
 class InUse {
+  struct Work;
+
  public:
   // throws Error where another thread (or a callback within this one) works with one of them;
   // `name` is what the message calls them
   explicit InUse(const char* name, const void* object, const void* other = nullptr)
       : mine_{object, other} {
+    await_turns();
     refuse(name);
     let_read();
+    await_turns();
     refuse(name);
     for (const void* one : mine_) {
       if (one != nullptr) works().push_back({one, std::this_thread::get_id()});
@@ -49,6 +53,30 @@ class InUse {
     while (waits()) pause();
     rest(false);
   }
+  // a call that waits until no other thread works with the object, whose next work waits for it
+  class Turn {
+   public:
+    explicit Turn(const void* object) : object_(object) {
+      mine_ = std::ranges::none_of(works(), [this](const Work& work) { return is_here(work); });
+      if (!mine_) return;
+      while (std::ranges::find(queue(), object) != queue().end()) pause();
+      wait(object);
+      works().push_back({object, std::this_thread::get_id(), false, true});
+    }
+    ~Turn() {
+      if (mine_) std::erase_if(works(), [this](const Work& work) { return is_here(work); });
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    [[nodiscard]] bool is_here(const Work& work) const {
+      return work.object == object_ && work.thread == std::this_thread::get_id();
+    }
+    const void* object_;
+    bool mine_ = false;  // else within a work of this thread
+  };
+
   // waits while another thread works with it; what is read after that wants the interpreter's lock
   // throughout; throws what Ctrl-C raises
   static void wait(const void* object) {
@@ -68,6 +96,7 @@ class InUse {
     const void* object;
     std::thread::id thread;
     bool rests = false;
+    bool is_turn = false;
   };
   struct Waiting {
     explicit Waiting(const void* one) : object(one) { waiting().push_back(object); }
@@ -84,9 +113,25 @@ class InUse {
     static std::vector<const void*> all;
     return all;
   }
+  static std::vector<const void*>& queue() {
+    static std::vector<const void*> all;
+    return all;
+  }
   static void pause() {
     const pybind11::gil_scoped_release release;
     std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+
+  // a short call of another thread is waited for: it may run Python, which gives the lock away. The
+  // next turn comes after what waits here.
+  void await_turns() const {
+    const auto turns = [this](const Work& work) {
+      return work.is_turn && is_mine(work.object) && work.thread != std::this_thread::get_id();
+    };
+    if (std::ranges::none_of(works(), turns)) return;
+    for (const void* one : mine_) queue().push_back(one);
+    while (std::ranges::any_of(works(), turns)) pause();
+    for (const void* one : mine_) queue().erase(std::ranges::find(queue(), one));
   }
 
   [[nodiscard]] bool is_mine(const void* object) const {
@@ -109,14 +154,14 @@ class InUse {
 template <typename Self, typename Result, typename... Args>
 auto waiting(Result (Self::*method)(Args...)) {
   return [method](Self& self, Args... args) -> Result {
-    InUse::wait(&self);
+    const InUse::Turn turn(&self);
     return (self.*method)(std::forward<Args>(args)...);
   };
 }
 template <typename Self, typename Result, typename... Args>
 auto waiting(Result (*function)(Self&, Args...)) {
   return [function](Self& self, Args... args) -> Result {
-    InUse::wait(&self);
+    const InUse::Turn turn(&self);
     return function(self, std::forward<Args>(args)...);
   };
 }

@@ -39,17 +39,17 @@ def read_options(words: Sequence[str], defaults: Mapping[str, Any]) -> dict[str,
         name = option.removeprefix("--")
         if name not in defaults or name == option:
             what = "no such option" if option.startswith("-") else "unexpected argument"
-            known = ", ".join(f"--{one}" for one in defaults)
+            known = ", ".join(f"--{one}" for one in defaults) or "none"
             raise Error(f"{what}: {option}; options are: {known}")
         value = value or (rest.pop(0) if rest else "")
         if not value:
             raise Error(f"{option} wants a value")
         default = defaults[name]
         try:
-            read = _READERS.get(type(default), type(default))
-            found[name] = read(value)
+            kind = next(one for one in (*_READERS, float, str) if isinstance(default, one))
+            found[name] = _READERS.get(kind, kind)(value)
         except ValueError:
-            raise Error(f"{option}: wanted {_WORDS[type(default)]}, got {value!r}") from None
+            raise Error(f"{option}: wanted {_WORDS[kind]}, got {value!r}") from None
     return found
 
 
@@ -77,7 +77,7 @@ def _pair(text: str) -> tuple[float, ...]:
     return tuple(float(number) for number in text.split(","))
 
 
-_READERS: dict[type, Callable[[str], Any]] = {int: _whole, bool: _truth, tuple: _pair}
+_READERS: dict[type, Callable[[str], Any]] = {bool: _truth, int: _whole, tuple: _pair}
 
 
 def record(kind: Callable[..., Record], noun: str, parameters: Mapping[str, Any]) -> Record:

@@ -6,7 +6,9 @@ import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from hurcules._core import Error
@@ -73,18 +75,27 @@ def parameters_of(path: str, words: Sequence[str]) -> dict[str, Any]:
     return read_options(words, defaults)
 
 
+@cache
+def _module(file: Path, changed: int) -> ModuleType:
+    """The executed file, once for each time that it was changed [ns]."""
+    spec = importlib.util.spec_from_file_location(f"hurcules_run_{file.stem}", file)
+    assert spec and spec.loader  # it ends in .py
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # where dataclasses and pickle look
+    if (folder := str(file.parent)) not in sys.path:
+        sys.path.insert(0, folder)  # as for a script: it may import its neighbours
+    try:
+        spec.loader.exec_module(module)
+    except SystemExit as end:
+        raise Error(f"{file}: it ends by itself (exit {end.code}) where it is imported") from end
+    return module
+
+
 def _function(path: str) -> Callable[..., Any]:
     file = Path(path)
     if not file.is_file():
         raise Error(f"{path}: no such file")
-    spec = importlib.util.spec_from_file_location(file.stem, file)
-    if spec is None or spec.loader is None:
-        raise Error(f"{path}: not a file of Python")
-    module = importlib.util.module_from_spec(spec)
-    if (folder := str(file.parent.resolve())) not in sys.path:
-        sys.path.insert(0, folder)  # as for a script: it may import its neighbours
-    spec.loader.exec_module(module)
-    function = getattr(module, FUNCTION, None)
+    function = getattr(_module(file.resolve(), file.stat().st_mtime_ns), FUNCTION, None)
     if not callable(function):
         raise Error(
             f"{path}: wanted a function {FUNCTION}(seed=0) that returns a hurcules.Simulation, "

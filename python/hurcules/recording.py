@@ -180,7 +180,8 @@ def yielding_levels(log: dict[str, Array], time: float) -> tuple[str, ...]:
     """The levels whose commanded motion is held off their targets at this time, highest first."""
     if not len(log["time"]):
         return ()
-    now, later = _tick(log, time), _tick(log, time + WHILE)
+    later = _tick(log, time + WHILE)
+    now = min(_tick(log, time), _tick(log, log["time"][later] - WHILE))
     return tuple(
         channel.removeprefix("error/")
         for channel, values in log.items()

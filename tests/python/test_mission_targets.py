@@ -103,21 +103,37 @@ def test_a_thing_is_looked_at_once_or_followed(follow: bool) -> None:
 
 
 def test_a_command_on_top_takes_the_place_of_what_is_set() -> None:
-    made = simulation(value([0.4, -0.1]), adds_command=True)
-    for _ in range(100):
-        made.step(10, {"target": [-0.2, 0.2]})
-    # set again after the first tick of each call: the way back is short
-    assert made.log()["command/target_0"][[0, 1]] == pytest.approx([-0.2, 0.4])
-    made.step(800)
+    made = simulation({**value([0.4, -0.1]), "seconds": 6.0}, adds_command=True)
+    made.step(1000, {"target": [-0.2, 0.2]})
+    assert hand_of(made) == pytest.approx([-0.2, 0.2], abs=1e-3)
+    made.step(1900)
     assert hand_of(made) == pytest.approx([0.4, -0.1], abs=1e-3)
+
+
+@pytest.mark.parametrize("entry", [0, 1])
+def test_a_place_that_nobody_knows_is_as_good_as_late(entry: int) -> None:
+    """The margin of a robot that cannot tip over is no number."""
+    unknown = ["monitor/static_margin_m" if entry == k else "" for k in range(2)]
+    for follow in (False, True):
+        made = simulation(value([0.1, 0.1], to=unknown, follow=follow))
+        made.step(5000)
+        assert made.reason == "phase 'go': took too long: monitor/static_margin_m is no number"
+        made.restore(made.state())
+        assert made.reason.endswith("is no number")
+    late = {"within": 2.5, "late": ["back to wait", "abort"]}
+    made = simulation(WAIT, {**value([0.1, 0.1], to=unknown), **late})
+    made.step(5000)
+    assert [text for _, text in made.events()].count("phase wait") == 2
 
 
 def test_a_long_way_to_what_is_seen_takes_its_time() -> None:
     """0.3 m at 0.2 m/s by a way whose peak is 1.875 times its mean: 2.8 s in place of 1 s."""
     lead = {"lead": {"twist": {"by": [0.0, 0.0], "to": OVER}}}
-    made = simulation({"name": "go", "seconds": 1.0, **lead}, channel="twist", scale=0.2)
+    late = {"within": 1.1, "late": ["abort"]}
+    made = simulation({"name": "go", "seconds": 1.0, **lead, **late}, channel="twist", scale=0.2)
     while not made.finished:
         made.step(1)
+    assert made.success  # within grows too
     assert made.time == pytest.approx(1.875 * 0.3 / 0.2, abs=0.01)
     assert hand_of(made) == pytest.approx([0.3, 0.2], abs=2e-3)
 
@@ -212,6 +228,25 @@ def test_a_fall_is_watched_on_any_robot() -> None:
     assert made.reason.startswith("fell over at ")
     with pytest.raises(hurcules.Error, match="min_height wants a fall_frame whose height it is"):
         simulation(WAIT, table={"mission": {**head, "min_height": 0.2}})
+
+
+def test_a_condition_that_holds_too_shortly_is_told_so() -> None:
+    """The train is at x = 0.4 m after 1 s; 0.5 s later the phase is late."""
+    done = "position/train/x >= 0.4 for 1 s"
+    made = simulation({"name": "go", "done": [done], "within": 1.5, "late": ["abort"]})
+    made.data.qvel[2] = 0.1
+    made.step(5000)
+    assert made.reason == f"phase 'go': took too long: {done} has not been true for so long"
+
+
+def test_a_target_of_zero_is_set_by_hand_too() -> None:
+    made = simulation(value([0.4, 0.0]))  # in 2 s
+    made.step(500)
+    made.pause()
+    made.step(100, {"target": [0.0, 0.0]})
+    made.resume()  # somebody moved it: its phase begins anew
+    made.step(5000)
+    assert made.time == pytest.approx(1.0 + 0.2 + 2.0, abs=0.01)
 
 
 def test_values_are_saved_as_they_were_read(tmp_path: Any) -> None:

@@ -5,6 +5,7 @@ simulation is what says that nothing is left out. Then what is refused.
 """
 
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -397,6 +398,8 @@ def test_a_force_that_is_read_no_more_is_a_lost_sensor() -> None:
         for tick in range(100):
             if tick < 50 or (reads_on and tick % 4 == 0):
                 press.sense(controller.plan, 0.0)
+            if tick == 52:  # whoever cancels a motion does not make the sensor one that never was
+                controller.hold_targets()
             data.ctrl[:] = controller.tick(data.qpos, data.qvel, {"press": [-0.05]})
             mujoco.mj_step(model, data)
             states.append(press.contact)
@@ -404,3 +407,34 @@ def test_a_force_that_is_read_no_more_is_a_lost_sensor() -> None:
         assert (lost in states) is not reads_on
         if not reads_on:
             assert 54 <= states.index(lost) <= 61
+
+
+def test_a_task_in_python_is_measured_by_one_thread_at_a_time() -> None:
+    """`hold_targets` runs its Python, which gives the lock away: the tick waits all the same."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    inside, most = [0], [0]
+
+    def height(at: hurcules.Robot) -> tuple[np.ndarray, np.ndarray]:
+        inside[0] += 1
+        most[0] = max(most[0], inside[0])
+        time.sleep(2e-4)
+        inside[0] -= 1
+        return at.position("tip")[2:], at.position_jacobian("tip")[2:]
+
+    task = hurcules.CustomTask("height", robot, 1, height)
+    controller = hurcules.WholeBodyController(robot, [task])
+    stop = threading.Event()
+
+    def hold() -> None:
+        while not stop.is_set():
+            controller.hold_targets()
+
+    other = threading.Thread(target=hold)
+    other.start()
+    for _ in range(200):
+        controller.tick(robot.qpos, np.zeros(model.nv))
+    stop.set()
+    other.join()
+    assert most[0] == 1

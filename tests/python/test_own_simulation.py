@@ -92,6 +92,7 @@ def test_parameters_come_from_the_command_line(file: Path) -> None:
         ("def simulation", "def simulate", [], "wanted a function simulation(seed=0)"),
         ("return hurcules.Simulation", "hurcules.Simulation", [], "got None"),
         ("mass=0.5, heavy", "mass, heavy", [], "missing a required argument: 'mass'"),
+        ("import hurcules, mujoco", "raise SystemExit(3)", [], "it ends by itself (exit 3)"),
     ],
 )
 def test_a_mistake_is_told(
@@ -108,6 +109,20 @@ def test_a_mistake_is_told(
     code = main(["run", str(file), "--seconds", "0.1", "--out", str(folder), "--no-video", *words])
     assert code == 2
     assert wanted in capsys.readouterr().err
+
+
+def test_a_file_is_executed_once_as_a_module(tmp_path: Path) -> None:
+    file = tmp_path / "pendulum.py"
+    head = "from __future__ import annotations\nfrom dataclasses import dataclass\n"
+    runs = tmp_path / "runs"
+    runs.write_text("")
+    counted = f"import pathlib\nruns = pathlib.Path({str(runs)!r})\n"
+    counted += "runs.write_text(runs.read_text() + 'x')\n"
+    kind = "@dataclass\nclass Link:\n    mass: float = 1.0\n"
+    file.write_text(head + counted + kind + PENDULUM)
+    words = ["run", str(file), "--seconds", "0.1", "--no-video", "--out", str(tmp_path / "out")]
+    assert main([*words, "--mass", "0.8"]) == 0
+    assert runs.read_text() == "x"
 
 
 def test_no_file_is_told(capsys: pytest.CaptureFixture[str]) -> None:

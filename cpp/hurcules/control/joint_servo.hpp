@@ -117,6 +117,10 @@ class JointServo {
   }
   // that the coordinates' joints are rated for, (n) [kg m^2]
   void rated_inertia(VectorRef inertia) const;
+  // of a joint's motion over that of its coordinate; 1 without one
+  [[nodiscard]] double factor(Index joint) const {
+    return motors_[static_cast<std::size_t>(joint)].factor;
+  }
   [[nodiscard]] Index coordinate_of(Index joint) const {  // -1 for none
     return motors_[static_cast<std::size_t>(joint)].coordinate;
   }

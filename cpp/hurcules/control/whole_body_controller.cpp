@@ -153,7 +153,6 @@ std::vector<Task*> tasks_of(const Stack& stack) {
   return all;
 }
 
-// in the first tick of a command alone
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedStack> stacks,
@@ -645,12 +644,12 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
 void WholeBodyController::lead_joints(const std::vector<Index>& joints,
                                       const ConstVectorRef& rates) {
   for (std::size_t i = 0; i < joints.size(); ++i)
-    lead_joint(joints[i], rates[static_cast<Index>(i)]);
+    lead_joint(joints[i], rates[static_cast<Index>(i)], options_.velocity.max_acceleration);
 }
 
-// within the acceleration limit, and no further than the joint goes
-void WholeBodyController::lead_joint(Index joint, double wanted) {
-  const double most = options_.velocity.max_acceleration * dt();
+// within an acceleration, and no further than the joint goes
+void WholeBodyController::lead_joint(Index joint, double wanted, double acceleration) {
+  const double most = acceleration * dt();
   const JointActuator& actuator = servo_.actuator(joint);
   const double now = servo_.velocity()[joint];
   const double rate = std::clamp(wanted, now - most, now + most);
@@ -666,7 +665,8 @@ void WholeBodyController::stop_joints() {
     if (servo_.velocity()[joint] == 0.0) {
       stopping_[static_cast<std::size_t>(joint)] = false;
     } else {
-      lead_joint(joint, 0.0);
+      const double most = options_.velocity.max_acceleration;
+      lead_joint(joint, 0.0, std::abs(servo_.factor(joint)) * most);
     }
   }
 }

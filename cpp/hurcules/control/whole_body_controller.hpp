@@ -195,7 +195,7 @@ class WholeBodyController {
   void apply(const Channel& channel, const ConstVectorRef& command, bool given,
              const RobotState& state);
   void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
-  void lead_joint(Index joint, double wanted);
+  void lead_joint(Index joint, double wanted, double acceleration);
   void stop_joints();
   void miss_readings();
   void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
@@ -222,7 +222,7 @@ class WholeBodyController {
   std::vector<LedControl> led_controls_;     // of Control channels
   std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack
   std::vector<std::string> command_names_;
-  double names_ = 0.0;  // hash of those of coordinates, tasks and commands
+  double names_ = 0.0;  // hash of those of coordinates, tasks, stacks and commands
   ForceReadings forces_;
   std::vector<std::vector<ForceTask*>> force_tasks_;  // (stacks)
   JointServo servo_;

@@ -176,7 +176,13 @@ const Vector& Mission::command(double dt) {
 
 void Mission::note_commanded(const WholeBodyController& controller, const TickReport& report) {
   rows_[phase_].note(controller);
-  moved_ = moved_ || (paused_ && (controller.command().array().abs() > 0.0).any());
+  const auto commanded_now = [&] {  // NaN: nothing is set
+    const Vector& command = controller.command();
+    for (Index i = 0; i < command.size(); ++i)
+      if (std::isnan(idle_[i]) ? !std::isnan(command[i]) : command[i] != 0.0) return true;
+    return false;
+  };
+  moved_ = moved_ || (paused_ && commanded_now());
   Index force = 0;
   for (const Task* task : controller.tasks()) {
     if (const auto* const one = dynamic_cast<const ForceTask*>(task))
@@ -200,7 +206,7 @@ bool Mission::advance(WholeBodyController& controller, double time) {
   elapsed_ = time - phase_start_;
   progress_ = rows_[phase_].progress(elapsed_);
   const std::optional<std::size_t> trouble = rows_[phase_].trouble(dt_);
-  const bool late = elapsed_ > table_.phases[phase_].within + extra_;
+  const bool late = elapsed_ > table_.phases[phase_].within + extra_ + rows_[phase_].longer();
   if (trouble || late || rows_[phase_].failed()) {
     return react(trouble, controller, time);
   }
@@ -322,8 +328,12 @@ std::string Mission::text(const Cause& cause) const {
 }
 
 std::string Mission::unmet_words(const Why& why) const {
+  const std::string* const blind = rows_[why.phase - 1].blind();
+  if (why.cause == 0 && blind) return *blind + " is no number";
   if (why.unmet == 0) return "";
   const Condition& condition = table_.phases[why.phase - 1].done[why.unmet - 1];
+  const bool now = condition.above ? why.value >= condition.value : why.value <= condition.value;
+  if (now) return to_string(condition) + " has not been true for so long";
   return to_string(condition) + " is not true, it is " + to_text(why.value);
 }
 

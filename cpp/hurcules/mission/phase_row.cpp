@@ -120,8 +120,13 @@ void PhaseRow::forget() {
 void PhaseRow::enter(const WholeBodyController& controller) {
   forget();
   seconds_ = phase_->seconds;
+  blind_way_ = blind_entry_ = -1;
   for (Way& way : ways_) {
-    look(way);
+    const Index blind = look(way);
+    if (blind >= 0 && blind_way_ < 0) {
+      blind_way_ = &way - ways_.data();
+      blind_entry_ = blind;
+    }
     if (way.seen.empty() || way.set) continue;
     for (Index i = 0; i < way.size; ++i) {
       const double scale = controller.scale()[way.row + i];
@@ -136,11 +141,24 @@ void PhaseRow::enter(const WholeBodyController& controller) {
   posture_->start(joints_.empty() ? controller.q_des() : places_);
 }
 
-void PhaseRow::look(Way& way) {
+Index PhaseRow::look(Way& way) {
+  Index blind = -1;
   for (std::size_t i = 0; i < way.seen.size(); ++i) {
     const auto k = static_cast<Index>(i);
-    way.along[k] = way.by[k] + (way.seen[i] ? *way.seen[i] : 0.0);
+    const double seen = way.seen[i] ? *way.seen[i] : 0.0;
+    if (std::isfinite(seen)) {
+      way.along[k] = way.by[k] + seen;
+    } else {
+      blind = k;
+    }
   }
+  return blind;
+}
+
+const std::string* PhaseRow::blind() const {
+  if (blind_way_ < 0) return nullptr;
+  const Lead& lead = phase_->leads[static_cast<std::size_t>(blind_way_)];
+  return &lead.to[static_cast<std::size_t>(blind_entry_)];
 }
 
 void PhaseRow::command(double time, double dt, Vector& out) {
@@ -253,6 +271,8 @@ void PhaseRow::save(StateWriter& writer) const {
     for (const int left : times) writer.put(left);
   }
   writer.put(seconds_);
+  writer.put(static_cast<double>(blind_way_ + 1));
+  writer.put(static_cast<double>(blind_entry_ + 1));
   for (const TimedCondition& timed : done_) writer.put(timed.since);
   for (const TimedCondition& timed : troubles_) writer.put(timed.since);
   for (const Way& way : ways_) {
@@ -269,6 +289,10 @@ void PhaseRow::restore(StateReader& reader) {
     for (int& left : times) left = static_cast<int>(reader.get_count(kMost));
   }
   seconds_ = reader.get();
+  blind_way_ = reader.get_count(static_cast<Index>(ways_.size())) - 1;
+  const std::size_t way = static_cast<std::size_t>(std::max<Index>(blind_way_, 0));
+  const std::size_t entries = ways_.empty() ? 0 : phase_->leads[way].to.size();
+  blind_entry_ = reader.get_count(static_cast<Index>(entries)) - 1;
   for (TimedCondition& timed : done_) timed.since = reader.get();
   for (TimedCondition& timed : troubles_) timed.since = reader.get();
   for (Way& way : ways_) {

@@ -47,7 +47,11 @@ class PhaseRow {
   // what it sets counts from the next tick on: until then errors are those of what was set before
   [[nodiscard]] double progress(double elapsed) const;
   // it cannot end as it should: it did not park
-  [[nodiscard]] bool failed() const { return park_ && park_->failed(); }
+  [[nodiscard]] bool failed() const { return blind() || (park_ && park_->failed()); }
+  // a quantity of a way that was no number when the phase began, null for none
+  [[nodiscard]] const std::string* blind() const;
+  // [s] that it takes longer than its table says, by a way to what is seen
+  [[nodiscard]] double longer() const { return seconds_ - phase_->seconds; }
   // one more tick of dt [s]: all its conditions are true; the first of its troubles that there is
   [[nodiscard]] bool done(double dt);
   [[nodiscard]] std::optional<std::size_t> trouble(double dt);
@@ -87,7 +91,8 @@ class PhaseRow {
     const double* held = nullptr;      // what a rate holds, null for none
     double at = 0.0, span = 0.0;
   };
-  static void look(Way& way);  // at what it goes to
+  // at what it goes to; what is no number is passed over. Returns its place in `to`, -1 for none
+  static Index look(Way& way);
   [[nodiscard]] static Way way_of(const Lead& lead, const WholeBodyController& controller,
                                   const std::string& where);
   // what is done about a trouble, by its number, or about being late
@@ -97,6 +102,7 @@ class PhaseRow {
   const Phase* phase_;
   std::string support_;
   std::vector<Way> ways_;
+  Index blind_way_ = -1, blind_entry_ = -1;
   double seconds_ = 0.0;  // of the phase, more where a way to what is seen takes longer
   std::optional<PostureWay> posture_;
   std::optional<ParkWay> park_;

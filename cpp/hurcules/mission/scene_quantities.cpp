@@ -54,9 +54,11 @@ const double* SceneQuantities::find(const std::string& name, const std::string& 
   }
   const double* const source = log_->source(name);
   if (!source)
-    throw Error(where + ": " + unknown_name("quantity", name, log_->channels()) +
-                "; simulation.channels has all, and the model may have position/OBJECT/x, "
-                "distance/OBJECT/OBJECT, joint/JOINT, sensor/SENSOR, contact_force/BODY");
+    throw Error(
+        where + ": " + unknown_name("quantity", name, log_->channels()) +
+        "; simulation.channels has all, and the model may have position/OBJECT/x, "
+        "distance/OBJECT/OBJECT, joint/JOINT, sensor/SENSOR (/0, /1, ... of several numbers), "
+        "contact_force/BODY");
   return source;
 }
 

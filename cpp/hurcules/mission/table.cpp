@@ -172,6 +172,12 @@ void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController&
   require(channel.sets() == (lead.value.size() > 0),
           where + (channel.sets() ? " sets something: it wants `value`"
                                   : " moves something: it wants `rate` or `by`"));
+  if (const auto* const press = dynamic_cast<const ForceTask*>(channel.task());
+      press && channel.kind() == ChannelKind::Force && lead.value.size() == 1) {
+    const double most = press->options().contact.f_max;
+    require(std::abs(lead.value[0]) < most, where + " wants a force below f_max, " + to_text(most) +
+                                                " N, " + to_text(lead.value[0]) + " came");
+  }
   const Vector& given = numbers_of(lead);
   require(given.size() == size, where + " wants " + std::to_string(size) + " finite numbers, " +
                                     std::to_string(given.size()) + " came");

@@ -253,8 +253,8 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   timer.done(Stage::Solve);
 }
 
-// to the mission's own; what acts once a call does so in the first tick of it, and what is set takes
-// the place of what the mission sets
+// to the mission's own; what counts from the measured place does so in the first tick of a call, and
+// what is set takes the place of what the mission sets
 void Simulation::add_command(const Vector& command, bool first, const Vector& own) {
   summed_ = own;
   Index row = 0;
@@ -262,7 +262,7 @@ void Simulation::add_command(const Vector& command, bool first, const Vector& ow
     const auto part = command.segment(row, channel.size());
     auto sum = summed_.segment(row, channel.size());
     row += channel.size();
-    if (std::isnan(part[0]) || (channel.acts_once() && !first)) continue;
+    if (std::isnan(part[0]) || (channel.kind() == ChannelKind::Delta && !first)) continue;
     if (channel.sets()) {
       sum = part;
     } else {

@@ -102,7 +102,7 @@ void ForceTask::sense(const Robot& robot, double force) {
     rate_ = sensed_ ? (s - last_) / dt : 0.0;
   }
   last_ = s;
-  sensed_ = fresh_ = true;
+  sensed_ = fed_ = fresh_ = true;
   monitor_.look(force, s);
   const double read = monitor_.force();
   told_ = filter_ > dt ? told_ + dt / filter_ * (read - told_) : read;
@@ -224,6 +224,7 @@ void ForceTask::reset(const Robot& robot) {
   told_ = 0.0;
   law_.reset();
   mode_ = Mode::Motion;
+  fed_ = false;
   ForceTask::hold(robot);
 }
 
@@ -237,7 +238,7 @@ void ForceTask::save(StateWriter& writer) const {
   borne_.save(writer);
   for (const double value :
        {force_des_, enabled_ ? 1.0 : 0.0, static_cast<double>(static_cast<int>(mode_)), motion_,
-        wish_, offset_, age_, entry_, told_, rate_, last_, sensed_ ? 1.0 : 0.0,
+        wish_, offset_, age_, entry_, told_, rate_, last_, sensed_ ? 1.0 : 0.0, fed_ ? 1.0 : 0.0,
         fresh_ ? 1.0 : 0.0}) {
     writer.put(value);
   }
@@ -258,6 +259,7 @@ void ForceTask::restore(StateReader& reader) {
     *value = reader.get();
   }
   sensed_ = reader.get_count(1) > 0;
+  fed_ = reader.get_count(1) > 0;
   fresh_ = reader.get_count(1) > 0;
 }
 

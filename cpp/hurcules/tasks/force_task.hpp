@@ -75,7 +75,7 @@ class ForceTask : public PositionTask {
   // out of Stopped and SensorLost, at rest where the frame is; the tare stays
   void reset(const Robot& robot) override;
 
-  [[nodiscard]] bool is_told() const { return sensed_; }  // of a force, since the last reset
+  [[nodiscard]] bool is_told() const { return fed_; }  // of a force, since the last reset
   // whether it was told one since this was asked last
   [[nodiscard]] bool take_reading() { return std::exchange(fresh_, false); }
   [[nodiscard]] ContactState state() const { return monitor_.state(); }
@@ -118,7 +118,8 @@ class ForceTask : public PositionTask {
   double told_ = 0.0;    // [N] filtered
   double rate_ = 0.0;    // [m/s] of the frame, by the robot's velocity or by differences
   double last_ = 0.0;    // [m] s at the last sense
-  bool sensed_ = false, fresh_ = false;
+  bool sensed_ = false;  // since the last hold
+  bool fed_ = false, fresh_ = false;
 };
 
 }  // namespace hurcules
