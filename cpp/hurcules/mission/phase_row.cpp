@@ -290,8 +290,8 @@ void PhaseRow::restore(StateReader& reader) {
   }
   seconds_ = reader.get();
   blind_way_ = reader.get_count(static_cast<Index>(ways_.size())) - 1;
-  const std::size_t way = static_cast<std::size_t>(std::max<Index>(blind_way_, 0));
-  const std::size_t entries = ways_.empty() ? 0 : phase_->leads[way].to.size();
+  const auto blind = static_cast<std::size_t>(std::max<Index>(blind_way_, 0));
+  const std::size_t entries = ways_.empty() ? 0 : phase_->leads[blind].to.size();
   blind_entry_ = reader.get_count(static_cast<Index>(entries)) - 1;
   for (TimedCondition& timed : done_) timed.since = reader.get();
   for (TimedCondition& timed : troubles_) timed.since = reader.get();
