@@ -80,8 +80,7 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
   for (const JointActuator& actuator : actuators)
     if (place_of(actuator).first < 0) others.push_back(actuator.dof);
   LooseJoints loose(robot, others);
-  double gain =
-      1.0;  // by what the others do beside the decoupling, which knows of coordinates alone
+  double gain = 1.0;  // the decoupling knows of coordinates alone
   for (int i = 0; i < kSamples; ++i) {
     for (Index k = 0; k < n && i > 0; ++k) {  // the first sample is the start
       const Coordinate& c = robot.coordinates()[static_cast<std::size_t>(k)];
@@ -95,7 +94,7 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
       continue;
     }
     sampled.mass_matrix(M);
-    gain = std::max(gain, loose.gain(sampled));
+    if (decoupled) gain = std::max(gain, loose.gain(sampled));
     const Matrix inverse = M.inverse();
     most = most.cwiseMax(M.diagonal());
     least = least.cwiseMin(inverse.diagonal().cwiseInverse());

@@ -10,7 +10,9 @@
 namespace hurcules {
 
 LooseJoints::LooseJoints(const Robot& robot, std::vector<int> dofs)
-    : dofs_(std::move(dofs)), data_(mj_makeData(robot.model().get()), mj_deleteData) {
+    : dofs_(std::move(dofs)), data_(nullptr, mj_deleteData) {
+  if (dofs_.empty()) return;
+  data_.reset(mj_makeData(robot.model().get()));
   const Index n = robot.size();
   motion_ = Matrix::Zero(robot.model()->nv, n + static_cast<Index>(dofs_.size()));
   for (Index k = 0; k < n; ++k)
