@@ -64,6 +64,8 @@ Args:
   span: in the same unit, above 0.
   value: (k,) what a `Target` or a `ForceReference` is set to, in its unit.
   follow: the quantities of `to` are added to the value as they are now, tick by tick.
+  brake: of a channel of joints: once `hold` is at its value their brakes bear it, until it has fallen
+    by `span`; then the rate acts in full.
 )";
 constexpr const char* kKey = R"(Angles of coordinates, or places of joints, at a share of a motion.
 
@@ -288,7 +290,7 @@ void bind_rows(py::module_& module) {
       {required("channel", &Lead::channel), field("rate", &Lead::rate), field("way", &Lead::way),
        field("by", &Lead::by), field("to", &Lead::to), field("hold", &Lead::hold),
        field("at", &Lead::at), field("span", &Lead::span), field("value", &Lead::value),
-       field("follow", &Lead::follow)});
+       field("follow", &Lead::follow), field("brake", &Lead::brake)});
   bind_options<PostureKey>(
       module, "PostureKey", kKey,
       {field("share", &PostureKey::share), field("angles", &PostureKey::angles)});

@@ -27,7 +27,7 @@ many phases is said once:
     phases = ["turn left", "home"]
 
 A rate may hold a quantity: `{ rate = [0.0005], hold = "load/left_grip_n", at = 230.0, span = 50.0
-}`; a lead of many phases is a `[[lead]]` with `channel` and `phases`.
+}`, with `brake = true` behind a brake while it is there; a lead of many phases is a `[[lead]]` with `channel` and `phases`.
 
 The tracks go to a place by `park = { body = "ordnance_case", ahead = -2.0 }`: the robot's centre of
 mass 2 m behind that body, with its heading; without a body counted from where the run began.
@@ -201,6 +201,7 @@ _LEAD: Mapping[str, Kind] = {
     "span": float,
     "value": [float],
     "follow": bool,
+    "brake": bool,
 }
 _TROUBLE: Mapping[str, Kind] = {"when": str, "do": [str]}
 _PHASE: Mapping[str, Kind] = {
@@ -412,6 +413,7 @@ def _phase_lines(phase: Phase) -> list[str]:
         parts += [f"by = {_value(lead.by.tolist())}"] if lead.by.size else []
         if lead.hold:
             parts.append(f"hold = {_value(lead.hold)}, at = {lead.at!r}, span = {lead.span!r}")
+        parts += ["brake = true"] if lead.brake else []
         parts += [f"value = {_value(lead.value.tolist())}"] if lead.value.size else []
         parts += [f"to = {_value(list(lead.to))}"] if lead.to else []
         parts += ["follow = true"] if lead.follow else []

@@ -93,15 +93,15 @@ void Mission::attach(const Plant& plant, Recorder& log) {
 void Mission::find_brakes(const Brakes& brakes) {
   for (PhaseRow& row : rows_) {
     row.find_brakes(brakes);
-    for (const int actuator : row.brakes()) {
+    row.each_brake([&](int actuator) {
       if (!contains(brakes_, actuator)) brakes_.push_back(actuator);
-    }
+    });
   }
 }
 
 void Mission::brake(Brakes& brakes) {
   for (const int actuator : brakes_) {
-    brakes.set_closed(actuator, contains(rows_[phase_].brakes(), actuator));
+    brakes.set_closed(actuator, rows_[phase_].shuts(actuator, brakes.closes(actuator), dt_));
   }
 }
 

@@ -59,6 +59,9 @@ struct Lead {
   // backwards above it
   std::string hold = "";
   double at = 0.0, span = 0.0;  // in the unit of the quantity
+  // of a channel of joints: once the quantity is there their brakes bear it, until it has fallen by
+  // `span`; then the rate acts in full. Motors that press for long get hot
+  bool brake = false;
 };
 
 // Angles of coordinates [rad], or places of joints, at a share of a motion, 0 to 1; the others stay as at its beginning.

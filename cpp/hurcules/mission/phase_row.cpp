@@ -57,6 +57,7 @@ PhaseRow::Way PhaseRow::way_of(const Lead& lead, const WholeBodyController& cont
   }
   way.at = lead.at;
   way.span = lead.span;
+  if (lead.brake) way.braked = place.channel->joint_names();
   return way;
 }
 
@@ -78,15 +79,31 @@ void PhaseRow::find_quantities(SceneQuantities& scene) {
 
 void PhaseRow::find_brakes(const Brakes& brakes) {
   const std::vector<std::string> joints = brakes.names();
-  for (const std::string& name : phase_->brakes) {
+  const std::string where = "phase '" + phase_->name + "'";
+  const auto find = [&](const std::string& name, std::vector<int>& actuators) {
     const std::vector<Index> found = coordinates_of(name, joints);
-    if (found.empty()) {
-      throw Error("phase '" + phase_->name + "': " + unknown_name("brake", name, joints));
-    }
+    if (found.empty()) throw Error(where + ": " + unknown_name("brake", name, joints));
     for (const Index at : found) {
-      brakes_.push_back(brakes.find(joints[static_cast<std::size_t>(at)]));
+      actuators.push_back(brakes.find(joints[static_cast<std::size_t>(at)]));
     }
+  };
+  for (const std::string& name : phase_->brakes) find(name, brakes_);
+  for (Way& way : ways_) {
+    for (const std::string& joint : way.braked) find(joint, way.brakes);
   }
+}
+
+bool PhaseRow::shuts(int actuator, bool shut, double dt) {
+  constexpr double kFallen = 0.1;  // [s]: a knock opens no brake
+  const auto in = [&](const std::vector<int>& brakes) {
+    return std::find(brakes.begin(), brakes.end(), actuator) != brakes.end();
+  };
+  for (Way& way : ways_) {
+    if (!in(way.brakes)) continue;
+    way.fallen = *way.held < way.at - way.span ? way.fallen + dt : 0.0;
+    return way.borne = shut ? way.fallen < kFallen : *way.held >= way.at;
+  }
+  return in(brakes_);
 }
 
 void PhaseRow::find_places(const Plant& plant, int robot) {
@@ -169,7 +186,11 @@ void PhaseRow::command(double time, double dt, Vector& out) {
       part = way.along;
     } else if (way.length > 0.0) {  // by a rate; the last tick gives what is left
       part = way.along * std::min(way.speed, (way.length - way.given) / dt);
-      if (way.held) part *= std::clamp((way.at - *way.held) / way.span, -1.0, 1.0);
+      if (!way.brakes.empty()) {
+        part *= way.borne ? 0.0 : 1.0;
+      } else if (way.held) {
+        part *= std::clamp((way.at - *way.held) / way.span, -1.0, 1.0);
+      }
     } else {
       part =
           way.along * ((smooth_step((time + dt) / seconds_) - smooth_step(time / seconds_)) / dt);
@@ -277,6 +298,8 @@ void PhaseRow::save(StateWriter& writer) const {
   for (const TimedCondition& timed : troubles_) writer.put(timed.since);
   for (const Way& way : ways_) {
     writer.put(way.given);
+    writer.put(way.borne ? 1.0 : 0.0);
+    writer.put(way.fallen);
     if (way.by.size() > 0) writer.put(way.along);
   }
   if (posture_) posture_->save(writer);
@@ -297,6 +320,8 @@ void PhaseRow::restore(StateReader& reader) {
   for (TimedCondition& timed : troubles_) timed.since = reader.get();
   for (Way& way : ways_) {
     way.given = reader.get();
+    way.borne = reader.get_count(1) > 0;
+    way.fallen = reader.get();
     if (way.by.size() > 0) reader.get(way.along);
   }
   if (posture_) posture_->restore(reader);

@@ -24,7 +24,16 @@ class PhaseRow {
   void find_brakes(const Brakes& brakes);
   // what it parks by; throws Error with the bodies that exist
   void find_places(const Plant& plant, int robot);
-  [[nodiscard]] const std::vector<int>& brakes() const { return brakes_; }  // actuators, shut in it
+  // calls visit(actuator) for each whose brake is shut in it, all along or at times
+  template <class Visit>
+  void each_brake(Visit&& visit) const {
+    for (const int actuator : brakes_) visit(actuator);
+    for (const Way& way : ways_) {
+      for (const int actuator : way.brakes) visit(actuator);
+    }
+  }
+  // whether a brake shall be shut in this tick, and was to be in the last one
+  [[nodiscard]] bool shuts(int actuator, bool shut, double dt);
   [[nodiscard]] const std::string& support() const { return support_; }
   [[nodiscard]] bool needs_log() const;
 
@@ -90,6 +99,10 @@ class PhaseRow {
     std::vector<const double*> seen;   // what is, null for nothing; empty for another way
     const double* held = nullptr;      // what a rate holds, null for none
     double at = 0.0, span = 0.0;
+    std::vector<std::string> braked;  // joints whose brakes bear what is held
+    std::vector<int> brakes;          // their actuators
+    bool borne = false;               // by these, as of the last tick
+    double fallen = 0.0;              // [s] for so long has it been `span` below
   };
   // at what it goes to; what is no number is passed over. Returns its place in `to`, -1 for none
   static Index look(Way& way);

@@ -50,6 +50,8 @@ void check_lead(const Lead& lead, const Phase& phase, const std::string& where) 
   require(lead.hold.empty() ? lead.span == 0.0
                             : led_by_rate && lead.span > 0.0 && std::isfinite(lead.at + lead.span),
           where + " wants a rate, a finite value and a span above 0 to hold a quantity by");
+  require(!lead.brake || !lead.hold.empty(),
+          where + ": brake wants a quantity to hold: `hold`, `at` and `span`");
   require(lead.way > 0.0,
           where + ": its way wants a number above 0, " + to_text(lead.way) + " came");
   require(!led_by_rate || !std::isfinite(lead.way) || lead.rate.norm() > 0.0,
@@ -178,6 +180,8 @@ void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController&
     require(std::abs(lead.value[0]) < most, where + " wants a force below f_max, " + to_text(most) +
                                                 " N, " + to_text(lead.value[0]) + " came");
   }
+  require(!lead.brake || !channel.joint_names().empty(),
+          where + " leads no joints whose brakes could bear what it holds");
   const Vector& given = numbers_of(lead);
   require(given.size() == size, where + " wants " + std::to_string(size) + " finite numbers, " +
                                     std::to_string(given.size()) + " came");
@@ -418,6 +422,7 @@ std::string table_text(const MissionTable& table) {
         add(text, {" + ", quantity.empty() ? "0" : quantity});
       if (lead.follow) text += ", followed";
       if (!lead.hold.empty()) add(text, {" to hold ", lead.hold, " at ", to_text(lead.at)});
+      if (lead.brake) text += ", borne by the brake";
       if (std::isfinite(lead.way)) add(text, {" until ", to_text(lead.way)});
       text += "\n";
     }
