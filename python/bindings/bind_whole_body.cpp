@@ -190,7 +190,8 @@ Joints that a stack left in motion stop within the acceleration limit.
 Args:
   joint: name of a joint with an actuator.
   position: [rad] or [m]; beyond the joint's range it squeezes, as a finger does.
-  velocity: [rad/s] or [m/s].
+  velocity: [rad/s] or [m/s] there, fed forward. No bound of how fast it goes: to a place that is far
+    off it goes as fast as its motor can.
 
 Raises:
   Error: no such joint, or numbers that are not finite.

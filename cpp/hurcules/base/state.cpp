@@ -29,16 +29,17 @@ void StateWriter::put_bits(unsigned long long word) {
   put(static_cast<double>(word & 0xffffffffULL));
 }
 
-double hash_of_names(std::initializer_list<const std::vector<std::string>*> lists) {
-  std::uint32_t hash = 2166136261U;
+std::uint64_t hash_of(std::string_view bytes, std::uint64_t so_far) {
+  for (const char byte : bytes) so_far = (so_far ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  return so_far;
+}
+
+double hash_of_names(std::initializer_list<const std::vector<std::string>*> lists,
+                     std::uint64_t so_far) {
   for (const auto* list : lists) {
-    for (const std::string& name : *list) {
-      for (const char letter : name + ";") {
-        hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
-      }
-    }
+    for (const std::string& name : *list) so_far = hash_of(";", hash_of(name, so_far));
   }
-  return static_cast<double>(hash);
+  return static_cast<double>(so_far >> 11);
 }
 
 double StateReader::get_any() {

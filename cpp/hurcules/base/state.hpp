@@ -1,8 +1,10 @@
 // A snapshot as one flat list of numbers: what must be kept so that a run continues bit for bit.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hurcules/base/types.hpp"
@@ -23,8 +25,12 @@ class StateWriter {
   std::vector<double>& out_;
 };
 
-// what tells the names that a snapshot belongs to from others (FNV-1a, 32 bits)
-[[nodiscard]] double hash_of_names(std::initializer_list<const std::vector<std::string>*> lists);
+// FNV-1a, of these bytes after those that `so_far` is of
+inline constexpr std::uint64_t kHashOfNothing = 0xcbf29ce484222325;
+[[nodiscard]] std::uint64_t hash_of(std::string_view bytes, std::uint64_t so_far = kHashOfNothing);
+// what tells the names that a snapshot belongs to from others: as much of it as a double holds
+[[nodiscard]] double hash_of_names(std::initializer_list<const std::vector<std::string>*> lists,
+                                   std::uint64_t so_far = kHashOfNothing);
 
 class StateReader {
  public:

@@ -21,7 +21,7 @@ JointLimits::JointLimits(std::string name, const Robot& robot)
       coordinates_(robot.coordinate_names()),
       robot_lower_(robot.size()),
       robot_upper_(robot.size()),
-      max_velocity_(robot.size()),
+      robot_velocity_(robot.size()),
       configuration_(robot.configuration()) {
   for (Index i = 0; i < robot.size(); ++i) {
     const Coordinate& coordinate = robot.coordinates()[static_cast<std::size_t>(i)];
@@ -29,8 +29,9 @@ JointLimits::JointLimits(std::string name, const Robot& robot)
     of_ball_.push_back(i >= robot.root_size() && coordinate.joints.front().part >= 0);
     robot_lower_[i] = of_ball_.back() ? -kNone : coordinate.lower;
     robot_upper_[i] = of_ball_.back() ? kNone : coordinate.upper;
-    max_velocity_[i] = coordinate.max_velocity;
+    robot_velocity_[i] = coordinate.max_velocity;
   }
+  max_velocity_ = robot_velocity_;
   reset_ranges();
 }
 
@@ -75,7 +76,7 @@ void JointLimits::set_max_velocity(const std::string& coordinate, double limit) 
   if (!(limit > 0))
     throw Error("velocity limit of coordinate '" + coordinate + "' wants to be above 0, " +
                 std::to_string(limit) + " came");
-  max_velocity_[i] = limit;
+  max_velocity_[i] = std::min(limit, robot_velocity_[i]);
 }
 
 void JointLimits::set_max_velocities(const ConstVectorRef& limits) {

@@ -31,8 +31,9 @@ class JointLimits {
   void reset_ranges();
   // of all, (n) each; these throw Error unless within the ranges of the robot
   void set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper);
+  // the robot's own holds where it is smaller
   void set_max_velocity(const std::string& coordinate, double limit);  // [rad/s] or [m/s]
-  void set_max_velocities(const ConstVectorRef& limits);               // of all, (n); inf for none
+  void set_max_velocities(const ConstVectorRef& limits);               // of all, (n); inf for the robot's
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Index size() const { return lower_.size(); }                  // n
@@ -65,7 +66,7 @@ class JointLimits {
   std::vector<std::string> coordinates_;
   std::vector<bool> of_root_;         // (n) a part of a free root
   std::vector<bool> of_ball_;         // (n) a part of a ball joint
-  Vector robot_lower_, robot_upper_;  // [rad] or [m], (n)
+  Vector robot_lower_, robot_upper_, robot_velocity_;  // [rad] or [m], [rad/s] or [m/s], (n)
   Vector lower_, upper_, max_velocity_, configuration_;
 };
 

@@ -647,13 +647,21 @@ void WholeBodyController::lead_joints(const std::vector<Index>& joints,
     lead_joint(joints[i], rates[static_cast<Index>(i)], options_.velocity.max_acceleration);
 }
 
-// within an acceleration, and no further than the joint goes
+// within an acceleration and the speed of its joint, and no further than that goes
 void WholeBodyController::lead_joint(Index joint, double wanted, double acceleration) {
-  const double most = acceleration * dt();
   const JointActuator& actuator = servo_.actuator(joint);
-  const double now = servo_.velocity()[joint];
-  const double rate = std::clamp(wanted, now - most, now + most);
-  const double place = servo_.position()[joint] + rate * dt();
+  const double from = servo_.position()[joint];
+  RateLimits limits{.dt = dt(), .horizon = dt()};
+  limits.max_velocity = std::numeric_limits<double>::infinity();
+  limits.max_acceleration = acceleration;
+  if (const Index at = servo_.coordinate_of(joint); at >= 0) {
+    const Coordinate& coordinate = plan_.coordinates()[static_cast<std::size_t>(at)];
+    limits.max_velocity = std::abs(servo_.factor(joint)) * coordinate.max_velocity;
+  }
+  const RateInterval within = rate_interval(
+      {actuator.lower - from, actuator.upper - from, servo_.velocity()[joint]}, limits);
+  const double rate = std::clamp(wanted, within.lower, within.upper);
+  const double place = from + rate * dt();
   const double held = std::clamp(place, actuator.lower, actuator.upper);
   servo_.move(joint, held, held == place ? rate : 0.0);
 }
@@ -690,6 +698,12 @@ void WholeBodyController::set_delta(Task& task, const ConstVectorRef& delta,
 void WholeBodyController::measure() {
   if (moves_joints_) return;
   laws_[active_]->measure(plan_, qd_);
+}
+
+const MotionLaw& WholeBodyController::law(std::size_t stack) const {
+  require(stack < laws_.size(), "a controller of " + std::to_string(laws_.size()) +
+                                    " stacks, there is no number " + std::to_string(stack));
+  return *laws_[stack];
 }
 
 // qdot*  [T 4.3.3], q*  [T 4.3.7]

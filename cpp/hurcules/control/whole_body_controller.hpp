@@ -94,8 +94,9 @@ class WholeBodyController {
   void hold_targets();
   // which stack rules from the next tick on; throws Error with the names that exist
   void use(const std::string& stack);
-  // Where a joint with an actuator shall be from now on [rad], and how fast it goes there [rad/s]; no
-  // stack rules until `use`.
+  // Where a joint with an actuator shall be from now on [rad], and its velocity there [rad/s], which
+  // is fed forward; no stack rules until `use`. To a place that is far off it goes as fast as its
+  // motor can; beyond its range it squeezes, as a finger does.
   void move(const std::string& joint, double position, double velocity);
   // the same for all of them, in the order of the servo: (m) each
   void move(const Vector& position, const Vector& velocity);
@@ -165,7 +166,8 @@ class WholeBodyController {
     return stacks_[active_].order == ControlOrder::Torque;
   }
   [[nodiscard]] const MotionLaw& law() const { return *laws_[active_]; }
-  [[nodiscard]] const MotionLaw& law(std::size_t stack) const { return *laws_[stack]; }
+  // throws Error for a number that no stack has
+  [[nodiscard]] const MotionLaw& law(std::size_t stack) const;
   // all tasks of all stacks but the limits, each once
   [[nodiscard]] const std::vector<Task*>& tasks() const { return tasks_; }
   [[nodiscard]] Task& task(const std::string& name) const;  // throws Error with the names

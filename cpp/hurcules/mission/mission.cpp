@@ -25,6 +25,8 @@ void check_setup(const MissionSetup& setup, const Robot& plan) {
        "a max_tilt above 0 beside it, or nobody looks", setup.min_height);
   want(setup.min_height == 0.0 || !setup.fall_frame.empty(), "min_height",
        "a fall_frame whose height it is", setup.min_height);
+  require(setup.fall_frame.empty() || setup.max_tilt > 0.0,
+          "[mission]: fall_frame wants a max_tilt above 0 beside it, or nobody looks");
   want(std::isfinite(setup.stand_off), "stand_off", "a finite distance [m]", setup.stand_off);
   want(std::isfinite(setup.container_stand), "container_stand", "a finite distance [m]",
        setup.container_stand);

@@ -49,6 +49,11 @@ SimulationOptions with_setup(const MissionSetup& setup, const MissionOptions& op
   return all;
 }
 
+const Mission& given(const std::unique_ptr<Mission>& mission) {
+  require(mission != nullptr, "a mission is wanted, none came");
+  return *mission;
+}
+
 }  // namespace
 
 const MissionSetup& mission_setup(const std::string& name) {
@@ -86,8 +91,8 @@ MissionSimulation::MissionSimulation(const ModelPtr& model,
                                      std::unique_ptr<Mission> mission,
                                      const MissionOptions& options, mjData_* data)
     // braces: the setup is read before the mission is given away
-    : Simulation{model, controller, with_setup(mission->setup(), options), std::move(mission),
-                 data} {}
+    : Simulation{model, controller, with_setup(given(mission).setup(), options),
+                 std::move(mission), data} {}
 
 std::vector<std::string> mission_names() {
   std::vector<std::string> names;

@@ -83,12 +83,9 @@ Words<TableFile> file_words() {
   return words;
 }
 
-// FNV-1a
 std::string checksum_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
   char text[17];  // no stream: beside a Python package with a libstdc++ of its own one crashed
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_of(bytes)));
   return text;
 }
 

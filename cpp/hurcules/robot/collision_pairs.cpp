@@ -13,6 +13,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/robot/joint_actuators.hpp"
+#include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
@@ -319,10 +320,15 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
     require(!shapes.is_own(id), "body '" + name + "' is part of the robot, not around it");
     named.push_back(id);
   }
+  std::set<int> met_named;  // that can touch the robot, they or what hangs on them
   const auto is_named = [&](int body) {
-    for (; body != 0; body = m.body_parentid[body])
-      if (std::find(named.begin(), named.end(), body) != named.end()) return true;
-    return false;
+    bool is = false;
+    for (; body != 0; body = m.body_parentid[body]) {
+      if (std::find(named.begin(), named.end(), body) == named.end()) continue;
+      met_named.insert(body);
+      is = true;
+    }
+    return is;
   };
   std::vector<GeomPair> still, told;
   for (int a = 0; a < m.ngeom; ++a) {
@@ -336,6 +342,11 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
         still.push_back({a, b});
       }
     }
+  }
+  for (const int body : named) {
+    require(met_named.contains(body), "body '" + name_of(m, mjOBJ_BODY, body) +
+                                          "' has no geom that can touch the robot (contype, "
+                                          "conaffinity)");
   }
   std::vector<CollisionPair> found = selected(still, robot, sampling);
   std::set<std::pair<int, int>> known;

@@ -255,6 +255,23 @@ void couple(const mjModel& m, std::vector<Coordinate>& all) {
   }
 }
 
+// a limit or a servo that is told of no joint would be no limit
+void require_numerics_of_joints(const mjModel& m) {
+  for (int i = 0; i < m.nnumeric; ++i) {
+    const std::string name = name_of(m, mjOBJ_NUMERIC, i);
+    auto joint = without(name.c_str(), "velocity_limit_");
+    const int wanted = joint ? 1 : 2;
+    if (!joint && name.starts_with("servo_")) joint = without(name.c_str(), "servo_");
+    if (!joint || (wanted == 2 && m.numeric_size[i] != wanted)) continue;  // something else
+    if (mj_name2id(&m, mjOBJ_JOINT, joint->c_str()) < 0) {
+      throw Error("numeric '" + name + "': " +
+                  unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
+    }
+    require(m.numeric_size[i] == wanted, "numeric '" + name + "' wants one number, " +
+                                             std::to_string(m.numeric_size[i]) + " came");
+  }
+}
+
 // [rad/s] or [m/s] of the joint
 double velocity_limit(const mjModel& m, const DrivenJoint& driven_joint) {
   const std::string joint = joint_name(m, driven_joint.joint);
@@ -371,6 +388,7 @@ bool names_coordinates(const mjModel& m) {
 
 std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std::string>& asked,
                                          bool floating) {
+  require_numerics_of_joints(m);
   std::vector<std::string> names = asked;
   floating = take_root(m, names) || floating;
   std::vector<Coordinate> found = from_tuples(m);

@@ -79,8 +79,9 @@ Skeleton::Pose Robot::pose(Frame frame) const {
 }
 
 Vector3 Robot::position(Frame frame) const {
-  if (frame.type == mjOBJ_BODY) return screws().skeleton().position(frame.id);
-  const Skeleton::Pose carrier = screws().pose(body_of(*model_, frame));
+  const int body = body_of(*model_, frame);
+  if (frame.type == mjOBJ_BODY) return screws().skeleton().position(body);
+  const Skeleton::Pose carrier = screws().pose(body);
   return carrier.p + carrier.R * vector(local(*model_, frame).first);
 }
 

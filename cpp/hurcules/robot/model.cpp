@@ -92,8 +92,28 @@ ModelPtr load_model(const std::string& path) {
   return owned(model, "model '" + path + "'", error.data());
 }
 
+namespace {
+
+// of the first element of a text of XML, "" where there is none
+std::string root_of(const std::string& xml) {
+  std::size_t at = xml.find('<');
+  while (at != std::string::npos && at + 1 < xml.size()) {
+    const bool comment = xml.compare(at, 4, "<!--") == 0;
+    if (!comment && xml[at + 1] != '?' && xml[at + 1] != '!') {
+      const std::size_t end = xml.find_first_of(" \t\r\n/>", at);
+      return xml.substr(at + 1, end - at - 1);
+    }
+    at = xml.find('<', comment ? xml.find("-->", at) : at + 1);
+  }
+  return "";
+}
+
+}  // namespace
+
 ModelPtr load_model_text(const std::string& mjcf, const std::string& folder) {
   check_mujoco_version();
+  require(root_of(mjcf) != "robot",
+          "the text is a URDF: in Python hurcules.load_urdf reads it, with its limits and motors");
   const WarningListener listener;
   // a file that stands only in memory, so that what it includes is looked for beside it
   const std::string path = (std::filesystem::path(folder) / "model_text.xml").string();

@@ -18,6 +18,7 @@
 #include "hurcules/robot/coordinates.hpp"
 #include "hurcules/robot/momentum.hpp"
 #include "hurcules/robot/object_names.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 namespace {
@@ -66,6 +67,7 @@ void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVector
 Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floating)
     : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;
+  structure_ = structure_of(m);
   coordinates_ = find_coordinates(m, joints, floating);
   floating_ = size() > 0 && coordinates_[0].joints[0].part == 0;
   find_rotations();
@@ -148,7 +150,7 @@ bool Robot::is_body(Frame frame) const {
 }
 
 ModelIdentity Robot::identity() const {
-  return {model_->signature, size()};
+  return {structure_, size()};
 }
 
 Index Robot::nv() const {

@@ -17,6 +17,7 @@
 // between questions, so one thread asks one Robot.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -96,9 +97,10 @@ struct Twist {
   Vector3 angular = Vector3::Zero();  // [rad/s]
 };
 
-// The model in two numbers: equal for every copy of one compiled model.
+// The model in two numbers: equal for every copy of one compiled model, whatever its sizes and
+// masses are changed to.
 struct ModelIdentity {
-  unsigned long long signature = 0;  // mjModel.signature
+  std::uint64_t structure = 0;  // see structure_of in trees.hpp
   Index coordinates = 0;             // n
   friend bool operator==(const ModelIdentity&, const ModelIdentity&) = default;
 };
@@ -249,6 +251,7 @@ class Robot {
   std::vector<Coordinate> coordinates_;
   std::vector<RotationVector> rotations_;
   Vector q_, v_, qpos_;
+  std::uint64_t structure_ = 0;
   Vector dry_friction_, change_;        // (n), the latter scratch
   std::vector<int> trees_ = {0};        // bodies at the roots of the coordinates' trees
   int support_ = -1;                    // body that stands, -1 for the root

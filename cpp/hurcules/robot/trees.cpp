@@ -3,28 +3,65 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
-#include <cassert>
+#include <string>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/state.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 
-int body_of(const mjModel& m, Frame frame) {
-  const int i = frame.id;
-  switch (frame.type) {
+namespace {
+
+struct Frames {
+  int count = 0;
+  const int* bodies = nullptr;  // that carry them, null where they are the bodies
+};
+
+Frames frames_of(const mjModel& m, int type) {
+  switch (type) {
     case mjOBJ_SITE:
-      assert(i >= 0 && i < m.nsite);
-      return m.site_bodyid[i];
+      return {m.nsite, m.site_bodyid};
     case mjOBJ_CAMERA:
-      assert(i >= 0 && i < m.ncam);
-      return m.cam_bodyid[i];
+      return {m.ncam, m.cam_bodyid};
     case mjOBJ_GEOM:
-      assert(i >= 0 && i < m.ngeom);
-      return m.geom_bodyid[i];
+      return {m.ngeom, m.geom_bodyid};
+    case mjOBJ_BODY:
+      return {m.nbody};
     default:
-      assert(frame.type == mjOBJ_BODY && i >= 0 && i < m.nbody);
-      return i;
+      return {};
   }
+}
+
+}  // namespace
+
+int body_of(const mjModel& m, Frame frame) {
+  const Frames frames = frames_of(m, frame.type);
+  if (frame.id < 0 || frame.id >= frames.count) {
+    throw Error("frame " + std::to_string(frame.id) + " of MuJoCo's type " +
+                std::to_string(frame.type) +
+                ": wanted a site, body, camera or geom of the model, as Robot::frame(name) finds it");
+  }
+  return frames.bodies ? frames.bodies[frame.id] : frame.id;
+}
+
+std::uint64_t structure_of(const mjModel& m) {
+  std::uint64_t hash = kHashOfNothing;
+  const auto add = [&](const std::string& text) { hash = hash_of(text + ";", hash); };
+  for (int b = 0; b < m.nbody; ++b) {
+    add(name_of(m, mjOBJ_BODY, b) + " on " + std::to_string(m.body_parentid[b]));
+  }
+  for (int j = 0; j < m.njnt; ++j) {
+    add(name_of(m, mjOBJ_JOINT, j) + " of type " + std::to_string(m.jnt_type[j]) + " on " +
+        std::to_string(m.jnt_bodyid[j]));
+  }
+  for (int i = 0; i < m.nsite; ++i) {
+    add(name_of(m, mjOBJ_SITE, i) + " on " + std::to_string(m.site_bodyid[i]));
+  }
+  for (int a = 0; a < m.nu; ++a) {
+    add(std::to_string(m.actuator_trntype[a]) + " " + std::to_string(m.actuator_trnid[2 * a]));
+  }
+  return hash;
 }
 
 std::vector<bool> joints_of_coordinates(const Robot& robot) {

@@ -9,7 +9,10 @@
 
 namespace hurcules {
 
-[[nodiscard]] int body_of(const mjModel_& model, Frame frame);  // that carries it
+// that carries it; throws Error for a frame that the model has not
+[[nodiscard]] int body_of(const mjModel_& model, Frame frame);
+// hash of its bodies, joints, sites and what its actuators drive: mjModel.signature is 0 in a file of MuJoCo's own (.mjb)
+[[nodiscard]] std::uint64_t structure_of(const mjModel_& model);
 // (njnt) whether some coordinate has that joint
 [[nodiscard]] std::vector<bool> joints_of_coordinates(const Robot& robot);
 // whether a body lies in a tree with one of these roots

@@ -36,7 +36,7 @@ class Quantities {
   [[nodiscard]] const std::vector<Index>& sizes() const { return sizes_; }  // of each name
   [[nodiscard]] Index size() const { return size_; }                        // of all
   // as they are now; out (size), one name after the other. `simulation` is the one that the names
-  // were found in, or a copy of it.
+  // were found in, or a copy of it; throws Error for another one.
   void read(const Simulation& simulation, VectorRef out) const;
 
  private:
@@ -69,6 +69,7 @@ class Quantities {
   [[nodiscard]] static Quantity find(const Simulation& simulation, const std::string& name);
   static void read(const Quantity& quantity, const Simulation& simulation, VectorRef out);
 
+  double identity_;
   std::vector<std::string> names_;
   std::vector<Quantity> quantities_;
   std::vector<Index> sizes_;

@@ -113,10 +113,12 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
     for (Index i = 0; i < world.size(); ++i) {
       t.limit_lower[i] = world.coordinates()[static_cast<std::size_t>(i)].lower;
       t.limit_upper[i] = world.coordinates()[static_cast<std::size_t>(i)].upper;
+      t.limit_speed[i] = world.coordinates()[static_cast<std::size_t>(i)].max_velocity;
     }
   } else if (limits) {
     t.limit_lower = limits->lower();
     t.limit_upper = limits->upper();
+    t.limit_speed = limits->max_velocity();
   }
   t.lag = t.q_des - t.seen_q;
   t.to_lower = t.seen_q - t.limit_lower;

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <typeinfo>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/control/tasks.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -25,10 +27,11 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 constexpr double kStateVersion = 4.0;
 constexpr std::size_t kStateHeader = 4;
 
-// of all names along the vectors of a controller's simulation
-double hash_of(const TelemetryNames& names) {
-  return hash_of_names(
-      {&names.coordinates, &names.joints, &names.levels, &names.task_rows, &names.commands});
+// of all names along the vectors of a controller's simulation, and of its log
+double identity_of(const mjModel& model, const TelemetryNames& names, const Recorder& log) {
+  return hash_of_names({&names.coordinates, &names.joints, &names.levels, &names.task_rows,
+                        &names.commands, &log.channels()},
+                       structure_of(model));
 }
 
 // numbers at most that the working sets of all solvers take in a snapshot
@@ -89,6 +92,9 @@ std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController
               std::to_string(own->nq) + ", " + std::to_string(own->nv) + ", " +
               std::to_string(own->nu) + " instead of " + std::to_string(m->nq) + ", " +
               std::to_string(m->nv) + ", " + std::to_string(m->nu));
+  require(structure_of(*own) == structure_of(*m),
+          "the controller is for another model than the simulation: bodies, joints, sites or what "
+          "the actuators drive differ in name or order");
   require(!physics || controller->servo().coordinate_joints() > 0,
           "no joint of the robot has an actuator: in the physics nothing would move it; "
           "hurcules.with_motors and load_urdf (Python) give each joint a motor");
@@ -167,6 +173,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   std::vector<double> values;
   write(values);
   state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
+  identity_ = identity_of(*plant_.model(), record_.names(), record_.log);
 }
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
@@ -175,7 +182,12 @@ std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
   robot.set_qpos(initial_qpos_);
   std::shared_ptr<WholeBodyController> controller = controller_->clone(robot);
   std::unique_ptr<Supervisor> supervisor;
-  if (supervisor_) supervisor = supervisor_->clone(*controller);
+  if (supervisor_) {
+    supervisor = supervisor_->clone(*controller);
+    const Supervisor &made = *supervisor, &own_one = *supervisor_;
+    require(typeid(made) == typeid(own_one),
+            "the clone of the mission is of another class: its class wants a clone of its own");
+  }
   SimulationOptions options = options_;
   options.record = false;
   options.clock = nullptr;
@@ -462,6 +474,8 @@ void Simulation::measure_world() const {
 }
 
 const Task& Simulation::measured_task(std::size_t number) const {
+  require(number < measured_.size(), "a simulation measures " + std::to_string(measured_.size()) +
+                                         " tasks, there is no number " + std::to_string(number));
   Task& task = *measured_[number];
   if (!fresh_[number]) {
     copy_memory(*planned_tasks_[number], task, task_state_);
@@ -597,7 +611,8 @@ void Simulation::go(std::size_t phase) {
 }
 
 void Simulation::pause() {
-  require(supervisor_ != nullptr, "a simulation without a mission has no phases to pause");
+  require(supervisor_ != nullptr, "a simulation without a mission has no phases to pause; its controller's "
+          "move_joints() stops the robot, hold_targets() holds it");
   if (finished() || paused()) return;
   supervisor_->pause();
   record_.note(EventKind::Paused, supervisor_->phase());
@@ -623,7 +638,7 @@ void Simulation::answer(bool yes) {
 
 std::vector<double> Simulation::state() const {
   std::vector<double> values = {kStateVersion, static_cast<double>(state_size_),
-                                hash_of(record_.names()), 0.0};
+                                identity_, 0.0};
   values.reserve(state_size_);
   write(values);
   values[3] = static_cast<double>(values.size());
@@ -657,7 +672,7 @@ void Simulation::restore(const std::vector<double>& values) {
           "a snapshot of another version: wanted " + std::to_string(kStateVersion) + ", got " +
               (values.empty() ? "nothing" : number_text(values[0])));
   require(values.size() == state_size_ && values[1] == static_cast<double>(state_size_) &&
-              values[2] == hash_of(record_.names()),
+              values[2] == identity_,
           "a snapshot of another model, controller or mission: it has " +
               std::to_string(values.size()) + " numbers, wanted are " +
               std::to_string(state_size_) + " of these coordinates, tasks and channels");

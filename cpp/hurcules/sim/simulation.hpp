@@ -134,6 +134,8 @@ class Simulation {
   }
   [[nodiscard]] Plant& plant() { return plant_; }
   [[nodiscard]] const Plant& plant() const { return plant_; }
+  // the same for a copy of it, another one for another model, controller or mission
+  [[nodiscard]] double identity() const { return identity_; }
   [[nodiscard]] const Robot& world() const { return world_; }  // the robot as it is
   // a task of the controller, by its number, measured at the robot as it is
   [[nodiscard]] const Task& measured_task(std::size_t number) const;
@@ -211,6 +213,7 @@ class Simulation {
   std::unique_ptr<Robot> placed_;  // without physics: where it moves to
   bool data_seen_ = true;          // somebody may look into its mjData
   std::size_t state_size_ = 0;
+  double identity_ = 0.0;
   std::int64_t ticks_ = 0;
   Ending ending_ = Ending::Running;
   double ending_time_ = 0.0;  // [s]

@@ -17,7 +17,7 @@ Vector zeros(const std::vector<std::string>& names) {
 
 Telemetry::Telemetry(const TelemetryNames& names) {
   for (Vector* values : {&q, &qd, &seen_q, &seen_qd, &q_des, &qd_des, &lag, &limit_lower,
-                         &limit_upper, &to_lower, &to_upper, &active}) {
+                         &limit_upper, &limit_speed, &to_lower, &to_upper, &active}) {
     *values = zeros(names.coordinates);
   }
   for (Vector* values : {&torque, &demand, &joint_error}) *values = zeros(names.joints);
@@ -43,6 +43,7 @@ void Telemetry::clear() {
                          &lag,
                          &limit_lower,
                          &limit_upper,
+                         &limit_speed,
                          &to_lower,
                          &to_upper,
                          &active,
@@ -82,6 +83,7 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
   recorder.add("qd_des", names.coordinates, qd_des);
   recorder.add("limit_lower", names.coordinates, limit_lower);
   recorder.add("limit_upper", names.coordinates, limit_upper);
+  recorder.add("limit_speed", names.coordinates, limit_speed);
   recorder.add("active", names.coordinates, active);
   recorder.add("torque", names.joints, torque);
   recorder.add("joint_error", names.joints, joint_error);

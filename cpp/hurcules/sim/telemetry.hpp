@@ -35,6 +35,7 @@ struct Telemetry {
   Vector lag;              // [rad] (n) commanded minus seen
   Vector limit_lower,
       limit_upper;            // [rad] (n) of the present mode, of the joints where no stack rules
+  Vector limit_speed;         // [rad/s] (n) the same
   Vector to_lower, to_upper;  // [rad] (n) seen distance to them, negative beyond
   Vector active;              // (n) -1 0 1: held back by a position limit
   Vector torque, demand;      // [N m] (m) applied, and asked for
