@@ -83,7 +83,7 @@ def _checksum(model: mujoco.MjModel) -> str:
     """Of the compiled model, as an .mjb file holds it."""
     data = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, data)
-    return hashlib.sha256(data).hexdigest()
+    return hashlib.sha256(data.tobytes()).hexdigest()
 
 
 def _of_log(log: Mapping[str, NDArray[np.float64]], dt: float) -> dict[str, float]:
