@@ -124,17 +124,23 @@ def _of_no_joint(model: mujoco.MjModel) -> Iterator[str]:
 
 def _distances(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
     """Distances that give way to a hand, and bodies that come and that none of them counts."""
-    led, names = "", set()
+    names: set[str] = set()
+    level = {
+        name: number
+        for number, one in enumerate(controller.diagnostics())
+        for name in one.level.split(" + ")
+    }
     for task in controller.tasks:
-        if isinstance(task, DistanceTask):
-            names |= {name for pair in task.pairs(controller.plan) for name in pair}
-            if led:
-                yield (
-                    f"distance task '{task.name}' stands below '{led}' and gives way to it: what "
-                    "it keeps off may be touched; distances come before what is led"
-                )
-        elif isinstance(task, FRAMES):
-            led = led or task.name
+        if not isinstance(task, DistanceTask):
+            continue
+        names |= {name for pair in task.pairs(controller.plan) for name in pair}
+        led = [one.name for one in controller.tasks if isinstance(one, FRAMES)]
+        above = [one for one in led if level.get(one, len(level)) <= level.get(task.name, -1)]
+        if above:
+            yield (
+                f"distance task '{task.name}' stands below or beside '{above[0]}' and gives way to "
+                "it: what it keeps off may be touched; distances come before what is led"
+            )
     counted = [geom for geom in range(model.ngeom) if _geom(model, geom) in names]
     trees = model.body_rootid[model.dof_bodyid]  # of robots and loads; a base that is fixed too
     around = [one for one in counted if model.body_rootid[model.geom_bodyid[one]] not in trees]

@@ -352,7 +352,8 @@ def warned(chain: mujoco.MjModel, levels: str, bodies: list[str]) -> list[str]:
         "s": hurcules.self_collision(robot),
         "h": hurcules.PositionTask("hand", robot, "tip"),
     }
-    controller = hurcules.WholeBodyController(robot, [made[one] for one in levels])
+    stack = [[made[one] for one in level] for level in levels.split()]
+    controller = hurcules.WholeBodyController(robot, stack)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         hurcules.Simulation(model=chain, controller=controller, record=False)
@@ -360,14 +361,15 @@ def warned(chain: mujoco.MjModel, levels: str, bodies: list[str]) -> list[str]:
 
 
 def test_a_distance_below_a_hand_is_told() -> None:
-    (told,) = warned(beside_a_person(), "hc", ["person"])
-    assert "'obstacles' stands below 'hand' and gives way to it" in told
-    assert warned(beside_a_person(), "ch", ["person"]) == []
+    for levels in ("h c", "hc"):
+        (told,) = warned(beside_a_person(), levels, ["person"])
+        assert "'obstacles' stands below or beside 'hand' and gives way to it" in told
+    assert warned(beside_a_person(), "c h", ["person"]) == []
 
 
 def test_a_person_who_walks_and_counts_for_no_distance_is_told() -> None:
-    (told,) = warned(beside_a_person(), "ch", [])
+    (told,) = warned(beside_a_person(), "c h", [])
     assert told.startswith("no distance task counts 'person'") and "bodies=['person']" in told
-    assert warned(beside_a_person(contype=0), "ch", []) == []  # a mark of a viewer
+    assert warned(beside_a_person(contype=0), "c h", []) == []  # a mark of a viewer
     assert warned(beside_a_person(), "h", []) == []  # nobody asked for distances
-    assert warned(beside_a_person(), "sh", []) == []
+    assert warned(beside_a_person(), "s h", []) == []
