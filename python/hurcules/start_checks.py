@@ -9,7 +9,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._core import OrientationTask, PoseTask, PositionTask, Robot, WholeBodyController
+from hurcules._core import (
+    DistanceTask,
+    OrientationTask,
+    PoseTask,
+    PositionTask,
+    Robot,
+    WholeBodyController,
+)
 
 __all__ = ["warn_of_forces", "warn_of_physics"]
 
@@ -34,6 +41,7 @@ IMPLICIT = (
     int(mujoco.mjtIntegrator.mjINT_IMPLICITFAST),
 )
 FRAMES = (PositionTask, OrientationTask, PoseTask)
+OF_JOINTS = ("velocity_limit_", "servo_")  # numerics that end in the name of a joint
 
 
 def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> None:
@@ -59,6 +67,8 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
             f"dt={LONGEST:g} of the controller, or less"
         )
     yield from _outside(controller)
+    yield from _of_no_joint(model)
+    yield from _distances(model, controller)
     yield from _doubled(model)
     yield from _unseen(controller)
     yield from _by_tendons(model, controller)
@@ -102,6 +112,60 @@ def _outside(controller: WholeBodyController) -> Iterator[str]:
             f"the robot starts outside its joint limits: {'; '.join(outside)}. It is driven back, "
             "before all that it is told: robot.set_configuration says where it starts"
         )
+
+
+def _of_no_joint(model: mujoco.MjModel) -> Iterator[str]:
+    joints = {model.joint(joint).name for joint in range(model.njnt)}
+    for name in (model.numeric(i).name for i in range(model.nnumeric)):
+        for kind in OF_JOINTS:
+            if name.startswith(kind) and (joint := name.removeprefix(kind)) not in joints:
+                yield f"numeric '{name}' holds for nothing: the model has no joint '{joint}'"
+
+
+def _distances(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:
+    """Distances that give way to a hand, and bodies that come and that none of them counts."""
+    names: set[str] = set()
+    level = {
+        name: number
+        for number, one in enumerate(controller.diagnostics())
+        for name in one.level.split(" + ")
+    }
+    for task in controller.tasks:
+        if not isinstance(task, DistanceTask):
+            continue
+        names |= {name for pair in task.pairs(controller.plan) for name in pair}
+        led = [one.name for one in controller.tasks if isinstance(one, FRAMES)]
+        above = [one for one in led if level.get(one, len(level)) <= level.get(task.name, -1)]
+        if above:
+            yield (
+                f"distance task '{task.name}' stands below or beside '{above[0]}' and gives way to "
+                "it: what it keeps off may be touched; distances come before what is led"
+            )
+    counted = [geom for geom in range(model.ngeom) if _geom(model, geom) in names]
+    trees = model.body_rootid[model.dof_bodyid]  # of robots and loads; a base that is fixed too
+    around = [one for one in counted if model.body_rootid[model.geom_bodyid[one]] not in trees]
+    own = [geom for geom in counted if geom not in around]
+    for body in np.flatnonzero(model.body_mocapid >= 0) if around else ():
+        geoms = np.flatnonzero(model.body_rootid[model.geom_bodyid] == body)
+        if body not in trees and not np.isin(geoms, around).any() and _meet(model, own, geoms):
+            name = model.body(body).name
+            yield (
+                f"no distance task counts '{name}', which mocap moves and the robot may touch: "
+                f"obstacles(robot, bodies=['{name}'])"
+            )
+
+
+def _geom(model: mujoco.MjModel, geom: int) -> str:
+    """As a DistanceTask names it."""
+    body = model.body(model.geom_bodyid[geom]).name
+    return model.geom(geom).name or (f"geom {geom} of {body}" if body else f"geom {geom}")
+
+
+def _meet(model: mujoco.MjModel, some: list[int], others: NDArray[np.intp]) -> bool:
+    """Whether contacts between them count."""
+    kinds, with_kinds = model.geom_contype, model.geom_conaffinity
+    met = kinds[some, None] & with_kinds[others] | with_kinds[some, None] & kinds[others]
+    return bool(np.any(met))
 
 
 def _doubled(model: mujoco.MjModel) -> Iterator[str]:

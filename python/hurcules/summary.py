@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 import platform
 from collections.abc import Mapping
@@ -43,6 +44,7 @@ def summarize(
             "real_time_factor": simulation.time / wall if wall else None,
             "control_tick_us": _statistics(recording.control_tick_us),
             "limit_violation": simulation.limit_violation(),
+            "limits": _limits(simulation),
             "figures": simulation.figures() | _of_log(recording.log, simulation.dt),
             "wanted": {
                 name: {"least": least, "most": most}
@@ -57,9 +59,31 @@ def summarize(
                 "system": platform.platform(),
                 "python": platform.python_version(),
                 "mujoco": mujoco.__version__,
+                "numpy": np.__version__,
             },
+            "model_sha256": _checksum(simulation.model),
         }
     )
+
+
+def _limits(simulation: Simulation) -> dict[str, dict[str, float]]:
+    """Of the robot, by coordinate, in SI; a JointLimits of a stack may be narrower."""
+    return {
+        one.name: {
+            "lower": one.lower,
+            "upper": one.upper,
+            "velocity": one.max_velocity,
+            "effort": one.max_effort,
+        }
+        for one in simulation.controller.plan.coordinates
+    }
+
+
+def _checksum(model: mujoco.MjModel) -> str:
+    """Of the compiled model, as an .mjb file holds it."""
+    data = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, data)
+    return hashlib.sha256(data.tobytes()).hexdigest()
 
 
 def _of_log(log: Mapping[str, NDArray[np.float64]], dt: float) -> dict[str, float]:

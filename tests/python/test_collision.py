@@ -251,7 +251,7 @@ def test_notes_name_what_is_in_the_way(model: mujoco.MjModel) -> None:
 def test_in_the_physics_an_arm_stops_before_the_floor(model: mujoco.MjModel) -> None:
     robot = hurcules.Robot(model)
     robot.set_configuration(START)
-    clear = hurcules.obstacles(robot)
+    clear = hurcules.obstacles(robot, bodies=["ball"])
     hand = hurcules.PositionTask("hand", robot, "tip")
     channels = {"hand": hurcules.Twist(hand, 0.5)}
     controller = hurcules.WholeBodyController(robot, [clear, hand], channels)

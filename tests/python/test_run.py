@@ -3,6 +3,7 @@
 A whole mission is run by `make demo`, not here: these runs are cut short with --seconds.
 """
 
+import hashlib
 import io
 import json
 import os
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import imageio.v2 as imageio
+import mujoco
 import numpy as np
 import pytest
 from rich.console import Console
@@ -75,6 +77,17 @@ def test_the_summary_has_all_that_it_always_has(summary: dict[str, Any]) -> None
     for excess in (worst, worst["commanded"]):
         assert all(excess[name] >= 0 for name in ("position_rad", "velocity", "torque"))
     assert worst["commanded"]["position_rad"] == 0
+
+
+def test_the_summary_says_which_limits_held_and_of_which_model(
+    summary: dict[str, Any], tmp_path: Path
+) -> None:
+    limits = summary["limits"]
+    assert limits["KN"] == {"lower": -0.35, "upper": 3.25, "velocity": 0.6, "effort": 9000.0}
+    assert summary["machine"]["numpy"] == np.__version__
+    mujoco.mj_saveModel(hurcules.Simulation("stretch").model, str(tmp_path / "scene.mjb"), None)
+    checksum = hashlib.sha256((tmp_path / "scene.mjb").read_bytes()).hexdigest()
+    assert summary["model_sha256"] == checksum
 
 
 def test_the_summary_has_the_thesis_beside_the_figures(summary: dict[str, Any]) -> None:

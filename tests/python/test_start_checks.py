@@ -317,3 +317,59 @@ def test_a_cloth_on_the_ground_is_no_part_of_the_robot() -> None:
         dim="2" pos="0 0 -2"><contact selfcollide="none"/><edge equality="true"/></flexcomp>"""
     text = CHAIN_TEXT.replace("<worldbody>", f"<worldbody>{cloth}")
     simulation(mujoco.MjModel.from_xml_string(text), list("abc"))
+
+
+def test_a_limit_that_is_told_of_no_joint_is_named() -> None:
+    spec = mujoco.MjSpec.from_string(CHAIN.format(step=0.002, motors=STRONG.format("a"), last=""))
+    spec.add_numeric(name="velocity_limit_a", data=[0.5], size=1)
+    spec.add_numeric(name="velocity_limit_shoulder", data=[0.5], size=1)
+    with pytest.warns(UserWarning) as caught:
+        simulation(spec.compile(), ["a"])
+    told = [str(one.message) for one in caught if "numeric" in str(one.message)]
+    assert told == [
+        "numeric 'velocity_limit_shoulder' holds for nothing: the model has no joint 'shoulder'"
+    ]
+
+
+def beside_a_person(contype: int = 1) -> mujoco.MjModel:
+    spec = mujoco.MjSpec.from_string(
+        CHAIN.format(
+            step=0.002, motors="".join(STRONG.format(name) for name in "abc"), last=""
+        ).replace('<joint name="c" /><geom', '<joint name="c" /><site name="tip"/><geom')
+    )
+    table = spec.worldbody.add_geom(name="table", size=[0.1, 0.1, 0.1], pos=[0.6, 0.0, -0.5])
+    table.type = mujoco.mjtGeom.mjGEOM_BOX
+    person = spec.worldbody.add_body(name="person", mocap=True, pos=[2.0, 0.0, 0.0])
+    forearm = person.add_body()
+    forearm.add_geom(size=[0.1, 0.1, 0.1], contype=contype, conaffinity=contype)
+    return spec.compile()
+
+
+def warned(chain: mujoco.MjModel, levels: str, bodies: list[str]) -> list[str]:
+    robot = hurcules.Robot(chain)
+    made = {
+        "c": hurcules.obstacles(robot, bodies=bodies),
+        "s": hurcules.self_collision(robot),
+        "h": hurcules.PositionTask("hand", robot, "tip"),
+    }
+    stack = [[made[one] for one in level] for level in levels.split()]
+    controller = hurcules.WholeBodyController(robot, stack)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        hurcules.Simulation(model=chain, controller=controller, record=False)
+    return [str(one.message) for one in caught]
+
+
+def test_a_distance_below_a_hand_is_told() -> None:
+    for levels in ("h c", "hc"):
+        (told,) = warned(beside_a_person(), levels, ["person"])
+        assert "'obstacles' stands below or beside 'hand' and gives way to it" in told
+    assert warned(beside_a_person(), "c h", ["person"]) == []
+
+
+def test_a_person_who_walks_and_counts_for_no_distance_is_told() -> None:
+    (told,) = warned(beside_a_person(), "c h", [])
+    assert told.startswith("no distance task counts 'person'") and "bodies=['person']" in told
+    assert warned(beside_a_person(contype=0), "c h", []) == []  # a mark of a viewer
+    assert warned(beside_a_person(), "h", []) == []  # nobody asked for distances
+    assert warned(beside_a_person(), "s h", []) == []
