@@ -89,7 +89,7 @@ def table_mission(name: str) -> TableMission | None:
         raise Error(
             f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; a robot of "
             "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...), "
-            "in a file of Python that hurcules run takes too"
+            "in a file of Python that hurcules run takes too; its table for C++: Mission.save_table"
         )
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)

@@ -138,7 +138,7 @@ def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureF
     told = capsys.readouterr().err
     assert "own.toml: 'own' has no scene; [mission] wants scene, one of lift, casualty" in told
     assert "hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)" in told
-    assert "in a file of Python that hurcules run takes too" in told
+    assert "in a file of Python that hurcules run takes too; its table for C++: Mission." in told
     assert "scene 'lit' does not exist" in told
     assert "[mission], scene: wanted a text, got 3" in told
     assert cli.main(["run", str(tmp_path / "none.toml")]) == 2
