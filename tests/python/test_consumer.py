@@ -75,7 +75,7 @@ def test_the_loop_of_the_docs_leads_a_robot(build: Path, root: Path, tmp_path: P
     np.testing.assert_allclose(where, [0.4, 0.0, 0.7], atol=2e-3)
 
 
-def test_the_mission_of_the_docs_has_the_bits_of_python(
+def test_the_mission_of_the_docs_says_what_python_says(
     build: Path, root: Path, tmp_path: Path
 ) -> None:
     text = (root / "docs" / "loop.md").read_text(encoding="utf-8")
