@@ -49,6 +49,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import mujoco
+import numpy as np
+
 from hurcules._core import (
     Error,
     Lead,
@@ -62,8 +65,10 @@ from hurcules._core import (
     check_rows,
     condition,
     reaction,
+    table_lines,
 )
 from hurcules.mission_drawing import drawing
+from hurcules.output import write_whole
 from hurcules.toml_rows import Kind, take, typed
 from hurcules.validation import require_known, told_at
 
@@ -144,6 +149,30 @@ class Mission:
             Path(path).write_text(self.toml(), encoding="utf-8")
         except OSError as error:
             raise Error(f"mission file {path}: {error}") from error
+
+    def save_table(self, path: str | Path, model: mujoco.MjModel, controller: str = "own") -> None:
+        """Writes the table as C++ reads it, and the compiled model beside it.
+
+        `hurcules::read_table` and `load_model_of` take them to a program of your own, which makes
+        the controller: stacks and channels of the names that the table uses.
+
+        Args:
+            path: of the table; the model has its name with the ending `.mjb`.
+            model: the scene.
+            controller: what `hurcules-sim` makes it by; a name of your own is for your program.
+
+        Raises:
+            Error: a file of another ending.
+            WriteError: a file cannot be written.
+        """
+        path = Path(path)
+        require_known("kind of file", path.suffix, [".table"])
+        compiled = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+        mujoco.mj_saveModel(model, None, compiled)
+        beside, contents = path.with_suffix(".mjb"), compiled.tobytes()
+        text = table_lines(self.setup, self.rows, controller, beside.name, contents)
+        write_whole(beside, contents)
+        write_whole(path, text.encode())
 
     def toml(self) -> str:
         """The text of that file."""

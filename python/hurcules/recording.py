@@ -24,6 +24,7 @@ CHANNELS = (
     ("q/C, qd/C", "[rad], [rad/s] measured motion of coordinate C"),
     ("q_des/C, qd_des/C", "[rad], [rad/s] its commanded motion"),
     ("limit_lower/C, limit_upper/C", "[rad] its position limits in force"),
+    ("limit_speed/C", "[rad/s] its speed limit in force, inf for none"),
     ("active/C", "-1, 0, 1: held back by its lower limit, by none, by its upper limit"),
     ("torque/J, joint_error/J", "[N m] of the motor of joint J, [rad] reference minus measured"),
     ("error/L, measured_error/L", "[m] or [rad] norm of the task errors of level L"),

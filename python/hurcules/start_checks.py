@@ -41,7 +41,6 @@ IMPLICIT = (
     int(mujoco.mjtIntegrator.mjINT_IMPLICITFAST),
 )
 FRAMES = (PositionTask, OrientationTask, PoseTask)
-OF_JOINTS = ("velocity_limit_", "servo_")  # numerics that end in the name of a joint
 
 
 def warn_of_physics(model: mujoco.MjModel, controller: WholeBodyController) -> None:
@@ -67,7 +66,6 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
             f"dt={LONGEST:g} of the controller, or less"
         )
     yield from _outside(controller)
-    yield from _of_no_joint(model)
     yield from _distances(model, controller)
     yield from _doubled(model)
     yield from _unseen(controller)
@@ -112,14 +110,6 @@ def _outside(controller: WholeBodyController) -> Iterator[str]:
             f"the robot starts outside its joint limits: {'; '.join(outside)}. It is driven back, "
             "before all that it is told: robot.set_configuration says where it starts"
         )
-
-
-def _of_no_joint(model: mujoco.MjModel) -> Iterator[str]:
-    joints = {model.joint(joint).name for joint in range(model.njnt)}
-    for name in (model.numeric(i).name for i in range(model.nnumeric)):
-        for kind in OF_JOINTS:
-            if name.startswith(kind) and (joint := name.removeprefix(kind)) not in joints:
-                yield f"numeric '{name}' holds for nothing: the model has no joint '{joint}'"
 
 
 def _distances(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:

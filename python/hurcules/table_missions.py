@@ -9,12 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from hurcules import _core, disposal, lift
 from hurcules._core import Error
 from hurcules.mission_table import Mission
-from hurcules.output import write_whole
 from hurcules.validation import require_known, told_at
 
 __all__ = ["TABLE_MISSIONS", "TableMission", "table_mission", "write_table"]
@@ -91,7 +89,7 @@ def table_mission(name: str) -> TableMission | None:
         raise Error(
             f"{name}: '{scene}' has no scene; [mission] wants scene, one of {known}; a robot of "
             "your own: hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...), "
-            "in a file of Python that hurcules run takes too"
+            "in a file of Python that hurcules run takes too; its table for C++: Mission.save_table"
         )
     require_known(f"{name}: scene", scene, TABLE_MISSIONS)
     return replace(TABLE_MISSIONS[scene], table=lambda: table)
@@ -117,11 +115,4 @@ def write_table(
     data = mujoco.MjData(model)
     with told_at(name):  # what does not run is told now
         _core.Simulation(model, data, controller, table.rows, table.setup)
-    compiled = np.empty(mujoco.mj_sizeModel(model), np.uint8)
-    mujoco.mj_saveModel(model, None, compiled)
-    beside = path.with_suffix(".mjb")
-    text = _core.table_lines(
-        table.setup, table.rows, mission.controller, beside.name, compiled.tobytes()
-    )
-    for file, contents in ((beside, compiled.tobytes()), (path, text.encode())):
-        write_whole(file, contents)
+    table.save_table(path, model, mission.controller)

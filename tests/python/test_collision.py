@@ -248,6 +248,14 @@ def test_notes_name_what_is_in_the_way(model: mujoco.MjModel) -> None:
     assert {name for pair in clear.near(robot) for name in pair[:2]} >= {"post", "lower"}
 
 
+def test_an_obstacle_that_nothing_can_touch_is_refused(model: mujoco.MjModel) -> None:
+    model.geom_contype[model.body("ball").geomadr] = 0
+    model.geom_conaffinity[model.body("ball").geomadr] = 0
+    robot = hurcules.Robot(model)
+    with pytest.raises(hurcules.Error, match="body 'ball' has no geom that can touch the robot"):
+        hurcules.obstacles(robot, bodies=["ball"])
+
+
 def test_in_the_physics_an_arm_stops_before_the_floor(model: mujoco.MjModel) -> None:
     robot = hurcules.Robot(model)
     robot.set_configuration(START)

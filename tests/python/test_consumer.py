@@ -9,9 +9,11 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 
 import hurcules
@@ -71,6 +73,29 @@ def test_the_loop_of_the_docs_leads_a_robot(build: Path, root: Path, tmp_path: P
     where = np.array(run(program, tmp_path / "arm.xml", "tip").split(), dtype=float)
     # from (0.4, 0, 0.6) at 0.1 m/s for 500 ticks of 2 ms
     np.testing.assert_allclose(where, [0.4, 0.0, 0.7], atol=2e-3)
+
+
+def test_the_mission_of_the_docs_says_what_python_says(
+    build: Path, root: Path, tmp_path: Path
+) -> None:
+    text = (root / "docs" / "loop.md").read_text(encoding="utf-8")
+    tables = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    rows = next(rows for rows in tables if 'name = "lower"' in rows)
+    model, mission = mujoco.MjModel.from_xml_string(ARM), hurcules.Mission.read(tomllib.loads(rows))
+    mission.save_table(tmp_path / "lower.table", model)
+    robot = hurcules.Robot(model)
+    hand, posture = hurcules.PositionTask("hand", robot, "tip"), hurcules.PostureTask("p", robot)
+    controller = hurcules.WholeBodyController(
+        robot, channels={"hand": hurcules.Twist(hand, 0.3)}, stacks={"reach": [hand, posture]}
+    )
+    simulation = hurcules.Simulation(mission, model=model, controller=controller, variation=0.0)
+    while not simulation.finished:
+        simulation.step(100)
+    program = installed(build, tmp_path, re.findall(r"```cpp\n(.*?)```", text, re.DOTALL)[1])
+    reason, *figures = run(program, tmp_path / "lower.table", "tip").splitlines()
+    assert reason == simulation.reason == "completed"
+    here = [f"{name} {value:g}" for name, value in simulation.figures().items()]
+    assert figures == here
 
 
 def test_the_program_of_the_readme_runs_and_says_what_its_python_says(

@@ -43,11 +43,11 @@ FLOORS: tuple[set[str], ...] = (
         "opengl", "outlet", "plugins", "running_gear",
     )},
     {"hurcules." + name for name in (
-        "interrupts", "mission_drawing", "toml_rows", "validation",
+        "interrupts", "mission_drawing", "output", "toml_rows", "validation",
     )},
     {"hurcules." + name for name in (
         "_pickles", "_reprs", "_subclasses", "_version", "casualties", "ik", "mission_options",
-        "mission_table", "motors", "output", "postures", "rendering", "rhqp", "sensors",
+        "mission_table", "motors", "postures", "rendering", "rhqp", "sensors",
         "start_checks", "support",
     )},
     {"hurcules." + name for name in (

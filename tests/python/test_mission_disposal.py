@@ -69,6 +69,22 @@ def test_the_case_hangs_in_the_fingers_of_both_hands(grasped) -> None:
     assert simulation.data.body("ordnance_case").xpos[2] == pytest.approx(0.22, abs=0.01)
 
 
+@pytest.mark.slow
+def test_the_fingers_rest_behind_their_brakes_and_press_anew(grasped) -> None:
+    simulation, states = grasped
+    simulation.restore(states["look"])
+    grip = hurcules.Quantities(simulation, ["load/left_grip_n"])
+    rested, pressed, least = 0, 0, np.inf
+    for _ in range(300):
+        simulation.step(50)
+        motor = np.abs(simulation.data.actuator("L_grip").force[0])
+        rested, pressed = rested + (motor == 0.0), pressed + (motor > 300.0)
+        least = min(least, simulation.read(grip)[0][0])
+    assert rested > 240  # of 15 s: the motor is without current
+    assert pressed > 0  # the force had fallen by 15 N of 380
+    assert least > 350.0
+
+
 def seen(seed: int, variation: float) -> tuple[np.ndarray, np.ndarray]:
     """Where the cameras tell that the case is, and where it is: ahead, aside [m], heading [rad]."""
     simulation = hurcules.Simulation("disposal", seed, variation=variation, parameters=TURNED)

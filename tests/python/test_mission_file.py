@@ -14,11 +14,12 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 from rich.console import Console
 
-from hurcules import Simulation, _core, _exec, cli
+from hurcules import Mission, Simulation, _core, _exec, cli
 from hurcules.run import RunOptions, run
 from hurcules.sensors import realistic
 from hurcules.table_missions import TABLE_MISSIONS
@@ -137,11 +138,27 @@ def test_a_table_without_a_scene_is_told(tmp_path: Path, capsys: pytest.CaptureF
     told = capsys.readouterr().err
     assert "own.toml: 'own' has no scene; [mission] wants scene, one of lift, casualty" in told
     assert "hurcules.Simulation(hurcules.Mission.load(...), model=..., controller=...)" in told
-    assert "in a file of Python that hurcules run takes too" in told
+    assert "in a file of Python that hurcules run takes too; its table for C++: Mission." in told
     assert "scene 'lit' does not exist" in told
     assert "[mission], scene: wanted a text, got 3" in told
     assert cli.main(["run", str(tmp_path / "none.toml")]) == 2
     assert "none.toml" in capsys.readouterr().err
+
+
+def test_the_table_of_a_robot_of_ones_own_is_written_for_cpp(tmp_path: Path) -> None:
+    arm = '<mujoco><worldbody><body><joint/><geom size=".1"/></body></worldbody></mujoco>'
+    model = mujoco.MjModel.from_xml_string(arm)
+    path, phase = tmp_path / "own.table", {"name": "down", "stack": "reach", "seconds": 2.0}
+    mission = Mission.read({"mission": {"name": "own"}, "phase": [phase]})
+    mission.save_table(path, model)
+    assert _core.read_table(str(path)) == (mission.setup, mission.rows)
+    written = mujoco.MjModel.from_binary_path(str(tmp_path / "own.mjb"))
+    assert written.names == model.names
+    done = program(str(path))
+    assert done.returncode == 2
+    assert "controller of a table 'own' does not exist; there are: disposal, lift" in done.stderr
+    with pytest.raises(_core.Error, match=r"kind of file '.mjb' does not exist"):
+        mission.save_table(tmp_path / "own.mjb", model)
 
 
 def test_a_file_that_was_broken_is_told(file: Path, tmp_path: Path) -> None:

@@ -391,6 +391,12 @@ def test_conditions_and_reactions_are_read_from_text() -> None:
         ("way = 0.2", 'hold = "q/j1"', "a span above 0"),
         ("way = 0.2", 'hold = "q/j9", span = 0.1, way = 0.2', "quantity 'q/j9' does not exist"),
         ("seconds = 1.0", 'seconds = 1.0\nbrakes = ["j1"]', "brake 'j1' does not exist"),
+        ("way = 0.2", "way = 0.2, brake = true", "brake wants a quantity to hold"),
+        (
+            "way = 0.2",
+            'way = 0.2, hold = "q/j1", span = 0.1, brake = true',
+            "leads no joints whose brakes",
+        ),
     ],
 )
 def test_a_mistake_is_told_with_its_row(old: str, new: str, wanted: str) -> None:

@@ -114,7 +114,7 @@ def test_limits_hold_in_the_stacks_that_name_them_alone(page: str) -> None:
     cell.go(300, goal)
     cell.controller.move_joints()
     cell.go(400, {"joints": [-3.0, 0.0, 0.0, 0.0]})
-    assert cell.controller.qd_des[0] == pytest.approx(-3.0)  # of 2 in the model
+    assert cell.controller.qd_des[0] == pytest.approx(-FAST)  # the model's
 
 
 def at_speed(cell: Cell) -> tuple[np.ndarray, float]:

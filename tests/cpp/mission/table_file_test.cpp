@@ -41,7 +41,8 @@ TableFile made_up() {
                .rate = Vector::Constant(1, 0.5),
                .hold = "load/n",
                .at = 230.0,
-               .span = 50.0}};
+               .span = 50.0,
+               .brake = true}};
   up.support = "base";
   up.brakes = {"SP", "_grip_1"};
   up.posture = "all";

@@ -65,6 +65,10 @@ TEST_F(Model, UrdfWhoseLimitsWouldBeLostSaysWhatConvertsIt) {
   write("arm.urdf", "<robot name='arm'><link name='base'/></robot>");
   const std::string text = error_text([] { (void)load_model("arm.urdf"); });
   EXPECT_TRUE(contains(text, "hurcules.load_urdf")) << text;
+  const std::string with_comment =
+      "<?xml version='1.0'?>\n<!-- <mujoco> -->\n<robot name='arm'><link name='base'/></robot>";
+  const std::string of_text = error_text([&] { (void)load_model_text(with_comment); });
+  EXPECT_TRUE(contains(of_text, "hurcules.load_urdf")) << of_text;
 }
 
 TEST_F(Model, BrokenTextKeepsMujocosWords) {

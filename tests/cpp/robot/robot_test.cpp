@@ -443,6 +443,18 @@ TEST(Robot, AnswersWantRoomOfTheirShape) {
                        "a point wants a body from 0 to"));
 }
 
+TEST(Robot, AFrameThatTheModelHasNotIsAnError) {
+  const Robot robot(load_model_text(kArm));
+  const Vector qvel = Vector::Zero(7);
+  for (const Frame none : {Frame{}, Frame{mjOBJ_SITE, -1}, Frame{mjOBJ_SITE, 99},
+                           Frame{mjOBJ_BODY, 99}, Frame{mjOBJ_JOINT, 0}}) {
+    const std::string text = error_text([&] { (void)robot.position(none); });
+    EXPECT_TRUE(contains(text, "Robot::frame")) << none.type << " " << none.id;
+    EXPECT_EQ(error_text([&] { (void)robot.orientation(none); }), text);
+    EXPECT_EQ(error_text([&] { (void)robot.twist(none, qvel); }), text);
+  }
+}
+
 TEST(Robot, OfOneNameTheSiteComesFirst) {
   const Robot robot(
       load_model_text("<mujoco><worldbody><body name='hand' pos='1 0 0'>"
@@ -461,6 +473,20 @@ TEST(Robot, CopiesOfAModelHaveOneIdentity) {
   const Robot a(load_model_text(kArm)), b(load_model_text(kArm)), other(load_model_text(kTwin));
   EXPECT_EQ(a.identity(), b.identity());
   EXPECT_NE(a.identity(), other.identity());
+}
+
+// MuJoCo's own signature is the same for both names, and 0 in a file of its own
+TEST(Robot, ModelsOfOtherNamesHaveOthersAndFilesOfMuJoCoTheSame) {
+  const auto arm = [](const std::string& site) {
+    return load_model_text("<mujoco><worldbody><body><joint name='j'/><geom size='1'/><site name='" +
+                           site + "'/></body></worldbody></mujoco>");
+  };
+  const ModelPtr one = arm("tip");
+  EXPECT_EQ(Robot(one).identity(), Robot(arm("tip")).identity());
+  EXPECT_NE(Robot(one).identity(), Robot(arm("eye")).identity());
+  const std::string path = testing::TempDir() + "identity.mjb";
+  mj_saveModel(one.get(), path.c_str(), nullptr, 0);
+  EXPECT_EQ(Robot(load_model(path)).identity(), Robot(one).identity());
 }
 
 }  // namespace

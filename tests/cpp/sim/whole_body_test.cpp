@@ -282,6 +282,21 @@ TEST(Quantities, AreReadByNameFromACopyToo) {
   EXPECT_TRUE(contains(error_text([&] { Quantities(original, {"position/nose"}); }), "nose"));
 }
 
+TEST(Quantities, OfAnotherRobotAreRefused) {
+  const Simulation original = simulate();
+  const Quantities quantities(original, {"position/tip", "q"});
+  std::string text = arm(kMotors);
+  text.replace(text.find("name=\"tip\""), 10, "name=\"end\"");
+  const ModelPtr model = load_model_text(text);
+  const Robot robot(model, {"j1", "j2", "j3"});
+  PostureTask posture("posture", robot);
+  const Simulation other(model, std::make_shared<WholeBodyController>(
+                                    robot, std::vector<NamedStack>{{"rest", Stack({posture})}},
+                                    std::vector<Channel>{}));
+  Vector values(quantities.size());
+  EXPECT_TRUE(contains(error_text([&] { quantities.read(other, values); }), "another robot"));
+}
+
 TEST(SimulationBatch, HasTheBitsOfEachAloneOnOneThreadAndOnTwo) {
   const Simulation original = simulate();
   SimulationBatch one(original, 5, 1), two(original, 5, 2);
@@ -460,6 +475,15 @@ TEST(WholeBody, RefusesWhatCannotBe) {
                        "max_seconds wants a time above 0 [s], nan came"));
   const ModelPtr other = load_model_text("<mujoco/>");
   EXPECT_TRUE(contains(error_text([&] { Simulation(other, controller); }), "another model"));
+  const std::string first = R"(<motor joint="j1" forcerange="-200 200"/>)";
+  std::string turned = arm(kMotors);
+  turned.replace(turned.find(first), first.size(), "");
+  turned.insert(turned.find("</actuator>"), first);
+  const ModelPtr swapped = load_model_text(turned);
+  EXPECT_TRUE(contains(error_text([&] { Simulation(swapped, controller); }), "in name or order"));
+  const Simulation simulation(model, controller);
+  EXPECT_TRUE(contains(error_text([&] { (void)simulation.measured_task(99); }), "no number 99"));
+  EXPECT_TRUE(contains(error_text([&] { (void)controller->law(99); }), "no number 99"));
   Robot robot(model, {"j1", "j2", "j3"});
   PostureTask posture("posture", robot), stranger("stranger", robot);
   EXPECT_TRUE(contains(error_text([&] {
