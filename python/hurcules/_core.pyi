@@ -2774,7 +2774,8 @@ class WholeBodyController:
         Args:
           joint: name of a joint with an actuator.
           position: [rad] or [m]; beyond the joint's range it squeezes, as a finger does.
-          velocity: [rad/s] or [m/s].
+          velocity: [rad/s] or [m/s] there, fed forward. No bound of how fast it goes: to a place that is far
+            off it goes as fast as its motor can.
 
         Raises:
           Error: no such joint, or numbers that are not finite."""
@@ -3169,9 +3170,12 @@ class Lead:
       at: that value, in the quantity's unit.
       span: in the same unit, above 0.
       value: (k,) what a `Target` or a `ForceReference` is set to, in its unit.
-      follow: the quantities of `to` are added to the value as they are now, tick by tick."""
+      follow: the quantities of `to` are added to the value as they are now, tick by tick.
+      brake: of a channel of joints: once `hold` is at its value their brakes bear it, until it has fallen
+        by `span`; then the rate acts in full."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
+    brake: bool
     channel: str
     follow: bool
     hold: str
@@ -3192,6 +3196,7 @@ class Lead:
         span: float = 0.0,
         value: ArrayLike = ...,
         follow: bool = False,
+        brake: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property

@@ -30,7 +30,8 @@ void StateWriter::put_bits(unsigned long long word) {
 }
 
 std::uint64_t hash_of(std::string_view bytes, std::uint64_t so_far) {
-  for (const char byte : bytes) so_far = (so_far ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  for (const char byte : bytes)
+    so_far = (so_far ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
   return so_far;
 }
 

@@ -33,7 +33,7 @@ class JointLimits {
   void set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper);
   // the robot's own holds where it is smaller
   void set_max_velocity(const std::string& coordinate, double limit);  // [rad/s] or [m/s]
-  void set_max_velocities(const ConstVectorRef& limits);               // of all, (n); inf for the robot's
+  void set_max_velocities(const ConstVectorRef& limits);  // of all, (n); inf for the robot's
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Index size() const { return lower_.size(); }                  // n
@@ -64,8 +64,8 @@ class JointLimits {
   std::string name_;
   ModelIdentity identity_;
   std::vector<std::string> coordinates_;
-  std::vector<bool> of_root_;         // (n) a part of a free root
-  std::vector<bool> of_ball_;         // (n) a part of a ball joint
+  std::vector<bool> of_root_;                          // (n) a part of a free root
+  std::vector<bool> of_ball_;                          // (n) a part of a ball joint
   Vector robot_lower_, robot_upper_, robot_velocity_;  // [rad] or [m], [rad/s] or [m/s], (n)
   Vector lower_, upper_, max_velocity_, configuration_;
 };

@@ -70,15 +70,9 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
   Vector most = Vector::Zero(n), q = start;
   Matrix M(n, n);
   const std::vector<JointActuator> actuators = joint_actuators(robot);
-  const auto place_of = [&robot, n](const JointActuator& actuator) {
-    for (Index k = 0; k < n; ++k)
-      for (const DrivenJoint& joint : robot.coordinates()[static_cast<std::size_t>(k)].joints)
-        if (joint.dof == actuator.dof) return std::pair(k, joint.factor);
-    return std::pair(Index{-1}, 1.0);
-  };
   std::vector<int> others;
   for (const JointActuator& actuator : actuators)
-    if (place_of(actuator).first < 0) others.push_back(actuator.dof);
+    if (coordinate_of(robot, actuator).number < 0) others.push_back(actuator.dof);
   LooseJoints loose(robot, others);
   double gain = 1.0;  // the decoupling knows of coordinates alone
   for (int i = 0; i < kSamples; ++i) {
@@ -101,7 +95,7 @@ std::vector<ServoGains> default_servo_gains(const Robot& robot, double dt, bool 
   }
   std::vector<ServoGains> table;
   for (const JointActuator& actuator : actuators) {
-    const auto [k, factor] = place_of(actuator);
+    const auto [k, factor] = coordinate_of(robot, actuator);
     double low = actuator.least_inertia, high = actuator.most_inertia, rated = high;
     if (k >= 0) {
       const double share =

@@ -72,15 +72,6 @@ std::vector<ServoGains> all_gains(const Robot& robot, std::vector<ServoGains> gi
   return given;
 }
 
-// whether the actuator moves a coordinate
-bool moves(const Robot& robot, const JointActuator& actuator) {
-  const auto drives = [&](const DrivenJoint& joint) { return joint.dof == actuator.dof; };
-  return std::any_of(robot.coordinates().begin(), robot.coordinates().end(),
-                     [&](const Coordinate& one) {
-                       return std::any_of(one.joints.begin(), one.joints.end(), drives);
-                     });
-}
-
 WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOptions options) {
   options.velocity.dt = options.acceleration.dt = options.torque.dt = options.dt;
   const std::vector<JointActuator> actuators = joint_actuators(robot);
@@ -93,9 +84,10 @@ WholeBodyControllerOptions completed(const Robot& robot, WholeBodyControllerOpti
     return std::any_of(options.servo.begin(), options.servo.end(), is_it) ||
            std::any_of(of_model.begin(), of_model.end(), is_it);
   };
-  const bool reckoned = std::none_of(
-      actuators.begin(), actuators.end(),
-      [&](const JointActuator& actuator) { return moves(robot, actuator) && has_row(actuator); });
+  const bool reckoned =
+      std::none_of(actuators.begin(), actuators.end(), [&](const JointActuator& actuator) {
+        return coordinate_of(robot, actuator).number >= 0 && has_row(actuator);
+      });
   options.decoupled = options.decoupled.value_or(reckoned && options.feed_forward && !rolls);
   require(!*options.decoupled || options.feed_forward, "decoupled servos want feed_forward");
   options.servo =

@@ -91,8 +91,8 @@ MissionSimulation::MissionSimulation(const ModelPtr& model,
                                      std::unique_ptr<Mission> mission,
                                      const MissionOptions& options, mjData_* data)
     // braces: the setup is read before the mission is given away
-    : Simulation{model, controller, with_setup(given(mission).setup(), options),
-                 std::move(mission), data} {}
+    : Simulation{model, controller, with_setup(given(mission).setup(), options), std::move(mission),
+                 data} {}
 
 std::vector<std::string> mission_names() {
   std::vector<std::string> names;

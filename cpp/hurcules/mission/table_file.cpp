@@ -34,9 +34,9 @@ Words<MissionSetup> setup_words() {
 }
 
 Words<Lead> lead_words() {
-  return {one("rate", &Lead::rate), one("way", &Lead::way),     one("by", &Lead::by),
-          each("to", &Lead::to),    one("hold", &Lead::hold),   one("at", &Lead::at),
-          one("span", &Lead::span), one("value", &Lead::value), one("follow", &Lead::follow),
+  return {one("rate", &Lead::rate),  one("way", &Lead::way),     one("by", &Lead::by),
+          each("to", &Lead::to),     one("hold", &Lead::hold),   one("at", &Lead::at),
+          one("span", &Lead::span),  one("value", &Lead::value), one("follow", &Lead::follow),
           one("brake", &Lead::brake)};
 }
 

@@ -264,8 +264,8 @@ void require_numerics_of_joints(const mjModel& m) {
     if (!joint && name.starts_with("servo_")) joint = without(name.c_str(), "servo_");
     if (!joint || (wanted == 2 && m.numeric_size[i] != wanted)) continue;  // something else
     if (mj_name2id(&m, mjOBJ_JOINT, joint->c_str()) < 0) {
-      throw Error("numeric '" + name + "': " +
-                  unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
+      throw Error("numeric '" + name +
+                  "': " + unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
     }
     require(m.numeric_size[i] == wanted, "numeric '" + name + "' wants one number, " +
                                              std::to_string(m.numeric_size[i]) + " came");

@@ -153,6 +153,16 @@ double JointActuator::position(const Vector& all) const {
   return rotation_log(rotation_of(all.data() + qpos))[part - kTurns];
 }
 
+CoordinateOfJoint coordinate_of(const Robot& robot, const JointActuator& actuator) {
+  const std::vector<Coordinate>& all = robot.coordinates();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const DrivenJoint& joint : all[k].joints) {
+      if (joint.dof == actuator.dof) return {static_cast<Index>(k), joint.factor};
+    }
+  }
+  return {};
+}
+
 std::vector<int> driven_wheels(const mjModel& m) {
   std::vector<int> found;
   for (int joint = 0; joint < m.njnt; ++joint)

@@ -72,6 +72,12 @@ struct JointActuator {
 // affine function of its control (muscles, actuators with a state of their own), for a ball joint that
 // has others than one about each axis of its body, and for a servo_JOINT that is no two numbers above 0.
 [[nodiscard]] std::vector<JointActuator> joint_actuators(const Robot& robot);
+// the coordinate that its joint belongs to, and how far the joint goes for a unit of it
+struct CoordinateOfJoint {
+  Index number = -1;  // none
+  double factor = 1.0;
+};
+[[nodiscard]] CoordinateOfJoint coordinate_of(const Robot& robot, const JointActuator& actuator);
 // joints of a model that are driven wheels, see JointActuator::rolling_inertia; of any actuators
 [[nodiscard]] std::vector<int> driven_wheels(const mjModel_& model);
 

@@ -101,7 +101,7 @@ struct Twist {
 // masses are changed to.
 struct ModelIdentity {
   std::uint64_t structure = 0;  // see structure_of in trees.hpp
-  Index coordinates = 0;             // n
+  Index coordinates = 0;        // n
   friend bool operator==(const ModelIdentity&, const ModelIdentity&) = default;
 };
 

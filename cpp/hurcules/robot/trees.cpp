@@ -38,9 +38,9 @@ Frames frames_of(const mjModel& m, int type) {
 int body_of(const mjModel& m, Frame frame) {
   const Frames frames = frames_of(m, frame.type);
   if (frame.id < 0 || frame.id >= frames.count) {
-    throw Error("frame " + std::to_string(frame.id) + " of MuJoCo's type " +
-                std::to_string(frame.type) +
-                ": wanted a site, body, camera or geom of the model, as Robot::frame(name) finds it");
+    throw Error(
+        "frame " + std::to_string(frame.id) + " of MuJoCo's type " + std::to_string(frame.type) +
+        ": wanted a site, body, camera or geom of the model, as Robot::frame(name) finds it");
   }
   return frames.bodies ? frames.bodies[frame.id] : frame.id;
 }

@@ -70,6 +70,7 @@ class Quantities {
   static void read(const Quantity& quantity, const Simulation& simulation, VectorRef out);
 
   double identity_;
+  std::size_t columns_;  // of the log
   std::vector<std::string> names_;
   std::vector<Quantity> quantities_;
   std::vector<Index> sizes_;

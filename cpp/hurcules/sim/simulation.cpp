@@ -27,11 +27,11 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 constexpr double kStateVersion = 4.0;
 constexpr std::size_t kStateHeader = 4;
 
-// of all names along the vectors of a controller's simulation, and of its log
-double identity_of(const mjModel& model, const TelemetryNames& names, const Recorder& log) {
-  return hash_of_names({&names.coordinates, &names.joints, &names.levels, &names.task_rows,
-                        &names.commands, &log.channels()},
-                       structure_of(model));
+// of all names along the vectors of a controller's simulation
+double identity_of(const mjModel& model, const TelemetryNames& names) {
+  return hash_of_names(
+      {&names.coordinates, &names.joints, &names.levels, &names.task_rows, &names.commands},
+      structure_of(model));
 }
 
 // numbers at most that the working sets of all solvers take in a snapshot
@@ -173,7 +173,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   std::vector<double> values;
   write(values);
   state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
-  identity_ = identity_of(*plant_.model(), record_.names(), record_.log);
+  identity_ = identity_of(*plant_.model(), record_.names());
 }
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
@@ -474,8 +474,10 @@ void Simulation::measure_world() const {
 }
 
 const Task& Simulation::measured_task(std::size_t number) const {
-  require(number < measured_.size(), "a simulation measures " + std::to_string(measured_.size()) +
-                                         " tasks, there is no number " + std::to_string(number));
+  if (number >= measured_.size()) {
+    throw Error("a simulation measures " + std::to_string(measured_.size()) +
+                " tasks, there is no number " + std::to_string(number));
+  }
   Task& task = *measured_[number];
   if (!fresh_[number]) {
     copy_memory(*planned_tasks_[number], task, task_state_);
@@ -611,7 +613,8 @@ void Simulation::go(std::size_t phase) {
 }
 
 void Simulation::pause() {
-  require(supervisor_ != nullptr, "a simulation without a mission has no phases to pause; its controller's "
+  require(supervisor_ != nullptr,
+          "a simulation without a mission has no phases to pause; its controller's "
           "move_joints() stops the robot, hold_targets() holds it");
   if (finished() || paused()) return;
   supervisor_->pause();
@@ -637,8 +640,7 @@ void Simulation::answer(bool yes) {
 }
 
 std::vector<double> Simulation::state() const {
-  std::vector<double> values = {kStateVersion, static_cast<double>(state_size_),
-                                identity_, 0.0};
+  std::vector<double> values = {kStateVersion, static_cast<double>(state_size_), identity_, 0.0};
   values.reserve(state_size_);
   write(values);
   values[3] = static_cast<double>(values.size());

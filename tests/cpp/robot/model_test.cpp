@@ -90,7 +90,9 @@ TEST_F(Model, NoModelIsAnError) {
 
 TEST_F(Model, BorrowedModelStaysTheOwners) {
   const ModelPtr model = load_model_text(kArm);
-  { const Robot robot(borrow_model(model.get())); }
+  {
+    const Robot robot(borrow_model(model.get()));
+  }
   EXPECT_EQ(Robot(model).size(), 7);
 }
 

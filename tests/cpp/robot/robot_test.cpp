@@ -478,8 +478,9 @@ TEST(Robot, CopiesOfAModelHaveOneIdentity) {
 // MuJoCo's own signature is the same for both names, and 0 in a file of its own
 TEST(Robot, ModelsOfOtherNamesHaveOthersAndFilesOfMuJoCoTheSame) {
   const auto arm = [](const std::string& site) {
-    return load_model_text("<mujoco><worldbody><body><joint name='j'/><geom size='1'/><site name='" +
-                           site + "'/></body></worldbody></mujoco>");
+    return load_model_text(
+        "<mujoco><worldbody><body><joint name='j'/><geom size='1'/><site name='" + site +
+        "'/></body></worldbody></mujoco>");
   };
   const ModelPtr one = arm("tip");
   EXPECT_EQ(Robot(one).identity(), Robot(arm("tip")).identity());

@@ -290,9 +290,11 @@ TEST(Quantities, OfAnotherRobotAreRefused) {
   const ModelPtr model = load_model_text(text);
   const Robot robot(model, {"j1", "j2", "j3"});
   PostureTask posture("posture", robot);
-  const Simulation other(model, std::make_shared<WholeBodyController>(
-                                    robot, std::vector<NamedStack>{{"rest", Stack({posture})}},
-                                    std::vector<Channel>{}));
+  WholeBodyControllerOptions options;
+  options.dt = 0.002;
+  const std::vector<NamedStack> stacks = {{"rest", Stack({posture})}};
+  const Simulation other(
+      model, std::make_shared<WholeBodyController>(robot, stacks, std::vector<Channel>{}, options));
   Vector values(quantities.size());
   EXPECT_TRUE(contains(error_text([&] { quantities.read(other, values); }), "another robot"));
 }
