@@ -79,7 +79,7 @@ def test_the_fingers_rest_behind_their_brakes_and_press_anew(grasped) -> None:
         simulation.step(50)
         motor = np.abs(simulation.data.actuator("L_grip").force[0])
         rested, pressed = rested + (motor == 0.0), pressed + (motor > 300.0)
-        least = min(least, simulation.read(grip)[0][0])
+        least = min(least, float(simulation.read(grip)[0]))
     assert rested > 240  # of 15 s: the motor is without current
     assert pressed > 0  # the force had fallen by 15 N of 380
     assert least > 350.0

@@ -152,7 +152,8 @@ def test_a_run_says_what_did_not_come_true() -> None:
     made.step(5000)
     words = "phase 'wait': took too long"
     assert made.reason == f"{words}: position/train/z >= 0.5 is not true, it is 0.2"
-    assert [text for _, text in made.events()] == ["phase wait", words, words]
+    told = ["phase wait", f"{words}; back to wait", f"{words}; abort"]
+    assert [text for _, text in made.events()] == told
     endless = {"name": "wait", "done": ["position/train/z >= 0.5"]}
     made = simulation(endless, max_seconds=0.5)
     made.step(5000)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/mission/table_words.hpp"
 #include "hurcules/mission/variation.hpp"
 
 namespace hurcules {
@@ -232,8 +233,9 @@ bool Mission::over(double time) {
 bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& controller,
                     double time) {
   const std::size_t cause = trouble ? *trouble + 1 : 0;
-  reacted_ = {phase_, cause};
-  const Reaction* const reaction = rows_[phase_].react(trouble);
+  const std::optional<std::size_t> number = rows_[phase_].react(trouble);
+  reacted_ = {phase_, cause, number ? *number + 1 : 0};
+  const Reaction* const reaction = number ? &rows_[phase_].reactions(trouble)[*number] : nullptr;
   switch (reaction ? reaction->kind : ReactionKind::Abort) {
     case ReactionKind::Back:
       if (!why_.final) why_ = why(cause);
@@ -324,9 +326,14 @@ Mission::Why Mission::why(std::size_t cause, bool final) const {
 
 std::string Mission::text(const Cause& cause) const {
   const Phase& row = table_.phases[cause.phase];
-  return "phase '" + row.name + "': " +
-         (cause.trouble == 0 ? std::string("took too long")
-                             : to_string(row.troubles[cause.trouble - 1].when));
+  std::string text = "phase '" + row.name + "': ";
+  text += cause.trouble == 0 ? std::string("took too long")
+                             : to_string(row.troubles[cause.trouble - 1].when);
+  if (cause.reaction == 0) return text;
+  const auto trouble = cause.trouble > 0 ? std::optional(cause.trouble - 1) : std::nullopt;
+  Reaction once = rows_[cause.phase].reactions(trouble)[cause.reaction - 1];
+  once.times = 1;
+  return text + "; " + exact_text(once);
 }
 
 std::string Mission::unmet_words(const Why& why) const {

@@ -264,15 +264,15 @@ const std::vector<Reaction>& PhaseRow::reactions(std::optional<std::size_t> trou
   return trouble ? phase_->troubles[*trouble].reactions : phase_->late;
 }
 
-const Reaction* PhaseRow::react(std::optional<std::size_t> trouble) {
+std::optional<std::size_t> PhaseRow::react(std::optional<std::size_t> trouble) {
   const std::vector<Reaction>& row = reactions(trouble);
   std::vector<int>& left = left_[trouble ? *trouble + 1 : 0];
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (left[i] == 0) continue;
     --left[i];
-    return &row[i];
+    return i;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 void PhaseRow::excuse(std::size_t trouble) {

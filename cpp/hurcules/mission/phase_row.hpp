@@ -68,9 +68,10 @@ class PhaseRow {
   [[nodiscard]] std::optional<std::size_t> unmet() const;
   // what the quantity of a condition is
   [[nodiscard]] double value_of(std::size_t condition) const { return *done_[condition].source; }
-  // the first reaction that is left, which is then one less; null for none. Of a trouble, by its
-  // number, or of being late
-  const Reaction* react(std::optional<std::size_t> trouble);
+  // what is done about a trouble, by its number, or about being late
+  [[nodiscard]] const std::vector<Reaction>& reactions(std::optional<std::size_t> trouble) const;
+  // the number of the first of these that is left, which is then one less
+  std::optional<std::size_t> react(std::optional<std::size_t> trouble);
   // asked for it, somebody says yes: the trouble is none until it has been away once
   void excuse(std::size_t trouble);
   // no, or nothing: it is not asked again
@@ -108,8 +109,6 @@ class PhaseRow {
   static Index look(Way& way);
   [[nodiscard]] static Way way_of(const Lead& lead, const WholeBodyController& controller,
                                   const std::string& where);
-  // what is done about a trouble, by its number, or about being late
-  [[nodiscard]] const std::vector<Reaction>& reactions(std::optional<std::size_t> trouble) const;
   void forget();  // for how long conditions have been true, and how far ways have come
 
   const Phase* phase_;

@@ -14,7 +14,7 @@ enum class EventKind {
   LimitReleased,
   AlarmRaised,
   AlarmFell,
-  Reacted,  // in a phase, as the next three; its side: which trouble, as in Cause
+  Reacted,  // in a phase, as the next three; its side and answer: as trouble and reaction in Cause
   Asked,
   Paused,
   Resumed,
@@ -25,6 +25,7 @@ struct Event {
   EventKind kind = EventKind::PhaseStarted;
   Index what = 0;  // phase, coordinate, or quantity of the monitors
   int side = 0;    // -1 lower, 1 upper limit; which trouble
+  int answer = 0;  // which reaction
 };
 
 class EventList {

@@ -219,8 +219,8 @@ void RunRecord::note_phase(std::size_t phase) {
   note(EventKind::PhaseStarted, phase);
 }
 
-void RunRecord::note(EventKind kind, std::size_t phase, int side) {
-  events.add({telemetry.time, kind, static_cast<Index>(phase), side});
+void RunRecord::note(EventKind kind, std::size_t phase, int side, int answer) {
+  events.add({telemetry.time, kind, static_cast<Index>(phase), side, answer});
 }
 
 std::string RunRecord::text(const Event& event, const Monitors& monitors) const {

@@ -38,7 +38,8 @@ class RunRecord {
   void note_measured(const WholeBodyController& controller, const std::vector<const Task*>& tasks);
   void note_events(const Monitors& monitors);
   void note_phase(std::size_t phase);
-  void note(EventKind kind, std::size_t phase, int side = 0);  // of what happens in a phase
+  // of what happens in a phase
+  void note(EventKind kind, std::size_t phase, int side = 0, int answer = 0);
 
   [[nodiscard]] std::string text(const Event& event, const Monitors& monitors) const;
   [[nodiscard]] const TelemetryNames& names() const { return names_; }

@@ -439,7 +439,8 @@ void Simulation::judge() {
   const std::optional<double> asked = supervisor_->asks_until();
   const bool goes_on = supervisor_->advance(*controller_, time());
   if (const std::optional<Cause> cause = supervisor_->reacted()) {
-    record_.note(EventKind::Reacted, cause->phase, static_cast<int>(cause->trouble));
+    record_.note(EventKind::Reacted, cause->phase, static_cast<int>(cause->trouble),
+                 static_cast<int>(cause->reaction));
   }
   if (!goes_on) {
     return end(supervisor_->verdict().empty() ? Ending::Completed : Ending::Missed, now);

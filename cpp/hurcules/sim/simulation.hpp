@@ -129,8 +129,9 @@ class Simulation {
   [[nodiscard]] const EventList& events() const { return record_.events; }
   [[nodiscard]] std::string text(const Event& event) const {
     if (event.kind != EventKind::Reacted) return record_.text(event, monitors_);
-    return supervisor_->text(
-        {static_cast<std::size_t>(event.what), static_cast<std::size_t>(event.side)});
+    return supervisor_->text({static_cast<std::size_t>(event.what),
+                              static_cast<std::size_t>(event.side),
+                              static_cast<std::size_t>(event.answer)});
   }
   [[nodiscard]] Plant& plant() { return plant_; }
   [[nodiscard]] const Plant& plant() const { return plant_; }
