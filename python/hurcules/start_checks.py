@@ -66,6 +66,7 @@ def _doubts(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[
             f"dt={LONGEST:g} of the controller, or less"
         )
     yield from _outside(controller)
+    yield from _servos_of_no_joint(model)
     yield from _distances(model, controller)
     yield from _doubled(model)
     yield from _unseen(controller)
@@ -110,6 +111,14 @@ def _outside(controller: WholeBodyController) -> Iterator[str]:
             f"the robot starts outside its joint limits: {'; '.join(outside)}. It is driven back, "
             "before all that it is told: robot.set_configuration says where it starts"
         )
+
+
+def _servos_of_no_joint(model: mujoco.MjModel) -> Iterator[str]:
+    joints = {model.joint(joint).name for joint in range(model.njnt)}
+    for numeric in (model.numeric(i) for i in range(model.nnumeric)):
+        joint = numeric.name.removeprefix("servo_")
+        if joint != numeric.name and numeric.size == 2 and joint not in joints:
+            yield f"numeric '{numeric.name}' holds for nothing: the model has no joint '{joint}'"
 
 
 def _distances(model: mujoco.MjModel, controller: WholeBodyController) -> Iterator[str]:

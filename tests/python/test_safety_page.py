@@ -143,6 +143,21 @@ def test_a_stop_is_as_short_as_its_formula_and_nothing_goes_on_by_itself(
     assert cell.data.qpos == pytest.approx(rests, abs=1e-3)
 
 
+def test_a_stop_before_the_end_of_a_range_is_no_harder(page: str) -> None:
+    cell = Cell(page)
+    cell.controller.use("posture")
+    goal = {"posture": [4.0, *START[1:]]}
+    while cell.data.qpos[0] < 2.45:
+        cell.go(1, goal)
+    cell.controller.move_joints()
+    speeds = [cell.controller.qd_des[0]]
+    for _ in range(300):
+        cell.go(1)
+        speeds.append(cell.controller.qd_des[0])
+    assert np.abs(np.diff(speeds)).max() < 20.0 * 1e-3 * 1.01
+    assert speeds[-1] == 0.0
+
+
 def test_who_only_holds_the_targets_sees_the_arm_come_back(page: str) -> None:
     cell = Cell(page)
     before, _ = at_speed(cell)

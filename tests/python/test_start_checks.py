@@ -319,6 +319,17 @@ def test_a_cloth_on_the_ground_is_no_part_of_the_robot() -> None:
     simulation(mujoco.MjModel.from_xml_string(text), list("abc"))
 
 
+def test_a_servo_that_is_told_of_no_joint_is_named() -> None:
+    spec = mujoco.MjSpec.from_string(CHAIN.format(step=0.002, motors=STRONG.format("a"), last=""))
+    spec.add_numeric(name="servo_a", data=[0.5, 20.0], size=2)
+    spec.add_numeric(name="servo_shoulder", data=[0.5, 20.0], size=2)
+    spec.add_numeric(name="servo_mode", data=[1.0], size=1)  # something else
+    with pytest.warns(UserWarning) as caught:
+        simulation(spec.compile(), ["a"])
+    told = [str(one.message) for one in caught if "numeric" in str(one.message)]
+    assert told == ["numeric 'servo_shoulder' holds for nothing: the model has no joint 'shoulder'"]
+
+
 def beside_a_person(contype: int = 1) -> mujoco.MjModel:
     spec = mujoco.MjSpec.from_string(
         CHAIN.format(

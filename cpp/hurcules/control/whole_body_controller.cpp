@@ -639,20 +639,20 @@ void WholeBodyController::lead_joints(const std::vector<Index>& joints,
     lead_joint(joints[i], rates[static_cast<Index>(i)], options_.velocity.max_acceleration);
 }
 
-// within an acceleration and the speed of its joint, and no further than that goes
+// within an acceleration, the speed of its joint and a way to brake before the end of its range, which
+// it passes in no case
 void WholeBodyController::lead_joint(Index joint, double wanted, double acceleration) {
   const JointActuator& actuator = servo_.actuator(joint);
-  const double from = servo_.position()[joint];
-  RateLimits limits{.dt = dt(), .horizon = dt()};
-  limits.max_velocity = std::numeric_limits<double>::infinity();
-  limits.max_acceleration = acceleration;
-  if (const Index at = servo_.coordinate_of(joint); at >= 0) {
-    const Coordinate& coordinate = plan_.coordinates()[static_cast<std::size_t>(at)];
-    limits.max_velocity = std::abs(servo_.factor(joint)) * coordinate.max_velocity;
-  }
-  const RateInterval within = rate_interval(
-      {actuator.lower - from, actuator.upper - from, servo_.velocity()[joint]}, limits);
-  const double rate = std::clamp(wanted, within.lower, within.upper);
+  const double from = servo_.position()[joint], now = servo_.velocity()[joint];
+  const RateLimits limits{.dt = dt(),
+                          .horizon = options_.velocity.horizon,
+                          .max_velocity = actuator.max_velocity,
+                          .max_acceleration = acceleration};
+  const RateInterval within =
+      rate_interval({actuator.lower - from, actuator.upper - from, now}, limits);
+  const double most = acceleration * dt();
+  const double rate =
+      std::clamp(std::clamp(wanted, within.lower, within.upper), now - most, now + most);
   const double place = from + rate * dt();
   const double held = std::clamp(place, actuator.lower, actuator.upper);
   servo_.move(joint, held, held == place ? rate : 0.0);

@@ -103,9 +103,9 @@ void Mission::find_brakes(const Brakes& brakes) {
 }
 
 void Mission::brake(Brakes& brakes) {
-  for (const int actuator : brakes_) {
-    brakes.set_closed(actuator, rows_[phase_].shuts(actuator, brakes.closes(actuator), dt_));
-  }
+  PhaseRow& row = rows_[phase_];
+  if (doing_ == Doing::Leading && !paused_) row.look_at_brakes(dt_);
+  for (const int actuator : brakes_) brakes.set_closed(actuator, row.shuts(actuator));
 }
 
 bool Mission::needs_log() const {
@@ -150,6 +150,7 @@ void Mission::reset(WholeBodyController& controller, const Robot& world) {
 }
 
 void Mission::enter(std::size_t phase, WholeBodyController& controller, double time) {
+  const PhaseRow& before = rows_[phase_];
   phase_ = phase;
   phase_start_ = now_ = time;
   doing_ = Doing::Leading;
@@ -167,6 +168,7 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
     controller.stand_on(row.support());
   }
   row.enter(controller);
+  row.go_on_bearing(before);
   entered(time);
 }
 

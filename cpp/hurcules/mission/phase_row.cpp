@@ -93,17 +93,33 @@ void PhaseRow::find_brakes(const Brakes& brakes) {
   }
 }
 
-bool PhaseRow::shuts(int actuator, bool shut, double dt) {
+void PhaseRow::look_at_brakes(double dt) {
   constexpr double kFallen = 0.1;  // [s]: a knock opens no brake
+  for (Way& way : ways_) {
+    if (way.brakes.empty() || !std::isfinite(*way.held)) continue;
+    way.fallen = *way.held < way.at - way.span ? way.fallen + dt : 0.0;
+    way.borne = way.borne ? way.fallen < kFallen : *way.held >= way.at;
+  }
+}
+
+bool PhaseRow::shuts(int actuator) const {
   const auto in = [&](const std::vector<int>& brakes) {
     return std::find(brakes.begin(), brakes.end(), actuator) != brakes.end();
   };
-  for (Way& way : ways_) {
-    if (!in(way.brakes)) continue;
-    way.fallen = *way.held < way.at - way.span ? way.fallen + dt : 0.0;
-    return way.borne = shut ? way.fallen < kFallen : *way.held >= way.at;
+  for (const Way& way : ways_) {
+    if (in(way.brakes)) return way.borne;
   }
   return in(brakes_);
+}
+
+void PhaseRow::go_on_bearing(const PhaseRow& before) {
+  for (Way& way : ways_) {
+    for (const Way& last : before.ways_) {
+      if (way.brakes != last.brakes || way.at != last.at || way.span != last.span) continue;
+      way.borne = last.borne;
+      way.fallen = last.fallen;
+    }
+  }
 }
 
 void PhaseRow::find_places(const Plant& plant, int robot) {
@@ -131,7 +147,10 @@ void PhaseRow::forget() {
   for (std::vector<TimedCondition>* conditions : {&done_, &troubles_}) {
     for (TimedCondition& timed : *conditions) timed.since = 0.0;
   }
-  for (Way& way : ways_) way.given = 0.0;
+  for (Way& way : ways_) {
+    way.given = way.fallen = 0.0;
+    way.borne = false;
+  }
 }
 
 void PhaseRow::enter(const WholeBodyController& controller) {
@@ -187,7 +206,7 @@ void PhaseRow::command(double time, double dt, Vector& out) {
     } else if (way.length > 0.0) {  // by a rate; the last tick gives what is left
       part = way.along * std::min(way.speed, (way.length - way.given) / dt);
       if (!way.brakes.empty()) {
-        part *= way.borne ? 0.0 : 1.0;
+        part *= way.borne || !std::isfinite(*way.held) ? 0.0 : 1.0;
       } else if (way.held) {
         part *= std::clamp((way.at - *way.held) / way.span, -1.0, 1.0);
       }
@@ -204,7 +223,9 @@ void PhaseRow::note(const WholeBodyController& controller) {
   const Vector& command = controller.command();
   const double dt = controller.dt();
   for (Way& way : ways_) {
-    if (way.length > 0.0) way.given += way.along.dot(command.segment(way.row, way.size)) * dt;
+    const auto given = command.segment(way.row, way.size);
+    if (way.length > 0.0) way.given += way.along.dot(given) * dt;
+    if (!given.isZero(0.0)) way.borne = false;  // what is borne, somebody else moves
   }
   if (park_) park_->note(controller.drive()->controller().braked());
 }

@@ -32,8 +32,11 @@ class PhaseRow {
       for (const int actuator : way.brakes) visit(actuator);
     }
   }
-  // whether a brake shall be shut in this tick, and was to be in the last one
-  [[nodiscard]] bool shuts(int actuator, bool shut, double dt);
+  // whether what its leads hold is where their brakes bear it
+  void look_at_brakes(double dt);
+  // what the phase before held alike goes on being borne
+  void go_on_bearing(const PhaseRow& before);
+  [[nodiscard]] bool shuts(int actuator) const;  // this brake, in this tick
   [[nodiscard]] const std::string& support() const { return support_; }
   [[nodiscard]] bool needs_log() const;
 

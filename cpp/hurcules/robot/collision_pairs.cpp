@@ -335,8 +335,9 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
     if (!shapes.is_own(shapes.body(a))) continue;
     for (int b = 0; b < m.ngeom; ++b) {
       if (shapes.is_own(shapes.body(b)) || !shapes.may_touch(a, b)) continue;
+      const bool named_one = is_named(shapes.body(b));
       if (m.geom_type[b] == mjGEOM_HFIELD) continue;  // no distance of these is right
-      if (is_named(shapes.body(b))) {
+      if (named_one) {
         told.push_back({a, b});
       } else if (shapes.stands_still(shapes.body(b))) {
         still.push_back({a, b});

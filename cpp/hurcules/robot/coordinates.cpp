@@ -255,20 +255,18 @@ void couple(const mjModel& m, std::vector<Coordinate>& all) {
   }
 }
 
-// a limit or a servo that is told of no joint would be no limit
-void require_numerics_of_joints(const mjModel& m) {
+// a limit that is told of no joint would be no limit
+void require_limits_of_joints(const mjModel& m) {
   for (int i = 0; i < m.nnumeric; ++i) {
     const std::string name = name_of(m, mjOBJ_NUMERIC, i);
-    auto joint = without(name.c_str(), "velocity_limit_");
-    const int wanted = joint ? 1 : 2;
-    if (!joint && name.starts_with("servo_")) joint = without(name.c_str(), "servo_");
-    if (!joint || (wanted == 2 && m.numeric_size[i] != wanted)) continue;  // something else
+    const auto joint = without(name.c_str(), "velocity_limit_");
+    if (!joint) continue;
     if (mj_name2id(&m, mjOBJ_JOINT, joint->c_str()) < 0) {
-      throw Error("numeric '" + name +
-                  "': " + unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
+      throw Error("numeric '" + name + "': " +
+                  unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
     }
-    require(m.numeric_size[i] == wanted, "numeric '" + name + "' wants one number, " +
-                                             std::to_string(m.numeric_size[i]) + " came");
+    require(m.numeric_size[i] == 1, "numeric '" + name + "' wants one number, " +
+                                        std::to_string(m.numeric_size[i]) + " came");
   }
 }
 
@@ -388,7 +386,7 @@ bool names_coordinates(const mjModel& m) {
 
 std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std::string>& asked,
                                          bool floating) {
-  require_numerics_of_joints(m);
+  require_limits_of_joints(m);
   std::vector<std::string> names = asked;
   floating = take_root(m, names) || floating;
   std::vector<Coordinate> found = from_tuples(m);

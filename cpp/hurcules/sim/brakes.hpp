@@ -44,9 +44,6 @@ class Brakes {
   void advance(const mjData_* data);
 
   [[nodiscard]] bool exists(int actuator) const { return brake(actuator).torque > 0.0; }
-  [[nodiscard]] bool closes(int actuator) const {  // as commanded
-    return closed_[static_cast<std::size_t>(actuator)];
-  }
   [[nodiscard]] bool is_shut(int actuator) const { return grip_[actuator] >= 1.0; }
   [[nodiscard]] bool is_open(int actuator) const { return grip_[actuator] <= 0.0; }
   [[nodiscard]] bool any_shut() const { return (grip_.array() > 0.0).any(); }  // or half shut

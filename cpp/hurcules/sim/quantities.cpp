@@ -47,7 +47,9 @@ int self_contacts(const mjModel* m, const mjData* d, const std::vector<int>& roo
 }  // namespace
 
 Quantities::Quantities(const Simulation& simulation, const std::vector<std::string>& names)
-    : identity_(simulation.identity()), columns_(simulation.log().columns()), names_(names) {
+    : identity_(simulation.identity()),
+      sensor_rows_(simulation.plant().model()->nsensordata),
+      names_(names) {
   for (const std::string& name : names) {
     quantities_.push_back(find(simulation, name));
     sizes_.push_back(quantities_.back().size);
@@ -146,7 +148,8 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
 void Quantities::read(const Simulation& simulation, VectorRef out) const {
   require(out.size() == size_, "quantities want room for " + std::to_string(size_) +
                                    " numbers, got " + std::to_string(out.size()));
-  if (simulation.identity() != identity_ || simulation.log().columns() != columns_)
+  const mjModel* const m = simulation.plant().model();
+  if (simulation.identity() != identity_ || m->nsensordata != sensor_rows_)
     throw Error("these quantities are those of another robot, controller or mission");
   Index place = 0;
   for (const Quantity& quantity : quantities_) {

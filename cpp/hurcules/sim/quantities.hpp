@@ -70,7 +70,7 @@ class Quantities {
   static void read(const Quantity& quantity, const Simulation& simulation, VectorRef out);
 
   double identity_;
-  std::size_t columns_;  // of the log
+  Index sensor_rows_;
   std::vector<std::string> names_;
   std::vector<Quantity> quantities_;
   std::vector<Index> sizes_;

@@ -1,5 +1,6 @@
 #include "hurcules/sim/run_record.hpp"
 
+#include <limits>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -62,8 +63,7 @@ std::string number(double value) {
 
 }  // namespace
 
-RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::string> phases,
-                     bool timed)
+RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::string> phases)
     : telemetry(names_of(controller)),
       stage_seconds(Vector::Zero(kStages)),
       names_(names_of(controller)),
@@ -72,7 +72,7 @@ RunRecord::RunRecord(const WholeBodyController& controller, std::vector<std::str
       forces_(force_tasks(controller)),
       previous_active_(Vector::Zero(controller.plan().size())),
       previous_alarm_(Vector::Zero(Monitors::kQuantities)) {
-  telemetry.add_log_channels(names_, timed, log);
+  telemetry.add_log_channels(names_, log);
   telemetry.add_observation_channels(names_, observation);
   timings.add("time", &telemetry.time);
   for (Index i = 0; i < kStages; ++i) timings.add(stage_names()[i], stage_seconds.data() + i);
@@ -119,6 +119,11 @@ void RunRecord::note_sensed(const WholeBodyController& controller, const Sensed&
     t.limit_lower = limits->lower();
     t.limit_upper = limits->upper();
     t.limit_speed = limits->max_velocity();
+  } else {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    t.limit_lower.setConstant(-kNone);
+    t.limit_upper.setConstant(kNone);
+    t.limit_speed.setConstant(kNone);
   }
   t.lag = t.q_des - t.seen_q;
   t.to_lower = t.seen_q - t.limit_lower;

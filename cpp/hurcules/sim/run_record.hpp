@@ -23,7 +23,7 @@ class RunRecord {
     const Vector& seen_qvel;  // (nv)
   };
   // of a controller, whose stacks, joints and commands name the channels
-  RunRecord(const WholeBodyController& controller, std::vector<std::string> phases, bool timed);
+  RunRecord(const WholeBodyController& controller, std::vector<std::string> phases);
   RunRecord(const RunRecord&) = delete;
   RunRecord& operator=(const RunRecord&) = delete;
 

@@ -24,14 +24,17 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 
 // A snapshot begins with its version, its length, what it is of, and the number of values in use;
 // what is left of its room is zero.
-constexpr double kStateVersion = 4.0;
+constexpr double kStateVersion = 5.0;
 constexpr std::size_t kStateHeader = 4;
 
-// of all names along the vectors of a controller's simulation
-double identity_of(const mjModel& model, const TelemetryNames& names) {
-  return hash_of_names(
-      {&names.coordinates, &names.joints, &names.levels, &names.task_rows, &names.commands},
-      structure_of(model));
+// of all names along the vectors of a controller's simulation, and of its log but for the time of a
+// tick, which copies do not take
+double identity_of(const mjModel& model, const TelemetryNames& names, const Recorder& log) {
+  std::vector<std::string> columns = log.channels();
+  std::erase(columns, "tick_us");
+  return hash_of_names({&names.coordinates, &names.joints, &names.levels, &names.task_rows,
+                        &names.commands, &columns},
+                       structure_of(model));
 }
 
 // numbers at most that the working sets of all solvers take in a snapshot
@@ -88,10 +91,11 @@ std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController
   require(controller != nullptr, "a simulation wants a controller, none came");
   const mjModel* const own = controller->plan().model().get();
   require(own->nq == m->nq && own->nv == m->nv && own->nu == m->nu && own->nbody == m->nbody,
-          "the controller is for another model than the simulation: nq, nv, nu " +
+          "the controller is for another model than the simulation: nq, nv, nu, nbody " +
               std::to_string(own->nq) + ", " + std::to_string(own->nv) + ", " +
-              std::to_string(own->nu) + " instead of " + std::to_string(m->nq) + ", " +
-              std::to_string(m->nv) + ", " + std::to_string(m->nu));
+              std::to_string(own->nu) + ", " + std::to_string(own->nbody) + " instead of " +
+              std::to_string(m->nq) + ", " + std::to_string(m->nv) + ", " +
+              std::to_string(m->nu) + ", " + std::to_string(m->nbody));
   require(structure_of(*own) == structure_of(*m),
           "the controller is for another model than the simulation: bodies, joints, sites or what "
           "the actuators drive differ in name or order");
@@ -126,7 +130,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
                 options_.monitors),
       limit_monitor_(world_, controller_->servo().pid().options().max_torque),
       fall_monitor_({options_.fall.min_height, options_.fall.max_tilt}),
-      record_(*controller_, phases_of(supervisor_.get()), options_.clock != nullptr),
+      record_(*controller_, phases_of(supervisor_.get())),
       initial_qpos_(controller_->plan().qpos()),
       seen_qpos_(world_.qpos()),
       seen_qvel_(Vector::Zero(plant_.model()->nv)),
@@ -169,11 +173,13 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
     }
   }
   if (supervisor_) supervisor_->attach(plant_, record_.log);
+  // the last one: copies take no time, and have the other columns where they are
+  if (options_.clock) record_.log.add("tick_us", &record_.telemetry.tick_us);
   begin(options_.seed, nullptr, !supervisor_);
   std::vector<double> values;
   write(values);
   state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
-  identity_ = identity_of(*plant_.model(), record_.names());
+  identity_ = identity_of(*plant_.model(), record_.names(), record_.log);
 }
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {

@@ -73,8 +73,7 @@ void Telemetry::clear() {
   }
 }
 
-void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
-                                 Recorder& recorder) const {
+void Telemetry::add_log_channels(const TelemetryNames& names, Recorder& recorder) const {
   recorder.add("time", &time);
   recorder.add("phase", &phase);
   recorder.add("q", names.coordinates, q);
@@ -104,7 +103,6 @@ void Telemetry::add_log_channels(const TelemetryNames& names, bool timed,
   recorder.add("optimality", &optimality);
   recorder.add("status", &status);
   recorder.add("yielding", &yielding);
-  if (timed) recorder.add("tick_us", &tick_us);
 }
 
 void Telemetry::add_observation_channels(const TelemetryNames& names, Recorder& recorder) const {

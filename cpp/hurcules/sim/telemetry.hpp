@@ -55,7 +55,7 @@ struct Telemetry {
   double tick_us = 0.0;              // [us] sense to servo; 0 without a clock
 
   // what the log holds; tick_us only with a clock
-  void add_log_channels(const TelemetryNames& names, bool timed, Recorder& recorder) const;
+  void add_log_channels(const TelemetryNames& names, Recorder& recorder) const;
   // what a policy sees
   void add_observation_channels(const TelemetryNames& names, Recorder& recorder) const;
 };

@@ -127,13 +127,11 @@ TEST(Coordinates, WrongTuplesAreNamed) {
 }
 
 // a limit that holds for nothing would be none
-TEST(Coordinates, NumericsOfJointsWantAJointAndTheirNumbers) {
+TEST(Coordinates, LimitsOfSpeedWantAJointAndOneNumber) {
   EXPECT_TRUE(contains(error_of("<numeric name='velocity_limit_swng' data='1'/>"),
                        "numeric 'velocity_limit_swng': joint 'swng' does not exist; there are: "));
   EXPECT_TRUE(contains(error_of("<numeric name='velocity_limit_swing' data='1 2'/>"),
                        "wants one number, 2 came"));
-  EXPECT_TRUE(contains(error_of("<numeric name='servo_swng' data='1 2'/>"), "joint 'swng'"));
-  EXPECT_EQ(error_of("<numeric name='servo_mode' data='1'/>"), "");  // no servo's
 }
 
 TEST(Coordinates, CoupledRangesThatDoNotMeetAreAnError) {
