@@ -202,7 +202,7 @@ def run_mission(
     parameters = _parameters(mission, context.args)
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
     if seeds is None:
-        _refuse(context, ("workers",), "for --seeds and test methods")
+        _refuse(context, ("workers",), "for test methods and --seeds")
         raise typer.Exit(run(options, Console()))
     if video and _was_given(context, "video"):
         raise Error("--video: of one run, not with --seeds; --seed says which, without --seeds")

@@ -165,6 +165,8 @@ def _run(
         show()
         with closing(side_by_side(_row, jobs, workers, lambda: interrupts.noted)) as ended:
             for job, made in ended:
+                if _told(options) != told:
+                    raise Error(f"{options.mission}: it has changed while it was run")
                 row = {"seed": job.seed, **(made or _broken(DIED)), **told}
                 with writing(path), path.open("a", encoding="utf-8") as file:
                     file.write(json.dumps(row, ensure_ascii=False, allow_nan=False) + "\n")
@@ -272,7 +274,7 @@ def _common(reasons: Sequence[str]) -> str:
 
 
 def _figures(rows: Sequence[Row]) -> list[tuple[str, ...]]:
-    found = []
+    found: list[tuple[str, ...]] = []
     for name in dict.fromkeys(name for row in rows for name in row["figures"]):
         limits = next((row["wanted"][name] for row in rows if name in row["wanted"]), None)
         given = [row for row in rows if row["figures"].get(name) is not None]

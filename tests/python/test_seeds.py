@@ -204,7 +204,7 @@ def test_other_wrong_use_is_refused(file: Path, capsys: pytest.CaptureFixture[st
     for words, wanted in (
         ("run e2803 --seeds 2", "--seeds: for missions; 'e2803' is a test method"),
         ("run --policy Reach-v0 --seeds 2", "--seeds: not with --policy"),
-        ("run lift --workers 2", "--workers: for --seeds and test methods"),
+        ("run lift --workers 2", "--workers: for test methods and --seeds"),
         ("run lift --seeds 2 --method best", "best"),
     ):
         assert cli.main(words.split()) == 2

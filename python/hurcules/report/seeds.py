@@ -22,17 +22,20 @@ WORDS = {True: "succeeded", False: "failed", None: "stopped, as asked"}
 
 
 def write(path: Path, rows: Sequence[dict[str, Any]]) -> None:
-    """Writes it as PNG.
+    """Writes it as PNG; figures that are the same in all runs and have no bounds are left out.
 
     Args:
         path: of the file.
         rows: of `runs.jsonl`, one or more.
     """
-    names = dict.fromkeys(
-        name for row in rows for name, value in row["figures"].items() if value is not None
-    )
     wanted = {name: limits for row in rows for name, limits in row["wanted"].items()}
-    first = sorted(names, key=lambda name: name not in wanted)  # those that decide
+    values: dict[str, set[float]] = {}
+    for row in rows:
+        for name, value in row["figures"].items():
+            if value is not None:
+                values.setdefault(name, set()).add(value)
+    telling = [name for name, some in values.items() if name in wanted or len(some) > 1]
+    first = sorted(telling, key=lambda name: name not in wanted)  # those that decide
     with applied():
         figure, plots = grid(math.ceil((1 + len(first)) / COLUMNS), COLUMNS, 1.9)
         _success(plots[0], rows)
@@ -66,7 +69,7 @@ def _figure(
             plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
     plot.yaxis.set_major_locator(MaxNLocator(4))
     plot.yaxis.set_major_formatter(lambda value, _: readable(name, value))
-    plot.set_title(fill(describe(name).label, 34))
+    plot.set_title(fill(describe(name).label, 28))
 
 
 def _dots(plot: Axes, rows: Sequence[dict[str, Any]], values: Sequence[float]) -> None:
