@@ -44,6 +44,8 @@ Row = dict[str, Any]
 RUNS = "runs.jsonl"
 FILES = ("runs.txt", "runs.png")
 CHUNK = 1000  # ticks between two looks at whether it has ended
+_FAILED = ("failed", "in phase", "runs", "seeds")
+_FIGURE = ("figure", "least", "median", "largest", "wanted")
 NUMBER = re.compile(r"((?<!\w)-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)")
 
 
@@ -238,16 +240,10 @@ def sum_up(name: str, rows: Sequence[Row]) -> str:
         )
     if len(ended) < len(rows):
         lines.append(f"{name}: {len(rows) - len(ended)} stopped before their end, as asked")
-    for title, some in (("failed", _failures(rows)), ("figure", _figures(rows))):
+    for heading, some in ((_FAILED, _failures(rows)), (_FIGURE, _figures(rows))):
         if some:
-            lines += ["", *_aligned([*_HEADINGS[title], *some])]
+            lines += ["", *_aligned([heading, *some])]
     return "\n".join(lines) + "\n"
-
-
-_HEADINGS = {
-    "failed": [("failed", "in phase", "runs", "seeds")],
-    "figure": [("figure", "least", "median", "largest", "wanted")],
-}
 
 
 def _failures(rows: Sequence[Row]) -> list[tuple[str, ...]]:

@@ -30,11 +30,11 @@ XML += ''.join(f'<motor joint="{name}" ctrlrange="-50 50"/>' for name in 'abc')
 XML += '</actuator></mujoco>'
 
 
-def simulation(seed=0, troubled=False, lone=False, seconds=0.1, pause=0.0):
+def simulation(seed=0, troubled=False, lone=False, pause=0.0, edited=False):
     time.sleep(pause)
-    if troubled and seed == 1:
-        raise ValueError(f"no place {seed}.5 m away")
-    if troubled and seed == 2:
+    if edited:
+        open(__file__, "a").write("# another\\n")
+    if troubled and seed in (1, 2):
         raise ValueError(f"no place {seed}.5 m away")
     if troubled and seed == 3:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -44,7 +44,7 @@ def simulation(seed=0, troubled=False, lone=False, seconds=0.1, pause=0.0):
     controller = hurcules.WholeBodyController(robot, stacks={"posture": [posture]})
     if lone:
         return hurcules.Simulation(model=model, controller=controller)
-    phase = {"name": "hold", "stack": "posture", "seconds": seconds}
+    phase = {"name": "hold", "stack": "posture", "seconds": 0.1}
     least = 0.09 if seed != 4 else 9.0
     figure = {"name": "held_s", "quantity": "time", "least": least}
     table = {"mission": {"name": "m"}, "phase": [phase], "figure": [figure]}
@@ -85,7 +85,7 @@ def test_each_run_is_a_row_whatever_becomes_of_it(sweep: Path) -> None:
     assert [row["success"] for row in rows] == [True, *[False] * 5, True]
     assert rows[0]["figures"]["held_s"] == pytest.approx(0.1, abs=0.01)
     assert rows[0]["simulated_seconds"] == pytest.approx(0.1, abs=0.01)
-    assert rows[1]["reason"] == "ValueError: no place 1.5 m away (arm.py:15)"
+    assert rows[1]["reason"] == "ValueError: no place 1.5 m away (arm.py:17)"
     assert "its process died" in rows[3]["reason"]
     assert "held_s is" in rows[4]["reason"] and rows[4]["phase"] == "hold"
     assert "diverged" in rows[5]["reason"]
@@ -97,7 +97,7 @@ def test_the_summary_classes_failures_and_spans_figures(sweep: Path) -> None:
     lines = [line.split("   ") for line in text.splitlines()]
     assert text.startswith("arm: 2 of 7 succeeded (8 to 64 %, Wilson's 95 % interval)\n")
     assert [next(line[i] for line in lines if "no place" in line[0]) for i in (0, -1)] == [
-        "ValueError: no place ... m away (arm.py:...)",
+        "ValueError: no place ... m away (arm.py:17)",
         "1, 2",
     ]
     held_s = next(line for line in text.splitlines() if line.startswith("held s"))
@@ -137,8 +137,9 @@ def test_without_a_mission_the_seconds_are_all_that_is_asked(
     assert "1 of 1 succeeded" in capsys.readouterr().out
 
 
-def test_ctrl_c_keeps_the_runs_that_have_ended(file: Path, tmp_path: Path) -> None:
-    words = ["run", str(file), "--seeds", "60", "--pause", "0.2", "--out", str(tmp_path)]
+def begun(file: Path, folder: Path) -> subprocess.Popen[str]:
+    """A sweep in a session of its own, whose first run has ended."""
+    words = ["run", str(file), "--seeds", "60", "--pause", "0.2", "--out", str(folder)]
     process = subprocess.Popen(
         [sys.executable, "-m", "hurcules", *words],
         stdout=subprocess.PIPE,
@@ -147,15 +148,48 @@ def test_ctrl_c_keeps_the_runs_that_have_ended(file: Path, tmp_path: Path) -> No
         start_new_session=True,
     )
     deadline = time.monotonic() + 120
-    while not (tmp_path / "runs.jsonl").exists() and time.monotonic() < deadline:
+    while not (folder / "runs.jsonl").exists() and time.monotonic() < deadline:
         time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the workers too
+    return process
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_keeps_the_runs_that_have_ended(
+    number: signal.Signals, file: Path, tmp_path: Path
+) -> None:
+    process = begun(file, tmp_path)
+    os.killpg(process.pid, number)  # as the terminal does: to the workers too
     said, errors = process.communicate(timeout=60)
     assert process.returncode == 130, errors
     assert "Traceback" not in errors
     rows = held(tmp_path)
-    assert 0 < len(rows) < 60 and all(row["success"] for row in rows)
+    assert 0 < len(rows) < 60
+    assert [row["success"] for row in rows] == [row["seed"] != 4 for row in rows]
     assert f"interrupted: {len(rows)} of 60 runs; the same command goes on" in said
+
+
+def test_workers_end_with_a_sweep_that_is_killed(file: Path, tmp_path: Path) -> None:
+    process = begun(file, tmp_path)
+    process.kill()
+    process.communicate(timeout=60)  # the workers hold its pipes as long as they are there
+
+
+def test_a_file_that_changes_meanwhile_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "arm.py"
+    file.write_text(ARM)
+    assert call(file, tmp_path, "--seeds", "1", "--edited", "true") == 2
+    assert "arm.py: it has changed while it was run" in capsys.readouterr().err
+
+
+def test_without_matplotlib_the_rest_is_done(
+    sweep: Path, file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(seeds.extras, "without", lambda: "matplotlib is not installed")
+    assert call(file, sweep, "--seeds", "7", "--troubled", "true") == 1
+    assert "no picture: matplotlib is not installed" in capsys.readouterr().out
+    assert (sweep / "runs.txt").exists() and not (sweep / "runs.png").exists()
 
 
 def test_a_mission_by_name_is_stopped_as_asked(
