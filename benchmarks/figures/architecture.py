@@ -34,13 +34,13 @@ without tests. `tests/python/test_layers.py` says which arrows may exist.
 BOXES = {
     "foundations": (
         "_core", "_exec", "_moved", "_version", "decimate", "figures", "interrupts", "opengl",
-        "outlet", "output", "plugins", "running_gear", "validation",
+        "outlet", "output", "plugins", "running_gear", "shares", "validation", "workers",
     ),
     "models": ("mjcf", "models", "scenes", "casualties", "transfer_bed"),
     "simulation": ("driving", "own_simulation", "postures", "sensors", "simulation"),
     "pictures": ("cameras", "rendering", "video"),
     "results": ("recording", "report", "summary"),
-    "command line": ("cli", "doctor", "run"),
+    "command line": ("cli", "doctor", "run", "seeds"),
 }  # fmt: skip
 ABOUT = {
     "base": "types, errors, state",

@@ -21,6 +21,7 @@ from hurcules.output import WriteError, write_whole
 from hurcules.plugins import MethodOptions, Methods, PolicyOptions
 from hurcules.rhqp import method_names
 from hurcules.run import FAILED, INTERRUPTED, RunOptions, run
+from hurcules.seeds import run_seeds
 from hurcules.table_missions import TABLE_MISSIONS, table_mission, write_table
 from hurcules.validation import require_known
 
@@ -65,7 +66,7 @@ def _options(
 
 
 _METHODS, _POLICIES = "Test methods", "Policies"  # where their options stand in the help
-_MISSION_OPTIONS = ("seconds", "method", "sensors")
+_MISSION_OPTIONS = ("seconds", "method", "sensors", "seeds")
 _METHOD_OPTIONS = ("robot", "repetitions", "pace", "workers")
 
 
@@ -98,6 +99,16 @@ def run_mission(
         bool, typer.Option("--sensors", help="Sensors with noise, bias, delay and resolution.")
     ] = False,
     video: Annotated[bool, typer.Option("--video/--no-video", help="Write video.mp4.")] = True,
+    seeds: Annotated[
+        int | None,
+        typer.Option(
+            help="Run so many seeds, from --seed up, without film: `runs.jsonl`, `.txt`, `.png`.",
+            show_default="one run",
+        ),
+    ] = None,
+    workers: Annotated[
+        int, typer.Option(help="Processes of --seeds or a test method; they change no result.")
+    ] = 1,
     robot: Annotated[
         str, typer.Option(help="Which robot is tested, or acts.", rich_help_panel=_METHODS)
     ] = "rescue",
@@ -110,10 +121,6 @@ def run_mission(
             help="Driving speed [m/s].", rich_help_panel=_METHODS, show_default="the method's own"
         ),
     ] = None,
-    workers: Annotated[
-        int,
-        typer.Option(help="Processes; the result does not depend on it.", rich_help_panel=_METHODS),
-    ] = 1,
     fidelity: Annotated[
         str,
         typer.Option(help="Of a policy: exact, fast or kinematic.", rich_help_panel=_POLICIES),
@@ -131,7 +138,8 @@ def run_mission(
     settings instead, and other parameters of its scene may follow (degrees, m). A policy acts for
     an episode of its environment.
 
-    Exit status: 0 done, 1 the mission failed (`summary.json` says why), 2 wrong usage, 130 Ctrl-C.
+    Exit status: 0 done, 1 the mission failed (`summary.json` says why), with --seeds one of them,
+    2 wrong usage, 130 Ctrl-C.
 
     For example `hurcules run`, or with more words:
 
@@ -152,6 +160,8 @@ def run_mission(
     - `hurcules mission lift --out my.toml`, then, changed, `hurcules run my.toml --mass 90`
 
     - `hurcules run my_robot.py --seed 3`: the simulation that its function `simulation` returns
+
+    - `hurcules run lift --seeds 20 --workers 2`: the same again goes on where it was cut off
 
     - `hurcules run e2803 --angle 30 --repetitions 10 --workers 4`
 
@@ -188,10 +198,15 @@ def run_mission(
         _refuse(context, ("method", "sensors"), f"for missions by name; {mission} has its own")
     elif table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
-    _refuse(context, _METHOD_OPTIONS, f"for test methods; '{mission}' is a mission")
+    _refuse(context, _METHOD_OPTIONS[:-1], f"for test methods; '{mission}' is a mission")
     parameters = _parameters(mission, context.args)
     options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
-    raise typer.Exit(run(options, Console()))
+    if seeds is None:
+        _refuse(context, ("workers",), "for test methods and --seeds")
+        raise typer.Exit(run(options, Console()))
+    if video and _was_given(context, "video"):
+        raise Error("--video: of one run, not with --seeds; --seed says which, without --seeds")
+    raise typer.Exit(run_seeds(options, seeds, workers, Console()))
 
 
 def _parameters(mission: str, words: Sequence[str]) -> dict[str, Any]:

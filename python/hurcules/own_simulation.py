@@ -6,7 +6,7 @@ import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -15,7 +15,7 @@ from hurcules._core import Error
 from hurcules.mission_options import read_options
 from hurcules.simulation import Simulation
 
-__all__ = ["is_own", "make", "parameters_of"]
+__all__ = ["bound", "is_own", "make", "parameters_of"]
 
 FUNCTION = "simulation"
 
@@ -36,6 +36,14 @@ def make(path: str, seed: int = 0, parameters: Mapping[str, Any] | None = None) 
     Raises:
         Error: no file, no such function, a parameter that it has not, or another result.
     """
+    made = bound(path, seed, parameters)()
+    if not isinstance(made, Simulation):
+        raise Error(f"{path}: {FUNCTION}() wants to return a hurcules.Simulation, got {made!r}")
+    return made
+
+
+def bound(path: str, seed: int, parameters: Mapping[str, Any] | None) -> Callable[[], Any]:
+    """Its function with its arguments, not called yet; raises as `make`."""
     function = _function(path)
     given = dict(parameters or {})
     if "seed" in inspect.signature(function).parameters:
@@ -46,10 +54,7 @@ def make(path: str, seed: int = 0, parameters: Mapping[str, Any] | None = None) 
         inspect.signature(function).bind(**given)
     except TypeError as error:
         raise Error(f"{path}: {FUNCTION}(): {error}") from None
-    made = function(**given)
-    if not isinstance(made, Simulation):
-        raise Error(f"{path}: {FUNCTION}() wants to return a hurcules.Simulation, got {made!r}")
-    return made
+    return partial(function, **given)
 
 
 def parameters_of(path: str, words: Sequence[str]) -> dict[str, Any]:

@@ -35,8 +35,12 @@ __all__ = [
     "INTERRUPTED",
     "Pace",
     "RunOptions",
+    "made_of",
+    "make",
     "progress_bar",
+    "require_end",
     "run",
+    "ticks_in",
 ]
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130  # exit codes
@@ -90,7 +94,7 @@ def run(options: RunOptions, console: Console) -> int:
     """
     mission = table_mission(options.mission)
     simulation = _made(options)
-    ticks = _ticks(options.seconds, simulation.dt)
+    ticks = ticks_in(options.seconds, simulation.dt)
     with Interrupts() as interrupts:
         output = Output(options.out, FILES)
         if lost := extras.without():
@@ -119,40 +123,51 @@ def run(options: RunOptions, console: Console) -> int:
 
 
 def _made(options: RunOptions) -> Simulation:
-    if not own_simulation.is_own(options.mission):
-        return Simulation(
-            options.mission,
-            options.seed,
-            method=options.method,
-            timed=True,
-            sensors=realistic() if options.sensors else None,
-            parameters=options.parameters,
-        )
-    simulation = own_simulation.make(options.mission, options.seed, options.parameters)
+    simulation = make(options, timed=True)
     if not simulation.records:
         raise Error(f"{options.mission}: a run wants its log, this simulation has record=False")
+    require_end(options, simulation)
+    return simulation
+
+
+def make(options: RunOptions, timed: bool = False) -> Simulation:
+    """The simulation that is asked for; one of one's own says itself whether it is timed."""
+    if own_simulation.is_own(options.mission):
+        return own_simulation.make(options.mission, options.seed, options.parameters)
+    return Simulation(
+        options.mission,
+        options.seed,
+        method=options.method,
+        timed=timed,
+        sensors=realistic() if options.sensors else None,
+        parameters=options.parameters,
+    )
+
+
+def require_end(options: RunOptions, simulation: Simulation) -> None:
+    """Raises Error for one that would run for ever."""
     if simulation.mission is None and options.seconds is None:
         raise Error(f"{options.mission}: its simulation has no mission that ends; --seconds wanted")
-    return simulation
 
 
 def _told(
     options: RunOptions, mission: TableMission | None, simulation: Simulation
 ) -> dict[str, Any]:
-    """What a run was made of; solver and sensors of a simulation of one's own are its own."""
+    name = simulation.mission or Path(options.mission).stem
+    return {"mission": name, "seed": options.seed, **made_of(options, mission)}
+
+
+def made_of(options: RunOptions, mission: TableMission | None) -> dict[str, Any]:
+    """What a run is made of; solver and sensors of a simulation of one's own are its own."""
     parameters = mission.complete(options.parameters) if mission else options.parameters
-    told = {
-        "mission": simulation.mission or Path(options.mission).stem,
-        "parameters": dict(parameters),
-        "seed": options.seed,
-    }
     if own_simulation.is_own(options.mission):
-        return told
+        return {"parameters": dict(parameters)}
     sensors = "realistic" if options.sensors else "exact"
-    return {**told, "method": options.method, "sensors": sensors}
+    return {"parameters": dict(parameters), "method": options.method, "sensors": sensors}
 
 
-def _ticks(seconds: float | None, dt: float) -> int | None:
+def ticks_in(seconds: float | None, dt: float) -> int | None:
+    """Raises Error for a time that is no tick."""
     if seconds is None:
         return None
     if not (math.isfinite(seconds) and seconds >= dt):

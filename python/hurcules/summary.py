@@ -16,7 +16,7 @@ from hurcules._version import __version__
 from hurcules.recording import Recording
 from hurcules.simulation import Simulation
 
-__all__ = ["processor", "summarize"]
+__all__ = ["bounds", "figures", "plain", "processor", "summarize"]
 
 
 def summarize(
@@ -33,7 +33,7 @@ def summarize(
         Plain data for JSON: numbers are finite or None.
     """
     wall = recording.wall_seconds
-    return _plain(
+    return plain(
         {
             **told,
             "version": __version__,
@@ -45,11 +45,8 @@ def summarize(
             "control_tick_us": _statistics(recording.control_tick_us),
             "limit_violation": simulation.limit_violation(),
             "limits": _limits(simulation),
-            "figures": simulation.figures() | _of_log(recording.log, simulation.dt),
-            "wanted": {
-                name: {"least": least, "most": most}
-                for name, (least, most) in simulation.wanted_figures().items()
-            },
+            "figures": figures(simulation, recording.log),
+            "wanted": bounds(simulation),
             "thesis": simulation.thesis_figures(),
             "events": [
                 {"time_s": round(time, 6), "text": text} for time, text in simulation.events()
@@ -64,6 +61,19 @@ def summarize(
             "model_sha256": _checksum(simulation.model),
         }
     )
+
+
+def figures(simulation: Simulation, log: Mapping[str, NDArray[np.float64]]) -> dict[str, float]:
+    """What a run ends with; of an empty log without those of the battery."""
+    return simulation.figures() | _of_log(log, simulation.dt)
+
+
+def bounds(simulation: Simulation) -> dict[str, dict[str, float]]:
+    """What figures must be for a success."""
+    return {
+        name: {"least": least, "most": most}
+        for name, (least, most) in simulation.wanted_figures().items()
+    }
 
 
 def _limits(simulation: Simulation) -> dict[str, dict[str, float]]:
@@ -120,12 +130,12 @@ def processor() -> str:
     return lines[0].split(":", 1)[1].strip() if lines else platform.processor()
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """NumPy's numbers as Python's; what is not finite as None, for JSON has no word for it."""
     if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if isinstance(value, bool | np.bool_):
         return bool(value)
     if isinstance(value, int | np.integer):

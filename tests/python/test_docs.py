@@ -13,8 +13,8 @@ import pytest
 import hurcules
 from hurcules import cli
 from hurcules.recording import CHANNELS, FORCE_CHANNELS, LOAD_CHANNELS, PERSON_CHANNELS
+from hurcules.shares import wilson
 from hurcules_envs.environment import Environment
-from hurcules_envs.evaluation import wilson
 
 SHARE = r"(\d+) of (\d+)[^()|;]{0,90}\((\d+) to (\d+) %\)"  # 19 of 20 (76 to 99 %)
 CALLED = r"^\w+$|[A-Za-z_]\w+(?=\()"  # a name alone, or what is called

@@ -18,7 +18,8 @@ import pytest
 import hurcules
 import hurcules_envs
 from hurcules.cli import main
-from hurcules_envs.evaluation import evaluate, wilson
+from hurcules.shares import wilson
+from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, read, write
 from hurcules_envs.policy import Policy, shipped
 

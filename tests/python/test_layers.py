@@ -40,7 +40,7 @@ PHYSICS = {"robot", "sim"}
 FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
         "_core", "_exec", "_moved", "decimate", "extras", "figures", "legend",
-        "opengl", "outlet", "plugins", "running_gear",
+        "opengl", "outlet", "plugins", "running_gear", "shares", "workers",
     )},
     {"hurcules." + name for name in (
         "interrupts", "mission_drawing", "output", "toml_rows", "validation",
@@ -62,6 +62,7 @@ FLOORS: tuple[set[str], ...] = (
     {"hurcules", "hurcules.recording"},
     {"hurcules.report", "hurcules.summary"},
     {"hurcules.run"},
+    {"hurcules.seeds"},
     {"hurcules.cli"},
     {"hurcules_command", "hurcules_envs", "hurcules_studies"},
     {"hurcules.__main__"},

@@ -7,16 +7,13 @@ after the one that it died with.
 from __future__ import annotations
 
 import multiprocessing
-import os
-import signal
-import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from hurcules.workers import DIED, starting
 from hurcules_studies.thesis.claim import Verdict
 from hurcules_studies.thesis.measures import bundles
 from hurcules_studies.thesis.result import load, without_finding
@@ -57,8 +54,7 @@ class Runner:
             while (rest := self._open(bundle)) and not self.stopped():
                 if self._attempt([rest], 1):
                     culprit = self._open(rest)[0]
-                    reason = "its process died: killed, out of memory, or a crash in compiled code"
-                    keep(without_finding(culprit, Verdict.ERROR, reason), self.folder)
+                    keep(without_finding(culprit, Verdict.ERROR, DIED), self.folder)
 
     def _attempt(self, tasks: list[list[str]], workers: int) -> list[list[str]]:
         """Runs bundles once; returns those whose processes died."""
@@ -66,7 +62,7 @@ class Runner:
             return []
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(workers, context, initializer=prepare) as pool:
-            with _single_threaded(), _ctrl_c_ignored(), _script_unseen():
+            with starting():
                 futures = {pool.submit(work, bundle, self.folder): bundle for bundle in tasks}
             self._watch(futures, [name for bundle in tasks for name in bundle])
             if self.stopped():
@@ -107,47 +103,3 @@ def kept(folder: Path, names: Sequence[str], fresh: bool) -> list[str]:
         else:
             path.unlink(missing_ok=True)
     return done
-
-
-@contextmanager
-def _single_threaded() -> Iterator[None]:
-    """Processes started here use one thread each for linear algebra."""
-    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-    before = {name: os.environ.get(name) for name in names}
-    os.environ.update(dict.fromkeys(names, "1"))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
-
-
-@contextmanager
-def _script_unseen() -> Iterator[None]:
-    """Processes started here do not run the caller's script again: it needs no main guard."""
-    main = sys.modules["__main__"]
-    names = ("__file__", "__spec__")
-    before = {name: vars(main)[name] for name in names if name in vars(main)}
-    vars(main).pop("__file__", None)
-    main.__spec__ = None
-    try:
-        yield
-    finally:
-        vars(main).update(before)
-
-
-@contextmanager
-def _ctrl_c_ignored() -> Iterator[None]:
-    """Processes started here do not hear Ctrl-C, not even before `prepare`."""
-    try:
-        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    except ValueError:  # not the main thread: nobody handles Ctrl-C there
-        yield
-        return
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
-import traceback
 from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
+from hurcules.workers import in_words
 from hurcules_studies.thesis.claim import Verdict
 from hurcules_studies.thesis.claims import CLAIMS
 from hurcules_studies.thesis.measures import measure
@@ -39,10 +39,7 @@ def examine(name: str) -> Result:
     try:
         return from_finding(CLAIMS[name], measure(name), perf_counter() - started)
     except Exception as error:
-        where = traceback.extract_tb(error.__traceback__)[-1]
-        place = f"{Path(where.filename).name}:{where.lineno}"
-        text = " ".join(f"{type(error).__name__}: {error}".split())
-        return without_finding(name, Verdict.ERROR, f"{text} ({place})")
+        return without_finding(name, Verdict.ERROR, in_words(error))
 
 
 def keep(result: Result, folder: Path) -> None:
