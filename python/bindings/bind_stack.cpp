@@ -33,10 +33,13 @@ constexpr const char* kSetRange =
     "Narrows the range of one coordinate [rad] or [m]; never wider than the robot's.";
 constexpr const char* kSetInterval =
     "Narrows the ranges of all coordinates (n,); never wider than the robot's.";
-constexpr const char* kSetMaxVelocity = "Speed limit of one coordinate [rad/s] or [m/s], above 0; the robot's own holds where it is smaller.";
+constexpr const char* kSetMaxVelocity =
+    "Speed limit of one coordinate [rad/s] or [m/s], above 0; the robot's own holds where it is "
+    "smaller. inf: none at all, for what is only reckoned.";
 constexpr const char* kSetMaxVelocities =
-    "Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; the robot's own hold "
-    "where they are smaller, inf leaves them alone.";
+    "Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; the robot's "
+    "own hold "
+    "where they are smaller. inf: none at all, for what is only reckoned.";
 constexpr const char* kNoOrder =
     "limits are not ordered by '<' in Python (a < b < c would lose a): use Stack([a, b, c])";
 constexpr const char* kStackLevel = R"(Tasks of one priority, or limits of the coordinates.

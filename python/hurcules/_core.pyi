@@ -1563,14 +1563,14 @@ class JointLimits:
 
     @overload
     def set_max_velocities(self, limits: float) -> None:
-        """Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; inf for none."""
+        """Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; the robot's own hold where they are smaller. inf: none at all, for what is only reckoned."""
 
     @overload
     def set_max_velocities(self, limits: ArrayLike) -> None:
-        """Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; inf for none."""
+        """Speed limits of all coordinates (n,), or one for all [rad/s] or [m/s], above 0; the robot's own hold where they are smaller. inf: none at all, for what is only reckoned."""
 
     def set_max_velocity(self, coordinate: str, limit: float) -> None:
-        """Speed limit of one coordinate [rad/s] or [m/s], above 0."""
+        """Speed limit of one coordinate [rad/s] or [m/s], above 0; the robot's own holds where it is smaller. inf: none at all, for what is only reckoned."""
 
     def set_range(self, coordinate: str, lower: float, upper: float) -> None:
         """Narrows the range of one coordinate [rad] or [m]; never wider than the robot's."""

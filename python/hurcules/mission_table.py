@@ -27,8 +27,8 @@ many phases is said once:
     phases = ["turn left", "home"]
 
 A rate may hold a quantity: `{ rate = [0.0005], hold = "load/left_grip_n", at = 230.0, span = 50.0
-}`, with `brake = true` borne by the brakes of its joints; a lead of many phases is a `[[lead]]` with
-`channel` and `phases`.
+}`, with `brake = true` borne by the brakes of its joints; a lead of many phases is a `[[lead]]`
+with `channel` and `phases`.
 
 The tracks go to a place by `park = { body = "ordnance_case", ahead = -2.0 }`: the robot's centre of
 mass 2 m behind that body, with its heading; without a body counted from where the run began.

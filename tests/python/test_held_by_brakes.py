@@ -1,7 +1,7 @@
 """A rate that holds a quantity and rests behind the brake of its joint, in a mission.
 
-Strategy: a jaw that presses a spring of 1 kN/m: the quantity is how far the spring gives way, so that
-its numbers come from where the jaw is.
+Strategy: a jaw that presses a spring of 1 kN/m: the quantity is how far the spring gives way, so
+that its numbers come from where the jaw is.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ PRESS = """<mujoco><option timestep="0.002" gravity="0 0 0"/>
   <actuator><motor joint="arm" forcerange="-100 100"/><motor joint="jaw" forcerange="-100 100"/>
   </actuator></mujoco>"""
 HOLD = {"rate": [0.02], "hold": "joint/jaw", "at": 0.02, "span": 0.005, "brake": True}
-WAIT = {"seconds": 1.0, "done": ["joint/jaw >= 0.0199"], "within": 5.0, "late": ["abort"]}
+WAIT = {"seconds": 1.0, "done": ["joint/jaw >= 0.0199 for 0.2 s"], "within": 5.0, "late": ["abort"]}
 
 
 def press(*phases: dict[str, Any]) -> hurcules.Simulation:

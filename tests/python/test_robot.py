@@ -189,6 +189,12 @@ def test_tasks_outlive_their_robot(model: mujoco.MjModel) -> None:
 def test_limits_are_narrowed_by_name(robot: _core.Robot) -> None:
     limits = _core.JointLimits("joint", robot)
     limits.set_range("yaw", -1.0, 0.5)
+    most = limits.max_velocity.copy()
+    limits.set_max_velocities(1e3)
+    assert limits.max_velocity[0] == most[0] == 1.5  # the robot's own is smaller
+    limits.set_max_velocities(np.inf)
+    assert np.all(np.isinf(limits.max_velocity))
+    limits.set_max_velocities(most)
     limits.set_max_velocity("yaw", 0.25)
     assert (limits.lower[0], limits.upper[0], limits.max_velocity[0]) == (-1.0, 0.5, 0.25)
     with pytest.raises(_core.Error, match="'yaw' wants lower <= upper within -2"):

@@ -76,7 +76,7 @@ void JointLimits::set_max_velocity(const std::string& coordinate, double limit) 
   if (!(limit > 0))
     throw Error("velocity limit of coordinate '" + coordinate + "' wants to be above 0, " +
                 std::to_string(limit) + " came");
-  max_velocity_[i] = std::min(limit, robot_velocity_[i]);
+  max_velocity_[i] = limit == kNone ? kNone : std::min(limit, robot_velocity_[i]);
 }
 
 void JointLimits::set_max_velocities(const ConstVectorRef& limits) {

@@ -31,9 +31,9 @@ class JointLimits {
   void reset_ranges();
   // of all, (n) each; these throw Error unless within the ranges of the robot
   void set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper);
-  // the robot's own holds where it is smaller
+  // the robot's own holds where it is smaller; inf: none at all, not the robot's either
   void set_max_velocity(const std::string& coordinate, double limit);  // [rad/s] or [m/s]
-  void set_max_velocities(const ConstVectorRef& limits);  // of all, (n); inf for the robot's
+  void set_max_velocities(const ConstVectorRef& limits);               // of all, (n)
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Index size() const { return lower_.size(); }                  // n

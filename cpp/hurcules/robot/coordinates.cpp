@@ -262,8 +262,8 @@ void require_limits_of_joints(const mjModel& m) {
     const auto joint = without(name.c_str(), "velocity_limit_");
     if (!joint) continue;
     if (mj_name2id(&m, mjOBJ_JOINT, joint->c_str()) < 0) {
-      throw Error("numeric '" + name + "': " +
-                  unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
+      throw Error("numeric '" + name +
+                  "': " + unknown_name("joint", *joint, names_of(m, {mjOBJ_JOINT})));
     }
     require(m.numeric_size[i] == 1, "numeric '" + name + "' wants one number, " +
                                         std::to_string(m.numeric_size[i]) + " came");

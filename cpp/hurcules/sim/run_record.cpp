@@ -1,9 +1,9 @@
 #include "hurcules/sim/run_record.hpp"
 
-#include <limits>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "hurcules/base/pose.hpp"

@@ -94,8 +94,8 @@ std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController
           "the controller is for another model than the simulation: nq, nv, nu, nbody " +
               std::to_string(own->nq) + ", " + std::to_string(own->nv) + ", " +
               std::to_string(own->nu) + ", " + std::to_string(own->nbody) + " instead of " +
-              std::to_string(m->nq) + ", " + std::to_string(m->nv) + ", " +
-              std::to_string(m->nu) + ", " + std::to_string(m->nbody));
+              std::to_string(m->nq) + ", " + std::to_string(m->nv) + ", " + std::to_string(m->nu) +
+              ", " + std::to_string(m->nbody));
   require(structure_of(*own) == structure_of(*m),
           "the controller is for another model than the simulation: bodies, joints, sites or what "
           "the actuators drive differ in name or order");

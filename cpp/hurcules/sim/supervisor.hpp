@@ -30,7 +30,8 @@ struct Figure {
 struct Cause {
   std::size_t phase = 0;
   std::size_t trouble = 0;  // 0: it took too long, else the number of one of its troubles and 1
-  std::size_t reaction = 0;  // the number of what it does about that and 1; 0: not told, or none is left
+  std::size_t reaction =
+      0;  // the number of what it does about that and 1; 0: not told, or none is left
 };
 
 // What came out of a tick, for the figures.

@@ -26,7 +26,7 @@ __all__ = ["DT", "LEVELS", "Body", "Log", "Setting", "follow"]
 
 DT = 1e-3  # [s]
 LEVELS = ("joint", "lhpos", "rhpos", "lhor", "rhor", "pel", "swivel", "gaze")
-NO_LIMIT = 1e9  # [rad/s], [rad/s^2]
+NO_LIMIT = 1e9  # [rad/s^2]
 
 Command = Callable[[float], Mapping[str, Array]]  # time [s] -> velocities of tasks, by name
 Posture = Mapping[str, float]
@@ -84,7 +84,7 @@ class Body:
         self.limits = hurcules.JointLimits("joint", robot)
         if not setting.clamped:
             for name in names:
-                self.limits.set_max_velocity(name, NO_LIMIT)
+                self.limits.set_max_velocity(name, np.inf)
         # of many kinds: value, target and orientation are asked of those that have them
         self.tasks: dict[str, Any] = dict(_tasks(robot))
         self.setting = setting
