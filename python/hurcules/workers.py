@@ -96,7 +96,7 @@ def in_words(error: BaseException) -> str:
 @contextmanager
 def starting() -> Iterator[None]:
     """Around what starts processes: of one thread each, deaf to Ctrl-C, without our script."""
-    with _single_threaded(), _ctrl_c_ignored(), _script_unseen():
+    with _single_threaded(), _ctrl_c_waits(), _script_unseen():
         yield
 
 
@@ -131,14 +131,10 @@ def _script_unseen() -> Iterator[None]:
 
 
 @contextmanager
-def _ctrl_c_ignored() -> Iterator[None]:
-    """Processes started here do not hear Ctrl-C, not even before `prepare`."""
-    try:
-        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    except ValueError:  # not the main thread: nobody handles Ctrl-C there
-        yield
-        return
+def _ctrl_c_waits() -> Iterator[None]:
+    """Ctrl-C is heard afterwards; processes started here never hear it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

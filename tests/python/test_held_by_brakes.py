@@ -53,6 +53,8 @@ def test_the_motor_rests_once_it_is_there_and_in_the_next_phase_too() -> None:
     assert max(one for phase, one in efforts if phase == "p0") > 18.0  # 1 kN/m by 0.02 m
     assert max(one for phase, one in efforts if phase == "p1") == 0.0
     assert made.data.joint("jaw").qpos[0] == pytest.approx(0.02, abs=1e-3)
+    log = made.log()
+    assert np.abs(log["command/jaw"][log["phase"] == 1]).max() == 0.0
 
 
 def test_a_firmer_hold_after_a_light_one_presses_anew() -> None:

@@ -180,7 +180,7 @@ const Vector& Mission::command(double dt) {
 }
 
 void Mission::note_commanded(const WholeBodyController& controller, const TickReport& report) {
-  rows_[phase_].note(controller);
+  rows_[phase_].note(controller, operated_);
   const auto commanded_now = [&] {  // NaN: nothing is set
     const Vector& command = controller.command();
     for (Index i = 0; i < command.size(); ++i)

@@ -219,13 +219,14 @@ void PhaseRow::command(double time, double dt, Vector& out) {
   if (posture_) posture_->velocity(time, dt, out.segment(posture_row_, posture_size_));
 }
 
-void PhaseRow::note(const WholeBodyController& controller) {
+void PhaseRow::note(const WholeBodyController& controller, const Vector& own) {
   const Vector& command = controller.command();
   const double dt = controller.dt();
   for (Way& way : ways_) {
     const auto given = command.segment(way.row, way.size);
     if (way.length > 0.0) way.given += way.along.dot(given) * dt;
-    if (!given.isZero(0.0)) way.borne = false;  // what is borne, somebody else moves
+    // what is borne, somebody else moves
+    if (!given.isZero(0.0) && given != own.segment(way.row, way.size)) way.borne = false;
   }
   if (park_) park_->note(controller.drive()->controller().braked());
 }

@@ -52,8 +52,8 @@ class PhaseRow {
   // what it commands over the dt [s] after a time [s] since its beginning; writes its own rows of
   // the command (k)
   void command(double time, double dt, Vector& out);
-  // what was really commanded
-  void note(const WholeBodyController& controller);
+  // what was really commanded, beside what the row said
+  void note(const WholeBodyController& controller, const Vector& own);
   // mean share of the ways by a rate that has been given, 1 without one
   [[nodiscard]] double given() const;
   // what it sets counts from the next tick on: until then errors are those of what was set before

@@ -14,7 +14,7 @@ namespace hurcules {
 namespace {
 
 struct Frames {
-  int count = 0;
+  Index count = 0;
   const int* bodies = nullptr;  // that carry them, null where they are the bodies
 };
 
