@@ -395,4 +395,12 @@ TEST(Missions, AreFoundByNameAndUnknownOnesAreToldTheNames) {
   EXPECT_TRUE(contains(text, "'walk' does not exist; there are: stretch")) << text;
 }
 
+TEST_F(MissionTest, ACopyThatWouldBeOfAnotherClassIsRefused) {
+  SimulationOptions options;
+  options.physics = false;
+  const Simulation simulation(robot_.model(), controller_, options,
+                              std::make_unique<Wave>(*controller_));
+  EXPECT_TRUE(contains(error_text([&] { (void)simulation.clone(); }), "a clone of its own"));
+}
+
 }  // namespace
