@@ -50,6 +50,9 @@ def test_a_motor_of_which_the_model_says_no_servo_gets_a_reckoned_one():
     for actuator in spec.actuators:
         if actuator.target == "bed_lift":
             actuator.target = "crane"
+    with pytest.raises(hurcules.Error, match="'velocity_limit_bed_lift': joint 'bed_lift'"):
+        hurcules.Robot(spec.compile())
+    spec.numeric("velocity_limit_bed_lift").name = "velocity_limit_crane"
     model = spec.compile()
     data = mujoco.MjData(model)
     assert "crane" not in hurcules.servo_table(hurcules.Robot(model))
