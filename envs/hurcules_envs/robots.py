@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules.ik import within_balls
+from hurcules.output import compiled
 from hurcules_envs.rotations import rotation_vector
 
 __all__ = ["MAX_ACCELERATION", "Postures", "RobotSetup", "load_robot", "sample_postures"]
@@ -218,10 +219,8 @@ def load_robot(
         model = load(robot)
     except ValueError as error:
         raise hurcules.Error(f"{robot}: {error}") from error
-    content = np.empty(mujoco.mj_sizeModel(model), np.uint8)
-    mujoco.mj_saveModel(model, None, content)
     own = None if joints is None else tuple(joints)
-    return _from_file(robot, content.tobytes(), tuple(frames), own)
+    return _from_file(robot, compiled(model), tuple(frames), own)
 
 
 @lru_cache(maxsize=8)  # by what the file holds now, not by its path alone

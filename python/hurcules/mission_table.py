@@ -51,7 +51,6 @@ from pathlib import Path
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from hurcules._core import (
     Error,
@@ -69,7 +68,7 @@ from hurcules._core import (
     table_lines,
 )
 from hurcules.mission_drawing import drawing
-from hurcules.output import write_whole
+from hurcules.output import compiled, write_whole
 from hurcules.toml_rows import Kind, take, typed
 from hurcules.validation import require_known, told_at
 
@@ -168,9 +167,7 @@ class Mission:
         """
         path = Path(path)
         require_known("kind of file", path.suffix, [".table"])
-        compiled = np.empty(mujoco.mj_sizeModel(model), np.uint8)
-        mujoco.mj_saveModel(model, None, compiled)
-        beside, contents = path.with_suffix(".mjb"), compiled.tobytes()
+        beside, contents = path.with_suffix(".mjb"), compiled(model)
         text = table_lines(self.setup, self.rows, controller, beside.name, contents)
         write_whole(beside, contents)
         write_whole(path, text.encode())

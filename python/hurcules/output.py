@@ -9,12 +9,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from hurcules._core import Error
 
-__all__ = ["Output", "WriteError", "write_whole", "writing"]
+__all__ = ["Output", "WriteError", "compiled", "write_whole", "writing"]
 
 
 class WriteError(Error):
@@ -32,6 +33,13 @@ def writing(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise WriteError(f"cannot write {path}: {error.strerror}") from error
+
+
+def compiled(model: mujoco.MjModel) -> bytes:
+    """What a file of MuJoCo's own (.mjb) holds of a model."""
+    content = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, content)
+    return content.tobytes()
 
 
 def write_whole(path: Path, contents: bytes) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hurcules._version import __version__
+from hurcules.output import compiled
 from hurcules.recording import Recording
 from hurcules.simulation import Simulation
 
@@ -58,7 +59,7 @@ def summarize(
                 "mujoco": mujoco.__version__,
                 "numpy": np.__version__,
             },
-            "model_sha256": _checksum(simulation.model),
+            "model_sha256": hashlib.sha256(compiled(simulation.model)).hexdigest(),
         }
     )
 
@@ -87,13 +88,6 @@ def _limits(simulation: Simulation) -> dict[str, dict[str, float]]:
         }
         for one in simulation.controller.plan.coordinates
     }
-
-
-def _checksum(model: mujoco.MjModel) -> str:
-    """Of the compiled model, as an .mjb file holds it."""
-    data = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
-    mujoco.mj_saveModel(model, None, data)
-    return hashlib.sha256(data.tobytes()).hexdigest()
 
 
 def _of_log(log: Mapping[str, NDArray[np.float64]], dt: float) -> dict[str, float]:

@@ -646,7 +646,7 @@ void WholeBodyController::lead_joint(Index joint, double wanted, double accelera
   const double from = servo_.position()[joint], now = servo_.velocity()[joint];
   const RateLimits limits{.dt = dt(),
                           .horizon = options_.velocity.horizon,
-                          .max_velocity = actuator.max_velocity,
+                          .max_velocity = actuator.limits.speed,
                           .max_acceleration = acceleration};
   const RateInterval within =
       rate_interval({actuator.lower - from, actuator.upper - from, now}, limits);

@@ -116,13 +116,6 @@ void read_wheels(const mjModel* m, std::vector<JointActuator>& actuators) {
   }
 }
 
-void read_speed_limits(const mjModel* m, std::vector<JointActuator>& actuators) {
-  for (JointActuator& own : actuators) {
-    const int numeric = find_numeric(m, "velocity_limit_", own.joint);
-    if (numeric >= 0) own.max_velocity = m->numeric_data[m->numeric_adr[numeric]];
-  }
-}
-
 void read_servos(const mjModel* m, std::vector<JointActuator>& actuators) {
   for (JointActuator& own : actuators) {
     const int numeric = find_numeric(m, "servo_", own.joint);
@@ -189,7 +182,6 @@ std::vector<JointActuator> joint_actuators(const Robot& robot) {
   require_three(m, found);
   read_wheels(m, found);
   read_servos(m, found);
-  read_speed_limits(m, found);
   return found;
 }
 

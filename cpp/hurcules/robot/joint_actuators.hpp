@@ -39,8 +39,6 @@ struct JointActuator {
   // wheel has a hinge without a range, on a robot that can move; it bears no other body, and its
   // shapes are round about the axis
   double rolling_inertia = 0.0;
-  // [rad/s] or [m/s] that the model's numeric velocity_limit_JOINT says, inf without one
-  double max_velocity = std::numeric_limits<double>::infinity();
   // [kg m^2] or [kg], [rad/s] what its servo shall reckon with, as the model's numeric servo_JOINT
   // says; 0 without one
   double servo_inertia = 0.0, servo_bandwidth = 0.0;

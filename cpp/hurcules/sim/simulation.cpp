@@ -29,12 +29,12 @@ constexpr std::size_t kStateHeader = 4;
 
 // of all names along the vectors of a controller's simulation, and of its log but for the time of a
 // tick, which copies do not take
-double identity_of(const mjModel& model, const TelemetryNames& names, const Recorder& log) {
+double identity_of(const Robot& world, const TelemetryNames& names, const Recorder& log) {
   std::vector<std::string> columns = log.channels();
   std::erase(columns, "tick_us");
   return hash_of_names({&names.coordinates, &names.joints, &names.levels, &names.task_rows,
                         &names.commands, &columns},
-                       structure_of(model));
+                       world.identity().structure);
 }
 
 // numbers at most that the working sets of all solvers take in a snapshot
@@ -96,7 +96,7 @@ std::shared_ptr<WholeBodyController> checked(std::shared_ptr<WholeBodyController
               std::to_string(own->nu) + ", " + std::to_string(own->nbody) + " instead of " +
               std::to_string(m->nq) + ", " + std::to_string(m->nv) + ", " + std::to_string(m->nu) +
               ", " + std::to_string(m->nbody));
-  require(structure_of(*own) == structure_of(*m),
+  require(controller->plan().identity().structure == structure_of(*m),
           "the controller is for another model than the simulation: bodies, joints, sites or what "
           "the actuators drive differ in name or order");
   require(!physics || controller->servo().coordinate_joints() > 0,
@@ -179,7 +179,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   std::vector<double> values;
   write(values);
   state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
-  identity_ = identity_of(*plant_.model(), record_.names(), record_.log);
+  identity_ = identity_of(world_, record_.names(), record_.log);
 }
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
