@@ -73,6 +73,22 @@ def test_what_is_no_number_leads_nothing() -> None:
     assert np.abs(made.log()["command/jaw"]).max() == 0.0
 
 
+def test_brakes_bear_what_is_held_while_the_mission_holds_or_is_paused() -> None:
+    trouble = [{"when": "joint/jaw >= 0.03", "do": ["hold 2 s", "abort"]}]
+    lead = {"jaw": {**HOLD, "at": 0.05}}
+    made = press({"lead": lead, **WAIT, "done": ["joint/jaw >= 0.05"], "trouble": trouble})
+    while made.data.joint("jaw").qpos[0] < 0.03:
+        made.step(1)
+    made.step(100)
+    assert effort(made) == 0.0
+    made = press({"lead": lead, **WAIT, "done": ["joint/jaw >= 0.05"]})
+    made.step(500)
+    assert effort(made) > 10.0
+    made.pause()
+    made.step(100)
+    assert effort(made) == 0.0
+
+
 def test_an_operator_opens_what_is_borne() -> None:
     made = press({"lead": {"jaw": HOLD}, "seconds": 5.0, **{k: WAIT[k] for k in ("done",)}})
     made.step(1500)

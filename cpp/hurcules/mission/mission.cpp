@@ -250,6 +250,7 @@ bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& con
       cause_ = cause;
       answer_.reset();
       waiting_ = 1.0;
+      rows_[phase_].bear();
       return true;
     case ReactionKind::Lower:
       why_ = why(cause, true);
@@ -290,6 +291,7 @@ bool Mission::wait(double time, WholeBodyController& controller) {
 }
 
 void Mission::pause() {
+  if (!paused_) rows_[phase_].bear();
   paused_ = true;
   moved_ = false;
   waiting_ = 1.0;

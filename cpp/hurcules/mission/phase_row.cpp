@@ -102,6 +102,13 @@ void PhaseRow::look_at_brakes(double dt) {
   }
 }
 
+void PhaseRow::bear() {
+  for (Way& way : ways_) {
+    way.borne = true;
+    way.fallen = 0.0;
+  }
+}
+
 bool PhaseRow::shuts(int actuator) const {
   const auto in = [&](const std::vector<int>& brakes) {
     return std::find(brakes.begin(), brakes.end(), actuator) != brakes.end();

@@ -34,6 +34,8 @@ class PhaseRow {
   }
   // whether what its leads hold is where their brakes bear it
   void look_at_brakes(double dt);
+  // nothing leads for now: brakes bear what is held, whatever is read of it
+  void bear();
   // what the phase before held alike goes on being borne
   void go_on_bearing(const PhaseRow& before);
   [[nodiscard]] bool shuts(int actuator) const;  // this brake, in this tick
