@@ -118,6 +118,8 @@ Args:
   orientation: (3, 3) rotation or quaternion (4,) w x y z; None keeps the one that it has.
   velocity: (6,) [m/s], [rad/s] at which the target moves, fed forward until the next call that sets
     or moves it; None: at rest.
+  acceleration: (6,) [m/s^2], [rad/s^2] of the target, fed forward so by accelerations and torques;
+    None: 0.
 )";
 constexpr const char* kSetTurn =
     R"(Sets the target; seen at the next update.
@@ -126,6 +128,7 @@ Args:
   target: (3, 3) rotation or quaternion (4,) w x y z.
   velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
     moves it; None: at rest.
+  acceleration: (3,) [rad/s^2] of the target, fed forward so by accelerations and torques; None: 0.
 )";
 constexpr const char* kSetInterval =
     "The interval that the error shall be in: (m,) each, -inf or inf for no side.";
@@ -312,7 +315,6 @@ void bind_task(py::module_& module) {
           "set_target",
           [](ValueTask& task, const ConstVectorRef& target, const std::optional<Vector>& velocity,
              const std::optional<Vector>& acceleration) {
-            if (!velocity && !acceleration) return task.set_target(target);
             const Vector none = Vector::Zero(task.rows());
             task.set_reference(target, velocity.value_or(none), acceleration.value_or(none));
           },
@@ -359,12 +361,15 @@ void bind_pose_tasks(py::module_& module) {
   };
   const auto set_target = [](PoseTask& task, const ArrayLike& position,
                              const OptionalArrayLike& orientation,
-                             const std::optional<Vector>& velocity) {
-    task.set_target(point_of(position, task),
-                    orientation.is_none()
-                        ? task.target_orientation()
-                        : rotation_from(orientation, "orientation of task '" + task.name() + "'"));
-    if (velocity) task.advance(*velocity, 0.0);
+                             const std::optional<Vector>& velocity,
+                             const std::optional<Vector>& acceleration) {
+    const Vector none = Vector::Zero(task.rows());
+    task.set_reference(
+        point_of(position, task),
+        orientation.is_none()
+            ? task.target_orientation()
+            : rotation_from(orientation, "orientation of task '" + task.name() + "'"),
+        velocity.value_or(none), acceleration.value_or(none));
   };
   py::class_<PoseTask, Task>(module, "PoseTask", kPoseTask)
       .def(py::init(pose), name, robot, frame, py::arg("reference") = PoseTaskOptions{}.reference)
@@ -378,7 +383,7 @@ void bind_pose_tasks(py::module_& module) {
                              "how it shall be turned (3, 3) in the world, for drawing")
       .def_property("max_lead", &PoseTask::max_lead, &PoseTask::set_max_lead, kMaxLeadOfPose)
       .def("set_target", set_target, py::arg("position"), py::arg("orientation") = py::none(),
-           py::arg("velocity") = py::none(), kSetPose);
+           py::arg("velocity") = py::none(), py::arg("acceleration") = py::none(), kSetPose);
   py::class_<RelativePoseTask, PoseTask>(module, "RelativePoseTask", kRelativePoseTask)
       .def(py::init<Name, const Robot&, const Name&, const Name&>(), name, robot, frame,
            py::arg("reference"));
@@ -431,11 +436,13 @@ void bind_rotation_tasks(py::module_& module) {
       .def(
           "set_target",
           [](OrientationTask& task, const ArrayLike& target,
-             const std::optional<Vector>& velocity) {
-            task.set_target(rotation_from(target, "target of task '" + task.name() + "'"));
-            if (velocity) task.advance(*velocity, 0.0);
+             const std::optional<Vector>& velocity, const std::optional<Vector>& acceleration) {
+            const Vector none = Vector::Zero(task.rows());
+            task.set_reference(rotation_from(target, "target of task '" + task.name() + "'"),
+                               velocity.value_or(none), acceleration.value_or(none));
           },
-          py::arg("target"), py::arg("velocity") = py::none(), kSetTurn);
+          py::arg("target"), py::arg("velocity") = py::none(), py::arg("acceleration") = py::none(),
+          kSetTurn);
   py::enum_<AngleKind>(module, "AngleKind", "Which angle an AngleTask measures.")
       .value("Elevation", AngleKind::Elevation)
       .value("Heading", AngleKind::Heading);

@@ -453,3 +453,54 @@ def test_a_hand_leads_a_door_and_the_loop_over_the_ground_stays_closed() -> None
     data = simulation.data
     assert data.joint("door").qpos[0] == pytest.approx(0.3, abs=0.01)
     assert np.linalg.norm(data.site("tip").xpos - data.site("handle").xpos) < 2e-3
+
+
+BENT = [0.2, -0.6, 1.2, 0.3, 0.5, 0.2] + [0.0] * 6
+
+
+@pytest.mark.parametrize("in_one", [True, False])
+def test_a_path_by_accelerations_is_followed_with_its_acceleration(
+    model: mujoco.MjModel, in_one: bool
+) -> None:
+    """A hand swings up and down and turns: without its acceleration it is off by a / K^2."""
+    off = []
+    for fed in (False, True):
+        robot = hurcules.Robot(model)
+        robot.set_configuration(BENT)
+        pose = hurcules.PoseTask("hand", robot, "l_hand")
+        at = hurcules.PositionTask("at", robot, "l_hand")
+        turned = hurcules.OrientationTask("turned", robot, "l_hand")
+        controller = hurcules.AccelerationController(robot)
+        tasks = [pose] if in_one else [at, turned]
+        controller.set_stack(hurcules.Stack([tasks, hurcules.PostureTask("posture", robot)]))
+        start, R = robot.position("l_hand"), robot.orientation("l_hand")
+        along = np.array([0.0, 0.0, 0.05, 0.3, 0.0, 0.0])  # [m], [rad] about x
+        for tick in range(2000):
+            w, t = 3.0, 1e-3 * tick
+            way = along * (1 - np.cos(w * t))
+            v, a = along * w * np.sin(w * t), along * w * w * np.cos(w * t) if fed else np.zeros(6)
+            s, c = np.sin(way[3]), np.cos(way[3])
+            turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]) @ R
+            pose.set_target(start + way[:3], turn, v, a)
+            at.set_target(start + way[:3], v[:3], a[:3])
+            turned.set_target(turn, v[3:], a[3:])
+            controller.step(robot)
+        off.append(np.linalg.norm(np.concatenate([task.error for task in tasks])))
+    assert off[1] < 0.05 * off[0]
+
+
+def test_a_row_of_weight_0_is_no_shortfall(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+    robot.set_configuration(BENT)
+    turned = hurcules.OrientationTask("turned", robot, "l_hand")
+    turned.set_weights([1.0, 1.0, 0.0])
+    about_z = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    turned.set_target(about_z @ robot.orientation("l_hand"))
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([turned, hurcules.PostureTask("posture", robot)]))
+    for _ in range(3000):
+        controller.step(robot)
+    told = next(each for each in controller.diagnostics(robot) if each.level == "turned")
+    assert np.abs(turned.error[:2]).max() < 1e-3 < 1.0 < abs(turned.error[2])
+    assert [each.text for each in told.shortfalls] == []
+    assert told.smallest_singular_value > 0.1

@@ -37,9 +37,23 @@ const char* unit_of(const Task& task) {
   return length ? "m" : "rad";
 }
 
+// rows of weight 0 ask for nothing
 double outside(const Task& task) {
   const Vector& e = task.error();
-  return (e - e.cwiseMax(task.lower()).cwiseMin(task.upper())).norm();
+  const Vector beyond = e - e.cwiseMax(task.lower()).cwiseMin(task.upper());
+  return (task.weights().array() > 0.0).select(beyond, 0.0).norm();
+}
+
+// of so many
+Index rows_that_ask(const StackLevel& level, Index rows) {
+  for (const Task* task : level.tasks) rows -= (task->weights().array() == 0.0).count();
+  return rows;
+}
+
+// of the rows that ask, largest first
+Vector singular_values(const LevelReport& report, const StackLevel& level) {
+  const Index rows = rows_that_ask(level, report.infeasible.size());
+  return report.singular_values.head(std::min(report.singular_values.size(), rows));
 }
 
 // what a row of a level is about
@@ -104,11 +118,12 @@ std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelRe
   }
   if (!report) return names;
   const Level& level = solved.problem.hierarchy()[static_cast<std::size_t>(k)];
-  const bool weak = report->singular_values.size() > 0 &&
-                    report->singular_values.minCoeff() < std::max(report->rho, 1e-6);
+  const StackLevel& source = solved.problem.stack().levels()[static_cast<std::size_t>(k)];
+  const Vector values = singular_values(*report, source);
+  const bool weak = values.size() > 0 && values.minCoeff() < std::max(report->rho, 1e-6);
   if (report->rank < own_rank(level)) {
     names.push_back(above(solved, k));
-  } else if (weak || report->rank < level.rows()) {
+  } else if (weak || report->rank < rows_that_ask(source, level.rows())) {
     names.emplace_back("a singular posture");
   }
   return names;
@@ -164,9 +179,12 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
   LevelDiagnostics made;
   made.level = source.name;
   const LevelReport* const report = k < solved.reports.size() ? &solved.reports[k] : nullptr;
-  if (report && report->singular_values.size() > 0) {
-    made.smallest_singular_value = report->singular_values.minCoeff();
-    made.manipulability = report->singular_values.prod();
+  if (report) {
+    const Vector values = singular_values(*report, source);
+    if (values.size() > 0) {
+      made.smallest_singular_value = values.minCoeff();
+      made.manipulability = values.prod();
+    }
   }
   if (solved.solution.status == SolverStatus::InvalidInput) {
     if (source.limits && !source.limits->are_numbers())

@@ -194,7 +194,8 @@ void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const T
     double square = 0.0;
     for (const TaskPlace& place : places.tasks[k]) {
       const Task& task = *tasks[place.task];
-      square += task.error().squaredNorm();
+      for (Index i = 0; i < task.rows(); ++i)
+        if (task.weights()[i] > 0.0) square += task.error()[i] * task.error()[i];
       rows.segment(place.first_row, task.rows()) = task.error();
     }
     levels[places.level[k]] = std::sqrt(square);

@@ -30,11 +30,18 @@ void OrientationTask::update(const Robot& robot) {
   error_ = e;
   jacobian_.noalias() = gain.lazyProduct(rotation_.jacobian);
   drift_ = gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
-  velocity_des_ = right_jacobian_inverse(e) * turn_;
+  feed_forward();
+}
+
+void OrientationTask::feed_forward() {
+  const Matrix3 gain = right_jacobian_inverse(error_);
+  velocity_des_ = gain * turn_;
+  acceleration_des_ = gain * turn_rate_;
 }
 
 void OrientationTask::hold(const Robot& robot) {
   turn_.setZero();
+  turn_rate_.setZero();
   update(robot);
   target_ = rotation_.orientation;
   target_is_set_ = false;
@@ -45,18 +52,27 @@ void OrientationTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
   turn_ = velocity * max_lead_.share(error_, velocity);
-  velocity_des_ = right_jacobian_inverse(error_) * turn_;
+  turn_rate_.setZero();
+  feed_forward();
   // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
   if (turn_.squaredNorm() == 0) return;
   target_ = Eigen::Quaterniond(rotation_exp(turn_ * dt) * target_).normalized().toRotationMatrix();
 }
 
 void OrientationTask::set_target(const Matrix3& target) {
+  set_reference(target, Vector3::Zero(), Vector3::Zero());
+}
+
+void OrientationTask::set_reference(const Matrix3& target, const ConstVectorRef& velocity,
+                                    const ConstVectorRef& acceleration) {
   if (!is_rotation(target)) throw Error("target of task '" + name_ + "' wants a rotation matrix");
+  require_rows(velocity, "velocity");
+  require_rows(acceleration, "acceleration");
   target_ = target;
   target_is_set_ = true;
-  turn_.setZero();
-  velocity_des_.setZero();
+  turn_ = velocity;
+  turn_rate_ = acceleration;
+  feed_forward();
 }
 
 void OrientationTask::assign_target(const ConstVectorRef& target) {
@@ -68,12 +84,14 @@ void OrientationTask::save(StateWriter& writer) const {
   Task::save(writer);
   for (Index i = 0; i < 9; ++i) writer.put(target_(i));
   writer.put(turn_);
+  writer.put(turn_rate_);
 }
 
 void OrientationTask::restore(StateReader& reader) {
   Task::restore(reader);
   for (Index i = 0; i < 9; ++i) target_(i) = reader.get();
   reader.get(turn_);
+  reader.get(turn_rate_);
 }
 
 }  // namespace hurcules

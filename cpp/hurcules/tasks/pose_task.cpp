@@ -46,12 +46,20 @@ void PoseTask::update(const Robot& robot) {
   jacobian_.bottomRows<3>().noalias() = gain.lazyProduct(rotation_.jacobian);
   drift_.tail<3>() =
       gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
-  velocity_des_.tail<3>() = right_jacobian_inverse(e) * turn_;
+  feed_turn_forward();
+}
+
+void PoseTask::feed_turn_forward() {
+  const Matrix3 gain = right_jacobian_inverse(error_.tail<3>());
+  velocity_des_.tail<3>() = gain * turn_;
+  acceleration_des_.tail<3>() = gain * turn_rate_;
 }
 
 void PoseTask::hold(const Robot& robot) {
   turn_.setZero();
+  turn_rate_.setZero();
   velocity_des_.setZero();
+  acceleration_des_.setZero();
   update(robot);
   p_des_ = point_.position;
   R_des_ = rotation_.orientation;
@@ -65,7 +73,9 @@ void PoseTask::advance(const ConstVectorRef& velocity, double dt) {
   turn_ = velocity.tail<3>() * max_turn_.share(error_.tail<3>(), velocity.tail<3>());
   velocity_des_.head<3>() =
       velocity.head<3>() * max_lead_.share(error_.head<3>(), velocity.head<3>());
-  velocity_des_.tail<3>() = right_jacobian_inverse(error_.tail<3>()) * turn_;
+  turn_rate_.setZero();
+  acceleration_des_.setZero();
+  feed_turn_forward();
   p_des_ += velocity_des_.head<3>() * dt;
   // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
   if (turn_.squaredNorm() == 0) return;
@@ -87,14 +97,25 @@ void PoseTask::lead_target(const ConstVectorRef& step, double dt) {
 }
 
 void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
+  const Eigen::Matrix<double, 6, 1> rest = Eigen::Matrix<double, 6, 1>::Zero();
+  set_reference(position, orientation, rest, rest);
+}
+
+void PoseTask::set_reference(const Vector3& position, const Matrix3& orientation,
+                             const ConstVectorRef& velocity, const ConstVectorRef& acceleration) {
   require_values(position, "target");
   if (!is_rotation(orientation))
     throw Error("target of task '" + name_ + "' wants a rotation matrix");
+  require_rows(velocity, "velocity");
+  require_rows(acceleration, "acceleration");
   p_des_ = position;
   R_des_ = orientation;
   target_is_set_ = true;
-  turn_.setZero();
-  velocity_des_.setZero();
+  turn_ = velocity.tail<3>();
+  turn_rate_ = acceleration.tail<3>();
+  velocity_des_.head<3>() = velocity.head<3>();
+  acceleration_des_.head<3>() = acceleration.head<3>();
+  feed_turn_forward();
 }
 
 void PoseTask::assign_target(const ConstVectorRef& target) {
@@ -107,6 +128,7 @@ void PoseTask::save(StateWriter& writer) const {
   writer.put(p_des_);
   for (Index i = 0; i < 9; ++i) writer.put(R_des_(i));
   writer.put(turn_);
+  writer.put(turn_rate_);
 }
 
 void PoseTask::restore(StateReader& reader) {
@@ -114,6 +136,7 @@ void PoseTask::restore(StateReader& reader) {
   reader.get(p_des_);
   for (Index i = 0; i < 9; ++i) R_des_(i) = reader.get();
   reader.get(turn_);
+  reader.get(turn_rate_);
 }
 
 }  // namespace hurcules

@@ -48,6 +48,10 @@ class PoseTask : public Task {
   [[nodiscard]] const Matrix3& target_orientation() const { return R_des_; }  // in R
   // at rest; seen at the next update; throws Error unless finite, and a rotation
   void set_target(const Vector3& position, const Matrix3& orientation);
+  // where a trajectory is now: the pose, its velocity ([m/s], [rad/s]) and its acceleration, (6) in
+  // the axes of R, fed forward until the next call that moves the target
+  void set_reference(const Vector3& position, const Matrix3& orientation,
+                     const ConstVectorRef& velocity, const ConstVectorRef& acceleration);
   // p_RF [m], R_RF at the last update
   [[nodiscard]] const Vector3& position() const { return point_.position; }
   [[nodiscard]] const Matrix3& orientation() const { return rotation_.orientation; }
@@ -61,14 +65,17 @@ class PoseTask : public Task {
   }
 
  private:
+  void feed_turn_forward();
+
   Frame frame_;
   Reference reference_;
   PointMotion point_;
   RotationMotion rotation_;
   Vector3 p_des_ = Vector3::Zero();
   Matrix3 R_des_ = Matrix3::Identity();
-  Vector3 turn_ = Vector3::Zero();  // w_des [rad/s], in the axes of R
-  MaxLead max_lead_, max_turn_;     // [m], [rad]
+  Vector3 turn_ = Vector3::Zero();       // w_des [rad/s], in the axes of R
+  Vector3 turn_rate_ = Vector3::Zero();  // its rate [rad/s^2]
+  MaxLead max_lead_, max_turn_;          // [m], [rad]
 };
 
 // the pose of a frame in another frame of the robot
