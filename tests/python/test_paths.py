@@ -204,3 +204,63 @@ def test_a_tool_follows_its_way_on_a_turntable(model: mujoco.MjModel, how: str) 
         assert off > 5e-3
     else:
         assert off < 3e-4
+
+
+WAY, SPEED = np.array([0.0, 0.4, 0.0]), 0.1  # [m] aside, [m/s]
+
+
+def test_a_tool_waits_on_its_path_before_a_range(model: mujoco.MjModel) -> None:
+    robot = arm(model)
+    limits = hurcules.JointLimits("limits", robot)
+    limits.set_range("turn", -0.3, 0.3)
+    tool = hurcules.PoseTask("tool", robot, "tip")
+    controller = hurcules.WholeBodyController(robot, [limits, tool])
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    start, upright, along = robot.position("tip"), robot.orientation("tip"), WAY / 0.4
+    s, across = 0.0, 0.0
+    for _ in range(2000):
+        speed = SPEED * max(0.0, 1.0 - np.linalg.norm(tool.error) / 0.002)
+        tool.set_target(start + s * along, upright, [*speed * along, 0.0, 0.0, 0.0])
+        simulation.step(1)
+        s += speed * simulation.dt
+        off = simulation.data.site("tip").xpos - start
+        across = max(across, np.linalg.norm(off - (off @ along) * along))
+    assert 0.1 < s < 0.3 and across < 1e-3
+    assert np.abs(controller.qd_des).max() < 1e-3
+    assert "turn upper limit" in str(controller.diagnostics()[-1].shortfalls[0])
+
+
+def test_a_tool_stays_on_a_path_whose_way_is_a_coordinate() -> None:
+    spec = mujoco.MjSpec.from_string(ARM)
+    way = spec.worldbody.add_body(name="way", gravcomp=1.0)
+    way.add_joint(name="s", type=mujoco.mjtJoint.mjJNT_SLIDE, range=[0.0, 0.5])
+    way.add_geom(size=[0.01, 0.0, 0.0], mass=1.0, contype=0, conaffinity=0)
+    model = hurcules.with_motors(spec)
+    robot = hurcules.Robot(model, joints=[*JOINTS, "s"])
+    robot.set_configuration([*START, 0.0])
+    limits = hurcules.JointLimits("limits", robot)
+    limits.set_range("turn", -0.3, 0.3)
+    start, along, column = robot.position("tip"), WAY / 0.4, robot.coordinate("s")
+
+    def beside(robot: hurcules.Robot) -> tuple[np.ndarray, np.ndarray]:
+        rows = robot.position_jacobian("tip").copy()
+        rows[:, column] -= along
+        return robot.position("tip") - start - robot.configuration[column] * along, rows
+
+    path = hurcules.CustomTask("path", robot, 3, beside)
+    path.set_target(np.zeros(3))
+    tilt = hurcules.OrientationTask("tilt", robot, "tip")
+    goes = hurcules.PostureTask("goes", robot, ["s"])
+    goes.max_lead = 0.005
+    stack = [limits, [path, tilt], hurcules.StackLevel("goes", [goes], rho=0.0)]
+    controller = hurcules.WholeBodyController(robot, stack, {"s": hurcules.Twist(goes, 1.0)})
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    across = 0.0
+    for tick in range(2000):
+        simulation.step(1, {"s": [SPEED]})
+        off = simulation.data.site("tip").xpos - start
+        across = max(across, np.linalg.norm(off - (off @ along) * along))
+        if tick == 500:
+            assert abs(controller.qd_des[column] - SPEED) < 1e-4
+    assert 0.1 < controller.q_des[column] < 0.3 and across < 1e-4
+    assert "turn upper limit" in str(controller.diagnostics()[-1].shortfalls[0])
