@@ -184,7 +184,10 @@ def _unseen(controller: WholeBodyController) -> Iterator[str]:
         if mocap:
             way = "no plan sees a mocap body move: lead the target of a task in the world"
         else:
-            way = "the plan holds it where it starts; with base='sensed' it is where it is"
+            way = (
+                "the plan holds it where it starts; with base='sensed' it is where it is, and the "
+                "task late by its speed / gain, unless the target's velocity tells that speed"
+            )
         yield f"task '{task}' is measured in '{frame}', which may move: {way}"
 
 

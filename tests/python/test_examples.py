@@ -136,6 +136,13 @@ def picks(said: str) -> None:
     assert 0.25 < numbers(r"completed; the cube is (\S+) m up", said)[0] < 0.35
 
 
+def follows_a_seam(said: str) -> None:
+    late, told, left, waited = numbers(r": +(\S+) mm", said)
+    assert abs(late - 40.0) < 10.0  # 0.2 m/s by 5 / s
+    assert told < 1.0 and left > 100.0 and waited < 2.0
+    assert max(numbers(r"(\S+) mrad", said)[1::2]) < 2.0  # of the axis, where it is told and kept
+
+
 # in CI; the whole takes minutes
 SHORT = {"12": ["--episodes", "6", "--epochs", "100", "--judge", "2"]}
 RESULTS = {
@@ -158,6 +165,7 @@ RESULTS = {
     "18": wipes,
     "19": follows_a_policy,
     "20": picks,
+    "21": follows_a_seam,
 }
 
 

@@ -115,7 +115,7 @@ def test_a_task_in_a_frame_that_moves_unseen_is_warned_of() -> None:
     model = mujoco.MjModel.from_xml_string(ARM)
     robot = hurcules.Robot(model, ["j1", "j2", "j3", "j4"])
     for frame, base, said in (
-        ("flying", "held", "'flying', which may move: .* with base='sensed' it is where it is"),
+        ("flying", "held", "'flying', which may move: .* late by its speed / gain"),
         ("held", "sensed", "'held', which may move: no plan sees a mocap body move"),
         ("flying", "sensed", ""),
         ("base", "held", ""),
