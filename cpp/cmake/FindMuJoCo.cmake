@@ -8,9 +8,7 @@ find_path(MuJoCo_INCLUDE_DIR mujoco/mujoco.h HINTS "${MuJoCo_WHEEL}/include" ${H
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(MuJoCo
-  REQUIRED_VARS MuJoCo_LIBRARY MuJoCo_INCLUDE_DIR
-  REASON_FAILURE_MESSAGE "${MuJoCo_FILE} is neither under MuJoCo_ROOT nor in a Python package of ${Python_EXECUTABLE}: \
-try pip install mujoco==${MuJoCo_FIND_VERSION}")
+  REQUIRED_VARS MuJoCo_LIBRARY MuJoCo_INCLUDE_DIR)
 
 if(MuJoCo_FOUND AND NOT TARGET mujoco::mujoco)
   add_library(mujoco::mujoco SHARED IMPORTED)

@@ -359,18 +359,17 @@ void bind_pose_tasks(py::module_& module) {
   const auto pose = [](Name n, const Robot& r, const Name& f, Name ref) {
     return std::make_unique<PoseTask>(std::move(n), r, f, PoseTaskOptions{std::move(ref)});
   };
-  const auto set_target = [](PoseTask& task, const ArrayLike& position,
-                             const OptionalArrayLike& orientation,
-                             const std::optional<Vector>& velocity,
-                             const std::optional<Vector>& acceleration) {
-    const Vector none = Vector::Zero(task.rows());
-    task.set_reference(
-        point_of(position, task),
-        orientation.is_none()
-            ? task.target_orientation()
-            : rotation_from(orientation, "orientation of task '" + task.name() + "'"),
-        velocity.value_or(none), acceleration.value_or(none));
-  };
+  const auto set_target =
+      [](PoseTask& task, const ArrayLike& position, const OptionalArrayLike& orientation,
+         const std::optional<Vector>& velocity, const std::optional<Vector>& acceleration) {
+        const Vector none = Vector::Zero(task.rows());
+        task.set_reference(
+            point_of(position, task),
+            orientation.is_none()
+                ? task.target_orientation()
+                : rotation_from(orientation, "orientation of task '" + task.name() + "'"),
+            velocity.value_or(none), acceleration.value_or(none));
+      };
   py::class_<PoseTask, Task>(module, "PoseTask", kPoseTask)
       .def(py::init(pose), name, robot, frame, py::arg("reference") = PoseTaskOptions{}.reference)
       .def_property_readonly("position", &PoseTask::position, copy, "p_RF (3,) [m]")
@@ -435,8 +434,8 @@ void bind_rotation_tasks(py::module_& module) {
                     kMaxLead)
       .def(
           "set_target",
-          [](OrientationTask& task, const ArrayLike& target,
-             const std::optional<Vector>& velocity, const std::optional<Vector>& acceleration) {
+          [](OrientationTask& task, const ArrayLike& target, const std::optional<Vector>& velocity,
+             const std::optional<Vector>& acceleration) {
             const Vector none = Vector::Zero(task.rows());
             task.set_reference(rotation_from(target, "target of task '" + task.name() + "'"),
                                velocity.value_or(none), acceleration.value_or(none));

@@ -66,6 +66,20 @@ def installed(build: Path, folder: Path, program: str) -> Path:
     return source / "build" / "consumer"
 
 
+def test_what_is_missing_is_told_to_who_can_do_without_it(build: Path, tmp_path: Path) -> None:
+    prefix, source = tmp_path / "prefix", tmp_path / "source"
+    run(cmake(), "--install", build, "--prefix", prefix, "--component", "cpp")
+    source.mkdir()
+    (source / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.24)\nproject(consumer LANGUAGES CXX)\n"
+        "find_package(hurcules QUIET)\nmessage(STATUS \"${hurcules_FOUND}: "
+        "${hurcules_NOT_FOUND_MESSAGE}\")\n"
+    )
+    flags = f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
+    told = run(cmake(), "-S", source, "-B", source / "build", *flags)
+    assert "0: Eigen 3.4 is missing. Remedy: pip install cmeel-eigen" in told
+
+
 def test_the_loop_of_the_docs_leads_a_robot(build: Path, root: Path, tmp_path: Path) -> None:
     text = (root / "docs" / "loop.md").read_text(encoding="utf-8")
     (tmp_path / "arm.xml").write_text(ARM, encoding="utf-8")

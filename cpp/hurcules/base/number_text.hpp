@@ -26,4 +26,12 @@ template <class Number>
   return error == std::errc() ? std::string(text.data(), end) : "a number";
 }
 
+// with so many digits, in any locale: 0.333, 1e-09, inf
+[[nodiscard]] inline std::string number_text(double value, int digits) {
+  std::array<char, 32> text;
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                          std::chars_format::general, digits);
+  return error == std::errc() ? std::string(text.data(), end) : "a number";
+}
+
 }  // namespace hurcules

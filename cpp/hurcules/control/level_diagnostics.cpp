@@ -3,8 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
 #include "hurcules/tasks/custom_task.hpp"
@@ -234,9 +234,7 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
 
 std::string Shortfall::text() const {
   if (invalid) return task + ": its numbers are not finite, the controller brakes";
-  char number[32];
-  std::snprintf(number, sizeof number, "%.3g", short_by);
-  std::string line = task + ": " + number + (unit.empty() ? "" : " " + unit);
+  std::string line = task + ": " + number_text(short_by, 3) + (unit.empty() ? "" : " " + unit);
   line += too_much ? " too much" : " short";
   for (std::size_t i = 0; i < held_by.size(); ++i) {
     line += i == 0 ? ", held by " : i + 1 < held_by.size() ? ", " : " and ";

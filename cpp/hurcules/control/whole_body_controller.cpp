@@ -312,7 +312,8 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   if (!options_.support.empty()) plan_.stand_on(options_.support);
   support_ = plan_.support();
   plan_.set_qpos(qpos);
-  start_ = ahead_ = plan_.qpos();
+  start_ = ahead_ = qpos_ = plan_.qpos();
+  qvel_ = Vector::Zero(plan_.nv());
   q_ = plan_.configuration();
   qd_.setZero();
   plan_.set_velocity(qd_);
@@ -447,23 +448,26 @@ void WholeBodyController::require_member(const ForceTask& task) const {
           "force task '" + task.name() + "' is in no stack of the controller");
 }
 
-void WholeBodyController::tick(const Vector& qpos, const Vector& qvel, const Vector* command,
-                               bool first, VectorRef ctrl, const double* sensors) {
+void WholeBodyController::tick(const ConstVectorRef& qpos, const ConstVectorRef& qvel,
+                               const Vector* command, bool first, VectorRef ctrl,
+                               const double* sensors) {
   require_values("qpos", qpos, start_.size());
   require_values("qvel", qvel, plan_.nv());
   require_size("ctrl", ctrl.size(), plan_.nu());
   if (command) require_command(*command);
   require(sensors || !forces_.want_sensors(),
           "a force task reads a sensor of the model, and no sensors came");
-  require_near(qpos);
+  qpos_ = qpos;
+  qvel_ = qvel;
+  require_near(qpos_);
   begun_ = true;
-  for (Index i = 0; i < servo_.size(); ++i) seen_[i] = servo_.actuator(i).position(qpos);
+  for (Index i = 0; i < servo_.size(); ++i) seen_[i] = servo_.actuator(i).position(qpos_);
   loop_ = nullptr;
   for (Index i = 0; i < servo_.size(); ++i) {
     const JointActuator& one = servo_.actuator(i);
-    motors_[static_cast<std::size_t>(one.actuator)].range = one.limits.at(qvel[one.dof]);
+    motors_[static_cast<std::size_t>(one.actuator)].range = one.limits.at(qvel_[one.dof]);
   }
-  const RobotState state{qpos, qvel, motors_, sensors};
+  const RobotState state{qpos_, qvel_, motors_, sensors};
   kinematics(state);
   apply(command, first, state);
   measure();

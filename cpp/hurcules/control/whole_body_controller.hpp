@@ -122,8 +122,8 @@ class WholeBodyController {
   // the stages below instead. Throws Error, and changes nothing, for other sizes, numbers that are not
   // finite, in the first tick a robot that is not where the plan starts, and later a joint that is
   // elsewhere than a tick ago by more than 0.05 rad (or m) and 100 rad/s.
-  void tick(const Vector& qpos, const Vector& qvel, const Vector* command, bool first,
-            VectorRef ctrl, const double* sensors = nullptr);
+  void tick(const ConstVectorRef& qpos, const ConstVectorRef& qvel, const Vector* command,
+            bool first, VectorRef ctrl, const double* sensors = nullptr);
   // One tick in its stages. command (k) or null: every target holds, drives stand; a channel of NaN
   // alone does so. `first`: the command is new, so that what it sets once (Delta, Target, Force) is.
   void kinematics(const RobotState& state);
@@ -241,6 +241,7 @@ class WholeBodyController {
   Vector start_;             // (nq) where the plan stands
   Vector seen_;              // (m) joints in the last `tick`
   Vector ahead_;             // (nq) scratch
+  Vector qpos_, qvel_;       // as read in this tick of a loop of one's own
   Vector wished_, efforts_;  // (n) scratch
   Vector delta_;             // scratch
   Frame support_;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/mission/posture_way.hpp"
 #include "hurcules/sim/monitors.hpp"
@@ -298,9 +298,7 @@ std::string numbers(const Vector& values) {
 }  // namespace
 
 std::string to_text(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
+  return number_text(number, 6);
 }
 
 std::string to_string(ReactionKind kind) {

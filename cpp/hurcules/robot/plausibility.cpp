@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
 
@@ -19,9 +19,7 @@ constexpr double kDegreesAsRadians = 4.0 * std::numbers::pi;            // [rad]
 constexpr double kTolerance = 1e-3;                                     // [rad] or [m]
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", value);
-  return text;
+  return number_text(value, 4);
 }
 
 bool turns(const Robot& robot, const Coordinate& coordinate) {

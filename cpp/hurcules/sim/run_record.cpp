@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/base/pose.hpp"
 
 namespace hurcules {
@@ -53,12 +53,6 @@ TelemetryNames names_of(const WholeBodyController& controller) {
   names.commands = controller.command_names();
   for (const ForceTask* task : force_tasks(controller)) names.forces.push_back(task->name());
   return names;
-}
-
-std::string number(double value) {
-  std::string text(32, '\0');
-  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%g", value)));
-  return text;
 }
 
 }  // namespace
@@ -230,19 +224,24 @@ void RunRecord::note(EventKind kind, std::size_t phase, int side, int answer) {
 }
 
 std::string RunRecord::text(const Event& event, const Monitors& monitors) const {
+  const auto name_of = [&](const auto& names) -> const std::string& {
+    if (event.what < 0 || event.what >= static_cast<Index>(names.size()))
+      throw Error("no event of this simulation: number " + std::to_string(event.what) + " of " +
+                  std::to_string(names.size()) + " there is not");
+    return names[static_cast<std::size_t>(event.what)];
+  };
   if (event.kind == EventKind::AlarmRaised || event.kind == EventKind::AlarmFell) {
-    const std::string& quantity = Monitors::names()[static_cast<std::size_t>(event.what)];
+    const std::string& quantity = name_of(Monitors::names());
     const std::string side = event.side > 0 ? " above " : " below ";
     return (event.kind == EventKind::AlarmRaised ? "alarm: " : "alarm over: ") + quantity + side +
-           number(monitors.threshold(event.what));
+           number_text(monitors.threshold(event.what));
   }
   for (const auto& [kind, word] :
        {std::pair(EventKind::PhaseStarted, ""), std::pair(EventKind::Asked, "asks in "),
         std::pair(EventKind::Paused, "paused in "), std::pair(EventKind::Resumed, "resumed in ")}) {
-    if (event.kind == kind)
-      return word + ("phase " + phases_[static_cast<std::size_t>(event.what)]);
+    if (event.kind == kind) return word + ("phase " + name_of(phases_));
   }
-  const std::string& name = names_.coordinates[static_cast<std::size_t>(event.what)];
+  const std::string& name = name_of(names_.coordinates);
   const std::string side = event.side > 0 ? "upper" : "lower";
   return name + (event.kind == EventKind::LimitMet ? " meets its " : " leaves its ") + side +
          " limit";

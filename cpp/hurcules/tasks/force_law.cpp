@@ -1,10 +1,10 @@
 #include "hurcules/tasks/force_law.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -15,9 +15,7 @@ bool positive(double value) {
 }
 
 std::string number(double value) {
-  std::string text(32, '\0');
-  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.3g", value)));
-  return text;
+  return number_text(value, 3);
 }
 
 // a step of the closed loop; state (s, s one step ago), or (s, v, s one step ago, int (f_d - f))

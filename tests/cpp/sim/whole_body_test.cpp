@@ -365,9 +365,9 @@ TEST(WholeBody, TicksOfALoopOfOnesOwnHaveTheBitsOfASimulationAndAllocateNothing)
     simulation.controller().use(stack);
     controller->use(stack);
     const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
-    Vector qpos = controller->plan().qpos(), qvel = Vector::Zero(model->nv);
+    const Eigen::Map<Vector> qpos(data->qpos, model->nq), qvel(data->qvel, model->nv);
+    Eigen::Map<Vector>(data->qpos, model->nq) = controller->plan().qpos();
     Vector ctrl = Vector::Zero(model->nu);
-    std::copy(qpos.begin(), qpos.end(), data->qpos);
     const Vector command = Eigen::Vector3d(-0.2, 0.1, 0.02);
     std::size_t allocated = 0;
     for (int tick = 0; tick < 200; ++tick) {
@@ -376,13 +376,23 @@ TEST(WholeBody, TicksOfALoopOfOnesOwnHaveTheBitsOfASimulationAndAllocateNothing)
       allocated += guard.count();
       std::copy(ctrl.begin(), ctrl.end(), data->ctrl);
       mj_step(model.get(), data.get());
-      std::copy_n(data->qpos, qpos.size(), qpos.begin());
-      std::copy_n(data->qvel, qvel.size(), qvel.begin());
     }
     simulation.step(200, &command);
     EXPECT_EQ(qpos, simulation.plant().qpos()) << stack;
     EXPECT_EQ(allocated, 0U) << stack;
   }
+}
+
+TEST(WholeBody, RefusesDataOfAnotherModelAndEventsOfNoSimulation) {
+  const ModelPtr model = load_model_text(arm(kMotors));
+  const ModelPtr other = load_model_text("<mujoco/>");
+  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(other.get()), mj_deleteData);
+  EXPECT_TRUE(contains(
+      error_text([&] { const Simulation refused(model, make(model), {}, nullptr, data.get()); }),
+      "mjData of its model, that of another one came"));
+  const Simulation simulation = simulate();
+  for (const EventKind kind : {EventKind::PhaseStarted, EventKind::LimitMet, EventKind::AlarmFell})
+    EXPECT_TRUE(contains(error_text([&] { (void)simulation.text({0.0, kind, 999}); }), "999"));
 }
 
 TEST(WholeBody, SeesABallComeAndAllocatesNothing) {
