@@ -916,6 +916,7 @@ class PoseTask(Task):
         position: ArrayLike,
         orientation: ArrayLike | None = None,
         velocity: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
     ) -> None:
         """Sets the target; seen at the next update.
 
@@ -923,7 +924,9 @@ class PoseTask(Task):
           position: (3,) [m].
           orientation: (3, 3) rotation or quaternion (4,) w x y z; None keeps the one that it has.
           velocity: (6,) [m/s], [rad/s] at which the target moves, fed forward until the next call that sets
-            or moves it; None: at rest."""
+            or moves it; None: at rest.
+          acceleration: (6,) [m/s^2], [rad/s^2] of the target, fed forward so by accelerations and torques;
+            None: 0."""
 
     @property
     def max_lead(self) -> float:
@@ -980,13 +983,19 @@ class OrientationTask(Task):
       name, robot, frame, reference: see PositionTask."""
 
     def __init__(self, name: str, robot: Robot, frame: str, reference: str = "") -> None: ...
-    def set_target(self, target: ArrayLike, velocity: ArrayLike | None = None) -> None:
+    def set_target(
+        self,
+        target: ArrayLike,
+        velocity: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+    ) -> None:
         """Sets the target; seen at the next update.
 
         Args:
           target: (3, 3) rotation or quaternion (4,) w x y z.
           velocity: (3,) [rad/s] at which the target turns, fed forward until the next call that sets or
-            moves it; None: at rest."""
+            moves it; None: at rest.
+          acceleration: (3,) [rad/s^2] of the target, fed forward so by accelerations and torques; None: 0."""
 
     @property
     def max_lead(self) -> float:

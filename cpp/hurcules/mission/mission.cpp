@@ -95,10 +95,9 @@ void Mission::attach(const Plant& plant, Recorder& log) {
 
 void Mission::find_brakes(const Brakes& brakes) {
   for (PhaseRow& row : rows_) {
-    row.find_brakes(brakes);
-    row.each_brake([&](int actuator) {
+    for (const int actuator : row.find_brakes(brakes)) {
       if (!contains(brakes_, actuator)) brakes_.push_back(actuator);
-    });
+    }
   }
 }
 

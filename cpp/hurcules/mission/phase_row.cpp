@@ -77,7 +77,7 @@ void PhaseRow::find_quantities(SceneQuantities& scene) {
   }
 }
 
-void PhaseRow::find_brakes(const Brakes& brakes) {
+std::vector<int> PhaseRow::find_brakes(const Brakes& brakes) {
   const std::vector<std::string> joints = brakes.names();
   const std::string where = "phase '" + phase_->name + "'";
   const auto find = [&](const std::string& name, std::vector<int>& actuators) {
@@ -88,9 +88,12 @@ void PhaseRow::find_brakes(const Brakes& brakes) {
     }
   };
   for (const std::string& name : phase_->brakes) find(name, brakes_);
+  std::vector<int> all = brakes_;
   for (Way& way : ways_) {
     for (const std::string& joint : way.braked) find(joint, way.brakes);
+    all.insert(all.end(), way.brakes.begin(), way.brakes.end());
   }
+  return all;
 }
 
 void PhaseRow::look_at_brakes(double dt) {

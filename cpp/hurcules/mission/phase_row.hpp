@@ -20,18 +20,11 @@ class PhaseRow {
   PhaseRow(const Phase& phase, std::string support, const WholeBodyController& controller);
   // throws Error with the columns that exist
   void find_quantities(SceneQuantities& scene);
-  // its brakes; throws Error with the joints that have one
-  void find_brakes(const Brakes& brakes);
+  // its brakes, of whose actuators it tells: shut in it all along or at times; throws Error with the
+  // joints that have one
+  std::vector<int> find_brakes(const Brakes& brakes);
   // what it parks by; throws Error with the bodies that exist
   void find_places(const Plant& plant, int robot);
-  // calls visit(actuator) for each whose brake is shut in it, all along or at times
-  template <class Visit>
-  void each_brake(Visit&& visit) const {
-    for (const int actuator : brakes_) visit(actuator);
-    for (const Way& way : ways_) {
-      for (const int actuator : way.brakes) visit(actuator);
-    }
-  }
   // whether what its leads hold is where their brakes bear it
   void look_at_brakes(double dt);
   // nothing leads for now: brakes bear what is held, whatever is read of it
