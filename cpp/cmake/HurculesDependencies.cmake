@@ -27,6 +27,6 @@ if(NOT Threads_FOUND)
   string(APPEND HURCULES_MISSING "The threads of the C library are missing\n")
 endif()
 if(NOT MuJoCo_FOUND)
-  string(APPEND HURCULES_MISSING "libmujoco.so.${HURCULES_MUJOCO_VERSION} is neither under MuJoCo_ROOT nor in a Python package of "
-    "${Python_EXECUTABLE}. Remedy: pip install mujoco==${HURCULES_MUJOCO_VERSION}\n")
+  string(APPEND HURCULES_MISSING "libmujoco.so.${HURCULES_MUJOCO_VERSION} and its headers are neither under MuJoCo_ROOT nor in a "
+    "Python package. Remedy: pip install mujoco==${HURCULES_MUJOCO_VERSION}\n")
 endif()

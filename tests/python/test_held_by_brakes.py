@@ -74,19 +74,33 @@ def test_what_is_no_number_leads_nothing() -> None:
 
 
 def test_brakes_bear_what_is_held_while_the_mission_holds_or_is_paused() -> None:
-    trouble = [{"when": "joint/jaw >= 0.03", "do": ["hold 2 s", "abort"]}]
     lead = {"jaw": {**HOLD, "at": 0.05}}
+    trouble = [{"when": "joint/jaw >= 0.03", "do": ["hold 2 s", "abort"]}]
     made = press({"lead": lead, **WAIT, "done": ["joint/jaw >= 0.05"], "trouble": trouble})
     while made.data.joint("jaw").qpos[0] < 0.03:
         made.step(1)
     made.step(100)
     assert effort(made) == 0.0
-    made = press({"lead": lead, **WAIT, "done": ["joint/jaw >= 0.05"]})
-    made.step(500)
-    assert effort(made) > 10.0
+
+
+@pytest.mark.parametrize("place", [0.010, 0.017])
+def test_after_a_pause_the_fingers_press_on(place: float) -> None:
+    """At 0.017 less than `span` lacks: the brakes stayed shut, and the phase was late."""
+    made = press({"lead": {"jaw": HOLD}, **WAIT})
+    while made.data.joint("jaw").qpos[0] < place:
+        made.step(1)
+    assert effort(made) > 5.0
     made.pause()
     made.step(100)
     assert effort(made) == 0.0
+    made.step(20, {"jaw": [0.02]})
+    assert effort(made) > 5.0
+    made.pause()
+    made.step(100)
+    assert effort(made) == 0.0
+    made.resume()
+    made.step(5000)
+    assert made.success, made.reason
 
 
 def test_an_operator_opens_what_is_borne() -> None:

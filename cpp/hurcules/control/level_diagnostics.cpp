@@ -44,15 +44,21 @@ double outside(const Task& task) {
   return (task.weights().array() > 0.0).select(beyond, 0.0).norm();
 }
 
-// of so many
-Index rows_that_ask(const StackLevel& level, Index rows) {
-  for (const Task* task : level.tasks) rows -= (task->weights().array() == 0.0).count();
+// equality rows that ask for something
+Index equalities(const StackLevel& source, const Level& level) {
+  Index rows = (level.lower.array() == level.upper.array()).count(), first = 0;
+  for (const Task* task : source.tasks) {
+    for (Index i = 0; i < task->rows(); ++i) {
+      const bool equal = level.lower[first + i] == level.upper[first + i];
+      if (equal && task->weights()[i] == 0.0) --rows;
+    }
+    first += task->rows();
+  }
   return rows;
 }
 
-// of the rows that ask, largest first
-Vector singular_values(const LevelReport& report, const StackLevel& level) {
-  const Index rows = rows_that_ask(level, report.infeasible.size());
+// of these, largest first
+Vector singular_values(const LevelReport& report, Index rows) {
   return report.singular_values.head(std::min(report.singular_values.size(), rows));
 }
 
@@ -119,11 +125,12 @@ std::vector<std::string> holders(const SolvedStack& solved, int k, const LevelRe
   if (!report) return names;
   const Level& level = solved.problem.hierarchy()[static_cast<std::size_t>(k)];
   const StackLevel& source = solved.problem.stack().levels()[static_cast<std::size_t>(k)];
-  const Vector values = singular_values(*report, source);
+  const Index rows = equalities(source, level);
+  const Vector values = singular_values(*report, rows);
   const bool weak = values.size() > 0 && values.minCoeff() < std::max(report->rho, 1e-6);
   if (report->rank < own_rank(level)) {
     names.push_back(above(solved, k));
-  } else if (weak || report->rank < rows_that_ask(source, level.rows())) {
+  } else if (weak || report->rank < rows) {
     names.emplace_back("a singular posture");
   }
   return names;
@@ -180,7 +187,8 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
   made.level = source.name;
   const LevelReport* const report = k < solved.reports.size() ? &solved.reports[k] : nullptr;
   if (report) {
-    const Vector values = singular_values(*report, source);
+    const Level& level = solved.problem.hierarchy()[k];
+    const Vector values = singular_values(*report, equalities(source, level));
     if (values.size() > 0) {
       made.smallest_singular_value = values.minCoeff();
       made.manipulability = values.prod();

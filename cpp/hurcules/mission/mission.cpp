@@ -103,8 +103,9 @@ void Mission::find_brakes(const Brakes& brakes) {
 
 void Mission::brake(Brakes& brakes) {
   PhaseRow& row = rows_[phase_];
-  if (doing_ == Doing::Leading && !paused_) row.look_at_brakes(dt_);
-  for (const int actuator : brakes_) brakes.set_closed(actuator, row.shuts(actuator));
+  const bool still = doing_ != Doing::Leading || paused_;
+  if (!still) row.look_at_brakes(dt_);
+  for (const int actuator : brakes_) brakes.set_closed(actuator, row.shuts(actuator, still));
 }
 
 bool Mission::needs_log() const {
@@ -249,7 +250,6 @@ bool Mission::react(std::optional<std::size_t> trouble, WholeBodyController& con
       cause_ = cause;
       answer_.reset();
       waiting_ = 1.0;
-      rows_[phase_].bear();
       return true;
     case ReactionKind::Lower:
       why_ = why(cause, true);
@@ -290,9 +290,8 @@ bool Mission::wait(double time, WholeBodyController& controller) {
 }
 
 void Mission::pause() {
-  if (!paused_) rows_[phase_].bear();
+  if (!paused_) moved_ = false;
   paused_ = true;
-  moved_ = false;
   waiting_ = 1.0;
 }
 

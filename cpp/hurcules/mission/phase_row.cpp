@@ -105,19 +105,12 @@ void PhaseRow::look_at_brakes(double dt) {
   }
 }
 
-void PhaseRow::bear() {
-  for (Way& way : ways_) {
-    way.borne = true;
-    way.fallen = 0.0;
-  }
-}
-
-bool PhaseRow::shuts(int actuator) const {
+bool PhaseRow::shuts(int actuator, bool still) const {
   const auto in = [&](const std::vector<int>& brakes) {
     return std::find(brakes.begin(), brakes.end(), actuator) != brakes.end();
   };
   for (const Way& way : ways_) {
-    if (in(way.brakes)) return way.borne;
+    if (in(way.brakes)) return way.borne || (still && !way.operated);
   }
   return in(brakes_);
 }
@@ -159,7 +152,7 @@ void PhaseRow::forget() {
   }
   for (Way& way : ways_) {
     way.given = way.fallen = 0.0;
-    way.borne = false;
+    way.borne = way.operated = false;
   }
 }
 
@@ -235,8 +228,8 @@ void PhaseRow::note(const WholeBodyController& controller, const Vector& own) {
   for (Way& way : ways_) {
     const auto given = command.segment(way.row, way.size);
     if (way.length > 0.0) way.given += way.along.dot(given) * dt;
-    // what is borne, somebody else moves
-    if (!given.isZero(0.0) && given != own.segment(way.row, way.size)) way.borne = false;
+    way.operated = !given.isZero(0.0) && given != own.segment(way.row, way.size);
+    if (way.operated) way.borne = false;
   }
   if (park_) park_->note(controller.drive()->controller().braked());
 }
@@ -332,6 +325,7 @@ void PhaseRow::save(StateWriter& writer) const {
     writer.put(way.given);
     writer.put(way.borne ? 1.0 : 0.0);
     writer.put(way.fallen);
+    writer.put(way.operated ? 1.0 : 0.0);
     if (way.by.size() > 0) writer.put(way.along);
   }
   if (posture_) posture_->save(writer);
@@ -354,6 +348,7 @@ void PhaseRow::restore(StateReader& reader) {
     way.given = reader.get();
     way.borne = reader.get_count(1) > 0;
     way.fallen = reader.get();
+    way.operated = reader.get_count(1) > 0;
     if (way.by.size() > 0) reader.get(way.along);
   }
   if (posture_) posture_->restore(reader);

@@ -27,11 +27,11 @@ class PhaseRow {
   void find_places(const Plant& plant, int robot);
   // whether what its leads hold is where their brakes bear it
   void look_at_brakes(double dt);
-  // nothing leads for now: brakes bear what is held, whatever is read of it
-  void bear();
   // what the phase before held alike goes on being borne
   void go_on_bearing(const PhaseRow& before);
-  [[nodiscard]] bool shuts(int actuator) const;  // this brake, in this tick
+  // this brake, in this tick; `still`: the mission leads nothing, and what is held is borne, whatever
+  // is read of it, unless an operator moves it
+  [[nodiscard]] bool shuts(int actuator, bool still) const;
   [[nodiscard]] const std::string& support() const { return support_; }
   [[nodiscard]] bool needs_log() const;
 
@@ -102,6 +102,7 @@ class PhaseRow {
     std::vector<int> brakes;          // their actuators
     bool borne = false;               // by these, as of the last tick
     double fallen = 0.0;              // [s] for so long has it been `span` below
+    bool operated = false;            // somebody else moved it in the last tick
   };
   // at what it goes to; what is no number is passed over. Returns its place in `to`, -1 for none
   static Index look(Way& way);

@@ -21,11 +21,13 @@ using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
 
 Data own_or_borrow(const mjModel* model, mjData* borrowed) {
   require(model != nullptr, "a simulation wants a model, none came");
-  require(!borrowed || borrowed->signature == model->signature,
-          "a simulation wants mjData of its model, that of another one came");
-  if (borrowed) return {borrowed, [](mjData*) {}};
   Data data(mj_makeData(model), mj_deleteData);
   require(data != nullptr, "MuJoCo has no memory for this model");
+  if (borrowed) {
+    require(borrowed->nbuffer == data->nbuffer,
+            "a simulation wants mjData of its model, that of another one came");
+    return {borrowed, [](mjData*) {}};
+  }
   return data;
 }
 

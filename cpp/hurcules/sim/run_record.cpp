@@ -181,7 +181,7 @@ void RunRecord::note_measured(const WholeBodyController& controller,
               telemetry.task_error_measured);
 }
 
-// the errors as the tasks were measured last; limits have none
+// the errors as the tasks were measured last; limits have none, and rows that ask for nothing
 void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const Task*>& tasks,
                             Vector& levels, Vector& rows) const {
   for (std::size_t k = 0; k < places.level.size(); ++k) {
@@ -189,7 +189,7 @@ void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const T
     for (const TaskPlace& place : places.tasks[k]) {
       const Task& task = *tasks[place.task];
       for (Index i = 0; i < task.rows(); ++i)
-        if (task.weights()[i] > 0.0) square += task.error()[i] * task.error()[i];
+        if (task.asks(i)) square += task.error()[i] * task.error()[i];
       rows.segment(place.first_row, task.rows()) = task.error();
     }
     levels[places.level[k]] = std::sqrt(square);
@@ -226,8 +226,8 @@ void RunRecord::note(EventKind kind, std::size_t phase, int side, int answer) {
 std::string RunRecord::text(const Event& event, const Monitors& monitors) const {
   const auto name_of = [&](const auto& names) -> const std::string& {
     if (event.what < 0 || event.what >= static_cast<Index>(names.size()))
-      throw Error("no event of this simulation: number " + std::to_string(event.what) + " of " +
-                  std::to_string(names.size()) + " there is not");
+      throw Error("this simulation has no such event: number " + std::to_string(event.what) +
+                  " of " + std::to_string(names.size()));
     return names[static_cast<std::size_t>(event.what)];
   };
   if (event.kind == EventKind::AlarmRaised || event.kind == EventKind::AlarmFell) {

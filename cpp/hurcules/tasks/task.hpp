@@ -8,6 +8,7 @@
 // task's Jacobian fades instead of growing, each task says where.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,6 +75,10 @@ class Task {
   // that asks for nothing. Throws Error unless finite and >= 0. By default 1.
   void set_weights(const ConstVectorRef& weights);
   [[nodiscard]] const Vector& weights() const { return weights_; }
+  // a row that has a weight and a side
+  [[nodiscard]] bool asks(Index row) const {
+    return weights_[row] > 0.0 && (std::isfinite(lower_[row]) || std::isfinite(upper_[row]));
+  }
   // max_speed of a row is this share of the task's: 1 but for tasks of several units
   [[nodiscard]] double speed_share(Index row) const { return speed_shares_[row]; }
 
