@@ -86,7 +86,7 @@ def read(path: Path) -> Graph:
     try:
         model = _decoded(path.read_bytes())
         graph = _decoded(model[7][-1])
-        weights = dict(_named_tensor(one) for one in graph.get(5, []))
+        weights = dict(_named_tensor(one, path.parent) for one in graph.get(5, []))
         sizes = [dict(_named_size(one) for one in graph.get(number, [])) for number in (11, 12)]
         entries = [_decoded(one) for one in model.get(14, [])]
         return Graph(
@@ -97,7 +97,8 @@ def read(path: Path) -> Graph:
             metadata={_text(entry, 1): _text(entry, 2) for entry in entries},
         )
     except OSError as error:
-        raise hurcules.Error(f"{path}: cannot be read: {error.strerror}") from error
+        what = error.filename or path
+        raise hurcules.Error(f"{what}: cannot be read: {error.strerror}") from error
     except (KeyError, IndexError, ValueError, TypeError, AttributeError, struct.error) as error:
         raise hurcules.Error(f"{path}: wanted an ONNX file, got another or a broken one") from error
 
@@ -211,10 +212,20 @@ def _read_node(data: bytes) -> Node:
     return Node(_text(message, 4), names[0], names[1], attributes)
 
 
-def _named_tensor(data: bytes) -> tuple[str, NDArray[Any]]:
+def _beside(message: Message, folder: Path) -> bytes:
+    """The bytes of a tensor that lie in a file of their own, as PyTorch writes them."""
+    entries = [_decoded(one) for one in message[13]]
+    said = {_text(entry, 1): _text(entry, 2) for entry in entries}
+    data = (folder / Path(said["location"]).name).read_bytes()[int(said.get("offset", 0)) :]
+    return data[: int(said.get("length", len(data)))]
+
+
+def _named_tensor(data: bytes, folder: Path) -> tuple[str, NDArray[Any]]:
     message = _decoded(data)
     shape = tuple(_whole(message.get(1, [])))
     kind = _TYPES[message[2][-1]]
+    if message.get(14) == [1]:  # external
+        message[9] = [_beside(message, folder)]
     if 9 in message:
         values = np.frombuffer(message[9][-1], dtype=np.dtype(kind).newbyteorder("<"))
     elif kind is np.int64:

@@ -19,6 +19,7 @@ from hurcules_envs.registry import full_id
 __all__ = ["Policy", "shipped"]
 
 Array = NDArray[np.float32]
+GOAL = "desired_goal"
 
 
 def _gemm(a: Any, b: Any, c: Any = 0.0, **given: float) -> Any:
@@ -36,6 +37,7 @@ OPERATORS: Mapping[str, Callable[..., Any]] = {
     "Clip": lambda a, low=-np.inf, high=np.inf: np.clip(a, low, high),
     "Concat": lambda *parts, axis: np.concatenate(parts, axis=int(axis)),
     "Div": lambda a, b: a / b,
+    "Elu": lambda a, alpha=1.0: np.where(a > 0, a, alpha * np.expm1(np.minimum(a, 0))),
     "Gemm": _gemm,
     "Identity": lambda a: a,
     "MatMul": lambda a, b: a @ b,
@@ -108,6 +110,8 @@ class Policy:
         if any(len(space.shape or ()) == 3 for space in boxes.values()):
             trained = f"; pictures are (n, height, width, 3){trained}"
         wanted = {key: space.shape[-1] for key, space in boxes.items() if space.shape}
+        if self._flat(wanted):
+            wanted = {next(iter(self._graph.inputs)): wanted["observation"] + wanted[GOAL]}
         if not wanted:
             only = next(iter(self._graph.inputs)) if len(self._graph.inputs) == 1 else "observation"
             wanted = {only: (observation.shape or (0,))[0]}
@@ -180,6 +184,9 @@ class Policy:
                     f"got one {type(observation).__name__}"
                 )
             given = {names[0]: observation}
+        elif self._flat({name: np.shape(one)[-1] for name, one in given.items() if np.ndim(one)}):
+            way = np.subtract(given[GOAL], given["achieved_goal"])
+            given = {names[0]: np.concatenate([given["observation"], way], axis=-1)}
         if missing := ", ".join(name for name in names if name not in given):
             raise hurcules.Error(
                 f"{self.path}: wanted the inputs {', '.join(names)}; not there: {missing}"
@@ -193,6 +200,13 @@ class Policy:
                     f"{self.path}: wanted an array of numbers in '{name}', got {given[name]!r}"
                 ) from error
         return fed
+
+    def _flat(self, parts: Mapping[str, int]) -> bool:
+        """Whether it sees these parts of a goal environment as one array, as with `flat=True`."""
+        if len(self._graph.inputs) != 1 or not {"observation", "achieved_goal", GOAL} <= set(parts):
+            return False
+        ((name, size),) = self._graph.inputs.items()
+        return size == parts["observation"] + parts[GOAL] or (size == 0 and name not in parts)
 
     def _computed(self, values: dict[str, Any]) -> Any:
         known: dict[str, Any] = {**self._graph.weights, **values}

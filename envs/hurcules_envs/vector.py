@@ -235,6 +235,15 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         assert self._views is not None
         return tuple(self._views.take(self._episodes, i) for i in range(self.num_envs))
 
+    def call(self, name: str) -> tuple[Any, ...]:
+        """`call("render")` is a picture of each episode: so trainers ask Gymnasium's own vectors.
+
+        Raises:
+            hurcules.Error: another name.
+        """
+        hurcules.validation.require_known("call", name, ("render",))
+        return self.render() or (None,) * self.num_envs
+
     def close_extras(self, **kwargs: Any) -> None:
         """Gives the renderers back."""
         for one in (self._views, self._eyes):

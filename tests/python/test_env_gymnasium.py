@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
+import hurcules
 from environments import IDS, env, same
 from hurcules_envs.base import HurculesEnv
 
@@ -68,6 +69,19 @@ def test_pictures_are_drawn(env: HurculesEnv) -> None:
     assert picture is not None
     assert (picture.shape, picture.dtype) == ((368, 640, 3), np.uint8)
     assert picture.std() > 10
+
+
+def test_a_vector_is_asked_for_pictures_as_gymnasiums_own() -> None:
+    """The trainer of skrl calls render by name: the vector had no `call`."""
+    for mode in ("sync", "vector_entry_point"):
+        vector = gymnasium.make_vec(
+            "Hurcules/Reach-v0", num_envs=2, fidelity="kinematic", vectorization_mode=mode
+        )
+        vector.reset(seed=0)
+        with pytest.warns(UserWarning, match="render"):
+            assert vector.call("render") == (None, None)
+    with pytest.raises(hurcules.Error, match="there are: render"):
+        vector.call("friction")
 
 
 def test_drawing_does_not_disturb_the_run(env: HurculesEnv) -> None:

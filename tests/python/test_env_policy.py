@@ -195,6 +195,56 @@ def test_policies_of_others_are_refused(tmp_path: Path, capsys: pytest.CaptureFi
     assert "not with --policy" in complaint("run", "--policy", reach, "--seconds", "3")
 
 
+def test_weights_beside_the_file_are_read(tmp_path: Path) -> None:
+    """PyTorch writes large ones so: it was called a broken file."""
+    onnx = pytest.importorskip("onnx", reason="pip install onnx")
+    path = linear(tmp_path / "a.onnx")
+    seen = {name: np.random.default_rng(0).normal(size=(5, 6)) for name in GOAL}
+    wanted = Policy(path)(seen)
+    onnx.save_model(
+        onnx.load(path), path, save_as_external_data=True, location="a.data", size_threshold=0
+    )
+    assert np.array_equal(Policy(path)(seen), wanted)
+    (tmp_path / "a.data").unlink()
+    with pytest.raises(hurcules.Error, match=r"a\.data: cannot be read: No such file"):
+        Policy(path)
+
+
+def test_the_exponential_linear_unit_is_known(tmp_path: Path) -> None:
+    policy = Policy(linear(tmp_path / "a.onnx", gain=1.0, kind="Elu"))
+    way = np.linspace(-0.9, 0.9, 6)
+    seen = {"achieved_goal": np.zeros(6), "desired_goal": way}
+    assert np.allclose(policy.one(seen), np.where(way > 0, way, np.exp(way) - 1), atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["obs", "observation"])
+@pytest.mark.parametrize("said", [True, False])
+def test_a_policy_of_one_array_sees_the_way_to_the_goal(
+    tmp_path: Path, name: str, said: bool
+) -> None:
+    """Libraries without goals train with flat=True; what they wrote did not fit the commands."""
+    gain = np.random.default_rng(0).normal(0.0, 0.01, (24, 6))
+    gain[18:] += 3.0 * np.eye(6)
+    graph = Graph(
+        (Node("MatMul", (name, "w"), ("action",)),), {"w": gain},
+        {name: 24 if said or name == "observation" else 0}, {"action": 6},
+    )  # fmt: skip
+    write(tmp_path / "flat.onnx", graph)
+    policy = Policy(tmp_path / "flat.onnx")
+    seen, whole = [
+        gymnasium.make("Hurcules/Reach-v0", fidelity="kinematic", flat=one).reset(seed=0)[0]
+        for one in (False, True)
+    ]
+    assert np.allclose(policy.one(seen), policy.one(whole), atol=1e-5)
+    results = [
+        evaluate(policy, "Reach-v0", 2, fidelity="kinematic", **flat)
+        for flat in ({}, {"flat": True})
+    ]
+    assert results[0].mean_return == pytest.approx(results[1].mean_return, abs=1e-3)
+    with pytest.raises(hurcules.Error, match="does not fit Hurcules/Drive-v0"):
+        evaluate(policy, "Drive-v0", 1, fidelity="kinematic")
+
+
 @pytest.mark.parametrize("raw", [True, False])
 def test_weights_of_other_types_are_read(tmp_path: Path, raw: bool) -> None:
     """A network of half the precision was called a broken file."""

@@ -54,6 +54,14 @@ def test_mujoco_is_pinned_in_one_place(root: Path, pin: str) -> None:
     assert holders == {"pyproject.toml"}
 
 
+def test_gymnasium_is_one_that_knows_how_vectors_reset(root: Path) -> None:
+    """1.0 has no AutoresetMode: pip left it beside d3rlpy, and no environment could be made."""
+    text = (root / "pyproject.toml").read_text(encoding="utf-8")
+    least = re.search(r'"gymnasium>=(\d+)\.(\d+)"', text)
+    assert least is not None
+    assert (int(least[1]), int(least[2])) >= (1, 1)
+
+
 @pytest.mark.parametrize(("module", "came"), [("3.0.0", "3.0.0"), (None, "none")])
 def test_another_mujoco_gives_one_clear_message(
     monkeypatch: pytest.MonkeyPatch, pin: str, module: str | None, came: str
