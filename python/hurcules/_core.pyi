@@ -3971,7 +3971,7 @@ class Simulation:
           Error: no such phase, or no mission."""
 
     def level_errors(self) -> NDArray[np.float64]:
-        """Norm of the errors of each level in the physics now, in the unit of its tasks."""
+        """Norm of the errors of each level in the physics now, in the unit of its tasks; rows of weight 0, or without a side, are left out."""
 
     def limit_violation(self) -> dict[str, Any]:
         """Worst excess over any limit of the model (not of a stack's JointLimits): position_rad, velocity, torque in the physics, 0 for none; commanded: the same of the commanded motion."""

@@ -72,8 +72,8 @@ def test_what_is_missing_is_told_to_who_can_do_without_it(build: Path, tmp_path:
     source.mkdir()
     (source / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.24)\nproject(consumer LANGUAGES CXX)\n"
-        "find_package(hurcules QUIET)\nmessage(STATUS \"${hurcules_FOUND}: "
-        "${hurcules_NOT_FOUND_MESSAGE}\")\n"
+        'find_package(hurcules QUIET)\nmessage(STATUS "${hurcules_FOUND}: '
+        '${hurcules_NOT_FOUND_MESSAGE}")\n'
     )
     flags = f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
     told = run(cmake(), "-S", source, "-B", source / "build", *flags)
