@@ -1,7 +1,5 @@
 #include "hurcules/tasks/pose_task.hpp"
 
-#include <Eigen/Geometry>
-
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
 #include "hurcules/base/values.hpp"
@@ -31,38 +29,28 @@ void PoseTask::update(const Robot& robot) {
   require_robot(robot);
   reference_.measure(robot);
   point_.measure(robot, frame_);
-  rotation_.measure(robot, frame_);
+  rotation_.measure(robot, frame_, reference_);
   reference_.express(point_);
-  reference_.express(rotation_);
 
   error_.head<3>() = point_.position - p_des_;
   jacobian_.topRows<3>() = point_.jacobian;
   drift_.head<3>() = point_.drift;
 
-  const Vector3 e = rotation_log(rotation_.orientation * R_des_.transpose());
-  const Matrix3 gain = left_jacobian_inverse(e);
-  const Vector3 rate = gain * rotation_.velocity;
-  error_.tail<3>() = e;
-  jacobian_.bottomRows<3>().noalias() = gain.lazyProduct(rotation_.jacobian);
-  drift_.tail<3>() =
-      gain * rotation_.drift + left_jacobian_inverse_rate(e, rate, rotation_.velocity);
+  rotation_.find_rows(error_.tail<3>(), jacobian_.bottomRows<3>(), drift_.tail<3>());
   feed_turn_forward();
 }
 
 void PoseTask::feed_turn_forward() {
-  const Matrix3 gain = right_jacobian_inverse(error_.tail<3>());
-  velocity_des_.tail<3>() = gain * turn_;
-  acceleration_des_.tail<3>() = gain * turn_rate_;
+  rotation_.feed_forward(error_.tail<3>(), velocity_des_.tail<3>(), acceleration_des_.tail<3>());
 }
 
 void PoseTask::hold(const Robot& robot) {
-  turn_.setZero();
-  turn_rate_.setZero();
+  rotation_.rest();
   velocity_des_.setZero();
   acceleration_des_.setZero();
   update(robot);
   p_des_ = point_.position;
-  R_des_ = rotation_.orientation;
+  rotation_.take();
   target_is_set_ = false;
   update(robot);
 }
@@ -70,21 +58,17 @@ void PoseTask::hold(const Robot& robot) {
 void PoseTask::advance(const ConstVectorRef& velocity, double dt) {
   require_rows(velocity, "velocity");
   require_time(dt);
-  turn_ = velocity.tail<3>() * max_turn_.share(error_.tail<3>(), velocity.tail<3>());
   velocity_des_.head<3>() =
       velocity.head<3>() * max_lead_.share(error_.head<3>(), velocity.head<3>());
-  turn_rate_.setZero();
   acceleration_des_.setZero();
+  rotation_.advance(error_.tail<3>(), velocity.tail<3>(), dt);
   feed_turn_forward();
   p_des_ += velocity_des_.head<3>() * dt;
-  // normalised, or an hour of small turns would stretch it; at rest it keeps its bits
-  if (turn_.squaredNorm() == 0) return;
-  R_des_ = Eigen::Quaterniond(rotation_exp(turn_ * dt) * R_des_).normalized().toRotationMatrix();
 }
 
 void PoseTask::set_max_lead(double max_lead) {
   max_lead_.set(max_lead, name_);
-  max_turn_.set(kTurnShare * max_lead, name_);
+  rotation_.max_lead.set(kTurnShare * max_lead, name_);
 }
 
 void PoseTask::back_calculate(double share) {
@@ -104,15 +88,11 @@ void PoseTask::set_target(const Vector3& position, const Matrix3& orientation) {
 void PoseTask::set_reference(const Vector3& position, const Matrix3& orientation,
                              const ConstVectorRef& velocity, const ConstVectorRef& acceleration) {
   require_values(position, "target");
-  if (!is_rotation(orientation))
-    throw Error("target of task '" + name_ + "' wants a rotation matrix");
   require_rows(velocity, "velocity");
   require_rows(acceleration, "acceleration");
+  rotation_.set(orientation, velocity.tail<3>(), acceleration.tail<3>(), name_);
   p_des_ = position;
-  R_des_ = orientation;
   target_is_set_ = true;
-  turn_ = velocity.tail<3>();
-  turn_rate_ = acceleration.tail<3>();
   velocity_des_.head<3>() = velocity.head<3>();
   acceleration_des_.head<3>() = acceleration.head<3>();
   feed_turn_forward();
@@ -126,17 +106,13 @@ void PoseTask::assign_target(const ConstVectorRef& target) {
 void PoseTask::save(StateWriter& writer) const {
   Task::save(writer);
   writer.put(p_des_);
-  for (Index i = 0; i < 9; ++i) writer.put(R_des_(i));
-  writer.put(turn_);
-  writer.put(turn_rate_);
+  rotation_.save(writer);
 }
 
 void PoseTask::restore(StateReader& reader) {
   Task::restore(reader);
   reader.get(p_des_);
-  for (Index i = 0; i < 9; ++i) R_des_(i) = reader.get();
-  reader.get(turn_);
-  reader.get(turn_rate_);
+  rotation_.restore(reader);
 }
 
 }  // namespace hurcules

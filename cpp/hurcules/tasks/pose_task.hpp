@@ -1,7 +1,7 @@
 // The pose of a frame at a target pose: position and orientation in one.
 //
-//   e = [p_RF - p_des; log(R_RF R_des^T)]  [m], [rad] (6)
-//   J = [J_RF; Jl^-1(e_r) J_w,RF] (6, n)                                 [T 4.3.2], [T §4.3.2]
+//   e = [p_RF - p_des; e_r]  [m], [rad] (6),  J = [J_RF; J_r] (6, n)      [T 4.3.2]
+// e_r and J_r: rotation_target.hpp.
 // R is the reference: the world, or a frame of the robot, which may move too: a hand in the other
 // hand, say (RelativePoseTask). Rows and signs are those of PositionTask and OrientationTask; turns
 // are three times as fast [rad/s] as max_speed [m/s].
@@ -9,6 +9,7 @@
 
 #include "hurcules/tasks/max_lead.hpp"
 #include "hurcules/tasks/reference.hpp"
+#include "hurcules/tasks/rotation_target.hpp"
 #include "hurcules/tasks/task.hpp"
 
 namespace hurcules {
@@ -45,7 +46,9 @@ class PoseTask : public Task {
   void restore(StateReader& reader) override;
 
   [[nodiscard]] const Vector3& target_position() const { return p_des_; }     // [m] in R
-  [[nodiscard]] const Matrix3& target_orientation() const { return R_des_; }  // in R
+  [[nodiscard]] const Matrix3& target_orientation() const {  // in R
+    return rotation_.target();
+  }
   // at rest; seen at the next update; throws Error unless finite, and a rotation
   void set_target(const Vector3& position, const Matrix3& orientation);
   // where a trajectory is now: the pose, its velocity ([m/s], [rad/s]) and its acceleration, (6) in
@@ -54,14 +57,14 @@ class PoseTask : public Task {
                      const ConstVectorRef& velocity, const ConstVectorRef& acceleration);
   // p_RF [m], R_RF at the last update
   [[nodiscard]] const Vector3& position() const { return point_.position; }
-  [[nodiscard]] const Matrix3& orientation() const { return rotation_.orientation; }
+  [[nodiscard]] const Matrix3& orientation() const { return rotation_.orientation(); }
   // the frame and its target in W, where R was at the last update: [m], R_W
   [[nodiscard]] Vector3 world_position() const {
     return reference_.point_in_world(point_.position);
   }
   [[nodiscard]] Vector3 world_target() const { return reference_.point_in_world(p_des_); }
   [[nodiscard]] Matrix3 world_target_orientation() const {
-    return reference_.rotation_in_world(R_des_);
+    return reference_.rotation_in_world(rotation_.target());
   }
 
  private:
@@ -70,12 +73,9 @@ class PoseTask : public Task {
   Frame frame_;
   Reference reference_;
   PointMotion point_;
-  RotationMotion rotation_;
+  RotationTarget rotation_;
   Vector3 p_des_ = Vector3::Zero();
-  Matrix3 R_des_ = Matrix3::Identity();
-  Vector3 turn_ = Vector3::Zero();       // w_des [rad/s], in the axes of R
-  Vector3 turn_rate_ = Vector3::Zero();  // its rate [rad/s^2]
-  MaxLead max_lead_, max_turn_;          // [m], [rad]
+  MaxLead max_lead_;  // [m]
 };
 
 // the pose of a frame in another frame of the robot
