@@ -15,10 +15,8 @@ namespace hurcules {
 
 namespace {
 
-// [rad/s] or [m/s] of a wanted velocity from which on all of the dry friction is given, at least:
-// below it a joint may stick
-constexpr double kCreep = 2e-3;
-// where that is so steep that a joint would swing, the band is wider: as a spring of stiffness k on
+// all of the dry friction is given from a wanted velocity of Robot::sliding_speed on; where that is
+// so steep that a joint would swing, the band is wider: as a spring of stiffness k on
 // the joint's inertia M it keeps k dt^2 / M below
 constexpr double kSteepest = 0.05;
 
@@ -210,7 +208,7 @@ void AccelerationController::add_friction(const Robot& robot, VectorRef torque) 
     const double friction = options_.friction * robot.dry_friction()[i];
     const double wanted = robot.velocity()[i] + acceleration_[i] / L;
     const double steepest = kSteepest * inertia_(i, i) * L / (options_.stiffness * dt * dt);
-    torque[i] += std::clamp(wanted * std::min(friction / kCreep, steepest), -friction, friction);
+    torque[i] += std::clamp(wanted * std::min(friction / robot.sliding_speed()[i], steepest), -friction, friction);
   }
 }
 

@@ -31,7 +31,7 @@ void FeedForward::tell(Robot& plan, const Vector& qd, bool commanded, const Robo
   } else {
     plan.inverse_dynamics(qdd_, efforts_);
   }
-  servo.feed_forward(efforts_);
+  servo.feed_forward(efforts_, true);
 }
 
 const Vector& FeedForward::tell_growth(Robot& plan, const Vector& qd, const RobotState& state,
@@ -44,7 +44,7 @@ const Vector& FeedForward::tell_growth(Robot& plan, const Vector& qd, const Robo
     if (rated_[k] > 0.0) growth_[k] = inertia_.row(k).lpNorm<1>() / rated_[k];
   }
   efforts_ -= growth_.cwiseProduct(feedback_);
-  servo.feed_forward(efforts_);
+  servo.feed_forward(efforts_, true);
   return growth_;
 }
 

@@ -150,7 +150,12 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
         if (joint.actuator >= 0) squares += joint.factor * joint.factor;
       }
     }
-    motors_.push_back({actuator, coordinate, factor, factor / squares, row.inertia});
+    Motor motor{actuator, coordinate, factor, factor / squares, row.inertia};
+    if (coordinate >= 0) {
+      motor.friction = std::abs(motor.share) * robot.dry_friction()[coordinate];
+      motor.slides = std::abs(factor) * robot.sliding_speed()[coordinate];
+    }
+    motors_.push_back(motor);
     drives.push_back({row.inertia, row.bandwidth, actuator.limits.peak});
   };
   for (Index k = 0; k < robot.size(); ++k) {
@@ -183,7 +188,7 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
   find_ties(*robot.model());
   error_.position = error_.velocity = position_ = velocity_ = offset_ = Vector::Zero(size());
   reference_ = seen_ = position_;
-  feed_forward_ = Vector::Zero(size());
+  feed_forward_ = beside_ = Vector::Zero(size());
   rests_.resize(motors_.size());
   trust_.resize(motors_.size(), Trust::All);
   left_.resize(motors_.size(), false);
@@ -280,11 +285,18 @@ void JointServo::release(VectorRef q, VectorRef velocity) {
   }
 }
 
-void JointServo::feed_forward(const Vector& efforts) {
+void JointServo::feed_forward(const Vector& efforts, bool friction) {
+  friction_ = friction;
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     feed_forward_[i] = motor.share * efforts[motor.coordinate];
   }
+}
+
+double JointServo::beside(Index joint, double velocity) const {
+  if (!friction_) return feed_forward_[joint];
+  const Motor& motor = motors_[static_cast<std::size_t>(joint)];
+  return feed_forward_[joint] + motor.friction * std::clamp(velocity / motor.slides, -1.0, 1.0);
 }
 
 void JointServo::add(const Vector& efforts) {
@@ -331,6 +343,18 @@ double JointServo::seen_speed(Index joint, const RobotState& state) {
   return std::abs(speed) < std::abs(moved) ? speed : moved;
 }
 
+double JointServo::rate_at(Index joint, double effort, double growth) const {
+  const Motor& motor = motors_[static_cast<std::size_t>(joint)];
+  const double friction = friction_ ? motor.friction : 0.0;
+  const auto rate = [&](double dry) {
+    return pid_.rate_at(joint, error_, (effort - feed_forward_[joint] - dry) / growth);
+  };
+  const double forth = rate(friction), back = rate(-friction);  // forth <= back
+  if (forth >= motor.slides) return forth;
+  if (back <= -motor.slides) return back;
+  return rate(0.0) / (1.0 + 0.5 * (back - forth) / motor.slides);
+}
+
 const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector& qd,
                                                   const RobotState& state, double most,
                                                   const Vector* growth) {
@@ -355,10 +379,9 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     const JointActuator& own = motor.actuator;
     if (!own.is_motor && reference_[i] <= own.lower + kAtStop) range.lower = -peak;
     if (!own.is_motor && reference_[i] >= own.upper - kAtStop) range.upper = peak;
-    const double beside = feed_forward_[i];
     const double grown = growth ? (*growth)[motor.coordinate] : 1.0;
-    const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;
-    const double b = pid_.rate_at(i, error_, (range.upper - beside) / grown) / motor.factor;
+    const double a = rate_at(i, range.lower, grown) / motor.factor;
+    const double b = rate_at(i, range.upper, grown) / motor.factor;
     const double goes = seen / motor.factor, led = qd[motor.coordinate];
     double& lower = bounds_.lower[motor.coordinate];
     double& upper = bounds_.upper[motor.coordinate];
@@ -411,9 +434,10 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
     error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
     const bool idle = motors_[static_cast<std::size_t>(i)].idle;
     pid_.limit(i, rest.on || idle ? EffortRange{} : within(status.range, motor, state));
-    if (rest.over) pid_.take_over(i, error_, status.brake_load - feed_forward_[i]);
+    beside_[i] = beside(i, velocity_[i]);
+    if (rest.over) pid_.take_over(i, error_, status.brake_load - beside_[i]);
   }
-  const Vector& torque = pid_.compute(error_, feed_forward_);
+  const Vector& torque = pid_.compute(error_, beside_);
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     if (left_[static_cast<std::size_t>(i)]) continue;
@@ -442,6 +466,7 @@ void JointServo::reset(const Vector& qpos) {
   for (Vector* vector : {&error_.position, &error_.velocity, &velocity_, &feed_forward_}) {
     vector->setZero();
   }
+  friction_ = false;
   for (Rest& rest : rests_) rest = {};
   std::fill(trust_.begin(), trust_.end(), Trust::All);
   for (Index i = 0; i < size(); ++i) {
@@ -454,6 +479,7 @@ void JointServo::save(StateWriter& writer) const {
   for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_, &seen_})
     writer.put(*vector);
   for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
+  writer.put(friction_ ? 1.0 : 0.0);
 }
 
 void JointServo::restore(StateReader& reader) {
@@ -462,6 +488,7 @@ void JointServo::restore(StateReader& reader) {
     reader.get(*vector);
   std::fill(trust_.begin(), trust_.end(), Trust::All);  // who holds the robot tells it again
   for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
+  friction_ = reader.get_count(1) > 0;
 }
 
 }  // namespace hurcules

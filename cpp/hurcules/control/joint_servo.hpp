@@ -92,8 +92,9 @@ class JointServo {
   // or `qd` (n) says, by more than `most` [rad/s]. It may always stand.
   const VelocityBounds& velocity_bounds(const Vector& q, const Vector& qd, const RobotState& state,
                                         double most, const Vector* growth);
-  // what a model says the coordinates take, (n) [N m]; their joints share it by their factors
-  void feed_forward(const Vector& efforts);
+  // What a model says the coordinates take, (n) [N m]; their joints share it by their factors.
+  // friction: and beside it, towards where their references go, what dry friction of the model takes
+  void feed_forward(const Vector& efforts, bool friction);
   // as much more effort of the coordinates from now on, (n) [N m], for feed-forward that falls away
   void add(const Vector& efforts);
   // what the servos are about to give the coordinates beside it, (n) [N m], and the accelerations
@@ -145,6 +146,8 @@ class JointServo {
     double factor = 1.0;    // joint = factor * coordinate
     double share = 1.0;     // of the coordinate's effort
     double inertia = 0.0;   // rated
+    double friction = 0.0;  // [N m] its share of what dry friction takes of the coordinate
+    double slides = 1.0;    // [rad/s] from which on it is all of that
     bool idle = false;      // its joint follows coordinates (closures.hpp), which bear all of it
     std::array<Index, 3> ball = {};  // the motors of its ball joint, where it has one
   };
@@ -160,6 +163,11 @@ class JointServo {
   // [rad/s] that a joint is seen to go with since the last call: one reading that is wrong, of its
   // place or its speed, does not move it
   double seen_speed(Index joint, const RobotState& state);
+  // [rad/s] of the reference, 0 in the error, at which joint i is asked for `effort` [N m] where its
+  // own feedback counts `growth` times
+  [[nodiscard]] double rate_at(Index joint, double effort, double growth) const;
+  // what is fed forward where the reference goes at `velocity` [rad/s]: [N m]
+  [[nodiscard]] double beside(Index joint, double velocity) const;
   // of a ball joint with this motor: the rotation of references (m)
   [[nodiscard]] Matrix3 rotation(Index joint, const Vector& reference) const;
 
@@ -172,6 +180,8 @@ class JointServo {
   VelocityBounds bounds_;       // (n)
   Vector position_, velocity_;  // (m) reference
   Vector feed_forward_;         // [N m] (m)
+  bool friction_ = false;       // fed forward too
+  Vector beside_;               // [N m] (m) scratch: both
   Vector reference_;            // [rad] (m) scratch
   Vector seen_;                 // [rad] (m) joints, when bounds were last asked for
   Vector offset_;               // [rad] (m) of a joint against its coordinate

@@ -748,7 +748,7 @@ void WholeBodyController::actuate(const RobotState& state, VectorRef ctrl) {
   refer();
   if (by_torques() && !moves_joints_) {
     law().torque(plan_, efforts_);
-    servo_.feed_forward(efforts_);
+    servo_.feed_forward(efforts_, false);  // that of `torque` has friction in it
   } else {
     tell_servos(&state);
   }

@@ -35,6 +35,23 @@ std::unique_ptr<const mjModel, void (*)(const mjModel*)> without_geoms(const mjM
   return {lean, [](const mjModel* m) { delete m; }};
 }
 
+// [rad/s] or [m/s] below which a joint may stick on a real robot
+constexpr double kSticks = 2e-3;
+
+// Where MuJoCo's friction is all of `frictionloss`: it is a soft constraint of force -v b / R, with
+// R = (1 - d) / d A, b = 2 / (d_max T) (its documentation, "Computation": solver parameters).
+double slides_from(const mjModel& m, int dof) {
+  const mjtNum* const reference = m.dof_solref + mjNREF * dof;
+  const mjtNum* const impedance = m.dof_solimp + mjNIMP * dof;
+  const double d = std::clamp(impedance[0], mjMINIMP, mjMAXIMP);
+  const double d_max = std::clamp(impedance[1], mjMINIMP, mjMAXIMP);
+  const bool safe = !(m.opt.disableflags & mjDSBL_REFSAFE);
+  const double T = safe ? std::max(reference[0], 2.0 * m.opt.timestep) : reference[0];
+  const double b = reference[0] > 0.0 ? 2.0 / (d_max * T) : -reference[1] / d_max;
+  const double R = (1.0 - d) / d * m.dof_invweight0[dof];
+  return b > 0.0 ? m.dof_frictionloss[dof] * R / b : 0.0;
+}
+
 }  // namespace
 
 void add_step(const std::vector<RotationVector>& rotations, const ConstVectorRef& step,
@@ -78,9 +95,14 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
   v_ = dry_friction_ = change_ = Vector::Zero(size());
-  for (Index i = 0; i < size(); ++i)
-    for (const DrivenJoint& joint : coordinates_[i].joints)
-      dry_friction_[i] += std::abs(joint.factor) * m.dof_frictionloss[joint.dof];
+  sliding_speed_ = Vector::Constant(size(), kSticks);
+  for (Index i = 0; i < size(); ++i) {
+    for (const DrivenJoint& joint : coordinates_[i].joints) {
+      const double factor = std::abs(joint.factor);
+      dry_friction_[i] += factor * m.dof_frictionloss[joint.dof];
+      sliding_speed_[i] = std::max(sliding_speed_[i], slides_from(m, joint.dof) / factor);
+    }
+  }
   inertia_ = Matrix::Zero(m.nv, m.nv);
   column_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);

@@ -205,6 +205,8 @@ class Robot {
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
   // what the joints' dry friction takes of a coordinate that moves, (n) [N m], >= 0
   [[nodiscard]] const Vector& dry_friction() const { return dry_friction_; }
+  // from which speed on it is all of that: MuJoCo's friction creeps below, (n) [rad/s], > 0
+  [[nodiscard]] const Vector& sliding_speed() const { return sliding_speed_; }
   // the joints that follow the coordinates because loops close, null without
   [[nodiscard]] const Closures* closures() const { return closures_.get(); }
   // its first coordinates are those of the root
@@ -252,7 +254,8 @@ class Robot {
   std::vector<RotationVector> rotations_;
   Vector q_, v_, qpos_;
   std::uint64_t structure_ = 0;
-  Vector dry_friction_, change_;        // (n), the latter scratch
+  Vector dry_friction_, sliding_speed_;  // (n)
+  Vector change_;                        // (n) scratch
   std::vector<int> trees_ = {0};        // bodies at the roots of the coordinates' trees
   int support_ = -1;                    // body that stands, -1 for the root
   int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint

@@ -162,7 +162,7 @@ TEST_F(JointServoTest, GoesOnWhereAJointWasMovedByItself) {
 }
 
 TEST_F(JointServoTest, SharesOutWhatAModelTells) {
-  servo_.feed_forward(Eigen::Vector2d(5.0, 3.0));
+  servo_.feed_forward(Eigen::Vector2d(5.0, 3.0), false);
   act(0.0, 0.0);
   // the wheels' factors are 1 and -2: 1 * 1 N m + (-2) * (-2 N m) = 5 N m
   EXPECT_TRUE(near(servo_.torque(), (Vector(4) << 1.0, -2.0, 3.0, 0.0).finished(), 1e-12));
