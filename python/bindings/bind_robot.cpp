@@ -35,8 +35,9 @@ A ball joint is three coordinates, NAME_rx, NAME_ry and NAME_rz: its rotation ve
 long. Their velocities [rad/s] and efforts [N m] are MuJoCo's, about the axes of its body, and not the
 derivative of the rotation vector: `add_step` goes from one to the other.
 It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
-Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
-which joints are held and which constraints are not kept.
+Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round, and,
+without `joints`, of joints that are held although no spring holds them; `left_out` says all that are held
+and which constraints are not kept.
 A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
 Args:
@@ -177,6 +178,7 @@ Names names_of(const OptionalNames& joints) {
 std::unique_ptr<Robot> checked(ModelPtr model, const OptionalNames& joints, bool floating) {
   auto robot = std::make_unique<Robot>(std::move(model), names_of(joints), floating);
   warn(implausible_ranges(*robot));
+  if (joints.is_none()) warn(held_joints(*robot));
   return robot;
 }
 

@@ -52,6 +52,18 @@ Args:
   velocity: (m,) unit of the task per second.
   dt: [s]. The target moves by velocity * dt; the error follows at the next update.
 )";
+constexpr const char* kSetMaxAcceleration =
+    R"(What the task asks for changes no faster, and brakes no harder before its target.
+
+Norms, and feed-forwards, as in set_max_speed. By default inf: the accelerations of the coordinates are
+limited alone. A row that is free within an interval is not held back; law='thesis' knows no such limit.
+
+Args:
+  acceleration: [unit/s^2], positive; inf for none.
+
+Raises:
+  Error: no positive number.
+)";
 constexpr const char* kSetMaxSpeed =
     R"(No more than this is asked for to bring the error to its interval; a feed-forward comes on top.
 
@@ -280,6 +292,9 @@ void bind_task(py::module_& module) {
       .def("set_interval", &Task::set_interval, py::arg("lower"), py::arg("upper"), kSetInterval)
       .def("set_max_speed", &Task::set_max_speed, py::arg("speed"), kSetMaxSpeed)
       .def_property_readonly("max_speed", &Task::max_speed, "[unit/s]")
+      .def("set_max_acceleration", &Task::set_max_acceleration, py::arg("acceleration"),
+           kSetMaxAcceleration)
+      .def_property_readonly("max_acceleration", &Task::max_acceleration, "[unit/s^2]")
       .def("set_gain", py::overload_cast<double>(&Task::set_gain), py::arg("gain"), kSetGain)
       .def("set_gain", py::overload_cast<const ConstVectorRef&>(&Task::set_gain), py::arg("gain"),
            kSetGain)

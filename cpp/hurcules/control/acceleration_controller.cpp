@@ -92,6 +92,7 @@ bool AccelerationController::set_stack(const Stack& stack) {
   }
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
+  changes_.set_stack(problem_.stack());
   if (has_zone_) {
     probe_->set_stack(problem_.stack());
     dead_zone_.set_stack(problem_.stack(), acceleration_.size());
@@ -208,7 +209,8 @@ void AccelerationController::add_friction(const Robot& robot, VectorRef torque) 
     const double friction = options_.friction * robot.dry_friction()[i];
     const double wanted = robot.velocity()[i] + acceleration_[i] / L;
     const double steepest = kSteepest * inertia_(i, i) * L / (options_.stiffness * dt * dt);
-    torque[i] += std::clamp(wanted * std::min(friction / robot.sliding_speed()[i], steepest), -friction, friction);
+    torque[i] += std::clamp(wanted * std::min(friction / robot.sliding_speed()[i], steepest),
+                            -friction, friction);
   }
 }
 
@@ -231,12 +233,14 @@ void AccelerationController::integrate(VectorRef q, VectorRef velocity) const {
 void AccelerationController::reset() {
   acceleration_.setZero();
   active_limits_.setZero();
+  changes_.forget();
   solver_.reset();
 }
 
 void AccelerationController::save(StateWriter& writer) const {
   writer.put(acceleration_);
   for (Index i = 0; i < active_limits_.size(); ++i) writer.put(active_limits_[i]);
+  changes_.save(writer);
   solver_.save(writer);
 }
 
@@ -245,6 +249,7 @@ void AccelerationController::restore(StateReader& reader) {
   for (Index i = 0; i < active_limits_.size(); ++i) {
     active_limits_[i] = static_cast<int>(reader.get());
   }
+  changes_.restore(reader);
   solver_.restore(reader);
 }
 
@@ -263,18 +268,20 @@ void AccelerationController::fill_rates(std::size_t k) {
   const StackLevel& source = stack().levels()[k];
   Level& level = problem_.hierarchy()[k];
   const double gain = options_.stiffness / options_.damping;
-  double most = 0.0;
+  double most = 0.0, brakes = 0.0;
   bool own = false;
   for (const Task* task : source.tasks) {
     own = own || task->commands_acceleration();
-    if (!task->commands_acceleration() && !task->is_limit())
-      most = std::max(most, haste(*task, gain, options_.dt));
+    if (task->commands_acceleration() || task->is_limit() || options_.law == Law::Thesis) continue;
+    most = std::max(most, haste(*task, gain, options_.dt));
+    brakes = std::max(brakes, braking(*task, gain, options_.dt));
   }
-  if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
+  most = std::max(most, brakes);
   gains_[k] = gain / std::max(1.0, most);
   Index row = 0;
-  for (const Task* task : source.tasks) {
+  for (std::size_t t = 0; t < source.tasks.size(); ++t) {
+    const Task* const task = source.tasks[t];
     const Index rows = task->rows();
     level.A.block(row, 0, rows, task->jacobian().cols()) = task->jacobian();
     auto lower = level.lower.segment(row, rows), upper = level.upper.segment(row, rows);
@@ -288,6 +295,8 @@ void AccelerationController::fill_rates(std::size_t k) {
       limit_rates(*task, rates_, lower, upper);
     } else {
       wanted_rates(*task, gain, options_.dt, most, lower, upper);
+      if (options_.law == Law::Arrive)
+        changes_.limit(k, t, *task, speed_, options_.dt, lower, upper);
     }
     for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);
     row += rows;

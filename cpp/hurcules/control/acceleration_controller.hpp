@@ -22,6 +22,7 @@
 #include "hurcules/control/contact_forces.hpp"
 #include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/level_diagnostics.hpp"
+#include "hurcules/control/rate_changes.hpp"
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
 #include "hurcules/control/torque_scaling.hpp"
@@ -119,6 +120,7 @@ class AccelerationController {
   std::vector<double> weights_;  // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;    // K / max(1, F) [1/s] of each level, the same
   bool has_zone_ = false;        // by the law that arrives, where no contacts hold the robot
+  RateChanges changes_;
   DeadZone dead_zone_;
   std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector acceleration_;

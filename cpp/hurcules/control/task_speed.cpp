@@ -10,6 +10,7 @@ namespace hurcules {
 
 namespace {
 
+constexpr double kBraking = 0.9;    // of max_acceleration: what a period is late needs the rest
 constexpr double kLeastRho = 1e-4;  // keeps the answer unique and continuous at the target
 
 // from the error to its interval, 0 inside
@@ -20,6 +21,25 @@ double way(const Task& task, Index row) {
 
 double gain_of(const Task& task, Index row, double usual, double dt) {
   return std::min(task.gain(row, usual), 1.0 / dt);
+}
+
+// K |g| of a task in its unit, of its fastest row where they stand apart
+double asked_speed(const Task& task, double gain, double dt) {
+  double together = 0.0, largest = 0.0;
+  for (Index row = 0; row < task.rows(); ++row) {
+    if (task.weights()[row] == 0.0) continue;
+    const double speed =
+        gain_of(task, row, gain, dt) * std::abs(way(task, row)) / task.speed_share(row);
+    together += speed * speed;
+    largest = std::max(largest, speed);
+  }
+  return task.rows_apart() ? largest : std::sqrt(together);
+}
+
+// speed / v_b, v_b^2 = 2 a |g| - (a / K)^2 with speed = K |g|; 0 below a / K
+double over_brake(const Task& task, double speed, double K) {
+  const double asked = kBraking * task.max_acceleration() / K;
+  return speed > asked ? speed / std::sqrt(asked * (2.0 * speed - asked)) : 0.0;
 }
 
 }  // namespace
@@ -35,15 +55,13 @@ Law law_named(const std::string& name) {
 }
 
 double haste(const Task& task, double gain, double dt) {
-  double together = 0.0, largest = 0.0;
-  for (Index row = 0; row < task.rows(); ++row) {
-    if (task.weights()[row] == 0.0) continue;
-    const double f =
-        gain_of(task, row, gain, dt) * std::abs(way(task, row)) / task.speed_share(row);
-    together += f * f;
-    largest = std::max(largest, f);
-  }
-  return (task.rows_apart() ? largest : std::sqrt(together)) / task.max_speed();
+  return asked_speed(task, gain, dt) / task.max_speed();
+}
+
+double braking(const Task& task, double gain, double dt) {
+  double K = 0.0;
+  for (Index row = 0; row < task.rows(); ++row) K = std::max(K, gain_of(task, row, gain, dt));
+  return over_brake(task, asked_speed(task, gain, dt), K);
 }
 
 void wanted_rates(const Task& task, double gain, double dt, double most, VectorRef lower,
@@ -52,7 +70,8 @@ void wanted_rates(const Task& task, double gain, double dt, double most, VectorR
     const double g = way(task, row);
     const bool own = most > 1.0 && task.rows_apart();
     const double K = gain_of(task, row, gain, dt);
-    const double f = own ? K * std::abs(g) / task.max_speed() : most;
+    const double speed = K * std::abs(g);
+    const double f = own ? std::max(speed / task.max_speed(), over_brake(task, speed, K)) : most;
     const double share = f > 1.0 ? 1.0 / f : 1.0;
     // the side that pushes is bounded, the other one holds back as it is
     const auto rate = [&](double side) {

@@ -94,6 +94,7 @@ bool VelocityController::set_stack(const Stack& stack) {
   begin_transition();
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
+  changes_.set_stack(problem_.stack());
   if (probe_) probe_->set_stack(problem_.stack());
   leading_limits_ = leading_limits(problem_);
   dead_zone_.set_stack(problem_.stack(), velocity_.size());
@@ -225,6 +226,7 @@ void VelocityController::reset() {
   fading_ = false;
   velocity_.setZero();
   active_limits_.setZero();
+  changes_.forget();
   solver_.reset();
 }
 
@@ -241,6 +243,7 @@ void VelocityController::save(StateWriter& writer) const {
   writer.put(age_);
   writer.put(fading_ ? 1.0 : 0.0);
   for (Index i = 0; i < active_limits_.size(); ++i) writer.put(active_limits_[i]);
+  changes_.save(writer);
   solver_.save(writer);
 }
 
@@ -252,6 +255,7 @@ void VelocityController::restore(StateReader& reader) {
   for (Index i = 0; i < active_limits_.size(); ++i) {
     active_limits_[i] = static_cast<int>(reader.get());
   }
+  changes_.restore(reader);
   solver_.restore(reader);
 }
 
@@ -310,15 +314,18 @@ void VelocityController::hold_limits() {
 void VelocityController::fill_rows(std::size_t k) {
   const StackLevel& source = stack().levels()[k];
   Level& level = problem_.hierarchy()[k];
-  double most = 0.0;
+  double most = 0.0, brakes = 0.0;
   for (const Task* task : source.tasks) {
-    if (!task->is_limit()) most = std::max(most, haste(*task, options_.gain, options_.dt));
+    if (task->is_limit() || options_.law == Law::Thesis) continue;
+    most = std::max(most, haste(*task, options_.gain, options_.dt));
+    brakes = std::max(brakes, braking(*task, options_.gain, options_.dt));
   }
-  if (options_.law == Law::Thesis) most = 0.0;
   weights_[k] = std::min(1.0, most);
+  most = std::max(most, brakes);
   gains_[k] = options_.gain / std::max(1.0, most);
   Index row = 0;
-  for (const Task* task : source.tasks) {
+  for (std::size_t t = 0; t < source.tasks.size(); ++t) {
+    const Task* const task = source.tasks[t];
     const Index rows = task->rows();
     level.A.middleRows(row, rows) = task->jacobian();
     auto lower = level.lower.segment(row, rows), upper = level.upper.segment(row, rows);
@@ -328,6 +335,8 @@ void VelocityController::fill_rows(std::size_t k) {
       limit_rates(*task, rates_, lower, upper);
     } else {
       wanted_rates(*task, options_.gain, options_.dt, most, lower, upper);
+      if (options_.law == Law::Arrive)
+        changes_.limit(k, t, *task, velocity_, options_.dt, lower, upper);
     }
     for (Index i = 0; i < rows; ++i) weigh_row(*task, i, level, row + i);
     row += rows;

@@ -2,7 +2,7 @@
 // §4.3.1].
 //
 //   y_k = -K g_k + ds_des/dt, bounded              [T 4.3.2], task_speed.hpp, dead_zone.hpp
-//   J qdot <= (s_upper - s) / T                    [T 4.3.9], horizon T as a gain (solver.md §7)
+//   J qdot <= (s_upper - s) / T                    [T 4.3.9], horizon T as a gain
 //   qdot* = lexicographic minimum of the levels    [T 4.3.3]
 //   q*(t + dt) = q*(t) + qdot* dt                  [T 4.3.7]
 //
@@ -18,6 +18,7 @@
 #include "hurcules/control/dead_zone.hpp"
 #include "hurcules/control/level_diagnostics.hpp"
 #include "hurcules/control/limit_rows.hpp"
+#include "hurcules/control/rate_changes.hpp"
 #include "hurcules/control/rate_interval.hpp"
 #include "hurcules/control/stack_problem.hpp"
 #include "hurcules/control/task_speed.hpp"
@@ -105,6 +106,7 @@ class VelocityController {
   std::size_t leading_limits_ = 0;  // levels from the first on that are limits
   std::vector<double> weights_;     // w of each level, of the last measure (task_speed.hpp)
   std::vector<double> gains_;       // K / max(1, F) [1/s] of each level, the same
+  RateChanges changes_;
   DeadZone dead_zone_;
   std::optional<SaddleProbe> probe_;  // by the law that arrives
   Vector velocity_;

@@ -48,10 +48,11 @@ class Kept {
       joints_[static_cast<std::size_t>(m_.dof_jntid[closures_->dof(f)])] = true;
   }
 
-  [[nodiscard]] std::vector<std::string> joints() const {
+  [[nodiscard]] std::vector<std::string> joints(bool with_springs = true) const {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
       if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
+      if (!with_springs && m_.jnt_stiffness[j] != 0.0) continue;
       if (moves(m_.jnt_bodyid[j])) names.push_back(name_or_number(m_, mjOBJ_JOINT, j));
     }
     return names;
@@ -112,6 +113,15 @@ class Kept {
 std::vector<std::string> unkept_constraints(const Robot& robot) {
   if (names_coordinates(*robot.model())) return {};
   return Kept(robot).constraints();
+}
+
+std::string held_joints(const Robot& robot) {
+  if (names_coordinates(*robot.model())) return "";
+  const std::vector<std::string> joints = Kept(robot).joints(false);
+  if (joints.empty()) return "";
+  return "the robot has " + std::to_string(robot.size()) + " coordinates; " +
+         std::to_string(joints.size()) + " of its joints are held, for they have no actuator of " +
+         "their own: " + listed(joints) + ". Robot(model, joints=[...]) says which move";
 }
 
 std::string left_out(const Robot& robot) {

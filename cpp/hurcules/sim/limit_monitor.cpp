@@ -31,20 +31,24 @@ LimitMonitor::LimitMonitor(const Robot& robot, Vector max_torque)
 }
 
 void LimitMonitor::look(const Telemetry& t) {
-  outside(t.q, t.limit_lower, t.limit_upper, measured_.position);
-  above(t.qd, max_velocity_, measured_.velocity);
-  above(t.torque, max_torque_, measured_.torque);
+  now_ = {};
+  outside(t.q, t.limit_lower, t.limit_upper, now_.position);
+  above(t.qd, max_velocity_, now_.velocity);
+  above(t.torque, max_torque_, now_.torque);
+  measured_ = {std::max(measured_.position, now_.position),
+               std::max(measured_.velocity, now_.velocity),
+               std::max(measured_.torque, now_.torque)};
   outside(t.q_des, t.limit_lower, t.limit_upper, commanded_.position);
   above(t.qd_des, max_velocity_, commanded_.velocity);
   above(t.demand, max_torque_, commanded_.torque);
 }
 
 void LimitMonitor::reset() {
-  measured_ = commanded_ = Excess{};
+  measured_ = now_ = commanded_ = Excess{};
 }
 
 void LimitMonitor::save(StateWriter& writer) const {
-  for (const Excess& excess : {measured_, commanded_}) {
+  for (const Excess& excess : {measured_, now_, commanded_}) {
     writer.put(excess.position);
     writer.put(excess.velocity);
     writer.put(excess.torque);
@@ -52,7 +56,7 @@ void LimitMonitor::save(StateWriter& writer) const {
 }
 
 void LimitMonitor::restore(StateReader& reader) {
-  for (Excess* excess : {&measured_, &commanded_}) {
+  for (Excess* excess : {&measured_, &now_, &commanded_}) {
     excess->position = reader.get();
     excess->velocity = reader.get();
     excess->torque = reader.get();

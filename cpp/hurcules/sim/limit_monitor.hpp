@@ -8,7 +8,7 @@
 
 namespace hurcules {
 
-// Worst excess over any limit so far, 0 for none.
+// Worst excess over any limit, 0 for none.
 struct Excess {
   double position = 0.0;  // [rad]
   double velocity = 0.0;  // [rad/s]
@@ -21,7 +21,9 @@ class LimitMonitor {
   LimitMonitor(const Robot& robot, Vector max_torque);
   void look(const Telemetry& telemetry);
   void reset();
-  [[nodiscard]] const Excess& measured() const { return measured_; }  // in the physics
+  // in the physics, so far and in the last period
+  [[nodiscard]] const Excess& measured() const { return measured_; }
+  [[nodiscard]] const Excess& now() const { return now_; }
   [[nodiscard]] const Excess& commanded() const {
     return commanded_;
   }  // in the references, before saturation
@@ -30,7 +32,7 @@ class LimitMonitor {
 
  private:
   Vector max_velocity_, max_torque_;
-  Excess measured_, commanded_;
+  Excess measured_, now_, commanded_;
 };
 
 }  // namespace hurcules

@@ -103,11 +103,13 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.data = data;
     return found;
   }
-  if (group == "excess" || group == "commanded_excess") {
+  if (group == "excess" || group == "excess_now" || group == "commanded_excess") {
     const std::vector<std::string> kinds = {"position", "velocity", "torque"};
     const auto kind = std::find(kinds.begin(), kinds.end(), rest) - kinds.begin();
     if (kind == 3) throw Error(unknown_name("excess", rest, kinds));
-    found.kind = group == "excess" ? Kind::Excess : Kind::CommandedExcess;
+    found.kind = group == "excess"       ? Kind::Excess
+                 : group == "excess_now" ? Kind::ExcessNow
+                                         : Kind::CommandedExcess;
     found.places = {kind};
     return found;
   }
@@ -127,15 +129,25 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
     found.size = static_cast<Index>(found.places.size());
     if (found.size > 0) return found;
   }
-  std::vector<std::string> known = {"position/FRAME",       "rotation/FRAME",
-                                    "matrix/FRAME",         "velocity/FRAME",
-                                    "spin/FRAME",           "value/TASK",
-                                    "target/TASK",          "force/TASK",
-                                    "joint/JOINT",          "distance/OBJECT/OBJECT",
-                                    "joint_velocity/JOINT", "sensor/SENSOR",
-                                    "excess/KIND",          "commanded_excess/KIND",
-                                    "self_contacts",        "scaled",
-                                    "contact_force/BODY",   "finished"};
+  std::vector<std::string> known = {"position/FRAME",
+                                    "rotation/FRAME",
+                                    "matrix/FRAME",
+                                    "velocity/FRAME",
+                                    "spin/FRAME",
+                                    "value/TASK",
+                                    "target/TASK",
+                                    "force/TASK",
+                                    "joint/JOINT",
+                                    "distance/OBJECT/OBJECT",
+                                    "joint_velocity/JOINT",
+                                    "sensor/SENSOR",
+                                    "excess/KIND",
+                                    "excess_now/KIND",
+                                    "commanded_excess/KIND",
+                                    "self_contacts",
+                                    "scaled",
+                                    "contact_force/BODY",
+                                    "finished"};
   for (const Recorder* recorder : {&simulation.observation(), &simulation.log()}) {
     for (const std::string& channel : recorder->channels()) {
       const std::string word = channel.substr(0, channel.find('/'));
@@ -208,6 +220,9 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
     }
     case Kind::Excess:
       out[0] = part_of(simulation.limits().measured(), quantity.places.front());
+      return;
+    case Kind::ExcessNow:
+      out[0] = part_of(simulation.limits().now(), quantity.places.front());
       return;
     case Kind::CommandedExcess:
       out[0] = part_of(simulation.limits().commanded(), quantity.places.front());

@@ -53,6 +53,7 @@ class Quantities {
     Observation,
     Log,
     Excess,
+    ExcessNow,
     CommandedExcess,
     SelfContacts,
     Scaled,

@@ -39,6 +39,13 @@ void Task::set_max_speed(double speed) {
   max_speed_ = speed;
 }
 
+void Task::set_max_acceleration(double acceleration) {
+  require(acceleration > 0.0, "max_acceleration of task '" + name_ +
+                                  "' wants a positive number, inf for none, got " +
+                                  number_text(acceleration));
+  max_acceleration_ = acceleration;
+}
+
 void Task::set_gain(double gain) {
   set_gain(Vector::Constant(rows(), gain));
 }
@@ -88,6 +95,7 @@ void Task::restore(StateReader& reader) {
 
 void Task::save_settings(StateWriter& writer) const {
   writer.put(max_speed_);
+  writer.put(max_acceleration_);
   writer.put(weights_);
   const bool has_gains = gains_.size() > 0;
   writer.put(has_gains ? 1.0 : 0.0);
@@ -96,6 +104,7 @@ void Task::save_settings(StateWriter& writer) const {
 
 void Task::restore_settings(StateReader& reader) {
   max_speed_ = reader.get();
+  max_acceleration_ = reader.get();
   reader.get(weights_);
   gains_.resize(reader.get_count(1) > 0 ? rows() : 0);
   for (Index row = 0; row < rows(); ++row) {

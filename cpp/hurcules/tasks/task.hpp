@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,10 @@ class Task {
   // each row where they stand apart); what is fed forward comes on top
   [[nodiscard]] double max_speed() const { return max_speed_; }
   void set_max_speed(double speed);  // throws Error unless positive and finite
+  // [unit/s^2] what is asked for changes no faster, and brakes no harder before the interval; of
+  // several rows as max_speed. inf, the default: the coordinates' limits alone
+  [[nodiscard]] double max_acceleration() const { return max_acceleration_; }
+  void set_max_acceleration(double acceleration);  // throws Error unless positive
   // [1/s] of this task instead of the controller's, for all rows or each (m); throws Error unless
   // positive and finite. Critically damped by accelerations up to damping / 4.
   void set_gain(double gain);
@@ -130,7 +135,8 @@ class Task {
   Vector error_, drift_, velocity_des_, acceleration_des_, lower_, upper_;
   Matrix jacobian_;
   bool target_is_set_ = false;
-  double max_speed_ = 1.5;         // of angles [rad/s]
+  double max_speed_ = 1.5;  // of angles [rad/s]
+  double max_acceleration_ = std::numeric_limits<double>::infinity();
   Vector weights_, speed_shares_;  // (m)
 
  private:

@@ -4,6 +4,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -166,6 +167,46 @@ TEST_F(JointServoTest, SharesOutWhatAModelTells) {
   act(0.0, 0.0);
   // the wheels' factors are 1 and -2: 1 * 1 N m + (-2) * (-2 N m) = 5 N m
   EXPECT_TRUE(near(servo_.torque(), (Vector(4) << 1.0, -2.0, 3.0, 0.0).finished(), 1e-12));
+}
+
+TEST_F(JointServoTest, GivesWhatDryFrictionTakesTowardsWhereItsReferenceGoes) {
+  std::string text = cart();
+  const std::string boom = R"("boom" axis="0 1 0")";
+  text.replace(text.find(boom), boom.size(), boom + R"( frictionloss="3")");
+  const Robot dry(load_model_text(text));
+  servo_ = JointServo(dry, kTable, 1e-3);
+  const double slides = dry.sliding_speed()[1];
+  EXPECT_EQ(dry.dry_friction()[1], 3.0);
+  for (const double speed : {0.5, 0.5 * slides, 0.0, -0.1 * slides, -0.5}) {
+    servo_.reset(Vector::Zero(4));
+    data_->qvel[2] = speed;
+    for (const bool told : {true, false}) {
+      servo_.feed_forward(Vector::Zero(2), told);
+      follow(Vector::Zero(2), Eigen::Vector2d(0.0, speed));  // it goes as its reference does
+      EXPECT_NEAR(servo_.torque()[2], told ? 3.0 * std::clamp(speed / slides, -1.0, 1.0) : 0.0,
+                  1e-12);
+    }
+  }
+  // a window counts it: at its sides the motor is asked for its peak
+  data_->qvel[2] = 0.0;
+  servo_.reset(Vector::Zero(4));
+  servo_.feed_forward(Vector::Zero(2), true);
+  for (int i = 0; i < 5; ++i) act(0.0, 0.02);
+  const JointServo before = servo_;
+  for (const double q : {0.2, -0.45, 0.4665}) {
+    servo_ = before;
+    const Vector none = Vector::Zero(4), start = Eigen::Vector2d(0.0, q);
+    const VelocityBounds window =
+        servo_.velocity_bounds(start, Vector::Zero(2), {none, none, status_},
+                               std::numeric_limits<double>::infinity(), nullptr);
+    for (const auto& [rate, torque] :
+         {std::pair(window.lower[1], -20.0), std::pair(window.upper[1], 20.0)}) {
+      servo_ = before;
+      const Vector qd = Eigen::Vector2d(0.0, rate);
+      follow(start + 1e-3 * qd, qd);
+      EXPECT_NEAR(servo_.demand()[2], torque, 1e-9) << q;
+    }
+  }
 }
 
 TEST(DefaultServoGains, CoverTheInertiasOfTheRanges) {

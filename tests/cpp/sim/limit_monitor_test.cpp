@@ -29,8 +29,10 @@ TEST(LimitMonitor, KeepsTheWorstExcessOfEachKind) {
   t.q_des << 2.5, 0.0;
   t.demand << 7.0;
   monitor.look(t);
+  EXPECT_DOUBLE_EQ(monitor.now().position, 0.25);
   t.q << 0.0, 0.0;
   monitor.look(t);
+  EXPECT_EQ(monitor.now().position, 0.0);
   EXPECT_DOUBLE_EQ(monitor.measured().position, 0.25);
   EXPECT_DOUBLE_EQ(monitor.commanded().position, 0.5);
   EXPECT_DOUBLE_EQ(monitor.commanded().torque, 2.0);

@@ -1,0 +1,35 @@
+// What a task asks for changes no faster than its max_acceleration.
+//
+//   y <- y_last + (y - y_last) min(1, a dt / |y - y_last|)      y without what is fed forward
+// y_last: what was asked for in the last period; at first J qdot. Rows that have one side alone, or
+// two that differ, stay as they are.
+#pragma once
+
+#include <vector>
+
+#include "hurcules/base/state.hpp"
+#include "hurcules/control/stack.hpp"
+
+namespace hurcules {
+
+class RateChanges {
+ public:
+  void set_stack(const Stack& stack);  // makes the memory; nothing was asked for before
+  void forget();                       // the same of the stack that it has
+  // of the i-th task of level k: both sides (m) [unit/s] of what it asks for in this period, at the
+  // velocity of the coordinates (n)
+  void limit(std::size_t k, std::size_t i, const Task& task, const Vector& velocity, double dt,
+             VectorRef lower, VectorRef upper);
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct Asked {
+    Vector rate;  // (m)
+    bool known = false;
+  };
+  std::vector<std::vector<Asked>> last_;  // of each task of each level
+  Vector change_;                         // scratch
+};
+
+}  // namespace hurcules
