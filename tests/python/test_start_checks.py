@@ -169,7 +169,7 @@ def test_a_joint_before_the_hand_that_nothing_holds_is_named(frame: str, warns: 
     for name, parent in (("early", spec.bodies[1]), ("late", spec.bodies[-1])):
         parent.add_site(name=name, pos=[0.2, 0.0, 0.0])
     chain = spec.compile()
-    robot = hurcules.Robot(chain)
+    robot = hurcules.Robot(chain, joints=["a"])
     hand = hurcules.PositionTask("hand", robot, frame)
     hand.set_target([0.1, 0.0, 0.1])
     controller = hurcules.WholeBodyController(robot, [hand])

@@ -119,9 +119,8 @@ std::string held_joints(const Robot& robot) {
   if (names_coordinates(*robot.model())) return "";
   const std::vector<std::string> joints = Kept(robot).joints(false);
   if (joints.empty()) return "";
-  return "the robot has " + std::to_string(robot.size()) + " coordinates; " +
-         std::to_string(joints.size()) + " of its joints are held, for they have no actuator of " +
-         "their own: " + listed(joints) + ". Robot(model, joints=[...]) says which move";
+  return "joints that no actuator of their own drives are held: " + listed(joints) +
+         "; Robot(model, joints=[...]) says which move";
 }
 
 std::string left_out(const Robot& robot) {
