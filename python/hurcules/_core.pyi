@@ -434,8 +434,9 @@ class Robot:
     long. Their velocities [rad/s] and efforts [N m] are MuJoCo's, about the axes of its body, and not the
     derivative of the rotation vector: `add_step` goes from one to the other.
     It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
-    Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round; `left_out` says
-    which joints are held and which constraints are not kept.
+    Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round, and,
+    without `joints`, of joints that are held although no spring holds them; `left_out` says all that are held
+    and which constraints are not kept.
     A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
     Args:
@@ -685,6 +686,19 @@ class Task:
     def set_interval(self, lower: ArrayLike, upper: ArrayLike) -> None:
         """The interval that the error shall be in: (m,) each, -inf or inf for no side."""
 
+    def set_max_acceleration(self, acceleration: float) -> None:
+        """What the task asks for changes no faster, and brakes no harder before its target.
+
+        Norms, and feed-forwards, as in set_max_speed. By default inf: the accelerations of the coordinates are
+        limited alone. Limits and the end of reach may stop the robot harder. A row that is free within an interval
+        is not held back; law='thesis' knows no such limit.
+
+        Args:
+          acceleration: [unit/s^2], positive; inf for none.
+
+        Raises:
+          Error: no positive number."""
+
     def set_max_speed(self, speed: float) -> None:
         """No more than this is asked for to bring the error to its interval; a feed-forward comes on top.
 
@@ -734,6 +748,10 @@ class Task:
     @property
     def lower(self) -> NDArray[np.float64]:
         """(m,), of the error"""
+
+    @property
+    def max_acceleration(self) -> float:
+        """[unit/s^2]"""
 
     @property
     def max_speed(self) -> float:
@@ -4148,7 +4166,7 @@ class Quantities:
     Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FRAME (3 each, in the
     world), matrix/FRAME (9); value/TASK, target/TASK; force/TASK (what a force task read);
     distance/OBJECT/OBJECT; joint/JOINT, joint_velocity/JOINT; sensor/SENSOR; monitor/NAME; excess/KIND, commanded_excess/KIND
-    (position, velocity, torque: the worst so far); contact_force/BODY; self_contacts; scaled; finished
+    (position, velocity, torque: the worst so far), excess_now/KIND (of the last period); contact_force/BODY; self_contacts; scaled; finished
     (1 where it is over); and each channel of the observation and the log, alone ("q/KN") or as a group
     ("q").
 
