@@ -19,7 +19,7 @@ from hurcules._core import Error
 from hurcules.drawing import overview
 from hurcules.figures import describe, readable, tells, wanted
 from hurcules.interrupts import Interrupts
-from hurcules.legend import event_words
+from hurcules.legend import event_words, reason_words
 from hurcules.output import Output
 from hurcules.recording import Recording, Snapshot, record
 from hurcules.rendering import RendererError, following_camera
@@ -300,7 +300,7 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
             moments[-1] = (moments[-1][0], f"{moments[-1][1]}; {text}")
         else:
             moments.append((time, text))
-    moments.append((recording.simulated_seconds, summary["reason"]))
+    moments.append((recording.simulated_seconds, reason_words(summary["reason"])))
     pictures = []
     for time, text in moments:
         nearest = min(recording.frames, key=lambda frame: abs(frame.time - time))
@@ -330,7 +330,7 @@ def _report(summary: dict[str, Any], verdict: str, output: Output, console: Cons
         table.add_row("control tick, median / p99", text)
     table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
     colour = "bold green" if summary["success"] else "bold"
-    reason = verdict + escape(summary["reason"])
+    reason = verdict + escape(reason_words(summary["reason"]))
     console.print(f"\n{reason}, {summary['simulated_seconds']:.1f} s", style=colour)
     console.print(table)
     for path in output.saved:

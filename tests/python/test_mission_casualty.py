@@ -108,12 +108,15 @@ def test_the_robot_does_not_tip_and_drives_home_on_its_folded_tracks(run) -> Non
 
 
 @pytest.mark.parametrize("pose", ["front", "left", "right"])
-def test_a_person_who_does_not_lie_on_the_back_is_refused_before_he_is_touched(pose: str) -> None:
+def test_for_who_does_not_lie_on_the_back_it_asks_before_he_is_touched(pose: str) -> None:
     model = lift.model(lift.Person(pose=pose))
     simulation = hurcules.Simulation(
         lift.mission("casualty"), model=model, controller=lift.controller(model), variation=0.0
     )
     simulation.step(3000)
+    assert "casualty/face_up" in simulation.question
+    simulation.answer(False)
+    simulation.step(2)
     assert simulation.finished
     assert simulation.phase == "settle"
     assert "casualty/face_up" in simulation.reason

@@ -12,7 +12,7 @@ import jinja2
 import numpy as np
 
 from hurcules.figures import describe, readable, tells, wanted
-from hurcules.legend import event_words, joint_words, level_words, region_words
+from hurcules.legend import event_words, joint_words, level_words, reason_words, region_words
 from hurcules.recording import (
     CHANNELS,
     FORCE_CHANNELS,
@@ -58,6 +58,7 @@ def write(
     origin = recording.origin
     page = template.render(
         summary=summary,
+        reason=reason_words(summary["reason"]),
         origin=origin,
         names=_names(recording.log),
         events=[(e["time_s"] - origin, event_words(e["text"])) for e in summary["events"]],
