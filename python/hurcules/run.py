@@ -72,6 +72,7 @@ class RunOptions:
     video: bool = True
     sensors: bool = False  # with the noise of `hurcules.sensors.realistic`
     parameters: Mapping[str, Any] = field(default_factory=dict)  # of the mission
+    variation: float = 1.0  # of a mission by name: how much differs between seeds
 
 
 def run(options: RunOptions, console: Console) -> int:
@@ -140,6 +141,7 @@ def make(options: RunOptions, timed: bool = False) -> Simulation:
         method=options.method,
         timed=timed,
         sensors=realistic() if options.sensors else None,
+        variation=options.variation,
         parameters=options.parameters,
     )
 
@@ -163,7 +165,12 @@ def made_of(options: RunOptions, mission: TableMission | None) -> dict[str, Any]
     if own_simulation.is_own(options.mission):
         return {"parameters": dict(parameters)}
     sensors = "realistic" if options.sensors else "exact"
-    return {"parameters": dict(parameters), "method": options.method, "sensors": sensors}
+    return {
+        "parameters": dict(parameters),
+        "method": options.method,
+        "sensors": sensors,
+        "variation": options.variation,
+    }
 
 
 def ticks_in(seconds: float | None, dt: float) -> int | None:
