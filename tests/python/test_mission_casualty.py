@@ -136,6 +136,13 @@ def test_every_part_of_the_story_has_its_way_to_safety() -> None:
     assert names[-4:] == ["lower", "set down", "withdraw", "rest"]
 
 
+def test_half_seated_no_question_lasts_as_long_as_a_motor_takes_to_overheat() -> None:
+    # 91 degrees when it was asked (120 kg, a foot on the ground), 114 after 10 s; the limit is 130
+    rows = {row.name: row for row in lift.mission("casualty").rows.phases}
+    asked = [one.seconds for row in rows["sit down"].troubles for one in row.reactions]
+    assert 0.0 < max(asked) <= 10.0
+
+
 def test_the_casualty_mission_takes_the_persons_parameters() -> None:
     simulation = hurcules.Simulation("casualty", parameters={"mass": 120}, record=False)
     model = simulation.model

@@ -14,7 +14,9 @@ import pytest
 
 import hurcules
 from hurcules import Error, lift
+from hurcules.casualties import contact_limit
 from hurcules.legend import reason_words
+from hurcules.report import plots
 
 
 @pytest.fixture(scope="module")
@@ -44,6 +46,16 @@ def test_a_person_is_lifted_held_and_laid_down(run) -> None:
     his = {name for pair in pairs for name in pair if name.startswith("casualty_")}
     assert his
     assert set().union(*(pair for pair in pairs if pair & his)) - his == {"floor"}
+
+
+@pytest.mark.slow
+def test_the_report_has_the_limits_of_contacts_that_the_mission_judges_by(run) -> None:
+    log = run[0].log()
+    forces = plots.region_forces(log)
+    worst = max(contact / contact_limit(name) for name, (contact, _) in forces.items())
+    assert worst == pytest.approx(log["casualty/contact_share"].max(), rel=1e-6)
+    carries = max(force for _, force in forces.values())
+    assert carries == pytest.approx(log["casualty/support_n"].max(), rel=1e-6)
 
 
 @pytest.mark.slow
