@@ -55,19 +55,19 @@ class Rescue(MissionEnvironment):
 
     | index | name | bound | unit | what |
     |---|---|---|---|---|
-    | 0-19 | phase | 1 |  | 1 for the present one, in the order of the table |
-    | 20 | progress | 1 |  | of the present phase |
-    | 21-25 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
-    | 26-27 | tips | 5 | m | height of the left and the right one |
-    | 28-29 | heading | 4 | rad | of his body against square; bearing of the stand |
-    | 30-33 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
-    | 34-37 | force | 5000 | N | of both presses, push along the ground, largest support |
-    | 38 | contact | 20 |  | largest force of a contact over the limit of its region |
-    | 39 | head | 500 | m/s^2 | of his head, gravity included |
-    | 40-41 | tilt | 2 | rad | of the left and the right blade, tip up |
-    | 42-47 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
-    | 48 | mass | 200 | kg | of the person |
-    | 49 | margin | 2 | m | of the centre of mass within what the robot stands on |
+    | 0-21 | phase | 1 |  | 1 for the present one, in the order of the table |
+    | 22 | progress | 1 |  | of the present phase |
+    | 23-27 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
+    | 28-29 | tips | 5 | m | height of the left and the right one |
+    | 30-31 | heading | 4 | rad | of his body against square; bearing of the stand |
+    | 32-35 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
+    | 36-39 | force | 5000 | N | of both presses, push along the ground, largest support |
+    | 40 | contact | 20 |  | largest force of a contact over the limit of its region |
+    | 41 | head | 500 | m/s^2 | of his head, gravity included |
+    | 42-43 | tilt | 2 | rad | of the left and the right blade, tip up |
+    | 44-49 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
+    | 50 | mass | 200 | kg | of the person |
+    | 51 | margin | 2 | m | of the centre of mass within what the robot stands on |
 
     Reward:
 

@@ -11,10 +11,17 @@ import numpy as np
 
 from hurcules._core import Error
 
-__all__ = ["contact_forces", "regions"]
+__all__ = ["CARRIES", "contact_forces", "contact_limit", "regions"]
 
 TERRAIN = 2  # contact bit, see models/common/classes.xml
 PARTNERS = ("ground", "robot", "things")
+CARRIES = 0.15  # share of the weight on the ground, up to which forces of the robot carry
+# [N] of a contact, ISO/TS 15066 Annex A [test-methods#contact-limits]; as casualty_monitor.cpp has
+LIMITS = {
+    "skull": 130.0, "face": 65.0, "neck": 150.0, "upper_back": 210.0, "lower_back": 210.0,
+    "chest": 140.0, "belly": 110.0, "pelvis": 180.0, "upper_arm": 150.0, "forearm": 160.0,
+    "hand": 140.0, "thigh": 220.0, "shank": 130.0, "foot": 130.0,
+}  # fmt: skip
 
 
 def regions(model: mujoco.MjModel, prefix: str = "casualty_") -> list[str]:
@@ -33,6 +40,11 @@ def regions(model: mujoco.MjModel, prefix: str = "casualty_") -> list[str]:
     if not found:
         raise Error(f"no casualty with the prefix '{prefix}': no sensor begins with '{start}'")
     return found
+
+
+def contact_limit(region: str) -> float:
+    """The largest force of a contact with a region [N], "L_thigh" or "skull"; inf for others."""
+    return next((limit for name, limit in LIMITS.items() if region.endswith(name)), np.inf)
 
 
 def contact_forces(

@@ -66,7 +66,7 @@ def _options(
 
 
 _METHODS, _POLICIES = "Test methods", "Policies"  # where their options stand in the help
-_MISSION_OPTIONS = ("seconds", "method", "sensors", "seeds")
+_MISSION_OPTIONS = ("seconds", "method", "sensors", "variation", "seeds")
 _METHOD_OPTIONS = ("robot", "repetitions", "pace", "workers")
 
 
@@ -98,6 +98,9 @@ def run_mission(
     sensors: Annotated[
         bool, typer.Option("--sensors", help="Sensors with noise, bias, delay and resolution.")
     ] = False,
+    variation: Annotated[
+        float, typer.Option(help="How much differs between seeds; 0: nothing.")
+    ] = 1.0,
     video: Annotated[bool, typer.Option("--video/--no-video", help="Write video.mp4.")] = True,
     seeds: Annotated[
         int | None,
@@ -195,12 +198,15 @@ def run_mission(
     if any(one == mission or one.endswith(f"/{mission}") for one in plugins.environments()):
         raise Error(f"{mission} is an environment, which wants --policy")
     if own_simulation.is_own(mission):
-        _refuse(context, ("method", "sensors"), f"for missions by name; {mission} has its own")
+        own = ("method", "sensors", "variation")
+        _refuse(context, own, f"for missions by name; {mission} has its own")
     elif table_mission(mission) is None:
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS[:-1], f"for test methods; '{mission}' is a mission")
     parameters = _parameters(mission, context.args)
-    options = RunOptions(mission, seed, folder, seconds, method, video, sensors, parameters)
+    options = RunOptions(
+        mission, seed, folder, seconds, method, video, sensors, parameters, variation
+    )
     if seeds is None:
         _refuse(context, ("workers",), "for test methods and --seeds")
         raise typer.Exit(run(options, Console()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 __all__ = [
@@ -11,6 +12,7 @@ __all__ = [
     "joint_words",
     "level_words",
     "limit_words",
+    "reason_words",
     "region_words",
 ]
 
@@ -39,6 +41,13 @@ LEVELS = {
     "L_pitch + R_pitch": "pitch of the lower arms",
     "L_across + R_across + L_press + R_press": "hands, pressing",
 }
+# what a mission looks at, and its unit
+_SEEN = {
+    "casualty/heading_rad": ("the person lies this far from square across the way", "rad"),
+    "casualty/stand_ahead_m": ("the stand before the person is ahead by", "m"),
+    "casualty/face_up": ("the person's chest faces up by (1 on the back, 0 on a side)", ""),
+}
+_UNMET = re.compile(r"(?:took too long: )?(\S+) (<=|>=) (\S+) is not true, it is ([^\s;]+)")
 _SIDES = {"L": "left", "R": "right"}
 
 
@@ -68,6 +77,20 @@ def event_words(text: str) -> str:
     """An event in words: "hip meets its upper limit" for "HIP meets its upper limit"."""
     name, _, rest = text.partition(" ")
     return f"{joint_words(name)} {rest}" if rest else text
+
+
+def reason_words(text: str) -> str:
+    """Why a mission ended or what it asks, in words: what was found, and what was wanted."""
+
+    def told(match: re.Match[str]) -> str:
+        name, sign, wanted, found = match.groups()
+        if name not in _SEEN:
+            return match[0]
+        words, unit = _SEEN[name]
+        bound = "at most" if sign == "<=" else "at least"
+        return f"{words} {float(found):.2f} {unit}, wanted is {bound} {wanted} {unit}".rstrip()
+
+    return _UNMET.sub(told, text)
 
 
 def limit_words(active: Sequence[str]) -> list[str]:

@@ -19,7 +19,7 @@ from hurcules._core import Error
 from hurcules.drawing import overview
 from hurcules.figures import describe, readable, tells, wanted
 from hurcules.interrupts import Interrupts
-from hurcules.legend import event_words
+from hurcules.legend import event_words, reason_words
 from hurcules.output import Output
 from hurcules.recording import Recording, Snapshot, record
 from hurcules.rendering import RendererError, following_camera
@@ -72,6 +72,7 @@ class RunOptions:
     video: bool = True
     sensors: bool = False  # with the noise of `hurcules.sensors.realistic`
     parameters: Mapping[str, Any] = field(default_factory=dict)  # of the mission
+    variation: float = 1.0  # of a mission by name: how much differs between seeds
 
 
 def run(options: RunOptions, console: Console) -> int:
@@ -140,6 +141,7 @@ def make(options: RunOptions, timed: bool = False) -> Simulation:
         method=options.method,
         timed=timed,
         sensors=realistic() if options.sensors else None,
+        variation=options.variation,
         parameters=options.parameters,
     )
 
@@ -163,7 +165,12 @@ def made_of(options: RunOptions, mission: TableMission | None) -> dict[str, Any]
     if own_simulation.is_own(options.mission):
         return {"parameters": dict(parameters)}
     sensors = "realistic" if options.sensors else "exact"
-    return {"parameters": dict(parameters), "method": options.method, "sensors": sensors}
+    return {
+        "parameters": dict(parameters),
+        "method": options.method,
+        "sensors": sensors,
+        "variation": options.variation,
+    }
 
 
 def ticks_in(seconds: float | None, dt: float) -> int | None:
@@ -300,7 +307,7 @@ def _snapshots(painter: Painter, recording: Recording, summary: dict[str, Any]) 
             moments[-1] = (moments[-1][0], f"{moments[-1][1]}; {text}")
         else:
             moments.append((time, text))
-    moments.append((recording.simulated_seconds, summary["reason"]))
+    moments.append((recording.simulated_seconds, reason_words(summary["reason"])))
     pictures = []
     for time, text in moments:
         nearest = min(recording.frames, key=lambda frame: abs(frame.time - time))
@@ -330,7 +337,7 @@ def _report(summary: dict[str, Any], verdict: str, output: Output, console: Cons
         table.add_row("control tick, median / p99", text)
     table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time")
     colour = "bold green" if summary["success"] else "bold"
-    reason = verdict + escape(summary["reason"])
+    reason = verdict + escape(reason_words(summary["reason"]))
     console.print(f"\n{reason}, {summary['simulated_seconds']:.1f} s", style=colour)
     console.print(table)
     for path in output.saved:

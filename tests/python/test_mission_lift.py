@@ -14,6 +14,9 @@ import pytest
 
 import hurcules
 from hurcules import Error, lift
+from hurcules.casualties import contact_limit
+from hurcules.legend import reason_words
+from hurcules.report import plots
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +46,16 @@ def test_a_person_is_lifted_held_and_laid_down(run) -> None:
     his = {name for pair in pairs for name in pair if name.startswith("casualty_")}
     assert his
     assert set().union(*(pair for pair in pairs if pair & his)) - his == {"floor"}
+
+
+@pytest.mark.slow
+def test_the_report_has_the_limits_of_contacts_that_the_mission_judges_by(run) -> None:
+    log = run[0].log()
+    forces = plots.region_forces(log)
+    worst = max(contact / contact_limit(name) for name, (contact, _) in forces.items())
+    assert worst == pytest.approx(log["casualty/contact_share"].max(), rel=1e-6)
+    carries = max(force for _, force in forces.values())
+    assert carries == pytest.approx(log["casualty/support_n"].max(), rel=1e-6)
 
 
 @pytest.mark.slow
@@ -112,14 +125,42 @@ def test_a_person_who_lies_turned_lies_square_before_he_is_touched() -> None:
     assert ahead @ way == pytest.approx(lift.mission().setup.stand_off, abs=0.04)
 
 
-@pytest.mark.parametrize("yaw", [0.4, -0.4])
-def test_a_heading_that_was_not_tried_is_refused(yaw: float) -> None:
-    simulation = hurcules.Simulation("lift", variation=0.0, parameters={"yaw": yaw})
-    while not simulation.finished:
-        simulation.step(100)
-    assert simulation.phase == "settle"
-    assert not simulation.success
-    assert "casualty/heading_rad" in simulation.reason
+@pytest.mark.parametrize(
+    "placed, back, found",
+    [
+        ({"yaw": 1.5}, 0.8, "this far from square across the way 1.50 rad, wanted is at most 0.34"),
+        ({"yaw": -0.4}, 0.8, "across the way -0.40 rad, wanted is at least -0.34 rad"),
+        ({"offset": (-1.3, 0.0)}, 0.0, "ahead by -0.30 m, wanted is at least 0.5 m"),
+    ],
+)
+def test_from_who_lies_badly_it_steps_back_says_what_it_found_and_asks(
+    placed: dict[str, object], back: float, found: str
+) -> None:
+    simulation = hurcules.Simulation("lift", variation=0.0, parameters=placed, record=False)
+    began = simulation.data.body("pelvis").xpos[0]
+    while not simulation.question and simulation.time < 10.0:
+        simulation.step(50)
+    assert found in reason_words(simulation.question)
+    assert began - simulation.data.body("pelvis").xpos[0] == pytest.approx(back, abs=0.25)
+    simulation.answer(True)  # looks again, and asks again: a yes is no push
+    simulation.step(600)
+    assert simulation.phase == "see him"
+    assert simulation.question
+    simulation.answer(False)
+    simulation.step(2)
+    assert simulation.finished
+    assert found in reason_words(simulation.reason)
+
+
+def test_from_who_lies_too_near_it_steps_back_and_goes_on() -> None:
+    simulation = hurcules.Simulation(
+        "lift", variation=0.0, parameters={"offset": (-0.8, 0.0)}, record=False
+    )
+    stands = hurcules.Quantities(simulation, ["casualty/stand_ahead_m"])
+    while simulation.phase in ("settle", "step back") and simulation.time < 6.0:
+        simulation.step(50)
+    assert simulation.phase == "approach"
+    assert float(simulation.read(stands)[0]) > 0.4
 
 
 def test_a_stand_off_below_zero_is_told() -> None:

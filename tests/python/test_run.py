@@ -21,9 +21,12 @@ import pytest
 from rich.console import Console
 
 import hurcules
+from hurcules import report
 from hurcules import run as runs
 from hurcules.figures import readable, wanted
 from hurcules.recording import CHANNELS, STAGES
+from hurcules.report import plots
+from hurcules.report.style import applied
 from hurcules.run import DONE, FAILED, RunOptions, run
 from hurcules.video import NOTE, STRIP
 
@@ -213,6 +216,21 @@ def test_the_film_of_a_rescue_says_what_goes_on_and_the_report_what_is_done_to_t
     for drawn in re.findall("<svg.*?</svg>", page, flags=re.DOTALL):  # no word is cut off below
         height = float(re.findall(r'viewBox="0 0 [\d.]+ ([\d.]+)"', drawn)[0])
         assert max(float(y) for y in re.findall(r'<text[^>]* y="([\d.]+)"', drawn)) < height - 1
+
+
+def test_the_report_has_each_force_on_the_person_beside_its_limit() -> None:
+    time = np.arange(4.0)
+    log = {"time": time, "casualty/on_ground": np.array([1.0, 0.2, 0.1, 0.0])}
+    log |= {f"casualty/{name}": 0.1 * time for name in ("contact_share", "support_n")}
+    log |= {f"casualty/on_{name}": 0.1 * time for name in ("left_arm", "right_arm", "bed")}
+    log["casualty/head_mps2"] = 9.8 + time
+    log["casualty/force/L_thigh"] = np.array([0.0, 330.0, 400.0, 0.0])
+    log["casualty/force/skull"] = np.zeros(4)
+    assert report._regions(log).endswith("left thigh contact 330 N of 220 N, carries 400 N.")
+    with applied():
+        page = plots.person(log, [])
+    assert "left thigh" in page and "limit of a contact" in page
+    assert "skull" not in page  # nothing touched it
 
 
 def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Path) -> None:

@@ -203,6 +203,13 @@ def test_a_mission_by_name_is_stopped_as_asked(
     assert "lift: 1 stopped before their end, as asked" in capsys.readouterr().out
 
 
+def test_without_variation_all_seeds_run_alike(tmp_path: Path) -> None:
+    words = "run lift --seeds 2 --seconds 0.02 --variation 0 --out".split()
+    assert cli.main([*words, str(tmp_path)]) == 0
+    first, second = held(tmp_path)
+    assert (first["variation"], first["figures"]) == (0.0, second["figures"])
+
+
 def test_reasons_that_differ_in_names_stay_apart() -> None:
     row = {"success": False, "phase": "a", "figures": {}, "wanted": {}}
     reasons = ("arm1 is 0.5 m", "arm2 is 0.5 m", "arm2 is 0.6 m")
@@ -240,6 +247,8 @@ def test_other_wrong_use_is_refused(file: Path, capsys: pytest.CaptureFixture[st
         ("run --policy Reach-v0 --seeds 2", "--seeds: not with --policy"),
         ("run lift --workers 2", "--workers: for test methods and --seeds"),
         ("run lift --seeds 2 --method best", "best"),
+        ("run lift --seeds 2 --variation -1", "variation: wanted a number >= 0, got -1"),
+        ("run e2803 --variation 0", "--variation: for missions; 'e2803' is a test method"),
     ):
         assert cli.main(words.split()) == 2
         assert wanted in capsys.readouterr().err

@@ -11,8 +11,9 @@ from typing import Any
 import jinja2
 import numpy as np
 
+from hurcules.casualties import contact_limit
 from hurcules.figures import describe, readable, tells, wanted
-from hurcules.legend import event_words, joint_words, level_words, region_words
+from hurcules.legend import event_words, joint_words, level_words, reason_words, region_words
 from hurcules.recording import (
     CHANNELS,
     FORCE_CHANNELS,
@@ -58,6 +59,7 @@ def write(
     origin = recording.origin
     page = template.render(
         summary=summary,
+        reason=reason_words(summary["reason"]),
         origin=origin,
         names=_names(recording.log),
         events=[(e["time_s"] - origin, event_words(e["text"])) for e in summary["events"]],
@@ -162,19 +164,16 @@ def _plots(recording: Recording, summary: dict[str, Any]) -> list[dict[str, str]
 
 
 def _regions(log: dict[str, Any]) -> str:
-    """The largest force of the robot on each region of the body, and when."""
-    prefix = "casualty/force/"
-    found = [
-        (float(np.max(force)), name.removeprefix(prefix), log["time"][np.argmax(force)])
-        for name, force in log.items()
-        if name.startswith(prefix)
-    ]
-    told = [
-        f"{region_words(region)} {force:.0f} N at {time:.1f} s"
-        for force, region, time in sorted(found, reverse=True)
-        if force >= 1.0
-    ]
-    return f"Largest force of the robot on each region: {', '.join(told) or 'none'}."
+    """The largest force of the robot on each region of the body, contacts beside their limits."""
+    told = []
+    for region, (contact, carries) in plots.region_forces(log).items():
+        limit = contact_limit(region)
+        words = [f"contact {contact:.0f} N of {limit:.0f} N"] if contact >= 1.0 else []
+        words += [f"carries {carries:.0f} N"] if carries >= 1.0 else []
+        if words:
+            told.append((contact / limit, f"{region_words(region)} {', '.join(words)}"))
+    words = "; ".join(text for _, text in sorted(told, reverse=True))
+    return f"Largest force of the robot on each region: {words or 'none'}."
 
 
 _POSITIONS = (
@@ -200,7 +199,9 @@ _MONITORS = (
 _PERSON = (
     "What the robot does to the person. While more than 15 % of his weight is on the ground its "
     "forces are contacts, the worst over the limit of its region (dashed: 1; ISO/TS 15066); later "
-    "they carry him, which is judged by pressure. Acceleration includes gravity."
+    "they carry him: there is no limit of force for that, limits are of pressure, and no pressure is "
+    "computed here. Above 1200 N (dashed) the mission casualty stops, while it lays him down. "
+    "Acceleration includes gravity (dashed: 10 g)."
 )
 _LOAD = (
     "What is carried: how high, how far its handles are from the hands (a step is a slip), how "

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from hurcules._core import MonitorOptions
-from hurcules.legend import joint_words, level_words
+from hurcules.casualties import CARRIES, contact_limit
+from hurcules.legend import joint_words, level_words, region_words
 from hurcules.report.style import (
     ACCENT,
     GREY,
@@ -36,6 +37,7 @@ __all__ = [
     "of_model",
     "person",
     "quantities",
+    "region_forces",
     "solver_work",
     "task_errors",
     "tick_times",
@@ -163,7 +165,7 @@ def quantities(log: Log, events: Sequence[float]) -> str:
 # of the person: channel, title, and what it should stay below
 _PERSON = (
     ("contact_share", "contact force over its region's limit", 1.0),
-    ("support_n", "largest force that carries a region [N]", math.inf),
+    ("support_n", "largest force that carries a region [N]", 1200.0),  # of casualty.toml
     ("head_mps2", "acceleration of the head [m/s²]", 98.1),
 )
 _BEARERS = {
@@ -187,14 +189,42 @@ def person(log: Log, events: Sequence[float]) -> str:
     for (_, plot), (name, title, limit) in zip(drawn, _PERSON, strict=False):
         values = log[f"casualty/{name}"]
         plot.plot(*decimate(log["time"], values), color=INK, linewidth=0.9)
-        if limit <= 2.0 * float(np.max(values)):
-            plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
+        plot.axhline(limit, color=ACCENT, linewidth=1.0, linestyle=(0, (5, 2)))
         plot.set_title(title)
     _borne(drawn[-1][1], log, "casualty", _BEARERS, "share of his weight on")
     for _, plot in drawn:
         mark(plot, events)
         plot.set_xlabel("time [s]")
-    return side_by_side(drawn)
+    return side_by_side(drawn) + _regions(log)
+
+
+def region_forces(log: Log) -> dict[str, tuple[float, float]]:
+    """The largest force of the robot on each region [N]: as a contact, and as it carries him."""
+    lies = log["casualty/on_ground"] > CARRIES
+    forces = {name: log[f"casualty/force/{name}"] for name in _after(log, "casualty/force/")}
+    return {
+        region: (float(np.max(force[lies], initial=0.0)), float(np.max(force[~lies], initial=0.0)))
+        for region, force in forces.items()
+    }
+
+
+def _regions(log: Log) -> str:
+    """The same as bars, each contact beside its limit."""
+    forces = {name: two for name, two in region_forces(log).items() if max(two) >= 1.0}
+    if not forces:
+        return ""
+    figure, plot = axes(0.8 + 0.3 * len(forces))
+    at = np.arange(len(forces))
+    contact, carries = np.array(list(forces.values())).T
+    plot.barh(at - 0.2, contact, 0.36, color=INK, label="contact")
+    plot.barh(at + 0.2, carries, 0.36, color=GREY, label="carries him")
+    limits = np.array([contact_limit(name) for name in forces])
+    plot.vlines(limits, at - 0.42, at + 0.02, color=ACCENT, linewidth=2.0, label="limit of a contact")
+    plot.set_yticks(at, [region_words(name) for name in forces])
+    plot.invert_yaxis()
+    plot.set_xlabel("largest force of the robot [N]")
+    plot.legend()
+    return svg(figure)
 
 
 def load(log: Log, events: Sequence[float]) -> str:
