@@ -283,6 +283,8 @@ def _judge(
     console.print(f"  success        {result.success:.0%} ({result.low:.0%} to {result.high:.0%})")
     console.print(f"  steps          {result.mean_length:.0f}, mean")
     console.print(f"  falls          {result.falls:.0%}")
+    if result.failures:
+        console.print(f"  failed else    {result.failures:.0%}")
     console.print(f"  over a limit   {1e3 * result.limit_excess:.1f} mrad at most, measured")
     console.print(f"  self-contact   {result.self_contacts:.2%} of the steps")
     console.print(f"  {output.saved[0]}")

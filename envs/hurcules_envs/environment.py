@@ -97,9 +97,14 @@ class Numbers:
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
+        return self.endings == int(ending)
+
+    @property
+    def endings(self) -> NDArray[np.int64]:
+        """(n,) numbers of hurcules.Ending, of the simulations."""
         if not np.count_nonzero(self.finished):
-            return np.zeros(len(self.finished), dtype=bool)
-        return np.array([one == ending for one in self._endings()])
+            return np.zeros(len(self.finished), dtype=np.int64)
+        return np.array([int(one) for one in self._endings()], dtype=np.int64)
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""

@@ -45,6 +45,9 @@ _WATCHED = {
 }
 
 
+_COMPLETED, _MISSED = int(hurcules.Ending.Completed), int(hurcules.Ending.Missed)
+
+
 class Step(dict[str, NDArray[Any]]):
     """What a step gave, arrays over the episodes: observation, reward, terminated and info."""
 
@@ -188,17 +191,20 @@ class Episodes:
             require_names(f"{self._name}.reward", "term", terms, self.environment.terms)
         success = environment.succeeded(numbers)
         failure = environment.failed(numbers)
+        ended = environment.ended(numbers)
+        ending = np.where(failure, _MISSED, np.where(ended, _COMPLETED, 0))
         if np.count_nonzero(numbers.finished):
-            fallen = numbers.finished & ~numbers.ended_as(hurcules.Ending.Completed)
-            failure = failure | fallen
+            over = numbers.endings
+            fallen = numbers.finished & (over != _COMPLETED)
+            failure, ending = failure | fallen, np.where(fallen, over, ending)
         step = Step()
         step.observation = self._observe(numbers)
         step.reward = sum((terms[name] for name in self.environment.terms), np.zeros(self.n))
         if not math.isfinite(np.vdot(step.reward, step.reward)):
             for name, term in terms.items():
                 require_finite(f"{self._name}.reward: term '{name}'", term)
-        step.terminated = failure | environment.ended(numbers)
-        step.info = self._describe(values, numbers, terms, success, failure)
+        step.terminated = failure | ended
+        step.info = self._describe(values, numbers, terms, success, failure, ending)
         if remember is not None:
             self._asked = self.environment
         return step
@@ -392,6 +398,7 @@ class Episodes:
         terms: Mapping[str, Array],
         success: NDArray[np.bool_],
         failure: NDArray[np.bool_],
+        ending: NDArray[np.int64],
     ) -> dict[str, NDArray[Any]]:
         columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
         columns[np.isnan(columns)] = 0.0  # the margin of a robot that cannot tip
@@ -401,7 +408,8 @@ class Episodes:
         cost |= self._asked.costs(numbers)
         self._worst[:] = excess
         info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
-        info |= {"is_success": success, "failed": failure, "cost": cost.astype(np.float64)}
+        info |= {"is_success": success, "failed": failure, "ending": ending}
+        info["cost"] = cost.astype(np.float64)
         info |= watched
         info |= self.randomisation.info()
         own = {name: entry.copy() for name, entry in self._info.items()}

@@ -69,6 +69,7 @@ def test_the_expert_succeeds_and_the_terms_sum_to_the_reward(name: str) -> None:
             break
     assert info["is_success"]
     assert not info["failed"]
+    assert info["ending"] == int(hurcules.Ending.Completed)
     assert info["limit_excess"] < 0.01
     assert info["reward_success"] == 10.0
 
