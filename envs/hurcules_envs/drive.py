@@ -115,6 +115,7 @@ class Drive(Environment):
             drive=hurcules.DriveOptions(),
             torque_scaling=physics,
         )
+        self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
         if physics:
             model = hurcules.models.with_timestep(model, tick)

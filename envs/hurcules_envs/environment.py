@@ -138,6 +138,8 @@ class Environment(ABC):
         memory: by name how many numbers an episode remembers.
         parameters: entries of the memory that the model follows: masses, friction, stiffness. With
             any, each episode has a model of its own, see `configure`.
+        units: by action that of its numbers, one for all or one a component; "" or none: a number.
+        bearers: frames of the hands that `payload` is put into; none: it is refused.
         components: by action that is no channel the names of its numbers, see `command`.
         terms: of the reward, in the order in which they are added.
         goal: how many numbers a goal has; 0: no goal environment.
@@ -156,7 +158,9 @@ class Environment(ABC):
     quantities: tuple[str, ...] = ()
     memory: Mapping[str, int] = MappingProxyType({})
     parameters: tuple[str, ...] = ()
+    units: Mapping[str, str | Sequence[str]] = MappingProxyType({})
     components: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    bearers: tuple[str, ...] = ()
     goal: int = 0
     rate: float = 20.0
     _drawn: tuple[mujoco.MjModel, mujoco.MjData] | None = None

@@ -45,6 +45,8 @@ def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         env = gym.make(name, **FAST)
+        assert len(env.unwrapped.action_units) == len(env.unwrapped.action_names)
+        assert set(env.unwrapped.action_units) <= {"m/s", "rad/s", "N"}
         check_env(env.unwrapped, skip_render_check=True)
         env.close()
 
