@@ -194,7 +194,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
             "environment 'Hurcules/Fly-v0' does not exist; there are: Carry-v0, ",
         ),
         (["train", "Reach-v0", "--steps", "0"], "--steps: wanted 1 or more, or"),
-        (["evaluate", "Drive-v0", "--vary", "payload=3"], "--vary 'payload' does not exist; there"),
+        (["evaluate", "Drive-v0", "--vary", "weight=3"], "--vary 'weight' does not exist; there"),
         (["evaluate", "Drive-v0", "--vary", "mass=1,x"], "wanted mass=LEAST,MOST, got 'mass=1,x'"),
         (["train", "Drive-v0", "--vary", "mass"], "--vary: wanted mass=LEAST,MOST, got 'mass'"),
         (["evaluate", "Drive-v0", "--vary", "mass=2,1"], "mass: wanted a number or (least, most)"),
