@@ -212,6 +212,12 @@ def record(
         robot=robot, frames=frame or None, rate=rate, **_ranges(vary),
     )  # fmt: skip
     act: Any = _expert
+    if policy == "operator":
+        raise hurcules.Error(
+            "--policy: no operator sits here; who records a person gives a function that reads a "
+            "stick or keys to hurcules_envs.recording.record, "
+            "see docs/environments.md#recorded-by-a-person"
+        )
     if policy != "expert":
         network, kind = Policy(policy), "policy"
         source = sha256(network.path.read_bytes()).hexdigest()

@@ -453,7 +453,8 @@ class _Commands:
         self.names: list[str] = []
         self.units: list[str] = []
         scales = []
-        where, known = f"{type(environment).__name__}.units", [*environment.actions, *self._channels]
+        where = f"{type(environment).__name__}.units"
+        known = [*environment.actions, *self._channels]
         require_names(where, "action", environment.units, known, complete=False)
         for action, most in environment.actions.items():
             components, largest = environment.components.get(action), np.array(np.inf)

@@ -198,6 +198,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["evaluate", "Drive-v0", "--vary", "mass=1,x"], "wanted mass=LEAST,MOST, got 'mass=1,x'"),
         (["train", "Drive-v0", "--vary", "mass"], "--vary: wanted mass=LEAST,MOST, got 'mass'"),
         (["evaluate", "Drive-v0", "--vary", "mass=2,1"], "mass: wanted a number or (least, most)"),
+        (["record", "Reach-v0", "--policy", "operator"], "hurcules_envs.recording.record"),
         (["record", "Fly-v0"], "environment 'Hurcules/Fly-v0' does not exist"),
         (["record", "Reach-v0", "--episodes", "0"], "greater than or equal to 1, got '0'"),
         (["run", "--out", __file__], "test_cli.py: it is a file"),

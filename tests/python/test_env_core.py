@@ -19,6 +19,7 @@ from gymnasium.vector import AutoresetMode
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from environments import rows
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.registry import (
     fidelities_of,
@@ -411,6 +412,20 @@ BAD = [
 def test_a_bad_option_says_what_was_wanted(options, text):
     with pytest.raises(hurcules.Error, match=text):
         make_environment("hurcules_envs.reach:Reach", options)
+
+
+def test_only_ground_that_is_drawn_has_a_seed():
+    for terrain in ("flat", "ramps", "slope"):
+        with pytest.raises(hurcules.Error, match=f"terrain_seed: '{terrain}' is always the same"):
+            gym.make("Hurcules/Drive-v0", fidelity="fast", terrain=terrain, terrain_seed=1)
+
+
+def test_the_table_of_the_actions_of_drive_is_that_of_its_channels():
+    env = gym.make("Hurcules/Drive-v0", **FAST).unwrapped
+    table = rows(type(env.environment).__doc__)[0]
+    assert [row[1] for row in table] == env.action_names
+    assert [row[2] for row in table] == env.action_units
+    assert [float(row[3]) for row in table] == env.action_scale.tolist()
 
 
 def test_options_beside_those_of_the_class_are_listed_and_checked():

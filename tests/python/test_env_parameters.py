@@ -148,7 +148,7 @@ def test_parameters_that_nobody_writes_are_an_error(cart: str) -> None:
 
 
 class Ends(Cart):
-    """The load flies apart where it is heavy; a cart beyond 20 mm has failed, at 10 mm it is done."""
+    """Heavy loads fly apart; a cart beyond 20 mm has failed, at 10 mm it is done."""
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """A spring that pushes, of heavy loads."""
