@@ -17,6 +17,7 @@ import hurcules_envs  # noqa: F401  registers
 from hurcules_envs.contact import ContactEnvironment
 from hurcules_envs.environment import Environment, Numbers
 from hurcules_envs.episodes import Episodes
+from hurcules_envs.reach import Reach
 from hurcules_envs.registry import make_environment
 
 NAMES = ("Press", "Valve", "Door", "Carry", "Lift")
@@ -70,7 +71,7 @@ def main() -> None:
     for name in given.names:
         spec = gymnasium.spec(f"Hurcules/{name}-v0")
         environment = make_environment(spec.kwargs["environment"], {"fidelity": given.fidelity})
-        assert isinstance(environment, ContactEnvironment)
+        assert isinstance(environment, ContactEnvironment | Reach)
         policies: dict[str, Policy] = {"expert": environment.expert}
         if given.trivial:
             size = len(Episodes(environment, 1, 1).action_scale)

@@ -39,6 +39,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         simulation: the mission underneath.
         action_names: what each component of the action commands.
         action_scale: (k,) [m/s] or [rad/s], what 1 in the action means.
+        action_units: which of the two.
         observation_names: what each component of the observation is.
     """
 
@@ -71,6 +72,9 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         self.simulation = hurcules.Simulation(self.mission, variation=variation, record=False)
         self.action_names = list(self.simulation.command_names)
         self.action_scale = np.array(self.simulation.command_scale)
+        # of the mission's commands all that turn are pitch and gaze
+        turns = ["pitch" in name or "gaze" in name for name in self.action_names]
+        self.action_units = ["rad/s" if turn else "m/s" for turn in turns]
         self.observation_names = list(self.simulation.observation_names)
         shape = self.action_scale.shape
         self.action_space = spaces.Box(-1.0, 1.0, shape, dtype=np.float32)

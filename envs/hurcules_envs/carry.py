@@ -188,6 +188,7 @@ class Carry(ContactEnvironment):
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         most = MOST * self._share
+        self.units = {"box": ("m/s",) * 3 + ("rad/s",) * 3, "squeeze": "N"}
         self.actions = {"box": np.array([0.15] * 3 + [0.3] * 3), "squeeze": most}
         self._box = model.joint("box").qposadr[0]
         self._scratch = mujoco.MjData(model)

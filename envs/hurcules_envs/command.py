@@ -212,6 +212,12 @@ def record(
         robot=robot, frames=frame or None, rate=rate, **_ranges(vary),
     )  # fmt: skip
     act: Any = _expert
+    if policy == "operator":
+        raise hurcules.Error(
+            "--policy: no operator sits here; who records a person gives a function that reads a "
+            "stick or keys to hurcules_envs.recording.record, "
+            "see docs/environments.md#recorded-by-a-person"
+        )
     if policy != "expert":
         network, kind = Policy(policy), "policy"
         source = sha256(network.path.read_bytes()).hexdigest()
@@ -283,6 +289,8 @@ def _judge(
     console.print(f"  success        {result.success:.0%} ({result.low:.0%} to {result.high:.0%})")
     console.print(f"  steps          {result.mean_length:.0f}, mean")
     console.print(f"  falls          {result.falls:.0%}")
+    if result.failures:
+        console.print(f"  failed else    {result.failures:.0%}")
     console.print(f"  over a limit   {1e3 * result.limit_excess:.1f} mrad at most, measured")
     console.print(f"  self-contact   {result.self_contacts:.2%} of the steps")
     console.print(f"  {output.saved[0]}")

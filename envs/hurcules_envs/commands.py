@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import mujoco
 import numpy as np
 
 import hurcules
@@ -20,11 +21,12 @@ _SCALES: Mapping[str, tuple[float, float]] = {
     "delta": (0.05, 0.2),
     "pose": (2.0, 3.2),
 }
+_UNITS = {"twist": ("m/s", "rad/s"), "delta": ("m", "rad"), "pose": ("m", "rad")}
 LEAD = (0.10, 0.4)  # [m], [rad] the reference goes ahead of the hand at most
 
 
-def channel_of(action: str, task: hurcules.Task, *, turns: bool = False) -> tuple[Any, float]:
-    """A channel that moves a task, and its scale.
+def channel_of(action: str, task: hurcules.Task, *, turns: bool = False) -> tuple[Any, float, str]:
+    """A channel that moves a task, its scale and its unit.
 
     Args:
         action: "twist" moves the reference at a velocity, "delta" puts it beside the measured
@@ -36,20 +38,25 @@ def channel_of(action: str, task: hurcules.Task, *, turns: bool = False) -> tupl
         hurcules.Error: another action.
     """
     require_known("action", action, ACTIONS)
-    scale = _SCALES[action][int(turns)]
+    scale, unit = _SCALES[action][int(turns)], _UNITS[action][int(turns)]
     if action == "twist":
         if isinstance(task, hurcules.ValueTask):
             task.max_lead = LEAD[int(turns)]
-        return hurcules.Twist(task, scale), scale
+        return hurcules.Twist(task, scale), scale, unit
     if action == "delta":
-        return hurcules.Delta(task, scale), scale
-    return hurcules.Target(task, scale), scale
+        return hurcules.Delta(task, scale), scale, unit
+    return hurcules.Target(task, scale), scale, unit
 
 
-def joint_channel(posture: hurcules.PostureTask, robot: hurcules.Robot) -> tuple[Any, Any]:
-    """A channel that moves all coordinates by velocities, and its scales (n,) [rad/s].
+def joint_channel(
+    posture: hurcules.PostureTask, robot: hurcules.Robot, model: mujoco.MjModel
+) -> tuple[Any, Any, Any]:
+    """A channel that moves all coordinates by velocities, its scales (n,) and units (n).
 
     The scales are the coordinates' limits of velocity, at most 1.
     """
     scale = np.array([min(one.max_velocity, 1.0) for one in robot.coordinates])
-    return hurcules.Twist(posture, scale), scale
+    slide = mujoco.mjtJoint.mjJNT_SLIDE
+    kinds = [model.jnt_type[one.joints[0].joint] for one in robot.coordinates]
+    units = ["m/s" if kind == slide else "rad/s" for kind in kinds]
+    return hurcules.Twist(posture, scale), scale, units

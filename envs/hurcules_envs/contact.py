@@ -85,7 +85,8 @@ class ContactEnvironment(Environment):
         """
         tick = contact_tick(fidelity, rate)
         self.sparse, self.rate, self.action = sparse, rate, action
-        self._build(self.compiled(tick), tick)
+        self._model = self.compiled(tick)
+        self._build(self._model, tick)
 
     @abstractmethod
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
@@ -112,14 +113,16 @@ class ContactEnvironment(Environment):
         require_known("action", self.action, ("twist", "joint"))
         if self.action == "joint":
             joints = hurcules.PostureTask("joints", plan)
-            channel, scale = joint_channel(joints, plan)
+            channel, scale, units = joint_channel(joints, plan, self._model)
             limits = [level for level in levels if isinstance(level, hurcules.JointLimits)]
             levels = [*limits, joints, *(level for level in levels if level not in limits)]
             channels = {"joints": channel} | {name: channels[name] for name in self.beside}
-            self._command_joints(scale)
+            self._command_joints(scale, units)
         return hurcules.WholeBodyController(plan, levels, dict(channels), **options)
 
-    def _command_joints(self, scale: Array) -> None:
+    def _command_joints(self, scale: Array, units: Sequence[str]) -> None:
+        kept = {name: unit for name, unit in self.units.items() if name in self.beside}
+        self.units = {"joints": units, **kept}
         self.actions, self.components = {"joints": scale, **self.beside}, {}
         if "q" not in self.quantities:
             seen = [group for group in self.observation if group.name != "lead"]

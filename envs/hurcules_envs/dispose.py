@@ -133,6 +133,10 @@ class Dispose(MissionEnvironment):
     )  # fmt: skip
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        self.units = {
+            "tracks": ("m/s", "rad/s"), "hands": "m/s", "turn": "rad/s", "squeeze": "m/s",
+            **dict.fromkeys(LED, "rad/s"),
+        }  # fmt: skip
         self.actions = {
             "tracks": np.array(TRACKS), "hands": HANDS, "turn": TURN, "squeeze": SQUEEZE,
             **dict.fromkeys(LED, JOINTS), "phase": 1.0,

@@ -95,6 +95,7 @@ class Door(ContactEnvironment):
     )  # fmt: skip
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        self.units = {"across": "m/s", "down": "m/s", "force": "N"}
         self.actions = {"across": 0.2, "down": 0.2, "force": MOST}
         plan = place_hands(model, {"R": np.array(HAND)}, {"R_grip_1": CLOSED, "R_grip_2": CLOSED})
         self.simulation = self._loop(model, settle(self._loop(model, plan, tick)), tick)

@@ -17,7 +17,8 @@ from hurcules_envs.rotations import quaternion
 
 __all__ = ["Drive"]
 
-TERRAINS = ("flat", "rough_road", "ramps", "step_field", "gravel", "sand", "slope")
+DRAWN = ("rough_road", "step_field", "gravel", "sand")  # by a seed
+TERRAINS = ("flat", "ramps", "slope", *DRAWN)
 SPEED, YAW_RATE, LEGS = 1.5, 1.0, 0.3  # [m/s], [rad/s], [rad/s] full scale
 FAR = (2.0, 6.0)  # [m] of the goal
 WIDE = 0.5  # [m] beside the lane on terrain
@@ -39,11 +40,11 @@ class Drive(Environment):
 
     Action: Box(-1, 1, (3,), float32). Zero stands still.
 
-    | index | name     | unit  | scale | what it commands                                  |
-    |-------|----------|-------|-------|---------------------------------------------------|
-    | 0     | drive_0  | m/s   | 1.5   | speed along the heading                           |
-    | 1     | drive_1  | rad/s | 1.0   | yaw rate, > 0 to the left                         |
-    | 2     | legs     | rad/s | 0.3   | both knees: > 0 lifts the body on its lower legs  |
+    | index | name           | unit  | scale | what it commands                                 |
+    |-------|----------------|-------|-------|--------------------------------------------------|
+    | 0     | drive_speed    | m/s   | 1.5   | speed along the heading                          |
+    | 1     | drive_yaw_rate | rad/s | 1.0   | yaw rate, > 0 to the left                        |
+    | 2     | legs           | rad/s | 0.3   | both knees: > 0 lifts the body on its lower legs |
 
     Observation: Dict of `observation` (15,), `achieved_goal` and `desired_goal` (4,): x, y [m],
     cosine and sine of the heading.
@@ -82,8 +83,8 @@ class Drive(Environment):
 
         Args:
             fidelity: "exact", "fast", or on flat ground "kinematic".
-            terrain: "flat", "rough_road", "ramps", "step_field", "gravel", "sand", "slope".
-            terrain_seed: of terrain that is drawn.
+            terrain: "flat", "ramps", "slope", "rough_road", "step_field", "gravel", "sand".
+            terrain_seed: of one of the last four, which are drawn; the others are as they are.
             sparse: reward of success and fall only.
             rate: steps a second [Hz].
 
@@ -93,6 +94,11 @@ class Drive(Environment):
         require_known("terrain", terrain, TERRAINS)
         if fidelity == "kinematic" and terrain != "flat":
             raise hurcules.Error(f"fidelity: without physics the ground is flat, not {terrain}")
+        if terrain not in DRAWN and terrain_seed != 0:
+            raise hurcules.Error(
+                f"terrain_seed: '{terrain}' is always the same; wanted none, got {terrain_seed!r}, "
+                f"or one of the terrains that are drawn: {', '.join(DRAWN)}"
+            )
         self.terrain, self.terrain_seed = terrain, terrain_seed
         self.sparse, self.rate = sparse, rate
         tick, physics = tick_of(fidelity, rate), fidelity != "kinematic"
@@ -115,6 +121,7 @@ class Drive(Environment):
             drive=hurcules.DriveOptions(),
             torque_scaling=physics,
         )
+        self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
         if physics:
             model = hurcules.models.with_timestep(model, tick)

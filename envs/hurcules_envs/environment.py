@@ -97,9 +97,14 @@ class Numbers:
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
+        return self.endings == int(ending)
+
+    @property
+    def endings(self) -> NDArray[np.int64]:
+        """(n,) numbers of hurcules.Ending, of the simulations."""
         if not np.count_nonzero(self.finished):
-            return np.zeros(len(self.finished), dtype=bool)
-        return np.array([one == ending for one in self._endings()])
+            return np.zeros(len(self.finished), dtype=np.int64)
+        return np.array([int(one) for one in self._endings()], dtype=np.int64)
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""
@@ -133,6 +138,8 @@ class Environment(ABC):
         memory: by name how many numbers an episode remembers.
         parameters: entries of the memory that the model follows: masses, friction, stiffness. With
             any, each episode has a model of its own, see `configure`.
+        units: by action that of its numbers, one for all or one a component; "" or none: a number.
+        bearers: frames of the hands that `payload` is put into; none: it is refused.
         components: by action that is no channel the names of its numbers, see `command`.
         terms: of the reward, in the order in which they are added.
         goal: how many numbers a goal has; 0: no goal environment.
@@ -151,7 +158,9 @@ class Environment(ABC):
     quantities: tuple[str, ...] = ()
     memory: Mapping[str, int] = MappingProxyType({})
     parameters: tuple[str, ...] = ()
+    units: Mapping[str, str | Sequence[str]] = MappingProxyType({})
     components: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    bearers: tuple[str, ...] = ()
     goal: int = 0
     rate: float = 20.0
     _drawn: tuple[mujoco.MjModel, mujoco.MjData] | None = None

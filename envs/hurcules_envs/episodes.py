@@ -45,6 +45,10 @@ _WATCHED = {
 }
 
 
+EXCESS = 5e-3  # [rad, of slides m] that servos may pass a limit by before it counts as a cost
+_COMPLETED, _MISSED = int(hurcules.Ending.Completed), int(hurcules.Ending.Missed)
+
+
 class Step(dict[str, NDArray[Any]]):
     """What a step gave, arrays over the episodes: observation, reward, terminated and info."""
 
@@ -63,6 +67,7 @@ class Episodes:
         generators: one each, for what differs between episodes.
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 means [SI].
+        action_units: their units, "m/s" say; "" for a mere number.
         memory: by name what each remembers, (n, size).
         randomisation: what differs between them beside the task.
         single_action_space: Box(-1, 1, (k,), float32).
@@ -117,6 +122,7 @@ class Episodes:
         self._values: Array | None = None  # what is read now; None: nobody has
         self._commands = _Commands(environment)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
+        self.action_units = self._commands.units
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
         self._terms = set(environment.terms)
@@ -188,24 +194,28 @@ class Episodes:
             require_names(f"{self._name}.reward", "term", terms, self.environment.terms)
         success = environment.succeeded(numbers)
         failure = environment.failed(numbers)
+        ended = environment.ended(numbers)
+        ending = np.where(failure, _MISSED, np.where(ended, _COMPLETED, 0))
         if np.count_nonzero(numbers.finished):
-            fallen = numbers.finished & ~numbers.ended_as(hurcules.Ending.Completed)
-            failure = failure | fallen
+            over = numbers.endings
+            fallen = numbers.finished & (over != _COMPLETED)
+            failure, ending = failure | fallen, np.where(fallen, over, ending)
         step = Step()
         step.observation = self._observe(numbers)
         step.reward = sum((terms[name] for name in self.environment.terms), np.zeros(self.n))
         if not math.isfinite(np.vdot(step.reward, step.reward)):
             for name, term in terms.items():
                 require_finite(f"{self._name}.reward: term '{name}'", term)
-        step.terminated = failure | environment.ended(numbers)
-        step.info = self._describe(values, numbers, terms, success, failure)
+        step.terminated = failure | ended
+        step.info = self._describe(values, numbers, terms, success, failure, ending)
         if remember is not None:
             self._asked = self.environment
         return step
 
     def state(self) -> Array:
         """(n, s) everything that decides how the episodes go on."""
-        parts = [self.batch.state(), self._action, self._worst[:, None]]
+        rate = np.full((self.n, 1), self.environment.rate)
+        parts = [rate, self.batch.state(), self._action, self._worst[:, None]]
         parts += [np.stack([generator_numbers(one) for one in self.generators])]
         parts += [self.randomisation.state(self._action.shape[1])]
         parts += [self.memory[name] for name in self.memory]
@@ -225,13 +235,19 @@ class Episodes:
         seen = self._read().copy()
         rest += seen.shape[1]
         own = self.batch.state().shape[1]
-        values = state_of(state, (self.n, own + rest))
+        values = state_of(state, (self.n, 1 + own + rest))
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
+        rates, values = values[chosen, 0], values[:, 1:]
         place = own + self._action.shape[1] + 1
         generators = {
             int(i): generator_state(values[i, place : place + GENERATOR])
             for i in np.flatnonzero(chosen)
         }
+        if (other := rates != self.environment.rate).any():
+            raise hurcules.Error(
+                f"state: wanted one of rate={self.environment.rate:g} Hz, "
+                f"got one of {rates[other][0]:g} Hz"
+            )
         self.batch.restore(values[:, :own], chosen.tolist())
         for episode, numbers in generators.items():
             self.generators[episode].bit_generator.state = numbers
@@ -392,16 +408,18 @@ class Episodes:
         terms: Mapping[str, Array],
         success: NDArray[np.bool_],
         failure: NDArray[np.bool_],
+        ending: NDArray[np.int64],
     ) -> dict[str, NDArray[Any]]:
         columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
         columns[np.isnan(columns)] = 0.0  # the margin of a robot that cannot tip
         watched = dict(zip(_WATCHED.values(), columns, strict=True))
         excess = watched["limit_excess"]
-        cost = (excess > self._worst + 1e-12) | (watched["self_contacts"] > 0.0)
+        cost = (excess > np.maximum(self._worst, EXCESS)) | (watched["self_contacts"] > 0.0)
         cost |= self._asked.costs(numbers)
         self._worst[:] = excess
         info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
-        info |= {"is_success": success, "failed": failure, "cost": cost.astype(np.float64)}
+        info |= {"is_success": success, "failed": failure, "ending": ending}
+        info["cost"] = cost.astype(np.float64)
         info |= watched
         info |= self.randomisation.info()
         own = {name: entry.copy() for name, entry in self._info.items()}
@@ -433,7 +451,11 @@ class _Commands:
         self._size = place
         self._parts: dict[str, slice] = {}
         self.names: list[str] = []
+        self.units: list[str] = []
         scales = []
+        where = f"{type(environment).__name__}.units"
+        known = [*environment.actions, *self._channels]
+        require_names(where, "action", environment.units, known, complete=False)
         for action, most in environment.actions.items():
             components, largest = environment.components.get(action), np.array(np.inf)
             if components is None:
@@ -450,7 +472,14 @@ class _Commands:
                     f"action '{action}': its scale is larger than that of its channel"
                 )
             self._parts[action] = slice(len(self.names), len(self.names) + len(components))
+            unit = environment.units.get(action, "")
+            units = [unit] * len(components) if isinstance(unit, str) else [*unit]
+            if len(units) != len(components):
+                raise hurcules.Error(
+                    f"{where}: '{action}' has {len(components)} numbers, got {len(units)} units"
+                )
             self.names += components
+            self.units += units
             scales.append(np.broadcast_to(most, len(components)))
         self.scale = np.concatenate(scales).astype(np.float64)
 
@@ -497,7 +526,7 @@ def numbers_of(what: str, values: object) -> Array:
     """
     try:
         array = np.asarray(values)
-        if array.dtype.kind in "fiub":
+        if array.dtype.kind in "fiu":
             return array.astype(np.float64)
     except (TypeError, ValueError):  # ragged lists and the like
         pass

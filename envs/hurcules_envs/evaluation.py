@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+import hurcules
 from hurcules.shares import wilson
 from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
@@ -32,6 +33,7 @@ class Evaluation:
         mean_return: sum of rewards, mean.
         mean_length: steps, mean.
         falls: share that ended by a fall.
+        failures: share that failed otherwise, of the task say, see `ending` in info.
         limit_excess: worst, measured [rad].
         self_contacts: share of steps in which the robot touched itself.
         mean_cost: sum of `cost` in info, mean.
@@ -44,6 +46,7 @@ class Evaluation:
     mean_return: float
     mean_length: float
     falls: float
+    failures: float
     limit_excess: float
     self_contacts: float
     mean_cost: float
@@ -79,7 +82,7 @@ def evaluate(
         act.check(environment, eyes.observation_space, batch.single_action_space)
     seen = batch.look(remember=None)
     running = np.ones(episodes, dtype=bool)
-    success, fell = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
+    success, fell, failed = (np.zeros(episodes, dtype=bool) for _ in range(3))
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess, cost = 0.0, 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
@@ -95,7 +98,8 @@ def evaluate(
             cost += float(info["cost"][running].sum())
             excess = max(excess, float(info["limit_excess"][running].max()))
             success[running] = info["is_success"][running]
-            fell[running] = info["failed"][running]
+            failed[running] = info["failed"][running]
+            fell[running] = info["ending"][running] == int(hurcules.Ending.Fell)
             running &= ~seen.terminated
             if not running.any():
                 break
@@ -108,6 +112,7 @@ def evaluate(
         mean_return=float(returns.mean()),
         mean_length=float(lengths.mean()),
         falls=float(fell.mean()),
+        failures=float((failed & ~fell).mean()),
         limit_excess=excess,
         self_contacts=touching / float(lengths.sum()),
         mean_cost=cost / episodes,

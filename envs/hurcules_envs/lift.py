@@ -107,6 +107,10 @@ class Lift(ContactEnvironment):
     )  # fmt: skip
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        tracks = ("m/s", "rad/s")
+        self.units = {
+            "hands": "m/s", "pitch": "rad/s", "press": "N", "tracks": tracks, "drive": tracks,
+        }  # fmt: skip
         self.actions = {
             "hands": SPEED, "pitch": PITCH_RATE, "press": MOST,
             "tracks": np.array([SPEED, YAW_RATE]),

@@ -107,6 +107,7 @@ class Press(ContactEnvironment):
     )  # fmt: skip
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        self.units = {"slide": "m/s", "down": "m/s", "force": "N"}
         self.actions = {"slide": 0.1, "down": 0.1, "force": MOST}
         robot = hurcules.Robot(model)
         robot.set_keyframe("stretch")

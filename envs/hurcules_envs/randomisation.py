@@ -8,9 +8,10 @@
 | `observation_noise` |       | 0       | half width of a uniform error of each number seen        |
 | `action_delay`      | steps | 0       | an action takes effect so many steps of the policy later |
 | `push`              | N     | 0       | on its heaviest moving part, 0.2 s every 2 s, level      |
+| `payload`           | kg    | 0       | in its hands together, as much in each; Reach alone      |
 
-The noise counts in 1 m, 1 rad, 1 m/s, 1 rad/s, 1000 N and 100 kg. The first three are written into
-the model of an episode, of which its controller knows nothing.
+The noise counts in 1 m, 1 rad, 1 m/s, 1 rad/s, 1000 N and 100 kg. The first three and the payload
+are written into the model of an episode, of which its controller knows nothing.
 
 Values are drawn uniformly from ranges by a generator of their own, so that an episode starts where
 it would without them. Errors and pushes are functions of a number drawn once and of the count of
@@ -40,10 +41,11 @@ _KNOWN: Mapping[str, tuple[float, float, float]] = {
     "observation_noise": (0.0, 0.0, 10.0),
     "action_delay": (0.0, 0.0, 5.0),
     "push": (0.0, 0.0, 1e4),
+    "payload": (0.0, 0.0, 100.0),
 }
 NAMES = tuple(_KNOWN)
 _TOLD = tuple(f"drawn_{name}" for name in NAMES)  # in info
-IN_MODEL = NAMES[:3]
+IN_MODEL = (*NAMES[:3], "payload")
 PHYSICAL = (*IN_MODEL, "push")
 DELAY = int(_KNOWN["action_delay"][2])  # steps at most
 PUSH_EVERY, PUSH_FOR = 2.0, 0.2  # [s]
@@ -151,7 +153,13 @@ class Randomisation:
 
     def set_ranges(self, given: Mapping[str, Any]) -> None:
         """Other ranges from the next episode on; names that are not given keep theirs."""
-        self.ranges |= ranges_of(given, physics=self._simulation.physics)
+        ranges = ranges_of(given, physics=self._simulation.physics)
+        if ranges.get("payload", (0.0, 0.0)) != (0.0, 0.0) and not self._environment.bearers:
+            raise hurcules.Error(
+                f"payload: the hands of {type(self._environment).__name__} bear none; "
+                "Reach and its twins take it"
+            )
+        self.ranges |= ranges
 
     def draw(self, i: int, seed: int) -> None:
         """Values of a new episode."""
@@ -182,16 +190,16 @@ class Randomisation:
             return
         self._varied[i] = False
         own = self._simulation.model
-        for name in self._fields:
+        for name in (*self._fields, *_SAME):
             getattr(model, name)[:] = getattr(own, name)
         for name in _STATISTICS:
             setattr(model.stat, name, getattr(own.stat, name))
 
     def vary_model(self, i: int, model: mujoco.MjModel) -> None:
         """Writes the values of an episode into its model."""
-        friction, mass, strength = (self.drawn[name][i] for name in IN_MODEL)
+        friction, mass, strength, payload = (self.drawn[name][i] for name in IN_MODEL)
         own = bool(self._environment.parameters)  # that `configure` wrote
-        self._varied[i] = own or (friction, mass, strength) != (1.0, 1.0, 1.0)
+        self._varied[i] = own or (friction, mass, strength, payload) != (1.0, 1.0, 1.0, 0.0)
         if friction != 1.0:
             model.geom_friction[:, 0] *= friction
             model.pair_friction[:, :2] *= friction
@@ -202,6 +210,11 @@ class Randomisation:
         if mass != 1.0:
             model.body_mass[self._robot] *= mass
             model.body_inertia[self._robot] *= mass
+        bearers = self._environment.bearers
+        if payload != 0.0:
+            for bearer in bearers:
+                _load(model, bearer, payload / len(bearers))
+        if mass != 1.0 or payload != 0.0:
             if self._scratch is None:
                 self._scratch = mujoco.MjData(model)
             mujoco.mj_setConst(model, self._scratch)
@@ -304,8 +317,31 @@ class Ranged:
     observation_noise = _Range()
     action_delay = _Range()
     push = _Range()
+    payload = _Range()
 
 
+def _load(model: mujoco.MjModel, frame: str, mass: float) -> None:
+    """A point of this mass [kg] at a frame, a site or a body, as a part of its body."""
+    site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, frame)
+    body = int(model.site_bodyid[site]) if site >= 0 else int(model.body(frame).id)
+    place = model.site_pos[site] if site >= 0 else np.zeros(3)
+    axes = np.zeros(9)
+    mujoco.mju_quat2Mat(axes, model.body_iquat[body])
+    R = axes.reshape(3, 3).copy()
+    before, way = float(model.body_mass[body]), place - model.body_ipos[body]
+    reduced = mass * before / (mass + before)
+    inertia = R @ np.diag(model.body_inertia[body]) @ R.T
+    inertia += reduced * (way @ way * np.eye(3) - np.outer(way, way))
+    model.body_ipos[body] += mass / (mass + before) * way
+    mujoco.mju_eig3(model.body_inertia[body], axes, model.body_iquat[body], inertia.ravel())
+    model.body_mass[body] = mass + before
+    # its centre of mass is no longer where one of its frames was
+    model.body_sameframe[body] = 0
+    model.geom_sameframe[model.geom_bodyid == body] = 0
+    model.site_sameframe[model.site_bodyid == body] = 0
+
+
+_SAME = ("body_sameframe", "geom_sameframe", "site_sameframe")
 _STATISTICS = ("meaninertia", "meanmass", "meansize", "extent")
 # large, and no matter of physics or never written
 _SHAPES = ("mesh_", "hfield_", "tex_", "skin_", "flex", "mat_", "key_")

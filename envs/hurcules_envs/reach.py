@@ -15,7 +15,7 @@ from hurcules_envs.commands import channel_of, joint_channel
 from hurcules_envs.drawing import add_ball
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.robots import MAX_ACCELERATION, load_robot, sample_postures
-from hurcules_envs.rotations import angle_between, quaternion
+from hurcules_envs.rotations import angle_between, quaternion, turn_between
 from hurcules_envs.springs import softest_spring
 
 __all__ = ["Reach", "ReachPrecise"]
@@ -26,6 +26,7 @@ NEAR = 0.1  # [m] over which nearness grows
 EFFORT = 0.1
 STIFF = 60.0  # [rad/s] a spring of a higher frequency is not felt at the policy's rate
 TURN = 0.3  # [m/rad] what an angle counts in the reward
+GAIN = 3.0  # [1/s] of the expert
 TILT = 0.35  # [rad] of what it stands on: it falls
 
 
@@ -100,7 +101,7 @@ class Reach(Environment):
             if not (isinstance(value, Real) and 0.0 < value < np.inf):
                 raise hurcules.Error(f"{name}: wanted a number > 0, got {value!r}")
         self.setup = load_robot(robot, frames, joints)
-        self.postures = sample_postures(self.setup)
+        self.postures, self.bearers = sample_postures(self.setup), self.setup.hands
         self.tolerance, self.angle, self.sparse, self.rate = tolerance, angle, sparse, rate
         self._names = [f"hand_{i}" for i in range(len(self.setup.hands))]
         self._build(fidelity, action, tick_of(fidelity, rate), safe)
@@ -201,9 +202,17 @@ class Reach(Environment):
         return numbers["done"][:, 0] > 0.0
 
     def expert(self, numbers: Numbers) -> Array:
-        """Actions (n, k) that lead each hand straight to its goal; for "twist" without angles."""
-        achieved, desired = self.goals(numbers)
-        return np.clip(3.0 * (desired - achieved) / 0.3, -1.0, 1.0)
+        """Actions (n, k) that lead each hand straight to its goal, for "twist"."""
+        now, goal = (one.reshape(len(one), -1, self._size) for one in self.goals(numbers))
+        parts = [(goal[..., :3] - now[..., :3]) / 0.3]
+        if self.angle is not None:
+            parts.append(turn_between(now[..., 3:], goal[..., 3:]) / 0.6)
+        action = np.concatenate([part.reshape(len(part), -1) for part in parts], axis=1)
+        action *= GAIN
+        if self.angle is None:
+            return np.clip(action, -1.0, 1.0)
+        # place and turn of both hands arrive together
+        return action / np.maximum(np.abs(action).max(axis=1, keepdims=True), 1.0)
 
     def visual_model(self) -> mujoco.MjModel:
         """The robot with its surfaces."""
@@ -237,7 +246,7 @@ class Reach(Environment):
         ]
         posture = hurcules.PostureTask("posture", plan)
         if action == "joint":
-            channels = {"joints": joint_channel(posture, plan)}
+            channels = {"joints": joint_channel(posture, plan, setup.model)}
             levels = [*first, posture, hands]
         else:
             channels = {hand.name: channel_of(action, hand) for hand in hands}
@@ -249,11 +258,12 @@ class Reach(Environment):
                 ]
                 channels |= {turn.name: channel_of(action, turn, turns=True) for turn in turns}
                 levels.insert(-1, turns)
-        self.actions = {name: scale for name, (_, scale) in channels.items()}
+        self.actions = {name: scale for name, (_, scale, _) in channels.items()}
+        self.units = {name: unit for name, (*_, unit) in channels.items()}
         controller = hurcules.WholeBodyController(
             plan,
             levels,
-            {name: channel for name, (channel, _) in channels.items()},
+            {name: channel for name, (channel, *_) in channels.items()},
             dt=tick,
             support=setup.support,
             velocity=hurcules.VelocityControllerOptions(max_acceleration=MAX_ACCELERATION),

@@ -115,6 +115,10 @@ class Rescue(MissionEnvironment):
     )  # fmt: skip
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        self.units = {
+            "tracks": ("m/s", "rad/s"), "hands": "m/s", "pitch": "rad/s", "press": "m/s",
+            "lean": "rad/s", "shoulders": "rad/s", "elbows": "rad/s",
+        }  # fmt: skip
         self.actions = {
             "tracks": np.array(TRACKS), "hands": HANDS, "pitch": PITCH, "press": PRESS,
             "lean": JOINTS, "shoulders": JOINTS, "elbows": JOINTS, "phase": 1.0,

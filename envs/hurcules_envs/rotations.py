@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["angle_between", "quaternion", "rotation_vector"]
+__all__ = ["angle_between", "quaternion", "rotation_vector", "turn_between"]
 
 Array = NDArray[np.float64]
 
@@ -23,6 +23,18 @@ def angle_between(one: Array, other: Array) -> Array:
     product = np.abs(np.einsum("...i,...i->...", one, other))
     lengths = np.linalg.norm(one, axis=-1) * np.linalg.norm(other, axis=-1)
     return 2.0 * np.arccos(np.clip(product / np.maximum(lengths, 1e-12), 0.0, 1.0))
+
+
+def turn_between(one: Array, other: Array) -> Array:
+    """(..., 3) [rad] rotation vector, in the world, that turns quaternion one (..., 4) to other."""
+    w, v = one[..., :1], one[..., 1:]
+    W, V = other[..., :1], other[..., 1:]
+    cosine = w * W + np.einsum("...i,...i->...", v, V)[..., None]
+    sine = w * V - W * v - np.cross(V, v)
+    sine = np.where(cosine < 0.0, -sine, sine)  # the short way round
+    length = np.linalg.norm(sine, axis=-1, keepdims=True)
+    angle = 2.0 * np.arctan2(length, np.abs(cosine))
+    return np.asarray(np.where(length > 1e-9, angle / np.maximum(length, 1e-9), 2.0) * sine)
 
 
 def rotation_vector(R: Array) -> Array:

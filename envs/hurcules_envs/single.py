@@ -10,7 +10,7 @@ from typing import Any
 import gymnasium
 import mujoco
 import numpy as np
-from gymnasium.error import ResetNeeded
+from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from numpy.typing import NDArray
 
 import hurcules
@@ -40,6 +40,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         environment: what it is an episode of.
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 in the action means [SI].
+        action_units: their units, "m/s" say; "" for a mere number.
         task_description: one sentence.
         compute_reward: of a goal environment alone, (achieved, desired, info): the reward of other
             goals, any leading axes. Stable-Baselines3 takes who has it for one.
@@ -89,13 +90,14 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self.metadata = self.metadata | {"render_fps": round(1.0 / self._episodes.period)}
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
+        self.action_units = self._episodes.action_units
         self.action_space = self._episodes.single_action_space
         self._eyes = Eyes(self._episodes, cameras, camera_size)
         self.observation_space = self._eyes.observation_space
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
             self.compute_reward = self.environment.compute_reward
-        self._begun = False
+        self._begun = self._closed = False
         self._steps = 0  # of the episode, none once it terminated
         self._viewer: Any = None
         self._window = ExitStack()  # waits for the viewer's thread
@@ -155,8 +157,10 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
                 this episode and those after it.
 
         Raises:
+            gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
             hurcules.Error: an option that does not exist, or a range that is none.
         """
+        self._require_open("reset")
         super().reset(seed=seed)
         # a limit is Gymnasium's, and is not told: what was cut after so many steps shows it
         warn_of_rate(self.spec, self.environment.rate, self._steps)
@@ -240,6 +244,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._window.close()
         self._eyes.close()
         self._viewer = None
+        self._closed = True
 
     def _went_on(self) -> dict[str, Any]:
         there: dict[str, Any] = {"ranges": dict(self._episodes.randomisation.ranges)}
@@ -253,7 +258,12 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
             self.set_state(there["state"])
             self._steps = there["steps"]
 
+    def _require_open(self, call: str) -> None:
+        if self._closed:
+            raise ClosedEnvironmentError(f"{call}() of an environment that was closed")
+
     def _require_begun(self, call: str) -> None:
+        self._require_open(call)
         if not self._begun:
             raise ResetNeeded(f"no episode has begun: call reset() before {call}()")
 

@@ -126,6 +126,10 @@ class Stretch(Environment):
         """
         tick = tick_of(fidelity, rate)
         self.sparse, self.rate = sparse, rate
+        self.units = {
+            "left": "m/s", "right": "m/s", "left_pitch": "rad/s", "right_pitch": "rad/s",
+            "pelvis": "m/s", "gaze": "rad/s",
+        }  # fmt: skip
         self.actions = {
             "left": SPEED, "right": SPEED, "left_pitch": PITCH, "right_pitch": PITCH,
             "pelvis": SPEED, "gaze": GAZE,

@@ -94,6 +94,7 @@ class Valve(ContactEnvironment):
     )  # fmt: skip
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
+        self.units = {"hand": "m/s", "grip": "m/s"}
         self.actions = {"hand": 0.2, "grip": 0.05}
         self._geoms = [
             i for i in range(model.ngeom) if model.geom_bodyid[i] == model.body("valve_wheel").id

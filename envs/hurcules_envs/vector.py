@@ -101,6 +101,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         self._eyes = Eyes(self._episodes, cameras, camera_size)
         self.action_names = self._episodes.action_names
         self.action_scale = self._episodes.action_scale
+        self.action_units = self._episodes.action_units
         self.single_action_space = self._episodes.single_action_space
         self.single_observation_space = self._eyes.observation_space
         self.action_space = batch_space(self.single_action_space, num_envs)
@@ -139,9 +140,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             hurcules.Error: an unknown option, a range that is none, or a mask of another shape.
         """
         self._require_open("reset")
-        options = dict(options or {})
-        mask = options.pop("reset_mask", None)
-        ranges = known_ranges(options, "reset_mask")
+        ranges = dict(known_ranges(options or {}, "reset_mask"))
+        mask = ranges.pop("reset_mask", None)
         chosen = np.ones(self.num_envs, dtype=bool) if mask is None else np.asarray(mask)
         if chosen.shape != (self.num_envs,) or chosen.dtype != bool or not chosen.any():
             raise hurcules.Error(

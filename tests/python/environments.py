@@ -77,6 +77,7 @@ def assert_tables_are_true(env: SingleEnv, *, texts: bool = False) -> None:
     actions, observations, reward = rows(type(env.environment).__doc__ or "")
     assert [row[1] for row in actions] == env.action_names
     assert [float(row[2]) for row in actions] == env.action_scale.tolist()
+    assert [row[3] for row in actions] == env.action_units
     place = 0
     for row, group in zip(observations, env.environment.observation, strict=True):
         first, _, last = row[0].partition("-")

@@ -104,6 +104,8 @@ MISTAKES = {
     "Wrong.actions: 'hand' has 1 numbers, got scales of shape (2,)": {
         "__init__": lambda self: with_actions(self, {"hand": [0.5, 0.5]})
     },
+    "Wrong.units: 'hand' has 1 numbers, got 2 units": {"units": {"hand": ["m/s", "m/s"]}},
+    "Wrong.units: action 'hend' does not exist; there are: hand": {"units": {"hend": "m/s"}},
     "Wrong.rate: wanted up to 500 Hz, got 0.0": {"rate": 0.0},
     "Wrong.memory: 'place' wants a whole number, got (1,)": {"memory": {"place": (1,)}},
     "Wrong.memory: 'time' is a quantity": {"memory": {"place": 1, "time": 1}},

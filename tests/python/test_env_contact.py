@@ -45,6 +45,8 @@ def test_gymnasiums_checker_has_nothing_to_say(name: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         env = gym.make(name, **FAST)
+        assert len(env.unwrapped.action_units) == len(env.unwrapped.action_names)
+        assert set(env.unwrapped.action_units) <= {"m/s", "rad/s", "N"}
         check_env(env.unwrapped, skip_render_check=True)
         env.close()
 
@@ -69,6 +71,7 @@ def test_the_expert_succeeds_and_the_terms_sum_to_the_reward(name: str) -> None:
             break
     assert info["is_success"]
     assert not info["failed"]
+    assert info["ending"] == int(hurcules.Ending.Completed)
     assert info["limit_excess"] < 0.01
     assert info["reward_success"] == 10.0
 

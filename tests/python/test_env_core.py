@@ -19,8 +19,14 @@ from gymnasium.vector import AutoresetMode
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from environments import rows
 from hurcules_envs.evaluation import evaluate
-from hurcules_envs.registry import fidelities_of, make_environment, steps_of_episode
+from hurcules_envs.registry import (
+    fidelities_of,
+    make_environment,
+    make_episodes,
+    steps_of_episode,
+)
 
 FAST = {"fidelity": "kinematic"}
 IDS = [
@@ -101,6 +107,21 @@ def test_a_state_goes_on_with_the_same_bits_in_another_instance(name, options):
         env.set_state(env.get_state()[:-1])
     with pytest.raises(hurcules.Error, match="wanted shape"):
         gym.make("Hurcules/ReachJoint-v0", **FAST).unwrapped.set_state(env.get_state())
+
+
+@pytest.mark.parametrize("vector", [False, True])
+def test_a_state_of_another_rate_is_refused(vector):
+    def made(rate):
+        options = {"rate": rate, "max_episode_steps": 9, **FAST}
+        if vector:
+            env = gym.make_vec("Hurcules/Drive-v0", num_envs=2, **options)
+        else:
+            env = gym.make("Hurcules/Drive-v0", **options).unwrapped
+        env.reset(seed=0)
+        return env
+
+    with pytest.raises(hurcules.Error, match="state: wanted one of rate=10 Hz, got one of 20 Hz"):
+        made(10.0).set_state(made(20.0).get_state())
 
 
 def copied(env):
@@ -315,6 +336,24 @@ def test_the_reward_of_a_drive_counts_the_way_that_it_came():
     assert drive.compute_reward(goal, goal, {}) == 10.0
 
 
+@pytest.mark.parametrize(
+    ("name", "options", "units"),
+    [
+        ("Reach-v0", {}, ["m/s"] * 6),
+        ("Reach-v0", {"action": "delta"}, ["m"] * 6),
+        ("ReachPrecise-v0", {}, ["m/s"] * 6 + ["rad/s"] * 6),
+        ("ReachPrecise-v0", {"action": "pose"}, ["m"] * 6 + ["rad"] * 6),
+        ("ReachJoint-v0", {}, ["rad/s"] * 13),
+        ("Drive-v0", {}, ["m/s", "rad/s", "rad/s"]),
+    ],
+)
+def test_actions_have_units(name, options, units):
+    env = gym.make(f"Hurcules/{name}", **FAST, **options).unwrapped
+    assert env.action_units == units
+    vector = gym.make_vec(f"Hurcules/{name}", num_envs=1, **FAST, **options)
+    assert vector.action_units == units
+
+
 def test_specs_and_environments_can_be_stored():
     env = gym.make("Hurcules/Drive-v0", **FAST)
     again = pickle.loads(pickle.dumps(env.unwrapped))
@@ -326,12 +365,13 @@ def test_specs_and_environments_can_be_stored():
     ("path", "options", "steps", "least"),
     [
         ("hurcules_envs.reach:Reach", FAST, 100, 0.9),
+        ("hurcules_envs.reach:ReachPrecise", FAST, 150, 0.8),
         ("hurcules_envs.drive:Drive", FAST, 200, 1.0),
         ("hurcules_envs.drive:Drive", {"fidelity": "fast"}, 200, 1.0),
     ],
 )
 def test_the_expert_succeeds_and_holding_or_constant_actions_do_not(path, options, steps, least):
-    name = {"Reach": "Hurcules/Reach-v0", "Drive": "Hurcules/Drive-v0"}[path.split(":")[1]]
+    name = f"Hurcules/{path.split(':')[1]}-v0"
     count = 20 if options == FAST else 4
 
     def success(act):
@@ -372,6 +412,20 @@ BAD = [
 def test_a_bad_option_says_what_was_wanted(options, text):
     with pytest.raises(hurcules.Error, match=text):
         make_environment("hurcules_envs.reach:Reach", options)
+
+
+def test_only_ground_that_is_drawn_has_a_seed():
+    for terrain in ("flat", "ramps", "slope"):
+        with pytest.raises(hurcules.Error, match=f"terrain_seed: '{terrain}' is always the same"):
+            gym.make("Hurcules/Drive-v0", fidelity="fast", terrain=terrain, terrain_seed=1)
+
+
+def test_the_table_of_the_actions_of_drive_is_that_of_its_channels():
+    env = gym.make("Hurcules/Drive-v0", **FAST).unwrapped
+    table = rows(type(env.environment).__doc__)[0]
+    assert [row[1] for row in table] == env.action_names
+    assert [row[2] for row in table] == env.action_units
+    assert [float(row[3]) for row in table] == env.action_scale.tolist()
 
 
 def test_options_beside_those_of_the_class_are_listed_and_checked():
@@ -421,6 +475,7 @@ def test_a_bad_action_says_what_was_wanted():
         (np.zeros(5), "wanted shape"),
         (np.full(6, np.nan), "wanted finite numbers"),
         ("left", "wanted an array of numbers"),
+        (np.zeros(6, bool), r"action: wanted an array of numbers, got array\(\[False"),
     ):
         with pytest.raises(hurcules.Error, match=text):
             env.step(action)
@@ -428,8 +483,9 @@ def test_a_bad_action_says_what_was_wanted():
         bad = np.zeros((2, 6))
         bad[1, 2] = np.inf
         vector.step(bad)
-    with pytest.raises(hurcules.Error, match="options: wanted a dictionary, got 3"):
-        env.reset(options=3)
+    for one in (env, vector):
+        with pytest.raises(hurcules.Error, match="options: wanted a dictionary, got 3"):
+            one.reset(options=3)
     with pytest.raises(hurcules.Error, match="autoreset mode 'never' does not exist; there are: N"):
         gym.make_vec("Hurcules/Reach-v0", num_envs=2, autoreset_mode="never", **FAST)
     with pytest.raises(hurcules.Error, match="reset option 'goal' does not exist; there are: fric"):
@@ -535,10 +591,20 @@ def test_the_last_fidelity_is_what_training_takes(name: str, known: tuple[str, .
     assert fidelities_of(f"Hurcules/{name}") == known
 
 
-def test_a_vector_that_was_closed_is_not_stepped() -> None:
+def test_what_was_closed_is_not_stepped() -> None:
     vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, fidelity="kinematic")
-    vector.reset(seed=0)
-    vector.close()
-    for use in (vector.reset, lambda: vector.step(np.zeros(vector.action_space.shape))):
-        with pytest.raises(gym.error.ClosedEnvironmentError, match="was closed"):
-            use()
+    for env in (vector, gym.make("Hurcules/Reach-v0", fidelity="kinematic").unwrapped):
+        env.reset(seed=0)
+        env.close()
+        for use in (env.reset, lambda env=env: env.step(np.zeros(env.action_space.shape))):
+            with pytest.raises(gym.error.ClosedEnvironmentError, match="was closed"):
+                use()
+
+
+def test_a_limit_that_is_passed_by_what_servos_give_costs_nothing() -> None:
+    episodes = make_episodes("Hurcules/Reach-v0", 3, 0, **FAST)
+    read, excess = episodes._read().copy(), episodes._places["excess/position"]
+    for worst, cost in (([1e-9, 4e-3, 6e-3], [0, 0, 1]), ([4e-3, 7e-3, 6e-3], [0, 1, 0])):
+        read[:, excess] = np.array(worst)[:, None]
+        episodes._values = read
+        assert episodes.look(remember=None).info["cost"].tolist() == cost

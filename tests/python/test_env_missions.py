@@ -162,4 +162,5 @@ def test_a_fall_ends_it_and_is_told(name: str) -> None:
         if terminated:
             break
     assert (info["fell"], info["missed"], info["is_success"], info["failed"]) == (1, 0, 0, 1)
+    assert info["ending"] == int(hurcules.Ending.Fell)
     assert info["reward_failure"] == -10.0

@@ -145,3 +145,49 @@ def test_parameters_that_nobody_writes_are_an_error(cart: str) -> None:
 
     with pytest.raises(NotImplementedError, match="no configure"):
         Episodes(Forgetful(cart), 1, 1).reset()
+
+
+class Ends(Cart):
+    """Heavy loads fly apart; a cart beyond 20 mm has failed, at 10 mm it is done."""
+
+    def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
+        """A spring that pushes, of heavy loads."""
+        super().configure(model, values)
+        model.jnt_stiffness[1] = -1e7 if values["mass"] > 2.5 else 9.0
+
+    def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Between the two places."""
+        place = numbers["position/cart"][:, 0]
+        return (place > 0.01) & (place < 0.02)
+
+    def ended(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Success ends it."""
+        return self.succeeded(numbers)
+
+    def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """Beyond."""
+        return numbers["position/cart"][:, 0] >= 0.02
+
+
+ENDS = f"{__name__}:Ends"
+
+
+def test_info_says_why_an_episode_is_over(cart: str) -> None:
+    vector = NativeVectorEnv(ENDS, 6, path=cart)
+    _, info = vector.reset(seed=0)
+    assert (info["ending"] == 0).all()
+    heavy = info["mass"] > 2.5
+    speeds = np.zeros((6, 2), np.float32)
+    speeds[~heavy, 0] = np.linspace(0.0, 1.0, int((~heavy).sum()))
+    *_, terminated, _, info = vector.step(speeds)
+    endings = [hurcules.Ending(one).name for one in info["ending"]]
+    place = vector.numbers["position/cart"][:, 0]
+    wanted = np.where(place >= 0.02, "Missed", np.where(place > 0.01, "Completed", "Running"))
+    assert endings == np.where(heavy, "Diverged", wanted).tolist()
+    assert set(endings) == {"Running", "Diverged", "Completed", "Missed"}
+    assert (terminated == (info["ending"] > 0)).all()
+    assert (info["failed"] == (info["ending"] > 1)).all()
+    for i in range(6):
+        env = SingleEnv(ENDS, path=cart)
+        env.reset(seed=i)
+        assert env.step(speeds[i])[4]["ending"] == info["ending"][i]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
+import mujoco
 import numpy as np
 import pytest
 
@@ -78,18 +79,19 @@ def test_nominal_values_and_models_of_ones_own_change_no_bit(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["Reach-v0", "Drive-v0", "Valve-v0"])
 def test_bits_are_those_of_single_episodes_on_any_threads_and_after_a_state(name: str) -> None:
+    ranges = RANGES | ({"payload": (0.0, 20.0)} if name == "Reach-v0" else {})
     name = f"Hurcules/{name}"
-    vectors = [gym.make_vec(name, num_envs=2, threads=t, **FAST, **RANGES) for t in (1, 2)]
-    alone = gym.make(name, **FAST, **RANGES).unwrapped
+    vectors = [gym.make_vec(name, num_envs=2, threads=t, **FAST, **ranges) for t in (1, 2)]
+    alone = gym.make(name, **FAST, **ranges).unwrapped
     other = gym.make(name, **FAST).unwrapped  # made without
     _, info = vectors[0].reset(seed=3)
     vectors[1].reset(seed=3)
     _, first = alone.reset(seed=3)
     other.reset(seed=9)
-    drawn = [f"drawn_{word}" for word in NAMES]
+    drawn = [f"drawn_{word}" for word in ranges]
     assert all(first[key] == info[key][0] for key in drawn)
     assert all(info[key][0] != info[key][1] for key in drawn if key != "drawn_action_delay")
-    for word, (low, high) in RANGES.items():
+    for word, (low, high) in ranges.items():
         assert low <= first[f"drawn_{word}"] <= high
     generator = np.random.default_rng(0)
     for step in range(60):  # a push comes within 2 s
@@ -137,6 +139,39 @@ def test_a_heavier_or_weaker_cart_lags_since_its_controller_does_not_know(cart: 
     # a third of the force is as three times the mass
     assert weak == pytest.approx(heavy, abs=1e-4)
     assert driven(cart, 3, friction=0.5) == nominal  # nothing is touched
+
+
+@pytest.mark.parametrize("robot", ["rescue", "manipulation"])
+def test_a_payload_is_two_points_of_half_its_mass_in_the_hands(robot: str) -> None:
+    env = gym.make("Hurcules/Reach-v0", robot=robot, payload=(4.0, 20.0), **FAST).unwrapped
+    _, info = env.reset(seed=0)
+    model, own = env.model, env.environment.simulation.model
+    inertias, data = [], env.data
+    for one in (own, model):
+        other = mujoco.MjData(one)
+        other.qpos[:] = data.qpos
+        mujoco.mj_forward(one, other)
+        inertias.append(np.zeros((one.nv, one.nv)))
+        mujoco.mj_fullM(one, other, inertias[-1])
+        # no part moves with the centre of its body
+        assert np.allclose(other.geom_xpos, data.geom_xpos, atol=1e-12)
+    wanted = inertias[0]
+    for hand in env.environment.bearers:
+        J = np.zeros((3, model.nv))
+        mujoco.mj_jacSite(model, data, J, None, model.site(hand).id)
+        wanted = wanted + info["drawn_payload"] / 2.0 * J.T @ J
+    assert np.allclose(inertias[1], wanted, atol=1e-9 * np.abs(wanted).max())
+    env.reset(seed=0, options={"payload": None})
+    for name in ("body_mass", "body_inertia", "body_ipos", "body_sameframe", "geom_sameframe"):
+        assert (getattr(env.model, name) == getattr(own, name)).all()
+
+
+def test_a_payload_wants_hands_and_physics() -> None:
+    with pytest.raises(hurcules.Error, match="payload: the hands of Drive bear none; Reach and"):
+        gym.make("Hurcules/Drive-v0", payload=5.0, **FAST)
+    with pytest.raises(hurcules.Error, match="payload: wants physics; fidelity"):
+        gym.make("Hurcules/Reach-v0", payload=(0.0, 20.0), fidelity="kinematic")
+    assert "drawn_payload" in gym.make("Hurcules/ReachJoint-v0", payload=5.0, **FAST).reset()[1]
 
 
 def test_a_delayed_action_does_the_same_later(cart: str) -> None:
@@ -218,7 +253,7 @@ def test_a_bad_range_says_what_was_wanted(cart: str, given: dict[str, Any], text
 
 
 def test_without_physics_only_what_needs_none_can_differ() -> None:
-    for name in NAMES:
+    for name in RANGES:
         options = {"fidelity": "kinematic", name: 2 if name == "action_delay" else RANGES[name]}
         if name in PHYSICAL:
             with pytest.raises(hurcules.Error, match=f"{name}: wants physics; fidelity"):
@@ -257,7 +292,7 @@ def test_a_range_is_an_attribute_that_holds_from_the_next_episode_on() -> None:
     for one in (env.unwrapped, vector):
         assert [getattr(one, name) for name in NAMES if name != "mass"] == [(1.0, 1.0)] * 2 + [
             (0.0, 0.0)
-        ] * 3
+        ] * 4
         with pytest.raises(hurcules.Error, match="friction: wanted a number or"):
             one.friction = 2.0, 1.0
 

@@ -38,6 +38,7 @@ def test_the_table_of_actions_is_true(env: HurculesEnv) -> None:
     table = tables(env)[0]
     assert [row["name"] for row in table] == env.action_names
     assert [float(row["scale"]) for row in table] == env.action_scale.tolist()
+    assert [row["unit"] for row in table] == env.action_units
     assert [span(row) for row in table] == [range(i, i + 1) for i in range(len(table))]
     assert env.action_space == gymnasium.spaces.Box(-1, 1, (len(table),), np.float32)
 
