@@ -34,6 +34,7 @@ _WATCHED = {
     "excess/position": "limit_excess",
     "excess/velocity": "limit_excess_velocity",
     "excess/torque": "limit_excess_torque",
+    "excess_now/position": "limit_excess_now",
     "commanded_excess/position": "commanded_excess",
     "monitor/self_collision_distance_m": "self_distance",
     "monitor/static_margin_m": "support_margin",
@@ -414,7 +415,9 @@ class Episodes:
         columns[np.isnan(columns)] = 0.0  # the margin of a robot that cannot tip
         watched = dict(zip(_WATCHED.values(), columns, strict=True))
         excess = watched["limit_excess"]
-        cost = (excess > np.maximum(self._worst, EXCESS)) | (watched["self_contacts"] > 0.0)
+        cost = watched["limit_excess_now"] > EXCESS
+        cost |= excess > np.maximum(self._worst, EXCESS)  # within the step
+        cost |= watched["self_contacts"] > 0.0
         cost |= self._asked.costs(numbers)
         self._worst[:] = excess
         info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}

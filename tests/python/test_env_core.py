@@ -602,9 +602,13 @@ def test_what_was_closed_is_not_stepped() -> None:
 
 
 def test_a_limit_that_is_passed_by_what_servos_give_costs_nothing() -> None:
-    episodes = make_episodes("Hurcules/Reach-v0", 3, 0, **FAST)
-    read, excess = episodes._read().copy(), episodes._places["excess/position"]
-    for worst, cost in (([1e-9, 4e-3, 6e-3], [0, 0, 1]), ([4e-3, 7e-3, 6e-3], [0, 1, 0])):
-        read[:, excess] = np.array(worst)[:, None]
+    episodes = make_episodes("Hurcules/Reach-v0", 4, 0, **FAST)
+    read, places = episodes._read().copy(), episodes._places
+    for worst, now, cost in (
+        ([1e-9, 4e-3, 6e-3, 6e-3], [0.0, 4e-3, 0.0, 6e-3], [0, 0, 1, 1]),
+        ([4e-3, 7e-3, 6e-3, 6e-3], [0.0, 0.0, 0.0, 6e-3], [0, 1, 0, 1]),
+    ):
+        read[:, places["excess/position"]] = np.array(worst)[:, None]
+        read[:, places["excess_now/position"]] = np.array(now)[:, None]
         episodes._values = read
         assert episodes.look(remember=None).info["cost"].tolist() == cost
