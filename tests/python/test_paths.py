@@ -270,8 +270,9 @@ def test_a_light_wrist_with_dry_friction_stays_on_its_path() -> None:
     """0.01 N m on 1e-4 kg m^2: 15 mrad off when friction was not fed forward."""
 
     def off_its_turn(friction: str) -> float:
-        light = f'name="spin" axis="0 0 1" armature="0.0001" frictionloss="{friction}"/><geom mass="0.01"'
-        text = ARM.replace('name="spin" axis="0 0 1"/><geom', light)
+        light = f'armature="0.0001" frictionloss="{friction}"/><geom mass="0.01"'
+        spin = 'name="spin" axis="0 0 1"'
+        text = ARM.replace(f"{spin}/><geom", f"{spin} {light}")
         model = hurcules.with_motors(mujoco.MjSpec.from_string(text))
         robot = arm(model)
         tool = hurcules.PoseTask("tool", robot, "tip")
@@ -294,9 +295,7 @@ def test_a_light_wrist_with_dry_friction_stays_on_its_path() -> None:
 
 
 @pytest.mark.parametrize("control", ["velocity", "acceleration"])
-def test_a_tool_goes_no_harder_than_its_acceleration(
-    model: mujoco.MjModel, control: str
-) -> None:
+def test_a_tool_goes_no_harder_than_its_acceleration(model: mujoco.MjModel, control: str) -> None:
     """A way d of trapezoidal speed takes d / v + v / a; K brings the last part home."""
     robot = arm(model)
     place = hurcules.PositionTask("place", robot, "tip")
@@ -306,7 +305,7 @@ def test_a_tool_goes_no_harder_than_its_acceleration(
     controller = hurcules.WholeBodyController(robot, [place, tilt], control=control)
     simulation = hurcules.Simulation(model=model, controller=controller)
     start = robot.position("tip")
-    goals = [start + [0.0, 0.25, 0.0], start + [0.0, -0.05, -0.15]]
+    goals = start + np.array([[0.0, 0.25, 0.0], [0.0, -0.05, -0.15]])
     places = []
     for goal, seconds in ((goals[0], 0.9), (goals[1], 4.0)):  # turned round in mid-way
         place.set_target(goal)

@@ -256,9 +256,9 @@ class Robot {
   std::uint64_t structure_ = 0;
   Vector dry_friction_, sliding_speed_;  // (n)
   Vector change_;                        // (n) scratch
-  std::vector<int> trees_ = {0};        // bodies at the roots of the coordinates' trees
-  int support_ = -1;                    // body that stands, -1 for the root
-  int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
+  std::vector<int> trees_ = {0};         // bodies at the roots of the coordinates' trees
+  int support_ = -1;                     // body that stands, -1 for the root
+  int root_qpos_ = -1, root_dof_ = -1;   // of its tree's free joint
   bool floating_ = false;
   Vector3 p_WS_ = Vector3::Zero();  // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();

@@ -35,7 +35,7 @@ class OrientationTask : public Task {
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 
-  [[nodiscard]] const Matrix3& target() const { return rotation_.target(); }  // R_des in the reference
+  [[nodiscard]] const Matrix3& target() const { return rotation_.target(); }  // R_des in R
   // at rest; seen at the next update; throws Error unless it is a rotation
   void set_target(const Matrix3& target);
   // where a trajectory is now: R_des, w_des [rad/s] and its rate [rad/s^2] in the axes of R, (3) each,

@@ -45,8 +45,8 @@ class PoseTask : public Task {
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
 
-  [[nodiscard]] const Vector3& target_position() const { return p_des_; }     // [m] in R
-  [[nodiscard]] const Matrix3& target_orientation() const {  // in R
+  [[nodiscard]] const Vector3& target_position() const { return p_des_; }  // [m] in R
+  [[nodiscard]] const Matrix3& target_orientation() const {                // in R
     return rotation_.target();
   }
   // at rest; seen at the next update; throws Error unless finite, and a rotation
