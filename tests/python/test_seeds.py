@@ -204,8 +204,8 @@ def test_a_mission_by_name_is_stopped_as_asked(
 
 
 def test_without_variation_all_seeds_run_alike(tmp_path: Path) -> None:
-    words = "run lift --seeds 2 --seconds 0.02 --variation 0 --out".split()
-    assert cli.main([*words, str(tmp_path)]) == 0
+    words = ["run", "lift", "--seeds", "2", "--seconds", "0.02", "--variation", "0"]
+    assert cli.main([*words, "--out", str(tmp_path)]) == 0
     first, second = held(tmp_path)
     assert (first["variation"], first["figures"]) == (0.0, second["figures"])
 

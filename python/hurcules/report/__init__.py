@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
-import numpy as np
 
 from hurcules.casualties import contact_limit
 from hurcules.figures import describe, readable, tells, wanted
@@ -172,8 +171,8 @@ def _regions(log: dict[str, Any]) -> str:
         words += [f"carries {carries:.0f} N"] if carries >= 1.0 else []
         if words:
             told.append((contact / limit, f"{region_words(region)} {', '.join(words)}"))
-    words = "; ".join(text for _, text in sorted(told, reverse=True))
-    return f"Largest force of the robot on each region: {words or 'none'}."
+    said = "; ".join(text for _, text in sorted(told, reverse=True))
+    return f"Largest force of the robot on each region: {said or 'none'}."
 
 
 _POSITIONS = (
@@ -199,8 +198,8 @@ _MONITORS = (
 _PERSON = (
     "What the robot does to the person. While more than 15 % of his weight is on the ground its "
     "forces are contacts, the worst over the limit of its region (dashed: 1; ISO/TS 15066); later "
-    "they carry him: there is no limit of force for that, limits are of pressure, and no pressure is "
-    "computed here. Above 1200 N (dashed) the mission casualty stops, while it lays him down. "
+    "they carry him: there is no limit of force for that, limits are of pressure, and no pressure "
+    "is computed here. Above 1200 N (dashed) the mission casualty stops, while it lays him down. "
     "Acceleration includes gravity (dashed: 10 g)."
 )
 _LOAD = (

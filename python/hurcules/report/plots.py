@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from itertools import cycle, product
 
@@ -219,7 +218,9 @@ def _regions(log: Log) -> str:
     plot.barh(at - 0.2, contact, 0.36, color=INK, label="contact")
     plot.barh(at + 0.2, carries, 0.36, color=GREY, label="carries him")
     limits = np.array([contact_limit(name) for name in forces])
-    plot.vlines(limits, at - 0.42, at + 0.02, color=ACCENT, linewidth=2.0, label="limit of a contact")
+    plot.vlines(
+        limits, at - 0.42, at + 0.02, color=ACCENT, linewidth=2.0, label="limit of a contact"
+    )
     plot.set_yticks(at, [region_words(name) for name in forces])
     plot.invert_yaxis()
     plot.set_xlabel("largest force of the robot [N]")
