@@ -321,3 +321,32 @@ def test_a_tool_goes_no_harder_than_its_acceleration(model: mujoco.MjModel, cont
     place.set_max_acceleration(np.inf)
     controller.restore(state)
     assert place.max_acceleration == 0.4
+
+
+def test_a_bound_of_acceleration_forgets_what_was_not_followed(model: mujoco.MjModel) -> None:
+    """Rows without weight meanwhile, an interval, another gain: each started at 10 m/s^2 or crept."""
+    for change in ("weights", "interval", "gain"):
+        robot = arm(model)
+        place = hurcules.PositionTask("place", robot, "tip")
+        posture = hurcules.PostureTask("posture", robot)
+        place.set_max_speed(0.2)
+        place.set_max_acceleration(0.4)
+        if change == "interval":
+            place.set_interval([-1e-3] * 3, [1e-3] * 3)
+        if change == "gain":
+            place.set_gain([5.0, 5.0, 100.0])
+            place.set_weights([1.0, 1.0, 0.0])
+        controller = hurcules.VelocityController(robot, dt=0.002)
+        controller.set_stack(hurcules.Stack([place, posture]))
+        start, places = robot.position("tip"), []
+        place.set_target(start + [0.0, 0.25, 0.0])
+        for tick in range(2500):
+            if change == "weights" and tick in (400, 1500):
+                place.set_weights(0.0 if tick == 400 else 1.0)
+            robot.set_configuration(controller.step(robot))
+            places.append(robot.position("tip"))
+        here = np.array(places)[500 if change == "weights" else 0 :, :2]
+        changes = np.diff(here, n=2, axis=0) / 0.002**2
+        began = 0 if change != "weights" else 1000
+        assert np.linalg.norm(changes[began:], axis=1).max() < 0.5, change
+        assert abs(here[-1, 1] - start[1] - 0.25) < 2e-3, change

@@ -5,6 +5,12 @@
 
 namespace hurcules {
 
+namespace {
+
+constexpr double kLead = 0.2;  // [s]
+
+}  // namespace
+
 void RateChanges::set_stack(const Stack& stack) {
   last_.clear();
   Index most = 0;
@@ -15,7 +21,7 @@ void RateChanges::set_stack(const Stack& stack) {
       most = std::max(most, task->rows());
     }
   }
-  change_ = Vector::Zero(most);
+  change_ = goes_ = Vector::Zero(most);
 }
 
 void RateChanges::forget() {
@@ -26,28 +32,35 @@ void RateChanges::forget() {
 void RateChanges::limit(std::size_t k, std::size_t i, const Task& task, const Vector& velocity,
                         double dt, VectorRef lower, VectorRef upper) {
   Asked& last = last_[k][i];
-  const double allowed = task.max_acceleration() * dt;
-  if (std::isinf(allowed)) {
+  const double a = task.max_acceleration();
+  if (std::isinf(a)) {
     last.known = false;
     return;
   }
-  if (!last.known) {
-    last.rate.noalias() = task.jacobian().leftCols(velocity.size()) * velocity;
-    last.rate -= task.velocity_des();
-    last.known = true;
-  }
-  auto change = change_.head(task.rows());
+  auto goes = goes_.head(task.rows()), change = change_.head(task.rows());
+  goes.noalias() = task.jacobian().leftCols(velocity.size()) * velocity;
+  goes -= task.velocity_des();
   double together = 0.0;
   for (Index row = 0; row < task.rows(); ++row) {
-    const bool point = lower[row] == upper[row] && task.weights()[row] > 0.0;
-    change[row] = point ? lower[row] - task.velocity_des()[row] - last.rate[row] : 0.0;
+    const double least = lower[row] - task.velocity_des()[row];
+    const double most = upper[row] - task.velocity_des()[row];
+    const double lead = kLead * a * task.speed_share(row);
+    const bool asks = task.weights()[row] > 0.0;
+    const bool pushes = asks && (least == most || least > 0.0 || most < 0.0);
+    double& rate = last.rate[row];
+    rate = last.known && pushes ? std::clamp(rate, goes[row] - lead, goes[row] + lead) : goes[row];
+    change[row] = asks ? std::clamp(rate, least, most) - rate : 0.0;
     together = std::hypot(together, change[row] / task.speed_share(row));
   }
+  last.known = true;
   for (Index row = 0; row < task.rows(); ++row) {
     if (change[row] == 0.0) continue;
     const double size = task.rows_apart() ? std::abs(change[row]) : together;
-    last.rate[row] += change[row] * std::min(1.0, allowed / size);
-    lower[row] = upper[row] = task.velocity_des()[row] + last.rate[row];
+    last.rate[row] += change[row] * std::min(1.0, a * dt / size);
+    const double rate = task.velocity_des()[row] + last.rate[row];
+    const bool point = lower[row] == upper[row];
+    if (point || change[row] > 0.0) lower[row] = rate;
+    if (point || change[row] < 0.0) upper[row] = rate;
   }
 }
 

@@ -1,8 +1,9 @@
 // What a task asks for changes no faster than its max_acceleration.
 //
 //   y <- y_last + (y - y_last) min(1, a dt / |y - y_last|)      y without what is fed forward
-// y_last: what was asked for in the last period; at first J qdot. Rows that have one side alone, or
-// two that differ, stay as they are.
+// y_last: what was asked for in the last period, but no further from J qdot than the task gets in 0.2 s:
+// it runs away from no robot that is held. At first J qdot, and of rows that ask for nothing. Of an
+// interval the side that pushes is bounded.
 #pragma once
 
 #include <vector>
@@ -29,7 +30,7 @@ class RateChanges {
     bool known = false;
   };
   std::vector<std::vector<Asked>> last_;  // of each task of each level
-  Vector change_;                         // scratch
+  Vector change_, goes_;                  // scratch
 };
 
 }  // namespace hurcules

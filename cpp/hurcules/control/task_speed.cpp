@@ -23,23 +23,30 @@ double gain_of(const Task& task, Index row, double usual, double dt) {
   return std::min(task.gain(row, usual), 1.0 / dt);
 }
 
-// K |g| of a task in its unit, of its fastest row where they stand apart
-double asked_speed(const Task& task, double gain, double dt) {
-  double together = 0.0, largest = 0.0;
+// K |g| and |g| of a task in its unit, of its fastest row where they stand apart
+struct Asked {
+  double speed = 0.0, distance = 0.0;
+};
+
+Asked asked(const Task& task, double gain, double dt) {
+  Asked together, largest;
   for (Index row = 0; row < task.rows(); ++row) {
     if (task.weights()[row] == 0.0) continue;
-    const double speed =
-        gain_of(task, row, gain, dt) * std::abs(way(task, row)) / task.speed_share(row);
-    together += speed * speed;
-    largest = std::max(largest, speed);
+    const double K = gain_of(task, row, gain, dt), g = std::abs(way(task, row));
+    const double speed = K * g / task.speed_share(row), distance = g / task.speed_share(row);
+    together.speed += speed * speed;
+    together.distance += distance * distance;
+    if (speed > largest.speed) largest = {speed, distance};
   }
-  return task.rows_apart() ? largest : std::sqrt(together);
+  if (task.rows_apart()) return largest;
+  return {std::sqrt(together.speed), std::sqrt(together.distance)};
 }
 
 // speed / v_b, v_b^2 = 2 a |g| - (a / K)^2 with speed = K |g|; 0 below a / K
-double over_brake(const Task& task, double speed, double K) {
-  const double asked = kBraking * task.max_acceleration() / K;
-  return speed > asked ? speed / std::sqrt(asked * (2.0 * speed - asked)) : 0.0;
+double over_brake(const Task& task, const Asked& asked) {
+  if (std::isinf(task.max_acceleration()) || asked.speed == 0.0) return 0.0;
+  const double late = kBraking * task.max_acceleration() * asked.distance / asked.speed;  // a / K
+  return asked.speed > late ? asked.speed / std::sqrt(late * (2.0 * asked.speed - late)) : 0.0;
 }
 
 }  // namespace
@@ -55,13 +62,11 @@ Law law_named(const std::string& name) {
 }
 
 double haste(const Task& task, double gain, double dt) {
-  return asked_speed(task, gain, dt) / task.max_speed();
+  return asked(task, gain, dt).speed / task.max_speed();
 }
 
 double braking(const Task& task, double gain, double dt) {
-  double K = 0.0;
-  for (Index row = 0; row < task.rows(); ++row) K = std::max(K, gain_of(task, row, gain, dt));
-  return over_brake(task, asked_speed(task, gain, dt), K);
+  return over_brake(task, asked(task, gain, dt));
 }
 
 void wanted_rates(const Task& task, double gain, double dt, double most, VectorRef lower,
@@ -71,7 +76,8 @@ void wanted_rates(const Task& task, double gain, double dt, double most, VectorR
     const bool own = most > 1.0 && task.rows_apart();
     const double K = gain_of(task, row, gain, dt);
     const double speed = K * std::abs(g);
-    const double f = own ? std::max(speed / task.max_speed(), over_brake(task, speed, K)) : most;
+    const double f =
+        own ? std::max(speed / task.max_speed(), over_brake(task, {speed, std::abs(g)})) : most;
     const double share = f > 1.0 ? 1.0 / f : 1.0;
     // the side that pushes is bounded, the other one holds back as it is
     const auto rate = [&](double side) {

@@ -48,11 +48,11 @@ class Kept {
       joints_[static_cast<std::size_t>(m_.dof_jntid[closures_->dof(f)])] = true;
   }
 
-  [[nodiscard]] std::vector<std::string> joints(bool with_springs = true) const {
+  [[nodiscard]] std::vector<std::string> joints(bool all = true) const {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
       if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
-      if (!with_springs && m_.jnt_stiffness[j] != 0.0) continue;
+      if (!all && (m_.jnt_stiffness[j] != 0.0 || carries(j))) continue;
       if (moves(m_.jnt_bodyid[j])) names.push_back(name_or_number(m_, mjOBJ_JOINT, j));
     }
     return names;
@@ -77,6 +77,11 @@ class Kept {
   }
 
  private:
+  [[nodiscard]] bool carries(int joint) const {
+    for (const CarryingJoint& one : carrying_joints(robot_))
+      if (one.dof == m_.jnt_dofadr[joint]) return true;
+    return false;
+  }
   [[nodiscard]] bool has(int joint) const { return joints_[static_cast<std::size_t>(joint)]; }
   [[nodiscard]] bool moves(int body) const { return in_own_tree(robot_, body); }
   // or it has nothing to do with the coordinates
@@ -120,7 +125,7 @@ std::string held_joints(const Robot& robot) {
   const std::vector<std::string> joints = Kept(robot).joints(false);
   if (joints.empty()) return "";
   return "joints that no actuator of their own drives are held: " + listed(joints) +
-         "; Robot(model, joints=[...]) says which move";
+         "; Robot(model, joints=[...]) says which move, and silences this";
 }
 
 std::string left_out(const Robot& robot) {

@@ -16,8 +16,8 @@ namespace hurcules {
 // root); where the model names its coordinates, joints with actuators beside them. "" where there is
 // nothing.
 [[nodiscard]] std::string left_out(const Robot& robot);
-// of these joints those that no spring holds, for who did not choose them; "" where there is none, and
-// where the model names its coordinates
+// of these joints those that no spring holds and that do not carry all of the robot, for who did not
+// choose them; "" where there is none, and where the model names its coordinates
 [[nodiscard]] std::string held_joints(const Robot& robot);
 
 }  // namespace hurcules

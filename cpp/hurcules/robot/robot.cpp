@@ -43,8 +43,9 @@ constexpr double kSticks = 2e-3;
 double slides_from(const mjModel& m, int dof) {
   const mjtNum* const reference = m.dof_solref + mjNREF * dof;
   const mjtNum* const impedance = m.dof_solimp + mjNIMP * dof;
-  const double d = std::clamp(impedance[0], mjMINIMP, mjMAXIMP);
   const double d_max = std::clamp(impedance[1], mjMINIMP, mjMAXIMP);
+  const double d_0 = std::clamp(impedance[0], mjMINIMP, mjMAXIMP);
+  const double d = impedance[2] > mjMINVAL ? d_0 : 0.5 * (d_0 + d_max);  // without a width: flat
   const bool safe = !(m.opt.disableflags & mjDSBL_REFSAFE);
   const double T = safe ? std::max(reference[0], 2.0 * m.opt.timestep) : reference[0];
   const double b = reference[0] > 0.0 ? 2.0 / (d_max * T) : -reference[1] / d_max;
@@ -95,13 +96,17 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
   v_ = dry_friction_ = change_ = Vector::Zero(size());
-  sliding_speed_ = Vector::Constant(size(), kSticks);
-  for (Index i = 0; i < size(); ++i) {
+  sliding_speed_ = Vector::Zero(size());
+  for (Index i = 0; i < size() && !(m.opt.disableflags & mjDSBL_FRICTIONLOSS); ++i) {
     for (const DrivenJoint& joint : coordinates_[i].joints) {
-      const double factor = std::abs(joint.factor);
-      dry_friction_[i] += factor * m.dof_frictionloss[joint.dof];
-      sliding_speed_[i] = std::max(sliding_speed_[i], slides_from(m, joint.dof) / factor);
+      const double friction = std::abs(joint.factor) * m.dof_frictionloss[joint.dof];
+      dry_friction_[i] += friction;
+      sliding_speed_[i] += friction * slides_from(m, joint.dof) / std::abs(joint.factor);
     }
+  }
+  for (Index i = 0; i < size(); ++i) {  // the mean of its joints, by what each takes
+    if (dry_friction_[i] > 0.0) sliding_speed_[i] /= dry_friction_[i];
+    sliding_speed_[i] = std::max(sliding_speed_[i], kSticks);
   }
   inertia_ = Matrix::Zero(m.nv, m.nv);
   column_ = Vector::Zero(m.nv);
