@@ -18,13 +18,14 @@ import hurcules
 from hurcules.cli import results_in
 from hurcules.interrupts import as_ctrl_c
 from hurcules.output import Output
+from hurcules.plugins import PolicyOptions
 from hurcules.validation import require_known
 from hurcules_envs import evaluation
 from hurcules_envs.imitation import ask_expert
 from hurcules_envs.policy import Policy
 from hurcules_envs.randomisation import NAMES
 from hurcules_envs.registry import fidelities_of, full_id, spec_of
-from hurcules_envs.running import environment_of
+from hurcules_envs.running import environment_of, run_policy
 
 __all__ = ["evaluate", "record", "train"]
 
@@ -71,11 +72,12 @@ def train(
         typer.Option(help="Address of a Ray cluster, auto, or local: PPO by RLlib."),
     ] = None,
     judge: Annotated[int, typer.Option(help="Episodes of the evaluation, in exact.", min=1)] = 100,
+    video: Annotated[bool, typer.Option(help="Film an episode of the evaluation.")] = True,
 ) -> None:
     """Train a policy that commands a robot in task space, then judge it in the full physics.
 
     Goes on where an earlier run in the same folder was stopped. Writes policy.onnx, policy.zip,
-    checkpoint.zip, settings.json and evaluation.json.
+    checkpoint.zip, settings.json, evaluation.json, and in episode a film with its figures.
 
     For example `hurcules train Reach-v0 --fidelity kinematic --steps 80000`, or
     `hurcules train Door-v0 --demonstrations 50 --steps 20000`
@@ -95,7 +97,8 @@ def train(
         if algo != "ppo":
             raise hurcules.Error(f"--ray: wanted --algo ppo, got {algo}")
         _on_cluster(ray, name, steps, folder, options, envs, seed)
-        return _judge(str(folder), None, judge, {"fidelity": "exact"}, None, Console())
+        _show(folder, judge, video, Console())
+        return
     training = _training()
     wanted = training.TrainOptions(
         environment=name, algorithm=algo, steps=steps, episodes=envs, seed=seed, options=options,
@@ -117,7 +120,15 @@ def train(
             raise
     if steps and not bar.tasks[task].completed:
         console.print(f"{folder}: its {steps:,} steps were done already", soft_wrap=True)
+    _show(folder, judge, video, console)
+
+
+def _show(folder: Path, judge: int, video: bool, console: Console) -> None:
+    """How what was trained does in the full physics, and a film of the first episode of these."""
     _judge(str(folder), None, judge, {"fidelity": "exact"}, None, console)
+    if video:
+        first = PolicyOptions(str(folder), seed=evaluation.SEED, out=folder / "episode")
+        run_policy(first, console)
 
 
 def _on_cluster(

@@ -18,7 +18,9 @@ from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import full_id, make_episodes, steps_of_episode
 
-__all__ = ["Evaluation", "evaluate"]
+__all__ = ["SEED", "Evaluation", "evaluate"]
+
+SEED = 10_000  # of the first episode: none of training
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ def evaluate(
     act: Callable[[Any], NDArray[Any]] | str | Path,
     environment: str,
     episodes: int = 100,
-    seed: int = 10_000,
+    seed: int = SEED,
     threads: int = 0,
     **options: Any,
 ) -> Evaluation:

@@ -117,8 +117,8 @@ class TrainOptions:
 def train(options: TrainOptions, progress: Callable[[int, float], None] | None = None) -> Path:
     """Trains a policy; goes on where an earlier run in the same folder was stopped.
 
-    Writes checkpoint.zip every `checkpoint_every` steps; at the end, and after Ctrl-C or SIGTERM,
-    policy.zip (as Stable-Baselines3 reads it) and policy.onnx (see `hurcules_envs.policy`);
+    Writes checkpoint.zip and policy.onnx (see `hurcules_envs.policy`) every `checkpoint_every`
+    steps; at the end, and after Ctrl-C or SIGTERM, policy.zip too (as Stable-Baselines3 reads it);
     settings.json, and the logs of TensorBoard where that is installed.
 
     Args:
@@ -147,6 +147,21 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     open_run(out, settings)
     model = make_model(options, environment)
     write_settings(out, settings)
+    about = {
+        "environment": options.environment,
+        "options": dict(options.options),
+        "algorithm": options.algorithm,
+        "seed": options.seed,
+        "demonstrations": options.demonstrations,
+        "action_names": environment.environment.action_names,
+        "action_scale": environment.environment.action_scale.tolist(),
+        "rate": environment.environment.environment.rate,
+    }
+
+    def save() -> None:
+        _save(model, checkpoint)
+        export_policy(model, out / "policy.onnx", about | {"steps": model.num_timesteps})
+
     if checkpoint.exists():
         try:
             model = type(model).load(checkpoint, environment, device="cpu")
@@ -157,21 +172,10 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
         environment.seed(options.seed + model.num_timesteps)  # else the first episodes come again
     elif options.demonstrations:
         _imitate(model, options)
-        _save(model, checkpoint)
-    done = options.steps <= model.num_timesteps or _learn(model, options, checkpoint, progress)
+        save()
+    done = options.steps <= model.num_timesteps or _learn(model, options, save, progress)
+    save()
     _save(model, out / "policy.zip")
-    about = {
-        "environment": options.environment,
-        "options": dict(options.options),
-        "algorithm": options.algorithm,
-        "steps": model.num_timesteps,
-        "seed": options.seed,
-        "demonstrations": options.demonstrations,
-        "action_names": environment.environment.action_names,
-        "action_scale": environment.environment.action_scale.tolist(),
-        "rate": environment.environment.environment.rate,
-    }
-    export_policy(model, out / "policy.onnx", about)
     environment.close()
     if not done:
         raise KeyboardInterrupt
@@ -263,17 +267,17 @@ def _imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
 def _learn(
     model: BaseAlgorithm,
     options: TrainOptions,
-    checkpoint: Path,
+    save: Callable[[], None],
     progress: Callable[[int, float], None] | None,
 ) -> bool:
     """Up to the wanted number of steps; false: to Ctrl-C or SIGTERM."""
     with Interrupts() as interrupts:
-        watch = _Watch(checkpoint, options.checkpoint_every, progress, interrupts)
+        watch = _Watch(save, options.checkpoint_every, progress, interrupts)
         adapts = not options.demonstrations and _standardised(model)
         callbacks = [watch, _Standardise()] if adapts else [watch]
         left = options.steps - model.num_timesteps
         model.learn(left, callback=callbacks, reset_num_timesteps=False)
-        watch.save()
+        save()
     return not interrupts.noted
 
 
@@ -314,21 +318,16 @@ class _Watch(BaseCallback):
 
     def __init__(
         self,
-        checkpoint: Path,
+        save: Callable[[], None],
         every: int,
         progress: Callable[[int, float], None] | None,
         interrupts: Interrupts,
     ) -> None:
         super().__init__()
         self._interrupts = interrupts
-        self._checkpoint, self._every, self._progress = checkpoint, every, progress
+        self._save, self._every, self._progress = save, every, progress
         self._saved = 0
         self._ends: list[bool] = []
-
-    def save(self) -> None:
-        """Writes the checkpoint in place of the last one."""
-        _save(self.model, self._checkpoint)
-        self._saved = self.num_timesteps
 
     def _on_training_start(self) -> None:
         self._saved = self.num_timesteps
@@ -338,7 +337,8 @@ class _Watch(BaseCallback):
             if done:
                 self._ends = [*self._ends[-99:], bool(info["is_success"])]
         if self.num_timesteps - self._saved >= self._every:
-            self.save()
+            self._save()
+            self._saved = self.num_timesteps
         if self._progress is not None:
             share = sum(self._ends) / len(self._ends) if self._ends else 0.0
             self._progress(self.num_timesteps, share)

@@ -122,7 +122,7 @@ def test_demonstrations_go_with_ppo_alone(tmp_path: Path, capsys) -> None:
 def test_a_training_that_was_refused_leaves_its_folder_to_the_next(tmp_path: Path, capsys) -> None:
     pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
     words = ["train", "Valve-v0", "--steps", "128", "--envs", "2", "--judge", "1"]
-    words += ["--out", str(tmp_path)]
+    words += ["--no-video", "--out", str(tmp_path)]
     assert main([*words, "--algo", "her"]) == 2
     assert "her: Hurcules/Valve-v0 is no goal environment" in capsys.readouterr().err
     assert main(words) == 0
@@ -133,5 +133,6 @@ def test_a_training_that_was_refused_leaves_its_folder_to_the_next(tmp_path: Pat
 def test_without_a_shaped_reward_only_success_counts(tmp_path: Path) -> None:
     pytest.importorskip("hurcules_envs.training", reason="pip install 'hurcules[train]'")
     words = ["train", "Reach-v0", "--sparse", "--steps", "128", "--envs", "1", "--judge", "1"]
+    words += ["--no-video"]
     assert main([*words, "--algo", "her", "--out", str(tmp_path)]) == 0
     assert Policy(tmp_path).options == {"fidelity": "kinematic", "sparse": True}

@@ -39,11 +39,33 @@ def test_a_signal_leaves_a_policy_and_the_next_call_goes_on(tmp_path: Path, numb
     with pytest.raises(KeyboardInterrupt):
         training.train(options(tmp_path, 256), stop)
     assert done[-1] == 40
+    assert float(Policy(tmp_path).metadata["steps"]) == 40
     about = Policy(tmp_path).metadata
     assert about["environment"] == "Hurcules/Reach-v0"
     assert json.loads(about["action_scale"]) == [0.3] * 6 and float(about["rate"]) == 20.0
     training.train(options(tmp_path, 256), lambda steps, share: done.append(steps))
     assert done[10] == 44 and done[-1] >= 256
+
+
+def test_a_checkpoint_can_be_tried_while_training_goes_on(tmp_path: Path) -> None:
+    """What is killed leaves a policy too."""
+    found = {}
+
+    def look(steps: int, share: float) -> None:
+        if steps in (64, 128):
+            found[steps] = float(Policy(tmp_path).metadata["steps"])
+
+    training.train(options(tmp_path, 128, checkpoint_every=64), look)
+    assert found == {64: 64.0, 128: 128.0}
+
+
+def test_a_training_ends_with_a_film(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr("hurcules_envs.running.steps_of_episode", lambda *_: 3)  # a short one
+    words = ["train", "Reach-v0", "--steps", "128", "--envs", "4", "--judge", "1"]
+    assert main([*words, "--out", str(tmp_path)]) == 0
+    summary = json.loads((tmp_path / "episode" / "summary.json").read_text())
+    assert summary["options"]["fidelity"] == "exact" and summary["seed"] == 10_000
+    assert (tmp_path / "episode" / "video.mp4").stat().st_size > 1_000
 
 
 def test_a_folder_of_another_run_says_what_differs(tmp_path: Path) -> None:
@@ -55,6 +77,7 @@ def test_a_folder_of_another_run_says_what_differs(tmp_path: Path) -> None:
 def test_a_run_that_is_done_says_so(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     """The bar stood at 0 steps."""
     words = ["train", "Reach-v0", "--fidelity", "kinematic", "--envs", "4", "--judge", "1"]
+    words += ["--no-video"]
     for told in (0, 1):
         assert main([*words, "--steps", "128", "--out", str(tmp_path)]) == 0
         assert capsys.readouterr().out.count("its 128 steps were done already") == told
