@@ -690,8 +690,9 @@ class Task:
         """What the task asks for changes no faster, and brakes no harder before its target.
 
         Norms, and feed-forwards, as in set_max_speed. By default inf: the accelerations of the coordinates are
-        limited alone. Limits and the end of reach may stop the robot harder. A row that is free within an interval
-        is not held back; law='thesis' knows no such limit.
+        limited alone. Limits and the end of reach may stop the robot harder; what was held and is let go starts
+        by up to 0.2 s of it at once. A row that is free within an interval is not held back; law='thesis' knows
+        no such limit.
 
         Args:
           acceleration: [unit/s^2], positive; inf for none.
