@@ -352,3 +352,31 @@ def test_a_bound_of_acceleration_forgets_what_was_not_followed(model: mujoco.MjM
         began = 0 if change != "weights" else 1000
         assert np.linalg.norm(changes[began:], axis=1).max() < 0.5, change
         assert abs(here[-1, 1] - start[1] - 0.25) < 2e-3, change
+
+
+@pytest.mark.parametrize("control", ["velocity", "torque"])
+def test_a_light_follower_with_dry_friction_takes_none_of_its_leader(control: str) -> None:
+    """2 N m slide from 2 mrad/s on, 0.01 N m on 2 g never: as one, 0.48 rad off."""
+    worst = {}
+    for friction in (0.0, 0.01):
+        text = f"""<mujoco><option timestep="0.002" gravity="0 0 0"/>
+          <worldbody><body><joint name="arm" axis="0 0 1" armature="0.1" frictionloss="2"/>
+            <geom type="capsule" size="0.03" fromto="0 0 0 0.4 0 0" mass="1" contype="0"/>
+            <body pos="0.4 0 0"><joint name="finger" axis="0 0 1" frictionloss="{friction}"/>
+              <geom size="0.01" pos="0.02 0 0" mass="0.002" contype="0"/></body></body>
+          </worldbody><actuator><motor joint="arm" ctrlrange="-50 50"/></actuator>
+          <equality><joint joint1="finger" joint2="arm" polycoef="0 -0.5 0 0 0"/></equality>
+          </mujoco>"""
+        model = mujoco.MjModel.from_xml_string(text)
+        robot = hurcules.Robot(model)
+        posture = hurcules.PostureTask("posture", robot)
+        controller = hurcules.WholeBodyController(robot, [posture], control=control)
+        simulation = hurcules.Simulation(model=model, controller=controller)
+        worst[friction] = 0.0
+        while simulation.time < 4.0:
+            time = simulation.time
+            posture.set_target([0.3 - 0.3 * np.cos(time)], [0.3 * np.sin(time)])
+            simulation.step(1)
+            off = simulation.data.qpos[0] - 0.3 + 0.3 * np.cos(simulation.time)
+            worst[friction] = max(worst[friction], abs(off))
+    assert worst[0.01] < worst[0.0] + 2e-3 and worst[0.0] < 6e-3

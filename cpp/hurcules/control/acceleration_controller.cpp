@@ -15,7 +15,7 @@ namespace hurcules {
 
 namespace {
 
-// all of the dry friction is given from a wanted velocity of Robot::sliding_speed on; where that is
+// all of a dry friction is given from a wanted velocity of DryFriction::slides on; where that is
 // so steep that a joint would swing, the band is wider: as a spring of stiffness k on
 // the joint's inertia M it keeps k dt^2 / M below
 constexpr double kSteepest = 0.05;
@@ -202,15 +202,22 @@ void AccelerationController::add_borne(VectorRef torque) const {
 
 // towards the velocity that the levels want: a joint that friction holds has none that tells where
 void AccelerationController::add_friction(const Robot& robot, VectorRef torque) const {
-  if (options_.friction == 0.0 || robot.dry_friction().isZero(0.0)) return;
+  if (options_.friction == 0.0) return;
   const double L = options_.damping, dt = options_.dt;
-  robot.mass_matrix(inertia_);
+  bool knows_inertia = false;
   for (Index i = 0; i < torque.size(); ++i) {
-    const double friction = options_.friction * robot.dry_friction()[i];
+    const std::vector<DryFriction>& friction = robot.dry_friction(i);
+    if (friction.empty()) continue;
+    if (!knows_inertia) robot.mass_matrix(inertia_);
+    knows_inertia = true;
     const double wanted = robot.velocity()[i] + acceleration_[i] / L;
     const double steepest = kSteepest * inertia_(i, i) * L / (options_.stiffness * dt * dt);
-    torque[i] += std::clamp(wanted * std::min(friction / robot.sliding_speed()[i], steepest),
-                            -friction, friction);
+    for (const DryFriction& dry : friction) {
+      const double most = options_.friction * dry.most;
+      const double slope =
+          std::min(most / dry.slides, steepest / static_cast<double>(friction.size()));
+      torque[i] += std::clamp(wanted * slope, -most, most);
+    }
   }
 }
 

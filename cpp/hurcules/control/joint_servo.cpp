@@ -152,8 +152,8 @@ JointServo::JointServo(const Robot& robot, const std::vector<ServoGains>& table,
     }
     Motor motor{actuator, coordinate, factor, factor / squares, row.inertia};
     if (coordinate >= 0) {
-      motor.friction = std::abs(motor.share) * robot.dry_friction()[coordinate];
-      motor.slides = std::abs(factor) * robot.sliding_speed()[coordinate];
+      for (const DryFriction& dry : robot.dry_friction(coordinate))
+        motor.friction.push_back({std::abs(motor.share) * dry.most, std::abs(factor) * dry.slides});
     }
     motors_.push_back(motor);
     drives.push_back({row.inertia, row.bandwidth, actuator.limits.peak});
@@ -295,8 +295,10 @@ void JointServo::feed_forward(const Vector& efforts, bool friction) {
 
 double JointServo::beside(Index joint, double velocity) const {
   if (!friction_) return feed_forward_[joint];
-  const Motor& motor = motors_[static_cast<std::size_t>(joint)];
-  return feed_forward_[joint] + motor.friction * std::clamp(velocity / motor.slides, -1.0, 1.0);
+  double effort = feed_forward_[joint];
+  for (const DryFriction& dry : motors_[static_cast<std::size_t>(joint)].friction)
+    effort += dry.most * std::clamp(velocity / dry.slides, -1.0, 1.0);
+  return effort;
 }
 
 void JointServo::add(const Vector& efforts) {
@@ -344,15 +346,23 @@ double JointServo::seen_speed(Index joint, const RobotState& state) {
 }
 
 double JointServo::rate_at(Index joint, double effort, double growth) const {
-  const Motor& motor = motors_[static_cast<std::size_t>(joint)];
-  const double friction = friction_ ? motor.friction : 0.0;
   const auto rate = [&](double dry) {
     return pid_.rate_at(joint, error_, (effort - feed_forward_[joint] - dry) / growth);
   };
-  const double forth = rate(friction), back = rate(-friction);  // forth <= back
-  if (forth >= motor.slides) return forth;
-  if (back <= -motor.slides) return back;
-  return rate(0.0) / (1.0 + 0.5 * (back - forth) / motor.slides);
+  const std::vector<DryFriction>& friction = motors_[static_cast<std::size_t>(joint)].friction;
+  const double free = rate(0.0);
+  if (!friction_ || friction.empty()) return free;
+  // |rate| + k F(|rate|) = |free|: F grows piecewise, one that slides after another
+  const double k = free - rate(1.0);
+  double slope = 0.0, sliding = 0.0;
+  for (const DryFriction& dry : friction) slope += dry.most / dry.slides;
+  for (const DryFriction& dry : friction) {
+    const double speed = (std::abs(free) - k * sliding) / (1.0 + k * slope);
+    if (speed < dry.slides) return std::copysign(speed, free);
+    slope -= dry.most / dry.slides;
+    sliding += dry.most;
+  }
+  return std::copysign(std::abs(free) - k * sliding, free);
 }
 
 const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector& qd,

@@ -142,13 +142,12 @@ class JointServo {
  private:
   struct Motor {
     JointActuator actuator;
-    Index coordinate = -1;  // -1: holds its place
-    double factor = 1.0;    // joint = factor * coordinate
-    double share = 1.0;     // of the coordinate's effort
-    double inertia = 0.0;   // rated
-    double friction = 0.0;  // [N m] its share of what dry friction takes of the coordinate
-    double slides = 1.0;    // [rad/s] from which on it is all of that
-    bool idle = false;      // its joint follows coordinates (closures.hpp), which bear all of it
+    Index coordinate = -1;                   // -1: holds its place
+    double factor = 1.0;                     // joint = factor * coordinate
+    double share = 1.0;                      // of the coordinate's effort
+    double inertia = 0.0;                    // rated
+    std::vector<DryFriction> friction = {};  // its share of what the coordinate meets
+    bool idle = false;  // its joint follows coordinates (closures.hpp), which bear all of it
     std::array<Index, 3> ball = {};  // the motors of its ball joint, where it has one
   };
   struct Rest {

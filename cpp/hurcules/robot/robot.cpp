@@ -95,19 +95,8 @@ Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floati
   data_.reset(mj_makeData(&m));
   require(data_ != nullptr, "MuJoCo has no memory for this model");
   q_ = Vector::Zero(size());
-  v_ = dry_friction_ = change_ = Vector::Zero(size());
-  sliding_speed_ = Vector::Zero(size());
-  for (Index i = 0; i < size() && !(m.opt.disableflags & mjDSBL_FRICTIONLOSS); ++i) {
-    for (const DrivenJoint& joint : coordinates_[i].joints) {
-      const double friction = std::abs(joint.factor) * m.dof_frictionloss[joint.dof];
-      dry_friction_[i] += friction;
-      sliding_speed_[i] += friction * slides_from(m, joint.dof) / std::abs(joint.factor);
-    }
-  }
-  for (Index i = 0; i < size(); ++i) {  // the mean of its joints, by what each takes
-    if (dry_friction_[i] > 0.0) sliding_speed_[i] /= dry_friction_[i];
-    sliding_speed_[i] = std::max(sliding_speed_[i], kSticks);
-  }
+  v_ = change_ = Vector::Zero(size());
+  find_dry_friction(m);
   inertia_ = Matrix::Zero(m.nv, m.nv);
   column_ = Vector::Zero(m.nv);
   efforts_ = Vector::Zero(m.nv);
@@ -315,6 +304,21 @@ void Robot::keep_support() {
   const Eigen::Quaterniond turn(R);
   qpos_.segment<3>(root_qpos_) = p_WS_ - R * RS.p;
   qpos_.segment<4>(root_qpos_ + 3) << turn.w(), turn.x(), turn.y(), turn.z();
+}
+
+void Robot::find_dry_friction(const mjModel& m) {
+  dry_friction_.resize(coordinates_.size());
+  if (m.opt.disableflags & mjDSBL_FRICTIONLOSS) return;
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    for (const DrivenJoint& joint : coordinates_[i].joints) {
+      if (m.dof_frictionloss[joint.dof] <= 0.0) continue;
+      const double factor = std::abs(joint.factor);
+      dry_friction_[i].push_back({factor * m.dof_frictionloss[joint.dof],
+                                  std::max(kSticks, slides_from(m, joint.dof) / factor)});
+    }
+    std::sort(dry_friction_[i].begin(), dry_friction_[i].end(),
+              [](const DryFriction& a, const DryFriction& b) { return a.slides < b.slides; });
+  }
 }
 
 void Robot::find_rotations() {

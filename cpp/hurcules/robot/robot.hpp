@@ -105,6 +105,12 @@ struct ModelIdentity {
   friend bool operator==(const ModelIdentity&, const ModelIdentity&) = default;
 };
 
+// Dry friction of a joint as its coordinate meets it: nothing at rest, growing up to a speed.
+struct DryFriction {
+  double most = 0.0;    // [N m], of a slide [N]
+  double slides = 1.0;  // [rad/s] from which on it is all of that; MuJoCo's friction creeps below
+};
+
 class Robot {
  public:
   // joints: the names of its coordinates (joints or tuples), none for those of the rule above; throws
@@ -203,10 +209,10 @@ class Robot {
   // standing as stand_on says: inertia with armature, gravity, centrifugal and Coriolis terms,
   // springs and dampers of the model; without dry friction and contacts. [rad/s^2] (n) -> [N m] (n)
   void inverse_dynamics(const ConstVectorRef& acceleration, VectorRef torque) const;
-  // what the joints' dry friction takes of a coordinate that moves, (n) [N m], >= 0
-  [[nodiscard]] const Vector& dry_friction() const { return dry_friction_; }
-  // from which speed on it is all of that: MuJoCo's friction creeps below, (n) [rad/s], > 0
-  [[nodiscard]] const Vector& sliding_speed() const { return sliding_speed_; }
+  // what the joints of a coordinate have, in the order of their `slides`
+  [[nodiscard]] const std::vector<DryFriction>& dry_friction(Index coordinate) const {
+    return dry_friction_[static_cast<std::size_t>(coordinate)];
+  }
   // the joints that follow the coordinates because loops close, null without
   [[nodiscard]] const Closures* closures() const { return closures_.get(); }
   // its first coordinates are those of the root
@@ -225,6 +231,7 @@ class Robot {
 
  private:
   void find_trees();
+  void find_dry_friction(const mjModel_& model);
   void find_rotations();
   void find_screws();   // where another body comes to stand
   void read_qpos();     // all of it, after a change
@@ -254,11 +261,11 @@ class Robot {
   std::vector<RotationVector> rotations_;
   Vector q_, v_, qpos_;
   std::uint64_t structure_ = 0;
-  Vector dry_friction_, sliding_speed_;  // (n)
-  Vector change_;                        // (n) scratch
-  std::vector<int> trees_ = {0};         // bodies at the roots of the coordinates' trees
-  int support_ = -1;                     // body that stands, -1 for the root
-  int root_qpos_ = -1, root_dof_ = -1;   // of its tree's free joint
+  std::vector<std::vector<DryFriction>> dry_friction_;  // (n)
+  Vector change_;                                       // (n) scratch
+  std::vector<int> trees_ = {0};        // bodies at the roots of the coordinates' trees
+  int support_ = -1;                    // body that stands, -1 for the root
+  int root_qpos_ = -1, root_dof_ = -1;  // of its tree's free joint
   bool floating_ = false;
   Vector3 p_WS_ = Vector3::Zero();  // [m] where the support stands
   Matrix3 R_WS_ = Matrix3::Identity();

@@ -175,8 +175,8 @@ TEST_F(JointServoTest, GivesWhatDryFrictionTakesTowardsWhereItsReferenceGoes) {
   text.replace(text.find(boom), boom.size(), boom + R"( frictionloss="3")");
   const Robot dry(load_model_text(text));
   servo_ = JointServo(dry, kTable, 1e-3);
-  const double slides = dry.sliding_speed()[1];
-  EXPECT_EQ(dry.dry_friction()[1], 3.0);
+  const double slides = dry.dry_friction(1).front().slides;
+  EXPECT_EQ(dry.dry_friction(1).front().most, 3.0);
   for (const double speed : {0.5, 0.5 * slides, 0.0, -0.1 * slides, -0.5}) {
     servo_.reset(Vector::Zero(4));
     data_->qvel[2] = speed;
