@@ -354,6 +354,25 @@ def test_a_bound_of_acceleration_forgets_what_was_not_followed(model: mujoco.MjM
         assert abs(here[-1, 1] - start[1] - 0.25) < 2e-3, change
 
 
+def test_a_bound_of_acceleration_outlives_numbers_that_are_none(model: mujoco.MjModel) -> None:
+    robot, broken = arm(model), False
+
+    def height(robot: hurcules.Robot) -> tuple[list[float], np.ndarray]:
+        rows = robot.position_jacobian("tip")[2:]
+        return [robot.position("tip")[2]], rows * np.nan if broken else rows
+
+    task = hurcules.CustomTask("height", robot, 1, height)
+    task.set_max_acceleration(0.5)
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([task]))
+    goal = robot.position("tip")[2] - 0.05
+    task.set_target([goal])
+    for tick in range(4000):
+        broken = tick < 10
+        robot.set_configuration(controller.step(robot))
+    assert abs(robot.position("tip")[2] - goal) < 1e-4
+
+
 @pytest.mark.parametrize("control", ["velocity", "torque"])
 def test_a_light_follower_with_dry_friction_takes_none_of_its_leader(control: str) -> None:
     """2 N m slide from 2 mrad/s on, 0.01 N m on 2 g never: as one, 0.48 rad off."""

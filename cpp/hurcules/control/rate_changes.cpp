@@ -48,7 +48,8 @@ void RateChanges::limit(std::size_t k, std::size_t i, const Task& task, const Ve
     const bool asks = task.weights()[row] > 0.0;
     const bool pushes = asks && (least == most || least > 0.0 || most < 0.0);
     double& rate = last.rate[row];
-    rate = last.known && pushes ? std::clamp(rate, goes[row] - lead, goes[row] + lead) : goes[row];
+    const bool knows = last.known && std::isfinite(rate);
+    rate = knows && pushes ? std::clamp(rate, goes[row] - lead, goes[row] + lead) : goes[row];
     change[row] = asks ? std::clamp(rate, least, most) - rate : 0.0;
     together = std::hypot(together, change[row] / task.speed_share(row));
   }
