@@ -31,7 +31,7 @@ void FeedForward::tell(Robot& plan, const Vector& qd, bool commanded, const Robo
   } else {
     plan.inverse_dynamics(qdd_, efforts_);
   }
-  servo.feed_forward(efforts_, true);
+  servo.feed_forward(efforts_, decoupled_);  // dry friction would shake those that are not
 }
 
 const Vector& FeedForward::tell_growth(Robot& plan, const Vector& qd, const RobotState& state,

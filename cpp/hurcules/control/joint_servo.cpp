@@ -293,12 +293,15 @@ void JointServo::feed_forward(const Vector& efforts, bool friction) {
   }
 }
 
-double JointServo::beside(Index joint, double velocity) const {
-  if (!friction_) return feed_forward_[joint];
-  double effort = feed_forward_[joint];
+double JointServo::overcome(Index joint, const EffortRange& range) const {
+  double effort = 0.0;
+  if (!friction_) return effort;
   for (const DryFriction& dry : motors_[static_cast<std::size_t>(joint)].friction)
-    effort += dry.most * std::clamp(velocity / dry.slides, -1.0, 1.0);
-  return effort;
+    effort += dry.most * std::clamp(velocity_[joint] / dry.slides, -1.0, 1.0);
+  const double asked = feed_forward_[joint] + pid_.feedback(joint, error_);
+  const double peak = kOfPeak * pid_.options().max_torque[joint];
+  return std::clamp(effort, std::min(0.0, std::max(range.lower, -peak) - asked),
+                    std::max(0.0, std::min(range.upper, peak) - asked));
 }
 
 void JointServo::add(const Vector& efforts) {
@@ -346,23 +349,7 @@ double JointServo::seen_speed(Index joint, const RobotState& state) {
 }
 
 double JointServo::rate_at(Index joint, double effort, double growth) const {
-  const auto rate = [&](double dry) {
-    return pid_.rate_at(joint, error_, (effort - feed_forward_[joint] - dry) / growth);
-  };
-  const std::vector<DryFriction>& friction = motors_[static_cast<std::size_t>(joint)].friction;
-  const double free = rate(0.0);
-  if (!friction_ || friction.empty()) return free;
-  // |rate| + k F(|rate|) = |free|: F grows piecewise, one that slides after another
-  const double k = free - rate(1.0);
-  double slope = 0.0, sliding = 0.0;
-  for (const DryFriction& dry : friction) slope += dry.most / dry.slides;
-  for (const DryFriction& dry : friction) {
-    const double speed = (std::abs(free) - k * sliding) / (1.0 + k * slope);
-    if (speed < dry.slides) return std::copysign(speed, free);
-    slope -= dry.most / dry.slides;
-    sliding += dry.most;
-  }
-  return std::copysign(std::abs(free) - k * sliding, free);
+  return pid_.rate_at(joint, error_, (effort - feed_forward_[joint]) / growth);
 }
 
 const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector& qd,
@@ -443,8 +430,9 @@ void JointServo::compute(const RobotState& state, VectorRef ctrl) {
     const Rest& rest = rests_[static_cast<std::size_t>(i)];
     error_.velocity[i] = velocity_[i] - state.qvel[motor.dof];
     const bool idle = motors_[static_cast<std::size_t>(i)].idle;
-    pid_.limit(i, rest.on || idle ? EffortRange{} : within(status.range, motor, state));
-    beside_[i] = beside(i, velocity_[i]);
+    const EffortRange range = rest.on || idle ? EffortRange{} : within(status.range, motor, state);
+    pid_.limit(i, range);
+    beside_[i] = feed_forward_[i] + overcome(i, range);
     if (rest.over) pid_.take_over(i, error_, status.brake_load - beside_[i]);
   }
   const Vector& torque = pid_.compute(error_, beside_);

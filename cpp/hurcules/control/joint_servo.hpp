@@ -94,6 +94,7 @@ class JointServo {
                                         double most, const Vector* growth);
   // What a model says the coordinates take, (n) [N m]; their joints share it by their factors.
   // friction: and beside it, towards where their references go, what dry friction of the model takes
+  // and their motors have left
   void feed_forward(const Vector& efforts, bool friction);
   // as much more effort of the coordinates from now on, (n) [N m], for feed-forward that falls away
   void add(const Vector& efforts);
@@ -165,8 +166,8 @@ class JointServo {
   // [rad/s] of the reference, 0 in the error, at which joint i is asked for `effort` [N m] where its
   // own feedback counts `growth` times
   [[nodiscard]] double rate_at(Index joint, double effort, double growth) const;
-  // what is fed forward where the reference goes at `velocity` [rad/s]: [N m]
-  [[nodiscard]] double beside(Index joint, double velocity) const;
+  // [N m] for dry friction where its reference goes: no more than its motor has left
+  [[nodiscard]] double overcome(Index joint, const EffortRange& range) const;
   // of a ball joint with this motor: the rotation of references (m)
   [[nodiscard]] Matrix3 rotation(Index joint, const Vector& reference) const;
 

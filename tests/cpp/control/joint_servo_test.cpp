@@ -187,26 +187,13 @@ TEST_F(JointServoTest, GivesWhatDryFrictionTakesTowardsWhereItsReferenceGoes) {
                   1e-12);
     }
   }
-  // a window counts it: at its sides the motor is asked for its peak
+  // no more than the motor has left: a window does not count it
   data_->qvel[2] = 0.0;
   servo_.reset(Vector::Zero(4));
-  servo_.feed_forward(Vector::Zero(2), true);
-  for (int i = 0; i < 5; ++i) act(0.0, 0.02);
-  const JointServo before = servo_;
-  for (const double q : {0.2, -0.45, 0.4665}) {
-    servo_ = before;
-    const Vector none = Vector::Zero(4), start = Eigen::Vector2d(0.0, q);
-    const VelocityBounds window =
-        servo_.velocity_bounds(start, Vector::Zero(2), {none, none, status_},
-                               std::numeric_limits<double>::infinity(), nullptr);
-    for (const auto& [rate, torque] :
-         {std::pair(window.lower[1], -20.0), std::pair(window.upper[1], 20.0)}) {
-      servo_ = before;
-      const Vector qd = Eigen::Vector2d(0.0, rate);
-      follow(start + 1e-3 * qd, qd);
-      EXPECT_NEAR(servo_.demand()[2], torque, 1e-9) << q;
-    }
-  }
+  servo_.feed_forward(Eigen::Vector2d(0.0, 19.0), true);
+  follow(Vector::Zero(2), Eigen::Vector2d(0.0, 1e-2));  // 0.3 N m of its own
+  EXPECT_GT(servo_.demand()[2], 19.9);
+  EXPECT_LE(servo_.demand()[2], 20.0);
 }
 
 TEST(DefaultServoGains, CoverTheInertiasOfTheRanges) {
