@@ -123,6 +123,11 @@ def load(name: str, path: Path) -> Arm:
 
 def arms(wanted: str = "") -> Iterator[Arm]:
     """All that load, of which `wanted` is a part of the name."""
+    return (arm for arm, _ in arms_and_files(wanted))
+
+
+def arms_and_files(wanted: str = "") -> Iterator[tuple[Arm, Path]]:
+    """The same, each with the file that it comes from."""
     for package, path in places():
         name = name_of(package, path)
         if wanted not in name:
@@ -131,4 +136,4 @@ def arms(wanted: str = "") -> Iterator[Arm]:
             warnings.simplefilter("ignore")
             arm = load(name, path)
             if arm.hand:
-                yield arm
+                yield arm, path

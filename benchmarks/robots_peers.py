@@ -19,13 +19,12 @@ import contextlib
 import json
 import tempfile
 import time
-import warnings
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from arms import Arm, bare_urdf, load, name_of, places
+from arms import Arm, arms_and_files, bare_urdf
 from arrival import posture
 from robots import MISS, MOVES, SECONDS, TURN, angle
 
@@ -292,14 +291,9 @@ def agrees(told: Robot, kind: type) -> bool:
 
 def subjects(wanted: str) -> Iterator[Robot]:
     """The robots whose joints are all led."""
-    for package, path in places():
-        name = name_of(package, path)
-        if wanted not in name:
-            continue
-        with contextlib.suppress(Exception), warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            arm = load(name, path)
-            if arm.hand and arm.robot().size == arm.model.nv:
+    for arm, path in arms_and_files(wanted):
+        with contextlib.suppress(Exception):
+            if arm.robot().size == arm.model.nv:
                 yield Robot(arm, path)
 
 

@@ -277,7 +277,6 @@ def _learn(
         callbacks = [watch, _Standardise()] if adapts else [watch]
         left = options.steps - model.num_timesteps
         model.learn(left, callback=callbacks, reset_num_timesteps=False)
-        save()
     return not interrupts.noted
 
 

@@ -294,9 +294,10 @@ void JointServo::feed_forward(const Vector& efforts, bool friction) {
 }
 
 double JointServo::overcome(Index joint, const EffortRange& range) const {
+  const std::vector<DryFriction>& friction = motors_[static_cast<std::size_t>(joint)].friction;
+  if (!friction_ || friction.empty()) return 0.0;
   double effort = 0.0;
-  if (!friction_) return effort;
-  for (const DryFriction& dry : motors_[static_cast<std::size_t>(joint)].friction)
+  for (const DryFriction& dry : friction)
     effort += dry.most * std::clamp(velocity_[joint] / dry.slides, -1.0, 1.0);
   const double asked = feed_forward_[joint] + pid_.feedback(joint, error_);
   const double peak = kOfPeak * pid_.options().max_torque[joint];
@@ -348,10 +349,6 @@ double JointServo::seen_speed(Index joint, const RobotState& state) {
   return std::abs(speed) < std::abs(moved) ? speed : moved;
 }
 
-double JointServo::rate_at(Index joint, double effort, double growth) const {
-  return pid_.rate_at(joint, error_, (effort - feed_forward_[joint]) / growth);
-}
-
 const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector& qd,
                                                   const RobotState& state, double most,
                                                   const Vector* growth) {
@@ -376,9 +373,10 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     const JointActuator& own = motor.actuator;
     if (!own.is_motor && reference_[i] <= own.lower + kAtStop) range.lower = -peak;
     if (!own.is_motor && reference_[i] >= own.upper - kAtStop) range.upper = peak;
+    const double beside = feed_forward_[i];
     const double grown = growth ? (*growth)[motor.coordinate] : 1.0;
-    const double a = rate_at(i, range.lower, grown) / motor.factor;
-    const double b = rate_at(i, range.upper, grown) / motor.factor;
+    const double a = pid_.rate_at(i, error_, (range.lower - beside) / grown) / motor.factor;
+    const double b = pid_.rate_at(i, error_, (range.upper - beside) / grown) / motor.factor;
     const double goes = seen / motor.factor, led = qd[motor.coordinate];
     double& lower = bounds_.lower[motor.coordinate];
     double& upper = bounds_.upper[motor.coordinate];
@@ -477,7 +475,6 @@ void JointServo::save(StateWriter& writer) const {
   for (const Vector* vector : {&position_, &velocity_, &offset_, &feed_forward_, &seen_})
     writer.put(*vector);
   for (const Rest& rest : rests_) writer.put(rest.on ? 1.0 : 0.0);
-  writer.put(friction_ ? 1.0 : 0.0);
 }
 
 void JointServo::restore(StateReader& reader) {
@@ -486,7 +483,6 @@ void JointServo::restore(StateReader& reader) {
     reader.get(*vector);
   std::fill(trust_.begin(), trust_.end(), Trust::All);  // who holds the robot tells it again
   for (Rest& rest : rests_) rest = {.on = reader.get_count(1) > 0};
-  friction_ = reader.get_count(1) > 0;
 }
 
 }  // namespace hurcules

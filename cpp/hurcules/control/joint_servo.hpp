@@ -163,9 +163,6 @@ class JointServo {
   // [rad/s] that a joint is seen to go with since the last call: one reading that is wrong, of its
   // place or its speed, does not move it
   double seen_speed(Index joint, const RobotState& state);
-  // [rad/s] of the reference, 0 in the error, at which joint i is asked for `effort` [N m] where its
-  // own feedback counts `growth` times
-  [[nodiscard]] double rate_at(Index joint, double effort, double growth) const;
   // [N m] for dry friction where its reference goes: no more than its motor has left
   [[nodiscard]] double overcome(Index joint, const EffortRange& range) const;
   // of a ball joint with this motor: the rotation of references (m)

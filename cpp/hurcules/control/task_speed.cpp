@@ -66,6 +66,7 @@ double haste(const Task& task, double gain, double dt) {
 }
 
 double braking(const Task& task, double gain, double dt) {
+  if (std::isinf(task.max_acceleration())) return 0.0;
   return over_brake(task, asked(task, gain, dt));
 }
 
