@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules.ik import within_balls
 from hurcules.output import compiled
 from hurcules_envs.rotations import rotation_vector
 
@@ -272,7 +271,7 @@ def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
     lower, upper = _ranges(setup, robot, first)
     qpos, hands, turns = [], [], []
     for _ in range(200 * POOL):
-        drawn = within_balls(robot, generator.uniform(lower, upper))
+        drawn = _within_balls(robot, generator.uniform(lower, upper))
         if not robot.followers:
             robot.set_configuration(drawn)
         elif not _lead(setup, robot, data, start, drawn):
@@ -295,6 +294,15 @@ def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
         f"robot {setup.name}: only {len(qpos)} of {POOL} postures without contact were found in "
         f"{200 * POOL} trials"
     )
+
+
+def _within_balls(robot: hurcules.Robot, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same with ball joints turned no further than their ranges, (n,)."""
+    for i, coordinate in enumerate(robot.coordinates):
+        if coordinate.joints[0].part == 3:
+            angle = float(np.linalg.norm(q[i : i + 3]))
+            q[i : i + 3] *= min(1.0, coordinate.upper / angle) if angle > 0.0 else 1.0
+    return q
 
 
 def _lead(

@@ -18,6 +18,7 @@ void bind_force(py::module_& module);
 void bind_stack(py::module_& module);
 void bind_control(py::module_& module);
 void bind_acceleration(py::module_& module);
+void bind_detour(py::module_& module);
 void bind_joint_pid(py::module_& module);
 void bind_drive(py::module_& module);
 void bind_whole_body(py::module_& module);
@@ -74,6 +75,7 @@ PYBIND11_MODULE(_core, module) {
   bind_stack(module);
   bind_control(module);
   bind_acceleration(module);
+  bind_detour(module);
   bind_joint_pid(module);
   bind_drive(module);
   bind_whole_body(module);

@@ -90,6 +90,7 @@ from hurcules._core import (  # noqa: E402
     PointTask,
     PoseTask,
     PositionTask,
+    Posture,
     PostureKey,
     PostureTask,
     PowerMeter,
@@ -120,6 +121,7 @@ from hurcules._core import (  # noqa: E402
     VelocityControllerOptions,
     WholeBodyController,
     ZeroMomentTask,
+    inverse_kinematics,
     largest_stiffness,
     mode_ranges,
     obstacles,
@@ -128,7 +130,7 @@ from hurcules._core import (  # noqa: E402
     sole_points,
     step,
 )
-from hurcules.ik import Posture, inverse_kinematics  # noqa: E402
+from hurcules.detour import Detour  # noqa: E402
 from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
@@ -189,6 +191,7 @@ __all__ = [
     "CustomTask",
     "DampingTask",
     "Delta",
+    "Detour",
     "DistanceTask",
     "Drive",
     "DriveController",

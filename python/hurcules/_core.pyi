@@ -2140,6 +2140,95 @@ class AccelerationController:
     def velocity(self) -> NDArray[np.float64]:
         """(n,) [rad/s] or [m/s], qdot that the last qddot* leads to in a period"""
 
+class Posture:
+    """What `inverse_kinematics` found. An array too: its configuration, as a PostureTask takes it."""
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any: ...
+    @property
+    def configuration(self) -> NDArray[np.float64]:
+        """(n,) [rad] or [m] of the robot, within its limits"""
+
+    @property
+    def error(self) -> float:
+        """[m or rad] the largest that any row of a task lacks"""
+
+    @property
+    def qpos(self) -> NDArray[np.float64]:
+        """(nq,) the whole of it, for `Robot.set_qpos`: joints that close loops may stand in more than one way at the same configuration"""
+
+    @property
+    def reached(self) -> bool:
+        """no row lacks more than the tolerance"""
+
+    @property
+    def starts(self) -> tuple[int, int]:
+        """(begun, reached): how many descents began, and how many of them reached"""
+
+    def __init__(self, *args: object, **kwargs: object) -> None: ...
+
+class Detour:
+    """The detour of a loop that asks controllers of its own; `hurcules.Detour` says what it does."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        before: Stack
+        | collections.abc.Iterable[
+            Task
+            | JointLimits
+            | StackLevel
+            | collections.abc.Iterable[Task | JointLimits | StackLevel]
+        ],
+        targets: Stack
+        | collections.abc.Iterable[
+            Task
+            | JointLimits
+            | StackLevel
+            | collections.abc.Iterable[Task | JointLimits | StackLevel]
+        ],
+        below: Stack
+        | collections.abc.Iterable[
+            Task
+            | JointLimits
+            | StackLevel
+            | collections.abc.Iterable[Task | JointLimits | StackLevel]
+        ] = (),
+        *,
+        starts: int = 32,
+        seed: int = 0,
+        tolerance: float = 0.001,
+        rate: float = 20000.0,
+    ) -> None: ...
+    def look_at(self, robot: Robot, velocity: ArrayLike, dt: float) -> bool:
+        """Looks at the robot after a tick; as `hurcules.Detour.look`.
+
+        Args:
+          robot: Robot at the reference.
+          velocity: (n,) [rad/s] of the reference.
+          dt: [s] since the last look.
+
+        Returns:
+          True where from now on the other stack shall rule: stacks["detour"] if on_the_way, else stacks["direct"]."""
+
+    def reset(self) -> None:
+        """The direct stack rules, as at the start."""
+
+    @property
+    def decision(self) -> str:
+        """what the last look decided, in words; '' where all goes on"""
+
+    @property
+    def on_the_way(self) -> bool:
+        """the posture rules"""
+
+    @property
+    def posture(self) -> PostureTask:
+        """PostureTask of the way; set_max_speed bounds its speed"""
+
+    @property
+    def stacks(self) -> dict[str, Stack]:
+        """by name those of a controller: 'direct' rules at the start, 'detour' on the way"""
+
 class JointPidOptions:
     """Gains of the joint servo, (m,) each.
 
@@ -4459,6 +4548,41 @@ def condition(text: str) -> Condition:
 
     Raises:
       Error: it is none."""
+
+def inverse_kinematics(
+    robot: Robot,
+    tasks: Stack
+    | collections.abc.Iterable[
+        Task | JointLimits | StackLevel | collections.abc.Iterable[Task | JointLimits | StackLevel]
+    ],
+    *,
+    starts: int = 32,
+    seed: int = 0,
+    tolerance: float = 0.0001,
+) -> Posture:
+    """The posture nearest to the present one, of those found, that meets all tasks.
+
+    Where none does: the one that lacks least in the first level, then in the second, and so on.
+
+    A controller descends from where the robot stands; where limits or singularities end the
+    descent, others begin at random postures, each farther from the present one than the last.
+    What a controller cannot reach from here in one go (the target wants an elbow or a wrist turned
+    the other way) it reaches by this posture: give it to a `PostureTask` that no task of the hand
+    comes before, then add the hand; or let a `Detour` do that. Nothing is said of the way between the two.
+
+    Args:
+      robot: stays as it is.
+      tasks: what shall be met, in decreasing priority, as for a controller; limits such as
+        distances come first and shall hold.
+      starts: descents at most.
+      seed: of the random postures; same arguments, same posture.
+      tolerance: [m or rad] of each row.
+
+    Returns:
+      Posture.
+
+    Raises:
+      Error: no task, fewer than one start, or a tolerance that is not positive."""
 
 def largest_stiffness(gains: ForceGains) -> float:
     """Largest stiffness G [N/m] of an environment that the gains keep stable in steps of dt.

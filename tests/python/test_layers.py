@@ -46,7 +46,7 @@ FLOORS: tuple[set[str], ...] = (
         "interrupts", "mission_drawing", "output", "toml_rows", "validation",
     )},
     {"hurcules." + name for name in (
-        "_pickles", "_reprs", "_subclasses", "_version", "casualties", "ik", "mission_options",
+        "_pickles", "_reprs", "_subclasses", "_version", "casualties", "detour", "mission_options",
         "mission_table", "motors", "postures", "rendering", "rhqp", "sensors",
         "start_checks", "support",
     )},

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "hurcules/base/random.hpp"
 #include "hurcules/mission/mission_setup.hpp"
 #include "hurcules/sim/casualty_monitor.hpp"
 #include "hurcules/sim/load_monitor.hpp"
 #include "hurcules/sim/place_monitor.hpp"
 #include "hurcules/sim/plant.hpp"
-#include "hurcules/sim/random.hpp"
 
 namespace hurcules {
 

@@ -1,8 +1,8 @@
 // The seeded differences between runs: where the casualty lies, how the robot stands at first.
 #pragma once
 
+#include "hurcules/base/random.hpp"
 #include "hurcules/base/types.hpp"
-#include "hurcules/sim/random.hpp"
 
 namespace hurcules {
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string>
 
+#include "hurcules/base/random.hpp"
 #include "hurcules/base/state.hpp"
 #include "hurcules/base/types.hpp"
-#include "hurcules/sim/random.hpp"
 #include "hurcules/sim/sensor.hpp"
 
 struct mjModel_;

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "hurcules/base/random.hpp"
 #include "hurcules/base/state.hpp"
 #include "hurcules/base/types.hpp"
-#include "hurcules/sim/random.hpp"
 
 struct mjData_;
 

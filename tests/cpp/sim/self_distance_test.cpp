@@ -8,9 +8,9 @@
 #include <cmath>
 #include <memory>
 
+#include "hurcules/base/random.hpp"
 #include "hurcules/robot/geom_bounds.hpp"
 #include "hurcules/robot/robot.hpp"
-#include "hurcules/sim/random.hpp"
 #include "support/expect.hpp"
 #include "support/scene.hpp"
 

@@ -1,4 +1,4 @@
-#include "hurcules/sim/random.hpp"
+#include "hurcules/base/random.hpp"
 
 #include <bit>
 

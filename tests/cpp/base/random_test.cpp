@@ -1,6 +1,6 @@
 // Strategy: moments of many draws within four standard errors of what theory says; bits after a
 // restore. Not tested: the tails, which end at six by construction.
-#include "hurcules/sim/random.hpp"
+#include "hurcules/base/random.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,0 +1,160 @@
+#include "hurcules/control/detour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kSlow = 1e-2;   // [rad/s] or [m/s]
+constexpr double kStill = 0.1;   // [s] it has been slower: what it lacks now, it may lack for ever
+constexpr double kRest = 1e-3;   // [rad/s] or [m/s] from here on it does
+constexpr double kThere = 1e-2;  // [rad] or [m] of each coordinate: the posture is reached
+
+std::vector<StackLevel> joined(std::vector<StackLevel> levels,
+                               const std::vector<StackLevel>& more) {
+  levels.insert(levels.end(), more.begin(), more.end());
+  return levels;
+}
+
+std::vector<Task*> tasks_of(const std::vector<StackLevel>& levels) {
+  std::vector<Task*> tasks;
+  for (const StackLevel& level : levels)
+    tasks.insert(tasks.end(), level.tasks.begin(), level.tasks.end());
+  require(!tasks.empty(), "Detour wants at least one task as a target");
+  return tasks;
+}
+
+Index rows_of(const std::vector<Task*>& tasks) {
+  Index rows = 0;
+  for (const Task* const task : tasks) rows += task->rows();
+  return rows;
+}
+
+}  // namespace
+
+Detour::Detour(const Robot& robot, const std::vector<StackLevel>& before,
+               const std::vector<StackLevel>& targets, const std::vector<StackLevel>& below,
+               DetourOptions options)
+    : options_(options),
+      posture_("detour", robot),
+      targets_(tasks_of(targets)),
+      direct_(joined(joined(before, targets), below)),
+      way_(joined(before, {StackLevel(posture_)})),
+      probe_(robot.model(), robot.coordinate_names()),
+      search_(robot, Stack(joined(before, targets)), options.search),
+      errors_(rows_of(targets_)) {
+  require(options.tolerance > 0.0,
+          "Detour: tolerance wants a positive number, got " + number_text(options.tolerance));
+  require(options.rate > 0.0 && std::isfinite(options.rate),
+          "Detour: rate wants a positive number, got " + number_text(options.rate));
+}
+
+void Detour::reset() {
+  state_ = State::Direct;
+  still_ = 0.0;
+  judged_ = false;
+  decision_.clear();
+}
+
+bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt) {
+  require(velocity.size() == robot.size(), "Detour: a velocity has " +
+                                               std::to_string(robot.size()) + " numbers, got " +
+                                               std::to_string(velocity.size()));
+  decision_.clear();
+  const double speed = velocity.cwiseAbs().maxCoeff();
+  still_ = speed > kSlow ? 0.0 : still_ + dt;
+  if (state_ != State::Direct && targets_moved(robot)) return go_back("a target moved");
+  switch (state_) {
+    case State::Direct:
+      if (still_ >= kStill) begin_search(robot);
+      return false;
+    case State::Searching: {
+      const auto ticks = static_cast<int>(std::lround(std::max(1.0, options_.rate * dt)));
+      return !search_.advance(ticks) && end_search(robot, speed < kRest);
+    }
+    case State::Way:
+      posture_.update(robot);
+      const double off = posture_.error().cwiseAbs().maxCoeff();
+      if (off < kThere) return go_back("the posture is reached");
+      if (still_ < kStill) return false;
+      return go_back("barred, " + number_text(off, 3) + " before the posture");
+  }
+  return false;
+}
+
+void Detour::begin_search(const Robot& robot) {
+  const Task* worst = nullptr;
+  double most = options_.tolerance;
+  for (const Task* const task : targets_) {
+    if (const double lacks = lacking(*task); lacks > most) {
+      worst = task;
+      most = lacks;
+    }
+  }
+  if (!worst) judged_ = false;
+  if (!worst || (judged_ && !targets_moved(robot))) return;
+  judge(robot, robot.qpos());
+  search_.begin(robot);
+  state_ = State::Searching;
+  short_ = worst->name() + " rests " + number_text(most, 3) + " short; ";
+}
+
+bool Detour::end_search(const Robot& robot, bool rests) {
+  const Posture found = search_.best();
+  if (found.reached && found.starts == 1 && !rests) {  // it gets there by itself
+    reset();
+    return false;
+  }
+  if (!found.reached) {
+    state_ = State::Direct;
+    decision_ = short_ + "none of " + std::to_string(found.starts) +
+                " descents finds a posture for all targets";
+    return false;
+  }
+  judge(robot, found.qpos);
+  posture_.set_target(found.configuration);
+  state_ = State::Way;
+  still_ = 0.0;
+  decision_ = short_ + "goes round by another posture";
+  return true;
+}
+
+// whether a stack must change
+bool Detour::go_back(const std::string& why) {
+  const bool was_on_the_way = on_the_way();
+  state_ = State::Direct;
+  still_ = 0.0;
+  if (was_on_the_way) decision_ = why + "; the targets rule again";
+  return was_on_the_way;
+}
+
+void Detour::judge(const Robot& robot, const Vector& qpos) {
+  judged_ = true;
+  judged_at_ = qpos;
+  judged_errors_ = errors_at(robot, qpos);
+}
+
+bool Detour::targets_moved(const Robot& robot) {
+  return (errors_at(robot, judged_at_) - judged_errors_).cwiseAbs().maxCoeff() > options_.tolerance;
+}
+
+// of all targets at this posture; they are measured where the robot is again afterwards
+const Vector& Detour::errors_at(const Robot& robot, const Vector& qpos) {
+  probe_.set_qpos(qpos);
+  Index row = 0;
+  for (Task* const task : targets_) {
+    task->update(probe_);
+    errors_.segment(row, task->rows()) = task->error();
+    row += task->rows();
+    task->update(robot);
+  }
+  return errors_;
+}
+
+}  // namespace hurcules

@@ -1,0 +1,214 @@
+#include "hurcules/control/posture_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
+
+namespace hurcules {
+
+namespace {
+
+constexpr double kDt = 0.02, kGain = 20.0;        // [s], [1/s] of a descent
+constexpr int kSecond = 50;                       // [ticks]
+constexpr int kLeast = 10, kMost = 1000;          // [s] it takes: a base may have far to go
+constexpr double kWay = 0.1;                      // [m or rad/s] of one that goes on after that
+constexpr double kRest = 1e-5;                    // [rad/s] or [m/s]: it goes no farther
+constexpr double kFree = 3.14159265358979323846;  // [rad] or [m] about where one without range is
+
+VelocityControllerOptions descent() {
+  VelocityControllerOptions options;
+  options.dt = kDt;
+  options.gain = kGain;
+  options.max_acceleration = std::numeric_limits<double>::infinity();
+  options.transition = 0.0;
+  return options;
+}
+
+// the same levels of other tasks
+Stack copied(const Stack& stack, std::vector<const Task*>& originals,
+             std::vector<std::unique_ptr<Task>>& tasks) {
+  std::vector<StackLevel> levels = stack.levels();
+  for (StackLevel& level : levels) {
+    for (Task*& task : level.tasks) {
+      originals.push_back(task);
+      tasks.push_back(task->clone());
+      task = tasks.back().get();
+    }
+  }
+  return Stack(std::move(levels));
+}
+
+double farthest(const Posture& posture, const Vector& from) {
+  return (posture.configuration - from).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+double lacking(const Task& task) {
+  double most = 0.0;
+  for (Index i = 0; i < task.rows(); ++i) {
+    if (!(task.weights()[i] > 0.0)) continue;
+    const double error = task.error()[i];
+    most = std::max(most, std::abs(std::clamp(error, task.lower()[i], task.upper()[i]) - error));
+  }
+  return most;
+}
+
+PostureSearch::PostureSearch(const Robot& robot, const Stack& stack, PostureSearchOptions options)
+    : options_(options),
+      robot_(robot.model(), robot.coordinate_names()),
+      stack_(copied(stack, originals_, tasks_)),
+      controller_(robot_, descent()),
+      random_(options.seed),
+      lacks_(stack.levels().size(), 0.0) {
+  require(!tasks_.empty(), "inverse_kinematics: wanted at least one task");
+  require(options.starts >= 1,
+          "inverse_kinematics: starts wants a number >= 1, got " + std::to_string(options.starts));
+  require(options.tolerance > 0.0, "inverse_kinematics: tolerance wants a positive number, got " +
+                                       number_text(options.tolerance));
+  controller_.set_stack(stack_);
+  begin(robot);
+}
+
+void PostureSearch::begin(const Robot& robot) {
+  if (robot.support_name() != robot_.support_name()) {
+    robot_.set_qpos(robot.qpos());
+    robot_.stand_on(robot.support());
+  }
+  robot_.set_qpos(robot.qpos());
+  present_ = robot_.configuration();
+  whole_ = robot_.qpos();
+  std::vector<double> state;
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    state.clear();
+    StateWriter writer(state);
+    originals_[i]->save(writer);
+    originals_[i]->save_settings(writer);
+    StateReader reader(state);
+    tasks_[i]->restore(reader);
+    tasks_[i]->restore_settings(reader);
+  }
+  controller_.reset();
+  random_ = Random(options_.seed);
+  ends_.clear();
+  nearest_.assign(lacks_.size(), std::numeric_limits<double>::infinity());
+  ticks_ = 0;
+  over_ = false;
+}
+
+bool PostureSearch::advance(int ticks) {
+  for (int i = 0; i < ticks && !over_; ++i) tick();
+  return !over_;
+}
+
+void PostureSearch::tick() {
+  controller_.compute(robot_);
+  measure();
+  const double most = *std::max_element(lacks_.begin(), lacks_.end());
+  const bool rests = controller_.velocity().cwiseAbs().maxCoeff() < kRest;
+  if (most <= 0.1 * options_.tolerance || rests || gets_no_nearer()) {
+    end_descent();
+    return;
+  }
+  ++ticks_;
+  Vector q = robot_.configuration();
+  controller_.integrate(q);
+  robot_.set_configuration(q);
+}
+
+// of the tasks where the controller has measured them
+void PostureSearch::measure() {
+  for (std::size_t k = 0; k < lacks_.size(); ++k) {
+    lacks_[k] = 0.0;
+    for (const Task* const task : stack_.levels()[k].tasks)
+      lacks_[k] = std::max(lacks_[k], lacking(*task));
+  }
+}
+
+bool PostureSearch::gets_no_nearer() {
+  if (ticks_ >= kMost * kSecond) return true;
+  if (ticks_ == 0 || ticks_ % kSecond != 0) return false;
+  bool goes_on = false;
+  for (std::size_t k = 0; k < lacks_.size(); ++k) {
+    goes_on = goes_on || lacks_[k] < nearest_[k] - kWay;
+    nearest_[k] = std::min(nearest_[k], lacks_[k]);
+  }
+  return !goes_on && ticks_ >= kLeast * kSecond;
+}
+
+void PostureSearch::end_descent() {
+  ends_.push_back({lacks_, robot_.configuration(), robot_.qpos()});
+  const auto begun = static_cast<int>(ends_.size());
+  const bool at_once =
+      begun == 1 && *std::max_element(lacks_.begin(), lacks_.end()) <= options_.tolerance;
+  over_ = at_once || begun == options_.starts;
+  if (over_) return;
+  const Vector q = drawn();
+  robot_.set_qpos(whole_);
+  robot_.set_configuration(q);
+  controller_.reset();
+  nearest_.assign(lacks_.size(), std::numeric_limits<double>::infinity());
+  ticks_ = 0;
+}
+
+// a random posture, the farther from the present one the more descents there were
+Vector PostureSearch::drawn() {
+  Vector inside = present_, q = present_;
+  const std::vector<Coordinate>& coordinates = robot_.coordinates();
+  for (Index i = 0; i < q.size(); ++i) {
+    const Coordinate& one = coordinates[static_cast<std::size_t>(i)];
+    const bool free = !std::isfinite(one.upper - one.lower);
+    const double lower = free ? present_[i] - kFree : one.lower;
+    const double upper = free ? present_[i] + kFree : one.upper;
+    inside[i] = std::clamp(present_[i], one.lower, one.upper);
+    q[i] = lower + 0.5 * (random_.symmetric() + 1.0) * (upper - lower);
+  }
+  for (const RotationVector& rotation : robot_.rotations()) {
+    auto vector = q.segment<3>(rotation.first);
+    if (vector.norm() > rotation.range) vector *= rotation.range / vector.norm();
+  }
+  const double share = static_cast<double>(ends_.size()) / options_.starts;
+  return inside + share * (q - inside);
+}
+
+Posture PostureSearch::best() const {
+  require(over_, "the search for a posture is not over yet: advance returns true");
+  std::vector<Posture> found;
+  for (const End& end : ends_) {
+    Posture posture{end.configuration, end.qpos};
+    posture.error = *std::max_element(end.lacks.begin(), end.lacks.end());
+    posture.reached = posture.error <= options_.tolerance;
+    found.push_back(std::move(posture));
+  }
+  const auto reaching =
+      std::count_if(found.begin(), found.end(), [](const Posture& one) { return one.reached; });
+  const auto nearer = [&](const Posture& a, const Posture& b) {
+    if (a.reached != b.reached) return a.reached;
+    if (a.reached) return farthest(a, present_) < farthest(b, present_);
+    // what differs by less than the tolerance is alike
+    const std::vector<double>& lacks = ends_[static_cast<std::size_t>(&a - found.data())].lacks;
+    const std::vector<double>& others = ends_[static_cast<std::size_t>(&b - found.data())].lacks;
+    return std::lexicographical_compare(
+        lacks.begin(), lacks.end(), others.begin(), others.end(), [&](double one, double other) {
+          return std::floor(one / options_.tolerance) < std::floor(other / options_.tolerance);
+        });
+  };
+  Posture best = *std::min_element(found.begin(), found.end(), nearer);
+  best.starts = static_cast<int>(found.size());
+  best.reaching = static_cast<int>(reaching);
+  return best;
+}
+
+Posture inverse_kinematics(const Robot& robot, const Stack& stack,
+                           const PostureSearchOptions& options) {
+  PostureSearch search(robot, stack, options);
+  while (search.advance(1000)) {
+  }
+  return search.best();
+}
+
+}  // namespace hurcules
