@@ -1,5 +1,7 @@
 #include "hurcules/sim/telemetry.hpp"
 
+#include <limits>
+
 namespace hurcules {
 
 namespace {
@@ -68,9 +70,10 @@ void Telemetry::clear() {
     values->setZero();
   }
   for (double* value : {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality,
-                        &power, &charge, &yielding, &tick_us}) {
+                        &power, &charge, &yielding, &tracking_error, &tick_us}) {
     *value = 0.0;
   }
+  link_age = std::numeric_limits<double>::quiet_NaN();
 }
 
 void Telemetry::add_log_channels(const TelemetryNames& names, Recorder& recorder) const {
@@ -103,6 +106,8 @@ void Telemetry::add_log_channels(const TelemetryNames& names, Recorder& recorder
   recorder.add("optimality", &optimality);
   recorder.add("status", &status);
   recorder.add("yielding", &yielding);
+  recorder.add("tracking_error", &tracking_error);
+  recorder.add("link_age", &link_age);
 }
 
 void Telemetry::add_observation_channels(const TelemetryNames& names, Recorder& recorder) const {
