@@ -189,8 +189,10 @@ def test_a_solver_that_does_not_end_fires_and_is_forgotten_where_no_stack_rules(
         velocity=velocity,
     )
     rows = ROWS.replace("q/j2 >= 2.0", when).replace("ask 5.0 s", "back to back")
-    for old, new in (('name = "back"\nstack = "posture"', 'name = "back"\nstack = "joints"'),
-                     ("lead.posture", "lead.joints")):
+    for old, new in (
+        ('name = "back"\nstack = "posture"', 'name = "back"\nstack = "joints"'),
+        ("lead.posture", "lead.joints"),
+    ):
         rows = rows.replace(old, new)
     mission = Mission.read(tomllib.loads(rows))
     simulation = hurcules.Simulation(mission, model=model, controller=controller, variation=0.0)

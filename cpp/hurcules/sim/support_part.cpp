@@ -2,13 +2,13 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "hurcules/robot/object_names.hpp"
-#include "hurcules/robot/sole_points.hpp"
 #include "hurcules/robot/trees.hpp"
 #include "hurcules/sim/readings.hpp"
 
@@ -16,18 +16,44 @@ namespace hurcules {
 
 namespace {
 
-bool has_shapes(const mjModel& m, int body) {
-  for (int i = m.body_geomadr[body]; i < m.body_geomadr[body] + m.body_geomnum[body]; ++i)
-    if (m.geom_contype[i] != 0 || m.geom_conaffinity[i] != 0) return true;
-  return false;
+bool can_touch(const mjModel& m, int geom) {
+  return m.geom_contype[geom] != 0 || m.geom_conaffinity[geom] != 0;
 }
 
-// [m] of the lowest point of a body with shapes, in W
+// [m] how far a geom reaches below its centre; down in its own axes, (3) of length 1
+double reach_of(const mjModel& m, int geom, const Vector3& down) {
+  const Vector3 size = vector_at(m.geom_size, geom), along = down.cwiseAbs();
+  switch (m.geom_type[geom]) {
+    case mjGEOM_SPHERE:
+      return size[0];
+    case mjGEOM_CAPSULE:
+      return size[0] + size[1] * along.z();
+    case mjGEOM_CYLINDER:
+      return size[0] * along.head<2>().norm() + size[1] * along.z();
+    case mjGEOM_ELLIPSOID:
+      return size.cwiseProduct(down).norm();
+    case mjGEOM_BOX:
+      return size.dot(along);
+    case mjGEOM_MESH: {
+      const int mesh = m.geom_dataid[geom];
+      const Eigen::Map<const Eigen::Matrix3Xf> vertices(m.mesh_vert + 3 * m.mesh_vertadr[mesh], 3,
+                                                        m.mesh_vertnum[mesh]);
+      return (down.cast<float>().transpose() * vertices).maxCoeff();
+    }
+    default:
+      return -std::numeric_limits<double>::infinity();
+  }
+}
+
+// [m] of the lowest point of a body's own shapes, in W; inf: it has none
 double lowest_of(const Robot& robot, int body) {
-  const Skeleton::Pose pose = robot.pose({mjOBJ_BODY, body});
+  const mjModel& m = *robot.model();
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3& point : sole_points(robot, name_of(*robot.model(), mjOBJ_BODY, body)))
-    lowest = std::min(lowest, (pose.p + pose.R * point).z());
+  for (int i = m.body_geomadr[body]; i < m.body_geomadr[body] + m.body_geomnum[body]; ++i) {
+    if (!can_touch(m, i)) continue;
+    const Skeleton::Pose pose = robot.pose({mjOBJ_GEOM, i});
+    lowest = std::min(lowest, pose.p.z() - reach_of(m, i, -pose.R.row(2).transpose()));
+  }
   return lowest;
 }
 
@@ -76,19 +102,19 @@ SupportFit support_fit(const Robot& robot, const std::string& body, const std::s
   std::vector<std::pair<double, std::string>> heights;
   double own = kNone, ground = kNone;
   for (int i = 1; i < m.nbody; ++i) {
-    const std::string name = name_of(m, mjOBJ_BODY, i);
-    if (!in_own_tree(robot, i) || name.empty() || !has_shapes(m, i)) continue;
+    if (!in_own_tree(robot, i) || m.body_geomnum[i] == 0) continue;
     if (!part.has(i) && is_unknown(robot, i, known)) continue;
     const double height = lowest_of(robot, i);
+    if (std::isinf(height)) continue;
     if (part.has(i)) own = std::min(own, height);
     if (!bore || bore->has(i)) ground = std::min(ground, height);
-    heights.emplace_back(height, name);
+    heights.emplace_back(height, name_of(m, mjOBJ_BODY, i));
   }
   SupportFit fit;
   if (std::isinf(ground)) return fit;
   fit.height = own - ground;
   for (const auto& [height, name] : heights)
-    if (std::abs(height - ground) <= SupportFit::kMost) fit.lowest.push_back(name);
+    if (!name.empty() && std::abs(height - ground) <= SupportFit::kMost) fit.lowest.push_back(name);
   return fit;
 }
 
