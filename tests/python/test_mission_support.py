@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules import Error, Mission
+from hurcules import Error, Mission, disposal
 
 BOXES = """
 <mujoco>
@@ -117,6 +117,21 @@ def test_a_support_that_does_not_lie_on_the_ground_is_refused(
 ) -> None:
     with pytest.raises(Error, match=wanted):
         loop(with_support(phase, body))
+
+
+def test_a_table_of_the_project_stands_on_its_legs_not_on_its_trunk() -> None:
+    mission = disposal.mission()
+    rows = mission.rows
+    phases = rows.phases
+    (stand_up,) = (row for row in phases if row.name == "stand up")
+    assert stand_up.support == "lower_leg_L"
+    stand_up.support = "torso"
+    rows.phases = phases
+    model = disposal.model(disposal.Job())
+    with pytest.raises(Error, match=r"'stand up': .* 'torso' .* 0\.39.*: L_upper_track"):
+        hurcules.Simulation(
+            Mission(mission.setup, rows), model=model, controller=disposal.controller(model)
+        )
 
 
 @pytest.mark.parametrize("tilt", [0.0, 0.5])

@@ -217,8 +217,7 @@ void Mission::look_at_support() {
   constexpr double kPatience = 1.0;  // [s] on bumps tracks hang in the air for a moment
   const auto part = parts_.find(rows_[phase_].support());
   const bool told = unborne_for_ >= kPatience;
-  const bool bears =
-      part == parts_.end() || part->second.bears(plant_->model(), plant_->data());
+  const bool bears = part == parts_.end() || part->second.bears(plant_->model(), plant_->data());
   if (!told) unborne_for_ = bears ? 0.0 : unborne_for_ + dt_;
   unborne_ = !told && unborne_for_ >= kPatience;
 }

@@ -129,7 +129,7 @@ class Mission : public Supervisor {
   std::size_t cause_ = 0;                  // of what it holds or asks, as in Why
   Why why_;
   double elapsed_ = 0.0, progress_ = 0.0, waiting_ = 0.0;  // columns of the log
-  double unborne_for_ = 0.0;  // [s] for so long has the support borne nothing, no longer once that is told
+  double unborne_for_ = 0.0;  // [s] for so long has the support borne nothing; stays once told
   bool unborne_ = false;      // in this tick it is to be told
   std::vector<std::string> force_names_;                   // of the controller's force tasks
   Vector forces_;                                          // [N] (force tasks) as they read them

@@ -21,8 +21,7 @@ class Posture {
         robot_(controller.plan().model(), controller.plan().coordinate_names()),
         known_(static_cast<std::size_t>(robot_.size()), true) {
     robot_.set_qpos(start.world.qpos());
-    const Vector3 up =
-        up_of_ground(start.plant.model(), start.plant.data(), robot_.root_body());
+    const Vector3 up = up_of_ground(start.plant.model(), start.plant.data(), robot_.root_body());
     const Matrix3 level =
         Eigen::Quaterniond::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
     turn({Vector3::Zero(), level}, robot_.qpos());
@@ -50,10 +49,11 @@ class Posture {
     if (fit.fits()) return;
     std::string lowest;
     for (const std::string& name : fit.lowest) lowest += (lowest.empty() ? "" : ", ") + name;
-    throw Error(where + ": the robot cannot stand on '" + body + "' as it begins: " +
-                (std::isinf(fit.height) ? std::string("it has no shape that touches anything")
-                                        : to_text(fit.height) + " m above the ground, wanted at most " +
-                                              to_text(SupportFit::kMost)) +
+    const std::string found = std::isinf(fit.height)
+                                  ? std::string("it has no shape that touches anything")
+                                  : to_text(fit.height) + " m above the ground, wanted at most " +
+                                        to_text(SupportFit::kMost);
+    throw Error(where + ": the robot cannot stand on '" + body + "' as it begins: " + found +
                 "; on the ground are: " + lowest);
   }
 
