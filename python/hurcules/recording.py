@@ -34,7 +34,7 @@ CHANNELS = (
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("base_velocity/x", "[m/s] of the support as the sensors say, along the world's axes"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
-    ("link_age", "[s] since the last `simulation.heartbeat()`; NaN before the first"),
+    ("link_age", "[s] since the last `simulation.heartbeat()`; 0 before the first"),
     ("yielding", "1 while the reference yields to more than the motors can hold, else 0"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
     ("mission/Q", "quantity Q that the conditions of the mission's phases read, unit in its name"),

@@ -272,7 +272,7 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
 }
 
 double Simulation::link_age() const {
-  return heard_ ? time() - *heard_ : std::numeric_limits<double>::quiet_NaN();
+  return heard_ ? time() - *heard_ : 0.0;
 }
 
 // to the mission's own; what counts from the measured place does so in the first tick of a call, and

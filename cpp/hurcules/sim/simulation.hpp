@@ -102,7 +102,7 @@ class Simulation {
   void answer(bool yes);
   // the operator's link is alive: `link_age` counts from now on
   void heartbeat() { heard_ = time(); }
-  // [s] since the last heartbeat of this run, NaN before the first: nobody can lose a link that there is not
+  // [s] since the last heartbeat of this run, 0 before the first: who has no link cannot lose it
   [[nodiscard]] double link_age() const;
 
   [[nodiscard]] double dt() const { return controller_->dt(); }         // [s]

@@ -1,7 +1,5 @@
 #include "hurcules/sim/telemetry.hpp"
 
-#include <limits>
-
 namespace hurcules {
 
 namespace {
@@ -70,10 +68,9 @@ void Telemetry::clear() {
     values->setZero();
   }
   for (double* value : {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality,
-                        &power, &charge, &yielding, &tracking_error, &tick_us}) {
+                        &power, &charge, &yielding, &tracking_error, &link_age, &tick_us}) {
     *value = 0.0;
   }
-  link_age = std::numeric_limits<double>::quiet_NaN();
 }
 
 void Telemetry::add_log_channels(const TelemetryNames& names, Recorder& recorder) const {

@@ -53,7 +53,7 @@ struct Telemetry {
   double factorizations = 0.0, changes = 0.0, iterations = 0.0, status = 0.0, optimality = 0.0;
   double power = 0.0, charge = 0.0;  // [W] from the battery; what is left in it, 0 to 1
   double yielding = 0.0;             // 1 while the reference yields to what the motors cannot bear
-  double link_age = 0.0;             // [s] since the operator's link was heard; NaN: never
+  double link_age = 0.0;             // [s] since the operator's link was heard; 0: never
   double tick_us = 0.0;              // [us] sense to servo; 0 without a clock
 
   // what the log holds; tick_us only with a clock
