@@ -125,6 +125,18 @@ def test_what_is_watched_of_the_person_fires_when_it_happens(quantity: str) -> N
         assert simulation.events()[-1][1] == "phase safe"
 
 
+def test_blades_that_press_who_lies_fire() -> None:
+    (when,) = thresholds("casualty/contact_share")
+    simulation = held(when, lies=0.1, height=0.225)  # 5 mm above him
+    assert not until_safe(simulation, 0.5)
+    simulation.step(400, {"up": [-0.2]})
+    assert simulation.phase == "safe"
+    log = simulation.log()
+    force = log["casualty/force/pelvis"]
+    np.testing.assert_allclose(log["casualty/contact_share"], force / 180.0)  # its limit [N]
+    assert log["casualty/on_ground"][1:].min() > 0.15
+
+
 def test_the_shift_on_the_arms_counts_from_when_they_have_all_of_him() -> None:
     simulation = held("casualty/shift_m >= 9.0")
     log = simulation.log
