@@ -134,6 +134,11 @@ Args:
 Raises:
   Error: nothing is asked.
 )";
+inline constexpr const char* kHeartbeat =
+    R"(The operator's link is alive: the column `link_age` [s] counts from now on.
+
+Before the first heartbeat of a run it is 0: who has no link cannot lose it. It is part of `state`.
+)";
 inline constexpr const char* kQuestion =
     "What the mission asks (reaction `ask 30 s`) and waits for in `answer`; '' for nothing.";
 inline constexpr const char* kState =

@@ -4078,6 +4078,11 @@ class Simulation:
         Raises:
           Error: no such phase, or no mission."""
 
+    def heartbeat(self) -> None:
+        """The operator's link is alive: the column `link_age` [s] counts from now on.
+
+        Before the first heartbeat of a run it is 0: who has no link cannot lose it. It is part of `state`."""
+
     def level_errors(self) -> NDArray[np.float64]:
         """Norm of the errors of each level in the physics now, in the unit of its tasks; rows of weight 0, or without a side, are left out."""
 

@@ -27,20 +27,24 @@ CHANNELS = (
     ("limit_speed/C", "[rad/s] its speed limit in force, inf for none"),
     ("active/C", "-1, 0, 1: held back by its lower limit, by none, by its upper limit"),
     ("torque/J, joint_error/J", "[N m] of the motor of joint J, [rad] reference minus measured"),
+    ("tracking_error", "[rad] largest `joint_error/J` of the joints that coordinates move"),
     ("error/L, measured_error/L", "[m] or [rad] norm of the task errors of level L"),
     ("active_rows/L", "rows that hold level L back"),
     ("command/K", "[m/s], [rad/s], [m], [N] what command K did; NaN: no target or force set"),
     ("base/x, base_rotation/x", "[m] position, [rad] rotation vector of the support, in the world"),
     ("base_velocity/x", "[m/s] of the support as the sensors say, along the world's axes"),
     ("power, charge", "[W] taken from the battery; what is left in it, 0 to 1"),
+    ("link_age", "[s] since the last `simulation.heartbeat()`; 0 before the first"),
     ("yielding", "1 while the reference yields to more than the motors can hold, else 0"),
     ("factorizations, changes, iterations", "of the solve: of levels; of the working set"),
     ("mission/Q", "quantity Q that the conditions of the mission's phases read, unit in its name"),
     ("monitor/M", "what monitor M saw, its unit in its name: self_collision_distance_m, ..."),
-    ("optimality, status", "worst residual of the solver's own proof; number of rhqp.Status"),
+    ("optimality, status", "the solver's own worst residual; number of rhqp.Status, 0: no stack"),
 )
 # and where force tasks press
-FORCE_CHANNELS = (("force/T, contact/T", "[N] read by force task T; number of its ContactState"),)
+FORCE_CHANNELS = (
+    ("force/T, contact/T", "[N] read by force task T; its ContactState, 2 stopped, 3 sensor lost"),
+)
 # and where a person is lifted
 PERSON_CHANNELS = (
     ("casualty/Q", "quantity Q of the person, unit in its name; shares are of his weight"),

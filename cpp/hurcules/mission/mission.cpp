@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/mission/support_check.hpp"
 #include "hurcules/mission/table_words.hpp"
 #include "hurcules/mission/variation.hpp"
 
@@ -67,15 +68,18 @@ Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyControll
   forces_ = Vector::Zero(static_cast<Index>(force_names_.size()));
   std::string support = setup_.support.empty() ? controller.options().support : setup_.support;
   rows_.reserve(table_.phases.size());
+  const bool stands = controller.plan().root_qpos() >= 0 && !controller.plan().floating();
   for (const Phase& phase : table_.phases) {
     if (!phase.support.empty()) support = phase.support;
     rows_.emplace_back(phase, support, controller);
+    if (stands && !support.empty()) parts_.try_emplace(support, controller.plan(), support);
   }
 }
 
 std::unique_ptr<Supervisor> Mission::clone(WholeBodyController& controller) const {
   auto copy = std::make_unique<Mission>(setup_, table_, controller, variation_);
   copy->initial_qpos_ = initial_qpos_;
+  copy->supports_checked_ = supports_checked_;
   return copy;
 }
 
@@ -90,7 +94,7 @@ void Mission::attach(const Plant& plant, Recorder& log) {
   quantities_.attach(plant, log);
   for (PhaseRow& row : rows_) row.find_quantities(quantities_);
   gauges_.attach(table_, quantities_);
-  attached_ = true;
+  plant_ = &plant;
 }
 
 void Mission::find_brakes(const Brakes& brakes) {
@@ -132,7 +136,10 @@ Vector Mission::start(const Plant& plant, Robot& robot, std::uint64_t seed) {
 }
 
 void Mission::reset(WholeBodyController& controller, const Robot& world) {
-  require(attached_ || !needs_log(), "a mission with conditions wants a simulation");
+  require(plant_ || !needs_log(), "a mission with conditions wants a simulation");
+  if (plant_ && !supports_checked_)
+    check_supports(table_, controller, {world, *plant_, setup_.support});
+  supports_checked_ = true;
   for (Figure& figure : figures_) figure.value = std::numeric_limits<double>::quiet_NaN();
   for (PhaseRow& row : rows_) row.reset();
   gauges_.reset();
@@ -154,7 +161,8 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
   phase_ = phase;
   phase_start_ = now_ = time;
   doing_ = Doing::Leading;
-  elapsed_ = progress_ = extra_ = 0.0;
+  elapsed_ = progress_ = extra_ = unborne_for_ = 0.0;
+  unborne_ = false;
   waiting_ = paused_ ? 1.0 : 0.0;
   const std::string& stack = table_.phases[phase_].stack;
   if (stack == kJoints) {
@@ -199,9 +207,19 @@ void Mission::note_commanded(const WholeBodyController& controller, const TickRe
 void Mission::note_measured(const TickReport& report) {
   scene_.look();
   quantities_.look();
+  look_at_support();
   gauges_.look(phase_, figures_);
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].look(i == phase_);
   measured(report);
+}
+
+void Mission::look_at_support() {
+  constexpr double kPatience = 1.0;  // [s] on bumps tracks hang in the air for a moment
+  const auto part = parts_.find(rows_[phase_].support());
+  const bool told = unborne_for_ >= kPatience;
+  const bool bears = part == parts_.end() || part->second.bears(plant_->model(), plant_->data());
+  if (!told) unborne_for_ = bears ? 0.0 : unborne_for_ + dt_;
+  unborne_ = !told && unborne_for_ >= kPatience;
 }
 
 bool Mission::advance(WholeBodyController& controller, double time) {
@@ -384,7 +402,7 @@ void Mission::save(StateWriter& writer) const {
   writer.put(static_cast<double>(static_cast<int>(doing_)));
   writer.put(answer_ ? (*answer_ ? 2.0 : 1.0) : 0.0);
   for (const double value :
-       {phase_start_, now_, wait_until_, extra_, elapsed_, progress_, waiting_}) {
+       {phase_start_, now_, wait_until_, extra_, elapsed_, progress_, waiting_, unborne_for_}) {
     writer.put(value);
   }
   writer.put(forces_);
@@ -415,7 +433,8 @@ void Mission::restore(StateReader& reader) {
   const Index answered = reader.get_count(2);
   answer_ = answered > 0 ? std::optional(answered == 2) : std::nullopt;
   for (double* value :
-       {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_}) {
+       {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_,
+        &unborne_for_}) {
     *value = reader.get();
   }
   reader.get(forces_);

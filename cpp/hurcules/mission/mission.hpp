@@ -10,6 +10,7 @@
 // late reacts, what is done goes on. While it holds or asks the phase's clock stands.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,13 +25,15 @@
 #include "hurcules/mission/scene_quantities.hpp"
 #include "hurcules/mission/table.hpp"
 #include "hurcules/sim/supervisor.hpp"
+#include "hurcules/sim/support_part.hpp"
 
 namespace hurcules {
 
 class Mission : public Supervisor {
  public:
   // variation: scale of what differs between seeds (variation.hpp); throws Error as check_table, and
-  // for a setup that is out of range or names a support that the robot has not
+  // for a setup that is out of range or names a support that the robot has not; its first run throws
+  // for supports that do not lie on the ground (support_check.hpp)
   Mission(MissionSetup setup, MissionTable table, const WholeBodyController& controller,
           double variation);
   Mission(const Mission&) = delete;
@@ -54,6 +57,7 @@ class Mission : public Supervisor {
   [[nodiscard]] bool paused() const override { return paused_; }
   [[nodiscard]] std::optional<Cause> reacted() const override { return reacted_; }
   [[nodiscard]] std::string text(const Cause& cause) const override;
+  [[nodiscard]] bool unborne() const override { return unborne_; }
   [[nodiscard]] std::string waits_for() const override;
   [[nodiscard]] std::optional<double> asks_until() const override;
   [[nodiscard]] std::string question() const override;
@@ -89,6 +93,7 @@ class Mission : public Supervisor {
   };
   [[nodiscard]] Why why(std::size_t cause, bool final = false) const;  // of the present phase
   void find_brakes(const Brakes& brakes);
+  void look_at_support();
   void enter(std::size_t phase, WholeBodyController& controller, double time);
   [[nodiscard]] bool over(double time);
   // to a trouble, by its number, or to being late; false: the run is over
@@ -112,7 +117,9 @@ class Mission : public Supervisor {
   Gauges gauges_;
   SceneMonitors scene_;
   SceneQuantities quantities_;
-  bool attached_ = false, paused_ = false, ended_ = false;
+  const Plant* plant_ = nullptr;
+  std::map<std::string, SupportPart> parts_;  // of the bodies that rows stand on
+  bool supports_checked_ = false, paused_ = false, ended_ = false;
   bool moved_ = false;  // by somebody else's command while it was paused
   std::optional<bool> answer_;
   std::size_t phase_ = 0;
@@ -122,6 +129,8 @@ class Mission : public Supervisor {
   std::size_t cause_ = 0;                  // of what it holds or asks, as in Why
   Why why_;
   double elapsed_ = 0.0, progress_ = 0.0, waiting_ = 0.0;  // columns of the log
+  double unborne_for_ = 0.0;  // [s] for so long has the support borne nothing; stays once told
+  bool unborne_ = false;      // in this tick it is to be told
   std::vector<std::string> force_names_;                   // of the controller's force tasks
   Vector forces_;                                          // [N] (force tasks) as they read them
   std::string verdict_;

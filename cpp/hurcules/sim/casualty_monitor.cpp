@@ -52,7 +52,7 @@ const std::vector<std::string>& CasualtyMonitor::names() {
       "moved_m",          "bed_ahead_m",      "bed_aside_m",   "sag_m",
       "heading_rad",      "stand_ahead_m",    "stand_rad",     "push_n",
       "neck_flexion_rad", "neck_bending_rad", "neck_turn_rad", "head_mps2",
-      "contact_share",    "support_n",        "face_up"};
+      "contact_share",    "support_n",        "face_up",       "shift_m"};
   return all;
 }
 
@@ -100,23 +100,29 @@ void CasualtyMonitor::add_log_channels(Recorder& log) const {
 }
 
 void CasualtyMonitor::reset() {
-  looked_ = false;
+  looked_ = carried_ = false;
   values_.setZero();
   forces_.setZero();
 }
 
 void CasualtyMonitor::save(StateWriter& writer) const {
   writer.put(looked_ ? 1.0 : 0.0);
+  writer.put(carried_ ? 1.0 : 0.0);
   for (const Vector* vector : {&values_, &forces_}) writer.put(*vector);
   writer.put(Vector(origin_));
+  writer.put(Vector(taken_));
 }
 
 void CasualtyMonitor::restore(StateReader& reader) {
   looked_ = reader.get_count(1) > 0;
+  carried_ = reader.get_count(1) > 0;
   for (Vector* vector : {&values_, &forces_}) reader.get(*vector);
   Vector origin(3);
   reader.get(origin);
   origin_ = origin;
+  Vector taken(2);
+  reader.get(taken);
+  taken_ = taken;
 }
 
 void CasualtyMonitor::look(const mjModel* m, const mjData* d) {
@@ -159,6 +165,20 @@ void CasualtyMonitor::look(const mjModel* m, const mjData* d) {
     double& worst = values_[lies ? kContactShare : kSupport];
     worst = std::max(worst, lies ? forces_[i] / limits_[i] : forces_[i]);
   }
+  note_shift();
+}
+
+// from when both arms bear all that does not count as lying until he lies again, on ground or bed
+void CasualtyMonitor::note_shift() {
+  const Eigen::Vector2d here(values_[kBehindTips], values_[kAside]);
+  const double on_arms = values_[kOnLeft] + values_[kOnRight];
+  if (values_[kOnGround] > kLying || values_[kOnBed] > kLying) {
+    carried_ = false;
+  } else if (!carried_ && on_arms >= 1.0 - kLying) {
+    carried_ = true;
+    taken_ = here;
+  }
+  if (carried_) values_[kShift] = (here - taken_).norm();
 }
 
 // contacts of the person, by partner and by region

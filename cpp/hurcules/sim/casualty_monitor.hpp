@@ -58,10 +58,12 @@ class CasualtyMonitor {
     kContactShare,  // largest force of a contact by the robot, over its region's limit
     kSupport,       // [N] largest force that a region is carried by
     kFaceUp,        // how far the front of the chest looks up: 1 on the back, -1 on the front
+    kShift,         // [m] the centre has moved on the arms since they took all of him, level; else 0
     kQuantities
   };
   [[nodiscard]] static const std::vector<std::string>& names();
   void add_up(const mjModel_* model, const mjData_* data);
+  void note_shift();
 
   int root_ = 0, pelvis_ = 0, chest_ = 0, robot_ = 0;  // bodies
   int arms_[2] = {0, 0};                               // bodies, left and right
@@ -76,8 +78,9 @@ class CasualtyMonitor {
   Vector limits_;  // [N] (regions)
   Vector values_;  // (kQuantities)
   Vector forces_;  // [N] (regions) by the robot
-  bool looked_ = false;
+  bool looked_ = false, carried_ = false;
   Vector3 origin_ = Vector3::Zero();
+  Eigen::Vector2d taken_ = Eigen::Vector2d::Zero();  // [m] behind the tips and aside, when it was
 };
 
 }  // namespace hurcules

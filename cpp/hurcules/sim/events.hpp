@@ -14,10 +14,11 @@ enum class EventKind {
   LimitReleased,
   AlarmRaised,
   AlarmFell,
-  Reacted,  // in a phase, as the next three; its side and answer: as trouble and reaction in Cause
+  Reacted,  // in a phase, as all that follow; its side and answer: as trouble and reaction in Cause
   Asked,
   Paused,
   Resumed,
+  Unborne,  // the body that the robot is said to stand on bears nothing
 };
 
 struct Event {

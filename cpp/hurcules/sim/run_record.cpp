@@ -152,6 +152,7 @@ void RunRecord::note_solution(const WholeBodyController& controller) {
   if (controller.moves_joints()) {
     t.active.setZero();
     t.level_active.setZero();
+    t.factorizations = t.changes = t.iterations = t.status = t.optimality = 0.0;  // none is solved
     return;
   }
   const Solution& solution = controller.law().solution();
@@ -173,6 +174,9 @@ void RunRecord::note_servo(const WholeBodyController& controller) {
   telemetry.torque = controller.servo().torque();
   telemetry.demand = controller.servo().demand();
   telemetry.joint_error = controller.servo().error().position;
+  const Index joints = controller.servo().coordinate_joints();
+  telemetry.tracking_error =
+      joints > 0 ? telemetry.joint_error.head(joints).cwiseAbs().maxCoeff() : 0.0;
 }
 
 void RunRecord::note_measured(const WholeBodyController& controller,
@@ -238,7 +242,8 @@ std::string RunRecord::text(const Event& event, const Monitors& monitors) const 
   }
   for (const auto& [kind, word] :
        {std::pair(EventKind::PhaseStarted, ""), std::pair(EventKind::Asked, "asks in "),
-        std::pair(EventKind::Paused, "paused in "), std::pair(EventKind::Resumed, "resumed in ")}) {
+        std::pair(EventKind::Paused, "paused in "), std::pair(EventKind::Resumed, "resumed in "),
+        std::pair(EventKind::Unborne, "the support bears nothing in ")}) {
     if (event.kind == kind) return word + ("phase " + name_of(phases_));
   }
   const std::string& name = name_of(names_.coordinates);

@@ -24,7 +24,7 @@ constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
 
 // A snapshot begins with its version, its length, what it is of, and the number of values in use;
 // what is left of its room is zero.
-constexpr double kStateVersion = 5.0;
+constexpr double kStateVersion = 6.0;
 constexpr std::size_t kStateHeader = 4;
 
 // of all names along the vectors of a controller's simulation, and of its log but for the time of a
@@ -271,6 +271,10 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   timer.done(Stage::Solve);
 }
 
+double Simulation::link_age() const {
+  return heard_ ? time() - *heard_ : 0.0;
+}
+
 // to the mission's own; what counts from the measured place does so in the first tick of a call, and
 // what is set takes the place of what the mission sets
 void Simulation::add_command(const Vector& command, bool first, const Vector& own) {
@@ -397,11 +401,11 @@ void Simulation::advance_plan() {
 void Simulation::record() {
   Telemetry& telemetry = record_.telemetry;
   limit_monitor_.look(telemetry);
+  telemetry.link_age = link_age();
   if (supervisor_) {
-    const Index joints = controller_->servo().coordinate_joints();
     const auto report = [&](const std::vector<const Task*>& tasks) {
       return TickReport{telemetry.time, controller_->law().active_limits(),
-                        telemetry.joint_error.head(joints).cwiseAbs().maxCoeff(),
+                        telemetry.tracking_error,
                         limit_monitor_.commanded().torque, tasks};
     };
     supervisor_->note_commanded(*controller_, report(planned_tasks_));
@@ -442,6 +446,7 @@ void Simulation::judge() {
   }
   if (!supervisor_) return;
   const std::size_t phase = supervisor_->phase();
+  if (options_.physics && supervisor_->unborne()) record_.note(EventKind::Unborne, phase);
   const std::optional<double> asked = supervisor_->asks_until();
   const bool goes_on = supervisor_->advance(*controller_, time());
   if (const std::optional<Cause> cause = supervisor_->reacted()) {
@@ -571,6 +576,7 @@ void Simulation::begin(std::uint64_t seed, const Vector* start, bool keep_target
   controller_->serve(this);
   options_.seed = seed;
   ticks_ = 0;
+  heard_.reset();
   ending_ = Ending::Running;
   record_.reset();
   battery_.reset();
@@ -661,6 +667,7 @@ void Simulation::write(std::vector<double>& values) const {
   writer.put(static_cast<double>(ticks_));
   writer.put(static_cast<double>(static_cast<int>(ending_)));
   writer.put(ending_time_);
+  writer.put(heard_.value_or(-1.0));
   plant_.save(writer);
   if (supervisor_) supervisor_->save(writer);
   controller_->save(writer);
@@ -704,6 +711,8 @@ void Simulation::read(const std::vector<double>& values) {
   ticks_ = reader.get_count(kMostTicks);
   ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::Held)));
   ending_time_ = reader.get();
+  const double heard = reader.get();
+  heard_ = heard < 0.0 ? std::nullopt : std::optional(heard);
   plant_.restore(reader);
   if (supervisor_) supervisor_->restore(reader);
   controller_->restore(reader);
@@ -723,6 +732,7 @@ void Simulation::read(const std::vector<double>& values) {
   Telemetry& telemetry = record_.telemetry;
   telemetry.qd_des = controller_->qd_des();
   telemetry.time = static_cast<double>(ticks_) * dt();
+  telemetry.link_age = link_age();
   telemetry.phase = supervisor_ ? static_cast<double>(supervisor_->phase()) : 0.0;
   telemetry.charge = battery_.charge();
   record_.truncate(telemetry.time);

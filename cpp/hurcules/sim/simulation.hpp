@@ -100,6 +100,10 @@ class Simulation {
   [[nodiscard]] std::string question() const;
   // yes: the phase goes on; no: the next reaction. Throws Error where nothing is asked.
   void answer(bool yes);
+  // the operator's link is alive: `link_age` counts from now on
+  void heartbeat() { heard_ = time(); }
+  // [s] since the last heartbeat of this run, 0 before the first: who has no link cannot lose it
+  [[nodiscard]] double link_age() const;
 
   [[nodiscard]] double dt() const { return controller_->dt(); }         // [s]
   [[nodiscard]] double time() const { return record_.telemetry.time; }  // [s] since reset
@@ -217,7 +221,8 @@ class Simulation {
   double identity_ = 0.0;
   std::int64_t ticks_ = 0;
   Ending ending_ = Ending::Running;
-  double ending_time_ = 0.0;  // [s]
+  double ending_time_ = 0.0;     // [s]
+  std::optional<double> heard_;  // [s] the last heartbeat, none: there was none
 };
 
 }  // namespace hurcules

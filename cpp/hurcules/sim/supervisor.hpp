@@ -68,6 +68,8 @@ class Supervisor {
   // what it reacted to in the last advance, and that in words
   [[nodiscard]] virtual std::optional<Cause> reacted() const { return std::nullopt; }
   [[nodiscard]] virtual std::string text(const Cause& /*cause*/) const { return ""; }
+  // the body that the present phase stands on has borne nothing for too long: once a phase
+  [[nodiscard]] virtual bool unborne() const { return false; }
   // the present phase, and what it waits for, in words
   [[nodiscard]] virtual std::string waits_for() const { return ""; }
 

@@ -68,7 +68,7 @@ void Telemetry::clear() {
     values->setZero();
   }
   for (double* value : {&time, &phase, &factorizations, &changes, &iterations, &status, &optimality,
-                        &power, &charge, &yielding, &tick_us}) {
+                        &power, &charge, &yielding, &tracking_error, &link_age, &tick_us}) {
     *value = 0.0;
   }
 }
@@ -103,6 +103,8 @@ void Telemetry::add_log_channels(const TelemetryNames& names, Recorder& recorder
   recorder.add("optimality", &optimality);
   recorder.add("status", &status);
   recorder.add("yielding", &yielding);
+  recorder.add("tracking_error", &tracking_error);
+  recorder.add("link_age", &link_age);
 }
 
 void Telemetry::add_observation_channels(const TelemetryNames& names, Recorder& recorder) const {

@@ -40,6 +40,7 @@ struct Telemetry {
   Vector active;              // (n) -1 0 1: held back by a position limit
   Vector torque, demand;      // [N m] (m) applied, and asked for
   Vector joint_error;         // [rad] (m)
+  double tracking_error = 0.0;  // [rad] largest of them, of the joints of coordinates
   Vector level_error, level_error_measured;  // (p) norms, in the unit of the tasks
   Vector level_active;                       // (p) rows of any level that this one pushes against
   Vector task_error, task_error_measured;    // (r)
@@ -52,6 +53,7 @@ struct Telemetry {
   double factorizations = 0.0, changes = 0.0, iterations = 0.0, status = 0.0, optimality = 0.0;
   double power = 0.0, charge = 0.0;  // [W] from the battery; what is left in it, 0 to 1
   double yielding = 0.0;             // 1 while the reference yields to what the motors cannot bear
+  double link_age = 0.0;             // [s] since the operator's link was heard; 0: never
   double tick_us = 0.0;              // [us] sense to servo; 0 without a clock
 
   // what the log holds; tick_us only with a clock
