@@ -44,9 +44,15 @@ class Motion:
 
 
 def follow(
-    robot: hurcules.Robot, stack: Stack, limits: JointLimits, law: str, dt: float, seconds: float
+    robot: hurcules.Robot,
+    stack: Stack,
+    limits: JointLimits,
+    law: str,
+    dt: float,
+    seconds: float,
+    detour: hurcules.Detour | None = None,
 ) -> Motion:
-    """Runs a stack for so long from where the robot stands."""
+    """Runs a stack for so long from where the robot stands; a detour, if any, looks on."""
     solver = rhqp.SolverOptions(handover="smooth" if law == "thesis" else "strict")
     options = hurcules.VelocityControllerOptions(dt=dt, law=law, solver=solver)
     controller = hurcules.VelocityController(robot, options)
@@ -55,6 +61,8 @@ def follow(
     for tick in range(ticks):
         q = controller.step(robot)
         now = controller.velocity
+        if detour:
+            detour.look(controller)
         change = float(np.abs(now - last).max()) / (options.max_acceleration * dt)
         motion.hardest = max(motion.hardest, change)
         motion.excess = max(motion.excess, float((q - limits.upper).max()))

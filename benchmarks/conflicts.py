@@ -1,7 +1,7 @@
 """Two hands, one out of reach: how near does the far one come, beside the nearest that there is?
 
 Run:  python benchmarks/conflicts.py [--dt 0.005 0.001] [--seeds 10] [--only baxter] [--law thesis]
-                                     [--out FILE.json]
+                                     [--detour] [--out FILE.json]
 
 The stack is `limits < first hand < second hand < centre of mass < posture`, both hands in 6-D, all
 else by default. The first hand's pose is that of a posture half the way to a random one, the second
@@ -10,7 +10,8 @@ second, and the speed of the last 2 s. Beside them the least error of the second
 radians, squares added, as the level adds them) that keeps the first hand's pose and the limits, by
 SLSQP of SciPy from where the runs end, the posture of the targets, and three random ones: an upper
 bound of what is possible. And the least within 0.1 rad of where a run ends: where that is no less,
-the run has come to a minimum, not to a stop. Both in thousandths, which are mm where only places
+the run has come to a minimum, not to a stop. `--detour`: a `hurcules.Detour` looks on for the first
+hand. Both in thousandths, which are mm where only places
 lack; counted are the runs whose first hand arrives. Robots: that of this repository and, where they
 are installed, those of robosuite and example-robot-data.
 """
@@ -29,6 +30,7 @@ from arrival import follow, posture
 import hurcules
 from hurcules import (
     CenterOfMassTask,
+    Detour,
     JointLimits,
     OrientationTask,
     PositionTask,
@@ -92,13 +94,16 @@ class Conflict:
             orientation.set_target(turn)
             self.hands.append((position, orientation))
 
-    def run(self, law: str, dt: float) -> dict[str, float]:
-        """Follows the stack from the first posture on."""
+    def run(self, law: str, dt: float, round_about: bool) -> dict[str, float]:
+        """Follows the stack from the first posture on, by another posture where that is wanted."""
         self.robot.set_configuration(self.start)
         levels = [StackLevel(f"hand {i}", list(hand)) for i, hand in enumerate(self.hands)]
         below = [CenterOfMassTask("com", self.robot), PostureTask("posture", self.robot)]
-        stack = Stack([self.limits, *levels, *below])
-        motion = follow(self.robot, stack, self.limits, law, dt, SECONDS)
+        stack, detour = Stack([self.limits, *levels, *below]), None
+        if round_about:
+            detour = Detour(self.robot, [self.limits], levels[:1], [*levels[1:], *below])
+            stack = detour.stacks["direct"]
+        motion = follow(self.robot, stack, self.limits, law, dt, SECONDS, detour)
         row = {"speed": motion.fastest, "change": motion.hardest, "excess": motion.excess}
         errors = self.errors(self.robot.configuration)
         for name, (e, _) in zip(("near", "far"), errors, strict=True):
@@ -178,7 +183,7 @@ def examine(arm: Arm, seed: int, options: argparse.Namespace) -> list[dict[str, 
     """A row for each control period."""
     conflict, rows, ends = Conflict(arm, seed), [], []
     for dt in options.dt:
-        run = conflict.run(options.law, dt)
+        run = conflict.run(options.law, dt, options.detour)
         ends.append(conflict.robot.configuration)
         rows.append({"robot": arm.name, "seed": seed, "dt": dt, **run})
     inside = conflict.inside
@@ -213,6 +218,7 @@ def main() -> None:
     """Prints each conflict, then the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--law", default="arrive", choices=["arrive", "thesis"])
+    parser.add_argument("--detour", action="store_true")
     parser.add_argument("--dt", type=float, nargs="+", default=[0.005, 0.001], help="[s]")
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--only", default="", help="part of a name")
