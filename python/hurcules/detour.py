@@ -70,10 +70,13 @@ class Detour(_core.Detour):
             What was decided, in words; "" where all goes on.
         """
         if isinstance(controller, WholeBodyController):
-            if controller.active not in ("direct", "detour"):
+            if controller.active != self._rules():  # somebody else decided, or it starts anew
                 self.reset()
             elif self.look_at(controller.plan, controller.qd_des, controller.dt):
-                controller.use("detour" if self.on_the_way else "direct")
+                controller.use(self._rules())
         elif self.look_at(self._robot, controller.velocity, controller.options.dt):
-            controller.set_stack(self.stacks["detour" if self.on_the_way else "direct"])
+            controller.set_stack(self.stacks[self._rules()])
         return self.decision
+
+    def _rules(self) -> str:
+        return "detour" if self.on_the_way else "direct"

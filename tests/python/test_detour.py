@@ -118,22 +118,42 @@ def test_what_comes_before_bars_the_way() -> None:
     assert run(robot, controller, detour) == []
 
 
+class Physics:
+    """The arm without the post and without weight, its hand led by a whole-body controller."""
+
+    def __init__(self) -> None:
+        text = re.sub('<body name="post".*', "", ARM)
+        text = text.replace("<worldbody>", '<option timestep="0.002" gravity="0 0 0"/><worldbody>')
+        model = mujoco.MjModel.from_xml_string(text.replace("<joint ", '<joint damping="0.1" '))
+        robot = hurcules.Robot(model)
+        self.hand = hand_at(robot, AROUND)
+        posture = hurcules.PostureTask("posture", robot)
+        self.detour = hurcules.Detour(robot, [], [self.hand], [posture])
+        self.controller = hurcules.WholeBodyController(robot, stacks=self.detour.stacks)
+        self.simulation = hurcules.Simulation(model=model, controller=self.controller)
+
+    def step(self) -> str:
+        """A tick, and what was decided in it."""
+        self.simulation.step(1)
+        return self.detour.look(self.controller)
+
+
 def test_a_whole_body_controller_goes_round_in_the_physics() -> None:
-    text = re.sub('<body name="post".*', "", ARM)
-    text = text.replace("<worldbody>", '<option timestep="0.002" gravity="0 0 0"/><worldbody>')
-    text = text.replace("<joint ", '<joint damping="0.1" ')
-    model = mujoco.MjModel.from_xml_string(text)
-    robot = hurcules.Robot(model)
-    hand = hand_at(robot, AROUND)
-    detour = hurcules.Detour(robot, [], [hand], [hurcules.PostureTask("posture", robot)])
-    controller = hurcules.WholeBodyController(robot, stacks=detour.stacks)
-    simulation = hurcules.Simulation(model=model, controller=controller)
-    said = []
-    for _ in range(7500):
-        simulation.step(1)
-        said += filter(None, [detour.look(controller)])
-    assert len(said) == 2 and controller.active == "direct"
-    assert simulation.data.site("hand").xpos[:2] == pytest.approx(hand.target, abs=2e-3)
+    arm = Physics()
+    said = [one for one in (arm.step() for _ in range(7500)) if one]
+    assert len(said) == 2 and arm.controller.active == "direct"
+    place = arm.simulation.data.site("hand").xpos[:2]
+    assert place == pytest.approx(arm.hand.target, abs=2e-3)
+
+
+def test_a_reset_on_the_way_ends_the_detour() -> None:
+    arm = Physics()
+    while not arm.detour.on_the_way:
+        arm.step()
+    assert arm.controller.active == "detour"
+    arm.simulation.reset()
+    assert arm.controller.active == "direct"
+    assert arm.step() == "" and not arm.detour.on_the_way
 
 
 def test_what_is_no_detour(robot: hurcules.Robot) -> None:
