@@ -103,12 +103,11 @@ def _person(mass: int, arms: str) -> mujoco.MjSpec:
     """A person of models/objects whose arms begin, at qpos0, as they are wanted."""
     spec = read_object(f"casualty_{mass}kg")
     angles = {f"{side}_{name}": angle for side in "LR" for name, angle in ARMS[arms].items()}
-    straight = spec.compile() if angles else None
-    for body in spec.bodies if straight else []:
-        if any(joint.name in angles for joint in body.joints):
-            turned = _begin_at(body.joints, angles)
-            body.quat = _product(straight.body(body.name).quat, turned)
-            body.alt.type = mujoco.mjtOrientation.mjORIENTATION_QUAT
+    turned = [body for body in spec.bodies if any(one.name in angles for one in body.joints)]
+    straight = spec.compile()
+    for body in turned:
+        body.quat = _product(straight.body(body.name).quat, _begin_at(body.joints, angles))
+        body.alt.type = mujoco.mjtOrientation.mjORIENTATION_QUAT
     for geom in spec.geoms if arms == "folded" else []:
         if geom.parent.name in TRUNK:
             geom.conaffinity |= ON_TRUNK
