@@ -28,7 +28,14 @@ import hurcules
 VARIATION = 1 / 3  # of 3 cm, 50 mrad, 2 mrad
 FIRST_SEED, FIRST_DRAWN = 1000, 4000
 HEAD = 98.1  # [m/s^2] 10 g
-NOMINAL = {"mass": 75, "offset": (0.0, 0.0), "yaw": 0.0, "friction": 0.45, "pose": "back"}
+NOMINAL = {
+    "mass": 75,
+    "offset": (0.0, 0.0),
+    "yaw": 0.0,
+    "friction": 0.45,
+    "pose": "back",
+    "arms": "sides",
+}
 Cell = dict[str, Any]
 
 
@@ -65,6 +72,7 @@ def cells(kind: str) -> Iterator[Cell]:
             for dy, yaw in ((0.15, 0.0), (-0.15, 0.0), (0.0, 0.26), (0.0, -0.26))
         ],
         "pose": [{"pose": pose} for pose in ("left", "front", "right")],
+        "arms": [{"arms": arms} for arms in ("out", "folded")],
     }
     if kind not in changes:
         raise SystemExit(f"no cells '{kind}'; there are: {', '.join(changes)}")
@@ -129,7 +137,8 @@ def key(run: dict[str, Any]) -> tuple[Any, ...]:
 
 
 def _place(run: dict[str, Any]) -> tuple[Any, ...]:
-    return (run["mass"], *run["offset"], run["yaw"], run["friction"], run["pose"], _terrain(run))
+    lies = run["pose"] if run.get("arms", "sides") == "sides" else f"{run['pose']}, {run['arms']}"
+    return (run["mass"], *run["offset"], run["yaw"], run["friction"], lies, _terrain(run))
 
 
 def _terrain(run: dict[str, Any]) -> str:
@@ -148,7 +157,7 @@ def show(path: Path) -> None:
     table = defaultdict(list)
     for run in runs:
         table[_place(run)].append(run)
-    print("mass  ahead  left   yaw    mu    pose   success  push  slid   torque  failures")
+    print("mass  ahead  left   yaw    mu          pose   success  push  slid   torque  failures")
     for place, found in table.items():
         mass, dx, dy, yaw, mu, pose, terrain = place
         good = sum(run["success"] for run in found)
@@ -157,7 +166,7 @@ def show(path: Path) -> None:
         torque = max(max(run["torque_share"].values()) for run in found)
         why = "; ".join(run["reason"] for run in found if not run["success"])
         print(
-            f"{mass:4} {dx:+6.2f} {dy:+6.2f} {yaw:+6.2f} {mu:5.2f} {pose:>6} "
+            f"{mass:4} {dx:+6.2f} {dy:+6.2f} {yaw:+6.2f} {mu:5.2f} {pose:>12} "
             f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f}   {terrain} {why}"
         )
     good = sum(run["success"] for run in runs)

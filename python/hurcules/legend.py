@@ -46,6 +46,8 @@ _SEEN = {
     "casualty/heading_rad": ("the person lies this far from square across the way", "rad"),
     "casualty/stand_ahead_m": ("the stand before the person is ahead by", "m"),
     "casualty/face_up": ("the person's chest faces up by (1 on the back, 0 on a side)", ""),
+    "distance/casualty_L_hand/casualty_pelvis": ("the left hand lies away from the hips by", "m"),
+    "distance/casualty_R_hand/casualty_pelvis": ("the right hand lies away from the hips by", "m"),
 }
 _UNMET = re.compile(r"(?:took too long: )?(\S+) (<=|>=) (\S+) is not true, it is ([^\s;]+)")
 _SIDES = {"L": "left", "R": "right"}

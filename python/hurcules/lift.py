@@ -55,6 +55,7 @@ class Person:
         yaw: [rad] turned against where it expects the person.
         friction: of the clothes on the ground.
         pose: on the "back", "left" side, "front" or "right" side.
+        arms: at the "sides", "out" to 80 degrees from the trunk, or "folded" over the belly.
     """
 
     mass: int = 75
@@ -62,6 +63,7 @@ class Person:
     yaw: float = 0.0
     friction: float = 0.45
     pose: str = "back"
+    arms: str = "sides"
 
 
 @dataclass(frozen=True)
@@ -138,6 +140,7 @@ def spec(person: Person) -> mujoco.MjSpec:
             **terrain,
             mass=person.mass,
             lying=person.pose,
+            arms=person.arms,
             distance=DISTANCE + dx,
             lateral=dy,
             heading=person.yaw,

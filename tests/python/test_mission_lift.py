@@ -163,6 +163,33 @@ def test_from_who_lies_too_near_it_steps_back_and_goes_on() -> None:
     assert float(simulation.read(stands)[0]) > 0.4
 
 
+@pytest.mark.parametrize(("pose", "away"), [("back", 0.87), ("front", 0.85)])
+def test_an_arm_in_the_way_of_the_tips_is_asked_about_and_not_run_over(
+    pose: str, away: float
+) -> None:
+    lies = {"pose": pose, "arms": "out"}
+    simulation = hurcules.Simulation("lift", variation=0.0, parameters=lies, record=False)
+    found = f"left hand lies away from the hips by {away:.2f} m, wanted is at most 0.6 m"
+    for _ in range(3):  # a yes looks again, and is no push
+        simulation.step(2100)
+        assert simulation.phase == "see him"
+        assert found in reason_words(simulation.question)
+        simulation.answer(True)
+    simulation.step(600)
+    assert simulation.finished
+    assert found in reason_words(simulation.reason)
+    assert simulation.figures()["contact_share"] == 0.0
+
+
+def test_arms_over_the_belly_or_at_the_sides_are_in_nobodys_way() -> None:
+    for arms in ("sides", "folded"):
+        simulation = hurcules.Simulation(
+            "lift", variation=0.0, parameters={"mass": 120, "arms": arms}, record=False
+        )
+        simulation.step(1600)
+        assert simulation.phase not in ("settle", "step back", "see him")
+
+
 def test_a_stand_off_below_zero_is_told() -> None:
     wrong = lift.mission()
     wrong.setup.stand_off = -1.0
@@ -178,6 +205,8 @@ def test_a_person_that_there_is_not_is_told() -> None:
         lift.person({"offset": (0.1,)})
     with pytest.raises(Error, match="mass"):
         lift.model(lift.Person(mass=60))
+    with pytest.raises(Error, match="arms wants one of sides, out, folded, got 'up'"):
+        lift.model(lift.Person(arms="up"))
     with pytest.raises(Error, match="takes no parameters"):
         hurcules.Simulation("stretch", parameters={"mass": 75})
 
@@ -192,14 +221,16 @@ def test_the_command_line_names_the_person() -> None:
         "--friction",
         "0.6",
         "--pose",
-        "left",
+        "front",
+        "--arms=out",
     ]
     assert lift.parameters_of(words) == {
         "mass": 90,
         "offset": (0.05, -0.1),
         "yaw": 0.2,
         "friction": 0.6,
-        "pose": "left",
+        "pose": "front",
+        "arms": "out",
     }
     assert lift.parameters_of(["--mass", "90.0"]) == {"mass": 90}
     with pytest.raises(Error, match=r"got '90\.5'"):

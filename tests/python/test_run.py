@@ -260,8 +260,9 @@ def test_summary_and_report_say_what_was_asked_of_the_mission(tmp_path: Path) ->
     assert run(options, quiet()) == DONE
     told = json.loads((tmp_path / "summary.json").read_text())["parameters"]
     wanted = {"mass": 90, "offset": [0.05, -0.1], "yaw": 0.0, "friction": 0.45, "pose": "back"}
+    wanted["arms"] = "sides"
     assert told == wanted
-    line = "mass 90 · offset 0.05, -0.1 · yaw 0.0 · friction 0.45 · pose back · seed 0"
+    line = "mass 90 · offset 0.05, -0.1 · yaw 0.0 · friction 0.45 · pose back · arms sides · seed 0"
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert line in page
     assert "The mission was not finished: stopped at 0.100 s, as asked." in page

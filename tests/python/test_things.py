@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 import pytest
 
+import hurcules
 from hurcules import models, scenes
 
 GRAVITY = 9.81
@@ -196,6 +197,66 @@ def test_a_person_begins_clear_of_the_ground_and_comes_to_rest(mass, lying):
     forces = [s for s in range(model.nsensor) if "_force_" in model.sensor(s).name]
     total = sum(data.sensor(s).data[0] for s in forces)
     assert total == pytest.approx(mass * GRAVITY, rel=0.15)
+
+
+@pytest.mark.parametrize("mass", [50, 75, 90, 120])
+@pytest.mark.parametrize("arms", ["out", "folded"])
+def test_the_arms_of_a_person_on_the_back_stay_where_they_were_wanted(mass, arms):
+    model, data = ready("casualty", mass=mass, arms=arms)
+    assert min(c.dist for c in data.contact[: data.ncon]) > -2e-4
+    mujoco.mj_step(model, data, 3000)
+    assert abs(data.qvel).max() < 0.1
+    wanted = {
+        "out": {"shoulder_abduction": 1.2, "shoulder_turn": 0.0, "elbow": 0.0},
+        "folded": {"shoulder_abduction": 0.4, "shoulder_turn": -0.78, "elbow": 1.9},
+    }[arms]
+    trunk = data.body("casualty_thorax").xmat.reshape(3, 3)
+    for side in "LR":
+        for name, angle in wanted.items():
+            joint = data.joint(f"casualty_{side}_{name}")
+            assert joint.qpos[0] == pytest.approx(angle, abs=0.15), (side, name)
+        # by places, in the frame of the trunk: x to the front, y left, z up
+        shoulder, elbow, wrist = (
+            data.body(f"casualty_{side}_{name}").xpos for name in ("upper_arm", "forearm", "hand")
+        )
+        arm = trunk.T @ (elbow - shoulder) / np.linalg.norm(elbow - shoulder)
+        if arms == "out":  # 0.2 rad at the sides: 1.4 rad from the trunk, level
+            assert math.acos(-arm[2]) == pytest.approx(1.4, abs=0.02)
+            assert abs(wrist[2] - shoulder[2]) < 0.02
+        else:  # above the belly, between the elbows
+            assert wrist[2] > data.geom("casualty_belly_0.165").xpos[2]
+            inward = trunk.T @ (wrist - elbow)
+            assert inward[0] > 0.1 and inward[1] * (1 if side == "L" else -1) < -0.05
+
+
+def test_hinges_that_begin_at_angles_mean_the_same_places_as_before():
+    straight, folded = (scenes.load("casualty", arms=arms) for arms in ("sides", "folded"))
+    places = []
+    for model in (straight, folded):
+        data = mujoco.MjData(model)
+        data.qpos[:] = folded.qpos0
+        random = np.random.default_rng(3).uniform(-0.3, 0.3, model.nq)
+        for joint in range(model.njnt):
+            if "_shoulder_" in model.joint(joint).name or "_elbow" in model.joint(joint).name:
+                at = model.jnt_qposadr[joint]
+                data.qpos[at] += random[at]
+        mujoco.mj_kinematics(model, data)
+        bodies = ("L_forearm", "R_forearm", "L_hand", "R_hand")
+        places.append([data.body(f"casualty_{name}").xmat.copy() for name in bodies])
+    assert places[0] == pytest.approx(np.array(places[1]), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "lying, arms, wanted",
+    [
+        ("back", "up", "arms wants one of sides, out, folded, got 'up'"),
+        ("front", "folded", "one of sides, out for a person lying 'front', got 'folded'"),
+        ("left", "out", "one of sides for a person lying 'left', got 'out'"),
+    ],
+)
+def test_arms_that_would_not_lie_still_are_refused(lying, arms, wanted):
+    with pytest.raises(hurcules.Error, match=wanted):
+        scenes.scene("casualty", lying=lying, arms=arms)
 
 
 # ---- loads

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from hurcules import mjcf
 from hurcules.scenes.materials import add_materials
 
-__all__ = ["Ground", "turn"]
+__all__ = ["Ground", "read_object", "turn"]
 
 FLOOR = "floor"
 TRACK_RADIUS = 0.14  # [m] of Hurcules' belts
@@ -27,6 +27,11 @@ def turn(axis: str, angle: float) -> NDArray[np.float64]:
     quat = np.array([math.cos(angle / 2), 0.0, 0.0, 0.0])
     quat[1 + "xyz".index(axis)] = math.sin(angle / 2)
     return quat
+
+
+def read_object(name: str) -> mujoco.MjSpec:
+    """A thing of models/objects, not compiled yet."""
+    return mujoco.MjSpec.from_file(str(mjcf.folder() / "objects" / f"{name}.xml"))
 
 
 class Ground:
@@ -108,14 +113,24 @@ class Ground:
         return self._geom(name, mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname=name, pos=centre, **more)
 
     def attach(
-        self, thing: str, prefix: str, pos: ArrayLike, quat: ArrayLike = (1, 0, 0, 0)
-    ) -> Any:
-        """Puts a thing of models/objects into the scene, its names behind a prefix.
+        self,
+        thing: str | mujoco.MjSpec,
+        prefix: str,
+        pos: ArrayLike,
+        quat: ArrayLike = (1, 0, 0, 0),
+    ) -> mujoco.MjSpec:
+        """Puts a thing into the scene, its names behind a prefix.
+
+        Args:
+            thing: a name of models/objects, or what was read from there and changed.
+            prefix: before all its names.
+            pos: (3) [m].
+            quat: (4).
 
         Returns:
             The thing's MjSpec as it was before.
         """
-        child = mujoco.MjSpec.from_file(str(mjcf.folder() / "objects" / f"{thing}.xml"))
+        child = read_object(thing) if isinstance(thing, str) else thing
         frame = self.spec.worldbody.add_frame(pos=pos, quat=quat)
         self.spec.attach(child, prefix=prefix, frame=frame)
         return child
