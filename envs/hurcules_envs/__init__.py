@@ -6,6 +6,7 @@
 import gymnasium
 
 import hurcules  # noqa: F401  # first of all: it chooses MuJoCo's OpenGL
+from hurcules_envs.endings import Ending
 from hurcules_envs.registry import register
 
 # id: (class, steps until an episode is truncated, options)
@@ -31,7 +32,7 @@ for _name in ("Reach", "Press", "Valve", "Door", "Carry", "Lift"):
 
 ENVIRONMENTS = ("Hurcules/Stretch-v0", *_ENVIRONMENTS)
 
-__all__ = ["ENVIRONMENTS", "register"]
+__all__ = ["ENVIRONMENTS", "Ending", "register"]
 
 gymnasium.register(
     id="Hurcules/Stretch-v0",

@@ -25,6 +25,7 @@ from hurcules_envs.contact import (
 )
 from hurcules_envs.environment import Array, Group, Numbers, Start
 from hurcules_envs.robots import MAX_ACCELERATION
+from hurcules_envs.safety import Safety
 from hurcules_envs.standing import SUPPORT, place_hands, settle
 
 __all__ = ["Carry"]
@@ -138,6 +139,7 @@ class Carry(ContactEnvironment):
         palm: str = "z",
         pads: bool = True,
         place: Sequence[float] | None = None,
+        safe: bool = True,
     ) -> None:
         """Builds scene, controller and loop.
 
@@ -153,6 +155,8 @@ class Carry(ContactEnvironment):
             pads: of a path: flat pads 40 mm thick stand before the frames; False: the frames lie in
                 the palms' own surfaces.
             place: of a path: x, y, z [m] of the middle of the table's top; None: it is looked for.
+            safe: before the hands come the robot's balance and distances of its parts from each
+                other and from the ground; False leaves only the limits.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range, or a robot that cannot
@@ -176,7 +180,7 @@ class Carry(ContactEnvironment):
                 )
             own = load_carrier(robot, frames, joints, palm, pads, place, WANTED)
             self._own, self._hands, self._feels, self._back = own, HANDS, FEELS, HALF_HAND
-            self._place, self._share = own.place, own.share
+            self._place, self._share, self.support = own.place, own.share, ""
         self._compliance, self._stiffness = COMPLIANCE, STIFFEST
         left, right = self._hands
         self.quantities = (
@@ -184,7 +188,7 @@ class Carry(ContactEnvironment):
             f"velocity/{left}", f"velocity/{right}", "target/left", "position/box", "matrix/box",
             *(f"sensor/{feel}" for feel in self._feels),
         )  # fmt: skip
-        super().__init__(fidelity, sparse, rate, action)
+        super().__init__(fidelity, sparse, rate, action, safe)
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         most = MOST * self._share
@@ -193,10 +197,10 @@ class Carry(ContactEnvironment):
         self._box = model.joint("box").qposadr[0]
         self._scratch = mujoco.MjData(model)
         if self._own is not None:
-            loop = self._loop(model, self._own.plan(model), tick)
+            loop = self._loop(self._own.plan(model), tick, safe=False)
             self._stiffness = self._own.stiffness(loop)
             self._compliance = RATE / self._stiffness
-            self.simulation = self._loop(model, self._own.plan(model), tick)
+            self.simulation = self._loop(self._own.plan(model), tick, safe=self.safe)
             return
         places = {
             side: np.array([TABLE[0] + PALM, y, HEIGHT])
@@ -204,7 +208,8 @@ class Carry(ContactEnvironment):
         }
         closed = {f"{side}_grip_{i}": CLOSED for side in "LR" for i in "12"}
         plan = place_hands(model, places, closed)
-        self.simulation = self._loop(model, settle(self._loop(model, plan, tick)), tick)
+        rest = settle(self._loop(plan, tick, safe=False))
+        self.simulation = self._loop(rest, tick, safe=self.safe)
 
     def scene(self) -> mujoco.MjSpec:
         """The robot stands behind a table with a box on it."""
@@ -225,7 +230,7 @@ class Carry(ContactEnvironment):
             add_force_sensor(spec, f"{side}_feel", f"{side}_wr2")
         return spec
 
-    def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
+    def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:
         own, share, compliance = self._own, self._share, self._compliance
         most = 1500.0 if own is None else MOST * share + 0.3 / compliance  # [N] of the channel
         left = hurcules.PositionTask("left", plan, self._hands[0])
@@ -262,11 +267,18 @@ class Carry(ContactEnvironment):
                 "right_turn": hurcules.Twist(turns["R"], 0.6),
             },
             dt=tick,
+            safe=safe,
             **options,
         )
-        simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+        simulation = self.loop(controller)
         controller.sense(squeeze, self._feels[1], row=2)
         return simulation
+
+    def guards(self, plan: hurcules.Robot) -> list[Any]:
+        """Of a robot of one's own: pads and table count too."""
+        if self._own is None:
+            return super().guards(plan)
+        return Safety(self._own.setup.name, self._model, plan, "").levels(plan)
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """Half sizes, mass and friction of the box."""

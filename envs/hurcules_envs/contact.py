@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
@@ -16,6 +16,8 @@ from hurcules import mjcf
 from hurcules.validation import require_known
 from hurcules_envs.commands import joint_channel
 from hurcules_envs.environment import Array, Environment, Group, Numbers, tick_of
+from hurcules_envs.robots import load_robot
+from hurcules_envs.standing import SUPPORT
 
 __all__ = [
     "ContactEnvironment",
@@ -28,6 +30,7 @@ __all__ = [
 ]
 
 PHYSICS = ("exact", "fast")  # fidelities
+TILT = 0.35  # [rad] of what it stands on: it falls
 
 
 def contact_tick(fidelity: str, rate: float) -> float:
@@ -58,9 +61,17 @@ class ContactEnvironment(Environment):
     Attributes:
         action: "twist" or "joint".
         beside: by channel the scale of what is commanded with the joints too.
+        body: the robot, "rescue" or "manipulation".
+        support: what it stands on, "" for a fixed base.
+        clear: by body what it keeps from the ground [m] in place of what is usual, 0: nothing.
+        hanging: [m] that its parts in springs keep, None: what is usual.
     """
 
     fidelities = PHYSICS
+    body: ClassVar[str] = "manipulation"
+    support: str = SUPPORT
+    clear: ClassVar[Mapping[str, float]] = MappingProxyType({})
+    hanging: ClassVar[float | None] = None
     action: str = "twist"
     beside: Mapping[str, float | Array] = MappingProxyType({})
 
@@ -70,6 +81,7 @@ class ContactEnvironment(Environment):
         sparse: bool = False,
         rate: float = 20.0,
         action: str = "twist",
+        safe: bool = True,
     ) -> None:
         """Builds scene, controller and loop.
 
@@ -79,12 +91,14 @@ class ContactEnvironment(Environment):
                 the path.
             rate: steps a second [Hz].
             action: "twist" (what the class says), or "joint" for comparison.
+            safe: before the hands come the robot's balance and distances of its parts from each
+                other and from the ground; False leaves only the limits.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = contact_tick(fidelity, rate)
-        self.sparse, self.rate, self.action = sparse, rate, action
+        self.sparse, self.rate, self.action, self.safe = sparse, rate, action, safe
         self._model = self.compiled(tick)
         self._build(self._model, tick)
 
@@ -97,28 +111,46 @@ class ContactEnvironment(Environment):
         plan: hurcules.Robot,
         levels: Sequence[Any],
         channels: Mapping[str, Any],
+        *,
+        safe: bool,
         **options: Any,
     ) -> hurcules.WholeBodyController:
-        """The controller of these levels; for "joint" only limits come before the joints.
+        """The controller of these levels; for "joint" limits and guards come before the joints.
 
         Args:
             plan: the robot.
             levels: of tasks, as `hurcules.WholeBodyController` takes them.
             channels: by name, the same.
+            safe: the levels of `guards` come after the limits.
             options: the same.
 
         Raises:
             hurcules.Error: another action than "twist" and "joint".
         """
         require_known("action", self.action, ("twist", "joint"))
+        limits = [level for level in levels if isinstance(level, hurcules.JointLimits)]
+        rest = [level for level in levels if level not in limits]
+        first = [*limits, *(self.guards(plan) if safe else [])]
         if self.action == "joint":
             joints = hurcules.PostureTask("joints", plan)
             channel, scale, units = joint_channel(joints, plan, self._model)
-            limits = [level for level in levels if isinstance(level, hurcules.JointLimits)]
-            levels = [*limits, joints, *(level for level in levels if level not in limits)]
+            first = [*first, joints]
             channels = {"joints": channel} | {name: channels[name] for name in self.beside}
             self._command_joints(scale, units)
-        return hurcules.WholeBodyController(plan, levels, dict(channels), **options)
+        return hurcules.WholeBodyController(plan, [*first, *rest], dict(channels), **options)
+
+    def guards(self, plan: hurcules.Robot) -> list[Any]:
+        """The safe levels of the robot where it stands in the scene."""
+        return load_robot(self.body).safety.levels_in_scene(
+            self._model, plan, self.clear, self.hanging
+        )
+
+    def loop(self, controller: hurcules.WholeBodyController) -> hurcules.Simulation:
+        """The simulation of a controller, over where the robot falls."""
+        fall = hurcules.FallOptions(self.support, max_tilt=TILT) if self.support else None
+        return hurcules.Simulation(
+            model=self._model, controller=controller, record=False, fall=fall
+        )
 
     def _command_joints(self, scale: Array, units: Sequence[str]) -> None:
         kept = {name: unit for name, unit in self.units.items() if name in self.beside}

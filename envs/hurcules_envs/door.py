@@ -98,7 +98,8 @@ class Door(ContactEnvironment):
         self.units = {"across": "m/s", "down": "m/s", "force": "N"}
         self.actions = {"across": 0.2, "down": 0.2, "force": MOST}
         plan = place_hands(model, {"R": np.array(HAND)}, {"R_grip_1": CLOSED, "R_grip_2": CLOSED})
-        self.simulation = self._loop(model, settle(self._loop(model, plan, tick)), tick)
+        rest = settle(self._loop(plan, tick, safe=False))
+        self.simulation = self._loop(rest, tick, safe=self.safe)
 
     def scene(self) -> mujoco.MjSpec:
         """The robot stands before a door that can be moved as a whole."""
@@ -109,7 +110,7 @@ class Door(ContactEnvironment):
         add_force_sensor(spec, "R_feel", "R_hand")
         return spec
 
-    def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
+    def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:
         across = hurcules.PositionTask("across", plan, "R_tcp", axes=[[1, 0, 0], [0, 1, 0]])
         across.max_lead = 0.1
         down = hurcules.ForceTask(
@@ -128,9 +129,10 @@ class Door(ContactEnvironment):
                 "force": hurcules.ForceReference(down, MOST),
             },
             dt=tick,
+            safe=safe,
             support=SUPPORT,
         )
-        simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+        simulation = self.loop(controller)
         controller.sense(down, "R_feel", row=3, sign=-1.0)
         return simulation
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
@@ -15,6 +15,7 @@ import hurcules
 from hurcules import lift
 from hurcules_envs.contact import ContactEnvironment, add_force_sensor, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.harm import Contacts, harm
 from hurcules_envs.loose import limp_person
 
 __all__ = ["Lift"]
@@ -72,11 +73,24 @@ class Lift(ContactEnvironment):
     |---|---|
     | under | minus the distance of the person's centre to 0.15 m behind the tips [m] |
     | raised | his height over 0.15 m, at most 1, while less than 15 % of his weight lies |
+    | harm | minus 0.1 a second times what contacts and the head (10 g) have over their limits |
     | success | 10 once |
+
+    Success is the lift, and `harmless` in `info` tells it apart: 1 as long as no contact of the
+    robot passed the limit of its region of the body (ISO/TS 15066, as long as more than 15 % of the
+    weight is on the ground) and the head no 10 g. Both are looked at at the end of each step.
+    `info` has `contact_share`, the largest force over its limit, `support_n`, the largest force on
+    a region of who is carried, and `head_mps2`, gravity included, now, and `contact_share_most` and
+    `head_mps2_most` of the episode; `cost` is 1 where a limit is passed.
     """
 
+    body = "rescue"
+    hanging = 0.02  # hands go 0.2 m/s and hardly swing; the lift leads 18 mm from a track
+    clear: ClassVar[Mapping[str, float]] = MappingProxyType(
+        {"L_larm": 0.0, "R_larm": 0.0}
+    )  # scoops
     task_description = "Drive the arms under the person and lift him off the ground."
-    terms = ("under", "raised", "success")
+    terms = ("under", "raised", "harm", "success")
     observation = (
         Group("centre", 3, "m", 5.0, "from the middle between the tips to the person's centre"),
         Group("heading", 1, "rad", 4.0, "of his body, 0: square across the way"),
@@ -89,6 +103,7 @@ class Lift(ContactEnvironment):
     )
     memory: Mapping[str, int] = MappingProxyType(
         {"mass": 1, "friction": 1, "lay": 1, "held": 1, "done": 1, "fresh": 1}
+        | dict.fromkeys(("share", "support", "head", "most_share", "most_head"), 1)
     )
     parameters = ("mass", "friction")
     beside: Mapping[str, float | Array] = MappingProxyType({"drive": np.array([SPEED, YAW_RATE])})
@@ -100,11 +115,22 @@ class Lift(ContactEnvironment):
             "tracks": ("speed", "yaw"),
         }
     )
-    quantities = (
+    quantities: tuple[str, ...] = (
         "position/L_tcp", "position/R_tcp", "matrix/L_tcp", "matrix/R_tcp",
         "position/casualty_thorax", "position/casualty_pelvis", "sensor/casualty_centre",
         "sensor/casualty_lies", "sensor/L_feel", "sensor/R_feel",
     )  # fmt: skip
+
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+        safe: bool = False,
+    ) -> None:
+        """See `ContactEnvironment`; the safe levels are off: they make this lift slower."""
+        super().__init__(fidelity, sparse, rate, action, safe)
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         tracks = ("m/s", "rad/s")
@@ -123,13 +149,14 @@ class Lift(ContactEnvironment):
             for joint in {name, f"L{name}", f"R{name}"} & set(names):
                 q[names.index(joint)] = angle
         robot.set_configuration(q)
-        settled = self._loop(model, robot, tick)
+        settled = self._loop(robot, tick, safe=False)
         settled.step(round(SETTLING / tick))
         start = hurcules.Robot(model)
         start.set_qpos(settled.data.qpos)
         start.stand_on(lift.SUPPORT)
-        self.simulation = self._loop(model, start, tick)
+        self.simulation = self._loop(start, tick, safe=self.safe)
         self._person = limp_person(model, settled.data.qpos)
+        self.quantities = (*self.quantities, *self._contacts.quantities)
 
     def scene(self) -> mujoco.MjSpec:
         """The robot before a person who lies across its way."""
@@ -155,9 +182,10 @@ class Lift(ContactEnvironment):
             mujoco.mjtConDataField.mjCONDATA_FORCE,
         )
         lies.intprm[:3] = [(1 << int(found)) | (1 << int(force)), 3, 1]
+        self._contacts = Contacts(spec)
         return spec
 
-    def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
+    def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:
         limits = hurcules.JointLimits("joint", plan)
         for name, (lower, upper) in hurcules.mode_ranges("rescue_ready").items():
             limits.set_range(name, lower, upper)
@@ -173,10 +201,11 @@ class Lift(ContactEnvironment):
             {task.name: hurcules.Twist(task, math.inf) for task in [*hands, *pitch]}
             | {"drive": hurcules.Drive(speed=1.0, yaw_rate=0.5)},
             dt=tick,
+            safe=safe,
             support=lift.SUPPORT,
             drive=hurcules.DriveOptions(),
         )
-        return hurcules.Simulation(model=model, controller=controller, record=False)
+        return self.loop(controller)
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """Mass of the person, friction of his clothes."""
@@ -208,8 +237,14 @@ class Lift(ContactEnvironment):
         return Start(qpos, drawn | {"lay": self._person.centre[2]}, drawn | places)
 
     def remember(self, numbers: Numbers) -> None:
-        """For how long he has been held."""
-        memory = numbers.memory
+        """For how long he has been held, and what was done to him."""
+        memory, lying = numbers.memory, self._lying(numbers)
+        memory["share"][:, 0] = self._contacts.share(numbers, lying)
+        memory["support"][:, 0] = self._contacts.support(numbers, lying)
+        memory["head"][:, 0] = self._contacts.head(numbers)
+        for name in ("share", "head"):
+            most = memory[f"most_{name}"]
+            np.maximum(most, memory[name], out=most)
         held = memory["held"]
         held[:, 0] = np.where(self._up(numbers), held[:, 0] + numbers.dt, 0.0)
         before = memory["done"].copy()
@@ -247,7 +282,24 @@ class Lift(ContactEnvironment):
         return {
             "under": -shaped * np.hypot(centre[:, 0] + 0.15, centre[:, 1]),
             "raised": shaped * np.where(self._lying(numbers) < GROUND, share, 0.0),
+            "harm": -0.1 * shaped * numbers.dt * self._harm(numbers),
             "success": 10.0 * numbers["fresh"][:, 0],
+        }
+
+    def costs(self, numbers: Numbers) -> NDArray[np.bool_]:
+        """A limit of a contact or of the head is passed."""
+        return self._harm(numbers) > 0.0
+
+    def tell(self, numbers: Numbers) -> dict[str, Array]:
+        """What is done to him, and whether any of it passed a limit."""
+        most = numbers["most_share"][:, 0], numbers["most_head"][:, 0]
+        return {
+            "contact_share": numbers["share"][:, 0],
+            "contact_share_most": most[0],
+            "support_n": numbers["support"][:, 0],
+            "head_mps2": numbers["head"][:, 0],
+            "head_mps2_most": most[1],
+            "harmless": (harm(*most) == 0.0).astype(float),
         }
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
@@ -307,6 +359,9 @@ class Lift(ContactEnvironment):
     def _lying(self, numbers: Numbers) -> Array:
         """(n,) share of the weight on the ground."""
         return np.abs(numbers["sensor/casualty_lies"][:, 3]) / (9.81 * numbers["mass"][:, 0])
+
+    def _harm(self, numbers: Numbers) -> Array:
+        return harm(numbers["share"][:, 0], numbers["head"][:, 0])
 
     def _up(self, numbers: Numbers) -> NDArray[np.bool_]:
         return (self._raised(numbers) >= RAISED) & (self._lying(numbers) < GROUND)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
@@ -15,6 +15,7 @@ import hurcules
 from hurcules import models
 from hurcules_envs.contact import ContactEnvironment, box_mark, euler_quat, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
+from hurcules_envs.standing import SUPPORT
 
 __all__ = ["Press"]
 
@@ -80,6 +81,10 @@ class Press(ContactEnvironment):
     | success | 10 once, when all of it is passed |
     """
 
+    body = "rescue"
+    # the hand that presses is commanded below the plate, as far as its spring gives
+    clear: ClassVar[Mapping[str, float]] = MappingProxyType({"R_larm": 0.04})
+    hanging = 0.02  # hands that go 0.1 m/s hardly swing, and the path leads 26 mm from a track
     task_description = "Press on the surface with the wanted force while sliding along the path."
     terms = ("distance", "force", "passed", "success")
     observation = (
@@ -106,6 +111,17 @@ class Press(ContactEnvironment):
         "value/slide", "force/down", "joint/surface",
     )  # fmt: skip
 
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+        safe: bool = False,
+    ) -> None:
+        """See `ContactEnvironment`; the safe levels are off: they cost its policy successes."""
+        super().__init__(fidelity, sparse, rate, action, safe)
+
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.units = {"slide": "m/s", "down": "m/s", "force": "N"}
         self.actions = {"slide": 0.1, "down": 0.1, "force": MOST}
@@ -114,13 +130,13 @@ class Press(ContactEnvironment):
         q = robot.configuration
         for name, angle in POSTURE.items():
             q[robot.coordinate(name)] = angle
-        robot.stand_on("lower_leg_L")
+        robot.stand_on(SUPPORT)
         robot.set_configuration(q)
-        settled = self._loop(model, robot, tick)
+        settled = self._loop(robot, tick, safe=False)
         settled.step(round(SETTLING / tick))
         start = hurcules.Robot(model)
         start.set_qpos(settled.data.qpos)
-        self.simulation = self._loop(model, start, tick)
+        self.simulation = self._loop(start, tick, safe=self.safe)
         self._hand = np.array(start.position("R_tcp"))
 
     def scene(self) -> mujoco.MjSpec:
@@ -144,8 +160,8 @@ class Press(ContactEnvironment):
             )  # fmt: skip
         return spec
 
-    def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
-        plan.stand_on("lower_leg_L")
+    def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:
+        plan.stand_on(SUPPORT)
         across = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
         slide = hurcules.PositionTask("slide", plan, "R_tcp", axes=across)
         slide.max_lead = 0.05
@@ -166,9 +182,10 @@ class Press(ContactEnvironment):
                 "force": hurcules.ForceReference(down, MOST),
             },
             dt=tick,
-            support="lower_leg_L",
+            safe=safe,
+            support=SUPPORT,
         )
-        simulation = hurcules.Simulation(model=model, controller=controller, record=False)
+        simulation = self.loop(controller)
         controller.sense(down, hurcules.SpringForce(plan, "REBS", "R_tcp"))
         return simulation
 

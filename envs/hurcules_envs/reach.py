@@ -238,7 +238,7 @@ class Reach(Environment):
     def _build(self, fidelity: str, action: str, tick: float, safe: bool) -> None:
         setup, plan = self.setup, self.setup.robot()
         # what is near by construction is seen where it stands at first
-        first: list[Any] = [setup.limits(plan), *(setup.safety(plan) if safe else [])]
+        first: list[Any] = [setup.limits(plan), *(setup.safety.levels(plan) if safe else [])]
         plan.set_qpos(self.postures.qpos[0])
         hands = [
             hurcules.PositionTask(name, plan, frame)

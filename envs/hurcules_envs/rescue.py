@@ -11,6 +11,7 @@ import numpy as np
 from hurcules import lift
 from hurcules_envs.contact import view
 from hurcules_envs.environment import Array, Group, Numbers
+from hurcules_envs.harm import harm
 from hurcules_envs.loose import limp_person
 from hurcules_envs.mission import MissionEnvironment, kept
 
@@ -19,7 +20,6 @@ __all__ = ["Rescue"]
 TRACKS = (0.1, 0.1)  # [m/s], [rad/s] full scale of what is added
 HANDS, PITCH, PRESS, JOINTS = 0.05, 0.1, 0.0125, 0.1  # [m/s], [rad/s], [m/s], [rad/s]
 LED = {"lean": ("HIP",), "shoulders": ("LSP", "RSP"), "elbows": ("LEB", "REB")}
-HEAD = 98.1  # [m/s^2] 10 g
 
 
 class Rescue(MissionEnvironment):
@@ -188,9 +188,7 @@ class Rescue(MissionEnvironment):
 
     def harm(self, numbers: Numbers) -> Array:
         """Of contacts on his body, and 10 g of his head."""
-        past = np.maximum(numbers["casualty/contact_share"][:, 0] - 1.0, 0.0)
-        shaken = np.maximum(numbers["casualty/head_mps2"][:, 0] / HEAD - 1.0, 0.0)
-        return past + shaken
+        return harm(numbers["casualty/contact_share"][:, 0], numbers["casualty/head_mps2"][:, 0])
 
     def tell(self, numbers: Numbers) -> dict[str, Array]:
         """What was done to him too."""

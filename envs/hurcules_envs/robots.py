@@ -8,11 +8,9 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -21,6 +19,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.output import compiled
 from hurcules_envs.rotations import rotation_vector
+from hurcules_envs.safety import STANDS, Safety, on_tracks
 
 __all__ = ["MAX_ACCELERATION", "Postures", "RobotSetup", "load_robot", "sample_postures"]
 
@@ -31,23 +30,9 @@ POOL_SEED = 20261123
 # [rad] how far postures are from the first one at most
 NEAR = {"KN": 0.2, "HIP": 0.3, "WST": 0.5, "NKY": 0.0, "NKP": 0.0}
 ARM = 1.0
-TRACK = 1  # contype of the tracks' geoms
 # of a closed chain: steps from its first posture to one that is drawn, how far [m] its loops may
 # open on the way, how far [rad or m] a joint may go in one: farther it jumps to another assembly
 LEADS, OPEN, JUMP = 20, 1e-6, 0.3
-STANDS = 0.10  # [m] of the centre of mass within the contacts
-TIPS = 0.08  # [m] of the zero moment point within them
-# [m] kept between parts, and from the ground: the lower arms of the rescue robot hang in springs
-# that give by 0.13 rad where they swing (0.2 at most), which no encoder of a motor sees
-APART = {"rescue": 0.12, "manipulation": 0.03}
-# [m] the same of its parts that hang in none; less than half of that is left where rows of trunk
-# and legs cannot all be kept at once
-FIRM = {"rescue": 0.06}
-# [m] beyond that, pairs do not count: hands come at 1.6 m/s, firm parts more slowly
-LOOK, FIRM_LOOK = 0.20, 0.10
-# points of pairs that count at a time. Firm parts have their own: a dozen are always near, and
-# among them a hand was seen when it could stop no more
-ROWS, FIRM_ROWS, HANGING_ROWS, GROUND_ROWS = 24, 12, 16, 6
 # [rad/s^2] of all coordinates: these springs hardly swing, and weak motors do not saturate
 MAX_ACCELERATION = 5.0
 
@@ -89,76 +74,10 @@ class RobotSetup:
             robot.stand_on(self.support)
         return robot
 
-    def safety(self, robot: hurcules.Robot) -> list[Any]:
-        """The levels after the limits: within its support, away from itself and the ground."""
-        levels: list[Any] = []
-        if self.support:
-            polygon, height = _support_polygon(self)
-            balance, tip = hurcules.BalanceTask, hurcules.ZeroMomentTask
-            levels = [
-                balance("balance", robot, polygon, STANDS, self.support, height),
-                tip("zero moment", robot, polygon, TIPS, self.support, height),
-            ]
-        return [*levels, [copy(task) for task in self._kept]]
-
-    @property
-    def apart_by(self) -> float:
-        """[m] that its parts keep from each other and from the ground; less where FIRM says so."""
-        return APART.get(self.name, 0.02)
-
-    def apart(self) -> hurcules.DistanceTask:
-        """Parts of the robot keep away from each other, all by `apart_by`."""
-        return copy(self._distances[0])
-
     @cached_property
-    def _distances(self) -> tuple[hurcules.DistanceTask, hurcules.DistanceTask]:
-        """From itself, and from the ground; their pairs are found once."""
-        robot, margin = self.robot(), self.apart_by
-        apart = hurcules.self_collision(
-            robot, margin=margin, most=margin + LOOK, rows=ROWS, postures=2000
-        )
-        with warnings.catch_warnings():  # it stands on its tracks
-            warnings.filterwarnings("ignore", "obstacles leaves out what touches now")
-            return apart, hurcules.obstacles(robot, margin=margin, most=margin + LOOK)
-
-    @cached_property
-    def _kept(self) -> list[hurcules.DistanceTask]:
-        """The same; of parts that hang in springs and of firm ones, each with rows of its own."""
-        if self.name not in FIRM:
-            return list(self._distances)
-        robot, firm = self.robot(), FIRM[self.name]
-        apart, clear = self._distances
-        # firm parts that ever come near
-        few = hurcules.self_collision(robot, margin=0.0, most=firm, postures=2000)
-        hang = {i for i in range(self.model.ngeom) if self._hangs(self.model.geom_bodyid[i])}
-
-        def task(found: hurcules.DistanceTask, hangs: bool, rows: int) -> hurcules.DistanceTask:
-            ids = {pair: {self.model.geom(name).id for name in pair} for pair in found.pairs(robot)}
-            pairs = [pair for pair, both in ids.items() if bool(both & hang) == hangs]
-            name = f"{found.name} in springs" if hangs else found.name
-            margin, look = (self.apart_by, LOOK) if hangs else (firm, FIRM_LOOK)
-            return hurcules.DistanceTask(
-                name, robot, pairs, margin, margin + look, rows, as_it_stands=True
-            )
-
-        return [
-            task(few, False, FIRM_ROWS),
-            task(apart, True, HANGING_ROWS),
-            task(clear, False, GROUND_ROWS),
-            task(clear, True, GROUND_ROWS),
-        ]
-
-    def _hangs(self, body: int) -> bool:
-        """A hinge with a spring and no motor turns it, or what it is mounted on."""
-        model, driven = self.model, set(self.model.actuator_trnid[:, 0])
-        while body:
-            for joint in range(model.njnt):
-                hinge = model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE
-                sprung = hinge and model.jnt_stiffness[joint] > 0.0 and joint not in driven
-                if sprung and model.jnt_bodyid[joint] == body:
-                    return True
-            body = model.body_parentid[body]
-        return False
+    def safety(self) -> Safety:
+        """What comes after the limits: within its support, away from itself and the ground."""
+        return Safety(self.name, self.model, self.robot(), self.support)
 
     def limits(self, robot: hurcules.Robot) -> hurcules.JointLimits:
         """The first level: the limits of the coordinates, within `ranges`."""
@@ -263,7 +182,7 @@ def sample_postures(setup: RobotSetup, least: float = 0.25) -> Postures:
     """
     generator = np.random.default_rng(POOL_SEED)
     robot, data = setup.robot(), mujoco.MjData(setup.model)
-    apart = setup.apart()
+    apart = setup.safety.apart()
     data.qpos[:] = robot.qpos
     ground = (setup.model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any()
     always = _touching(setup, data)  # parts that touch by construction
@@ -342,21 +261,6 @@ def _ranges(setup: RobotSetup, robot: hurcules.Robot, first: Array) -> tuple[Arr
     return np.array(lower), np.array(upper)
 
 
-def _support_polygon(setup: RobotSetup) -> tuple[Array, float]:
-    """(4, 2) [m] around the contacts of its tracks at its keyframe, and their z [m].
-
-    In the axes of its support.
-    """
-    still, data = setup.robot(), mujoco.MjData(setup.model)
-    data.qpos[:] = still.qpos
-    mujoco.mj_kinematics(setup.model, data)
-    mujoco.mj_collision(setup.model, data)
-    R, p = still.orientation(setup.support), still.position(setup.support)
-    feet = np.array([R.T @ (contact.pos - p) for contact in data.contact])
-    (x, y, _), (far_x, far_y, _) = feet.min(axis=0), feet.max(axis=0)
-    return np.array([[x, y], [far_x, y], [far_x, far_y], [x, far_y]]), float(feet[:, 2].mean())
-
-
 def _touching(setup: RobotSetup, data: mujoco.MjData) -> set[tuple[int, int]]:
     """Pairs of bodies that touch at `data.qpos`, but for tracks and what is fixed to each other."""
     model = setup.model
@@ -380,5 +284,4 @@ def _stands(setup: RobotSetup, data: mujoco.MjData, robot: hurcules.Robot) -> bo
 
 def _on_tracks(setup: RobotSetup, data: mujoco.MjData) -> NDArray[np.bool_]:
     """(contacts) whether a track takes part."""
-    tracks = setup.model.geom_contype[data.contact.geom] == TRACK
-    return np.asarray(setup.drives & tracks.any(axis=1))
+    return np.asarray(setup.drives & on_tracks(setup.model, data))

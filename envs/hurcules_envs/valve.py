@@ -100,7 +100,8 @@ class Valve(ContactEnvironment):
             i for i in range(model.ngeom) if model.geom_bodyid[i] == model.body("valve_wheel").id
         ]
         plan = place_hands(model, {"R": np.array(HAND)})
-        self.simulation = self._loop(model, settle(self._loop(model, plan, tick)), tick)
+        rest = settle(self._loop(plan, tick, safe=False))
+        self.simulation = self._loop(rest, tick, safe=self.safe)
         self._wheel = model.joint("valve_wheel").qposadr[0]
 
     def scene(self) -> mujoco.MjSpec:
@@ -111,7 +112,7 @@ class Valve(ContactEnvironment):
         spec.attach(child, prefix="valve_", frame=body.add_frame())
         return spec
 
-    def _loop(self, model: mujoco.MjModel, plan: hurcules.Robot, tick: float) -> Any:
+    def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:
         hand = hurcules.PositionTask("hand", plan, "R_tcp")
         hand.max_lead = 0.1
         turn = hurcules.OrientationTask("turn", plan, "R_tcp")
@@ -120,9 +121,10 @@ class Valve(ContactEnvironment):
             [hand, turn, hurcules.PostureTask("posture", plan)],
             {"hand": hurcules.Twist(hand, 0.2), "grip": hurcules.JointRate("R_grip_1", 0.05)},
             dt=tick,
+            safe=safe,
             support=SUPPORT,
         )
-        return hurcules.Simulation(model=model, controller=controller, record=False)
+        return self.loop(controller)
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """Place of the valve, friction at its axle [N m] and of the wheel's surface."""

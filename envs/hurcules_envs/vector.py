@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs.copies import Copied
+from hurcules_envs.endings import Ending
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, seeds_of, state_of
 from hurcules_envs.pictures import HEIGHT, SIZE, WIDTH, Eyes, Views
@@ -186,6 +187,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         reward = np.where(goes_on, step.reward, 0.0)
         terminated = step.terminated & goes_on
         truncated = (self._steps >= self._limit) & goes_on & ~terminated
+        step.info["ending"][truncated] = Ending.TimeLimit
         ended = terminated | truncated
         observation, info = self._seen(step.observation), _info(step)
         if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):

@@ -14,7 +14,8 @@ import pytest
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules_envs.robots import RobotSetup, _support_polygon, load_robot
+from hurcules_envs.robots import RobotSetup, load_robot
+from hurcules_envs.safety import support_polygon
 
 Array = NDArray[np.float64]
 DT, MARGIN = 0.004, 0.05
@@ -29,7 +30,7 @@ def setup() -> RobotSetup:
 def margins(setup: RobotSetup, motion: list[Array]) -> Array:
     """(t,) [m] of the zero moment point within the polygon; `motion`: qpos tick by tick."""
     model, data = setup.model, mujoco.MjData(setup.model)
-    polygon, height = _support_polygon(setup)
+    polygon, height = support_polygon(setup.model, setup.robot(), setup.support)
     rates, least = [], []
     for before, after in pairwise(motion):
         rate = np.zeros(model.nv)
@@ -62,7 +63,7 @@ def reach(setup: RobotSetup, law: str, rows: bool, seed: int = 0) -> Array:
     posture = hurcules.PostureTask("posture", robot)
     levels = [setup.limits(robot)]
     if rows:
-        polygon, height = _support_polygon(setup)
+        polygon, height = support_polygon(setup.model, setup.robot(), setup.support)
         levels += [
             hurcules.ZeroMomentTask("tip", robot, polygon, MARGIN, setup.support, height),
             hurcules.BalanceTask("balance", robot, polygon, 0.1, setup.support, height),

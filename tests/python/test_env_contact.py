@@ -17,6 +17,7 @@ from gymnasium.utils.env_checker import check_env
 from numpy.typing import NDArray
 
 import hurcules
+import hurcules.casualties
 import hurcules_envs  # noqa: F401  registers
 from environments import assert_tables_are_true
 from hurcules_envs.registry import make_environment
@@ -204,3 +205,56 @@ def test_the_physics_of_an_episode_can_be_read_with_mujoco() -> None:
     before = env.get_state()
     data.qpos[:] = 0.0  # a copy
     assert np.array_equal(env.get_state(), before)
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_balance_and_distances_come_before_what_is_commanded(name: str) -> None:
+    for suffix in ("", "Joint"):
+        env = single(f"Hurcules/{name}{suffix}-v0", safe=True)
+        levels = list(env.simulation.levels)
+        first = [level for level in levels if level not in ("joint", "limits")][:3]
+        assert first[:2] == ["balance", "zero moment"]
+        assert "self_collision" in first[2] and "obstacles" in first[2]
+        without = single(f"Hurcules/{name}{suffix}-v0", safe=False).simulation.levels
+        assert [level for level in levels if level not in first] == list(without)
+
+
+def test_a_box_is_carried_without_an_elbow_at_the_trunk() -> None:
+    """Seed 0 of `fast`: with the limits alone an arm met the trunk, and the box fell."""
+    touched, succeeded = {}, {}
+    for safe in (False, True):
+        env = single("Hurcules/Carry-v0", safe=safe)
+        env.reset(seed=0)
+        touched[safe], terminated = 0, False
+        while not terminated and touched[safe] < 300:
+            *_, terminated, _, info = env.step(expert(env))
+            touched[safe] += int(info["self_contacts"] > 0)
+        succeeded[safe] = info["is_success"]
+    assert touched[False] > 0
+    assert touched[True] == 0
+    assert succeeded[True]
+
+
+def test_what_the_robot_presses_on_a_person_is_told_and_costs() -> None:
+    env = single("Hurcules/Lift-v0")
+    _, info = env.reset(seed=0)
+    assert info["harmless"] == 1.0 and info["contact_share"] == 0.0
+    most = 0.0
+    for _ in range(175):  # the blades are under him, and he still lies
+        *_, info = env.step(expert(env))
+        lying = env.environment.observe(env.numbers)["lying"][0, 0]
+        share = info["contact_share"] if lying > 0.15 else 0.0
+        most = max(most, share)
+        over = max(share - 1.0, 0.0)
+        assert info["reward_harm"] == pytest.approx(-0.1 * 0.05 * over)
+        assert info["cost"] == float(over > 0.0)
+        assert info["harmless"] == float(most <= 1.0)
+        assert info["contact_share_most"] == most
+    model, data = env.model, env.data  # contacts and sensors of one instant
+    told = hurcules.casualties.contact_forces(model, data)
+    assert max(forces["robot"] for forces in told.values()) > 10.0
+    for region, forces in told.items():
+        normal = data.sensor(f"casualty_touch_{region}").data.reshape(-1, 3)[:, 0]
+        assert np.abs(normal).sum() == pytest.approx(forces["robot"], rel=1e-6, abs=1e-9)
+    assert most > 0.5
+    assert 0.0 < info["head_mps2"] <= info["head_mps2_most"] < 98.1

@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 import hurcules
+import hurcules_envs
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.single import SingleEnv
@@ -191,3 +192,17 @@ def test_info_says_why_an_episode_is_over(cart: str) -> None:
         env = SingleEnv(ENDS, path=cart)
         env.reset(seed=i)
         assert env.step(speeds[i])[4]["ending"] == info["ending"][i]
+
+
+def test_a_limit_of_steps_has_an_ending_of_its_own(cart: str) -> None:
+    known = {one.name: int(one) for one in hurcules_envs.Ending}
+    limit = known.pop("TimeLimit")
+    assert known == {name: int(one) for name, one in hurcules.Ending.__members__.items()}
+    vector = NativeVectorEnv(f"{__name__}:Cart", 2, max_episode_steps=3, path=cart)
+    vector.reset(seed=0)
+    for step in range(3):
+        _, _, terminated, truncated, info = vector.step(np.zeros((2, 2), np.float32))
+        assert not terminated.any()
+        assert (truncated == (step == 2)).all()
+        assert (info["ending"] == np.where(truncated, limit, 0)).all()
+        assert not info["failed"].any()

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 import hurcules_envs  # noqa: F401  registers
-from hurcules_envs.robots import FIRM, load_robot
+from hurcules_envs.robots import load_robot
+from hurcules_envs.safety import FIRM
 from hurcules_envs.springs import Spring, softest_spring
 
 
@@ -86,15 +87,15 @@ def test_the_first_observation_is_measured(name, watched):
 def test_lower_arms_keep_more_than_firm_parts_and_have_rows_of_their_own():
     setup = load_robot("rescue")
     robot = setup.robot()
-    kept = {task.name: task for task in setup.safety(robot)[-1]}
+    kept = {task.name: task for task in setup.safety.levels(robot)[-1]}
     for name, task in kept.items():
         pairs = task.pairs(robot)
         hangs = [any("scoop" in geom for geom in pair) for pair in pairs]
         assert pairs
         assert all(hangs) if "springs" in name else not any(hangs)
-        assert set(task.lower) == {setup.apart_by if "springs" in name else FIRM["rescue"]}
+        assert set(task.lower) == {setup.safety.apart_by if "springs" in name else FIRM["rescue"]}
         assert (task.error >= task.lower).all()  # as it stands, none has to move
-    every = [set(pair) for pair in setup.apart().pairs(robot) if "scoop" in "".join(pair)]
+    every = [set(pair) for pair in setup.safety.apart().pairs(robot) if "scoop" in "".join(pair)]
     assert len(every) == len(kept["self_collision in springs"].pairs(robot))
 
 
