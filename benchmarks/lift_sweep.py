@@ -115,6 +115,8 @@ def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
     share: dict[str, float] = defaultdict(float)
     while not simulation.finished:
         simulation.step(20)
+        if simulation.question and simulation.phase == "settle":
+            simulation.answer(True)  # to lift who does not lie on the back
         now = np.abs(controller.torque) / peak
         phase = simulation.phase
         share[phase] = max(share[phase], float(now.max()))

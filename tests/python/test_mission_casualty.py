@@ -107,11 +107,16 @@ def test_the_robot_does_not_tip_and_drives_home_on_its_folded_tracks(run) -> Non
     assert driven == pytest.approx(-3.0, abs=0.2)
 
 
-@pytest.mark.parametrize("pose", ["front", "left", "right"])
-def test_for_who_does_not_lie_on_the_back_it_asks_before_he_is_touched(pose: str) -> None:
+@pytest.mark.parametrize(
+    ("mission", "pose"),
+    [("casualty", "front"), ("casualty", "left"), ("casualty", "right"), ("lift", "right")],
+)
+def test_for_who_does_not_lie_on_the_back_it_asks_before_he_is_touched(
+    mission: str, pose: str
+) -> None:
     model = lift.model(lift.Person(pose=pose))
     simulation = hurcules.Simulation(
-        lift.mission("casualty"), model=model, controller=lift.controller(model), variation=0.0
+        lift.mission(mission), model=model, controller=lift.controller(model), variation=0.0
     )
     simulation.step(3000)
     assert "casualty/face_up" in simulation.question
