@@ -220,6 +220,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         return {
             **{f"reward_{name}": float(terms[name]) for name in self.terms},
             "is_success": bool(simulation.success),
+            "ending": int(simulation.ending),
             "solver_status": int(solver["status"]),  # number of rhqp.Status, 0 is Solved
             "solver_factorizations": int(solver["factorizations"]),
             "solver_changes": int(solver["changes"]),

@@ -76,6 +76,7 @@ class StretchEnv(HurculesEnv):
     | key                   | unit     | what it is                                            |
     |-----------------------|----------|-------------------------------------------------------|
     | is_success            | bool     | the mission is done with small errors                 |
+    | ending                | int      | why it is over, of `hurcules.Ending`; 0 before        |
     | solver_status         | 1        | number of rhqp.Status of the last tick, 0 is Solved   |
     | solver_factorizations | 1        | of levels, in the last tick                           |
     | solver_changes        | 1        | of the working set, in the last tick                  |

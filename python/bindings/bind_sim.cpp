@@ -388,6 +388,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def_property_readonly("finished", &Simulation::finished)
       .def_property_readonly("success", &Simulation::success)
       .def_property_readonly("reason", &Simulation::reason, kReason)
+      .def_property_readonly("ending", &Simulation::ending, "Ending: the reason as a number")
       .def_property_readonly("phase", &phase, "of the mission; '' without one")
       .def_property_readonly("phases", &phase_names)
       .def_property_readonly("phase_notes", &phase_notes, "of each, what it is for")

@@ -4204,6 +4204,10 @@ class Simulation:
         """[s]"""
 
     @property
+    def ending(self) -> Ending:
+        """Ending: the reason as a number"""
+
+    @property
     def finished(self) -> bool: ...
     @property
     def held(self) -> bool:

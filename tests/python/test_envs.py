@@ -178,3 +178,4 @@ def test_a_fall_ends_the_episode_and_costs(env: HurculesEnv) -> None:
     assert (terminated, truncated) == (True, False)
     assert info["reward_fall"] == -10.0
     assert info["is_success"] is False
+    assert info["ending"] == int(env.unwrapped.simulation.ending) != 0
