@@ -32,9 +32,9 @@ import hurcules_envs  # noqa: F401  registers
 Array = NDArray[np.float64]
 EPISODES, SECONDS, HOLD, TURN = 16, 20.0, 0.5, 0.25  # [s]
 LAYERS: dict[str, tuple[str, dict[str, Any]]] = {
-    "twists, safe levels": ("", {}),
+    "twists, safe levels": ("", {"safe": True}),
     "twists, limits alone": ("", {"safe": False}),
-    "joints, safe levels": ("Joint", {}),
+    "joints, safe levels": ("Joint", {"safe": True}),
     "joints, limits alone": ("Joint", {"safe": False}),
 }
 KINDS = ("uniform", "bang-bang", "sine", "adversary")

@@ -147,7 +147,16 @@ void bind_detour(py::module_& module) {
             const py::array made = py::cast(self.configuration);
             return dtype.is_none() ? py::object(made) : made.attr("astype")(dtype);
           },
-          "dtype"_a = py::none(), "copy"_a = py::none());
+          "dtype"_a = py::none(), "copy"_a = py::none())
+      .def(py::pickle(
+          [](const Posture& self) {
+            return py::make_tuple(self.configuration, self.qpos, self.error, self.reached,
+                                  self.starts, self.reaching);
+          },
+          [](const py::tuple& kept) {
+            return Posture{kept[0].cast<Vector>(), kept[1].cast<Vector>(), kept[2].cast<double>(),
+                           kept[3].cast<bool>(),   kept[4].cast<int>(),    kept[5].cast<int>()};
+          }));
   const PostureSearchOptions defaults;
   module.def("inverse_kinematics", &search, "robot"_a, "tasks"_a, py::kw_only(),
              "starts"_a = defaults.starts, "seed"_a = defaults.seed,

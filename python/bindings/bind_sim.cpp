@@ -200,11 +200,6 @@ void answer(Simulation& self, bool yes) {
   self.answer(yes);
 }
 
-void heartbeat(Simulation& self) {
-  const InUse in_use("Simulation", &self);
-  self.heartbeat();
-}
-
 const std::vector<std::string>& command_names(const Simulation& self) {
   return self.controller().command_names();
 }
@@ -378,7 +373,7 @@ void bind_run(py::class_<Simulation>& simulation) {
       .def("pause", &pause_simulation, kPause)
       .def("resume", &resume_simulation, kResume)
       .def("answer", &answer, "yes"_a.noconvert(), kAnswer)
-      .def("heartbeat", &heartbeat, kHeartbeat)
+      .def("heartbeat", waiting(&Simulation::heartbeat), kHeartbeat)
       .def_property_readonly("paused", &Simulation::paused, "its mission stands still: `pause`")
       .def_property_readonly("question", &Simulation::question, kQuestion)
       .def_property_readonly("dt", &Simulation::dt, "[s]")

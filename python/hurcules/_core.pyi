@@ -2144,6 +2144,10 @@ class Posture:
     """What `inverse_kinematics` found. An array too: its configuration, as a PostureTask takes it."""
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any: ...
+    def __getstate__(
+        self,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, bool, int, int]: ...
+    def __setstate__(self, arg0: tuple[Any, ...]) -> None: ...
     @property
     def configuration(self) -> NDArray[np.float64]:
         """(n,) [rad] or [m] of the robot, within its limits"""
@@ -2197,7 +2201,7 @@ class Detour:
         starts: int = 32,
         seed: int = 0,
         tolerance: float = 0.001,
-        rate: float = 20000.0,
+        rate: float = 5000.0,
     ) -> None: ...
     def look_at(self, robot: Robot, velocity: ArrayLike, dt: float) -> bool:
         """Looks at the robot after a tick; as `hurcules.Detour.look`.

@@ -26,9 +26,9 @@ class Detour(_core.Detour):
         targets: levels that shall be met.
         below: levels that take what freedom is left; nobody asks whether they are met.
         options: by name, `starts` (descents of a search at most, 32), `seed` of their random
-            postures (0), `tolerance` that each row of a target may lack at rest (1e-3 m or rad),
-            `rate` of the search (2e4 of its ticks a second of the loop: 20 in a tick of 1 ms,
-            which takes 0.1 to 0.5 ms).
+            postures (0), `tolerance` by which a target may be missed at rest (1e-3 m or rad),
+            `rate` of the search (5e3 of its ticks a second of the loop: five in a tick of 1 ms,
+            each of which takes as long as a tick of the controller).
 
     Raises:
         Error: no target, a task that stands twice, or options that are none.
@@ -63,15 +63,24 @@ class Detour(_core.Detour):
         until a target moves. A target that moves on the way ends the detour.
 
         Args:
-            controller: a WholeBodyController that has `stacks` (while another one rules, nothing
-                happens), or one whose stack was set to one of them and that moves the robot.
+            controller: a WholeBodyController that has `stacks`, or another one whose stack was set
+                to one of them and that moves the robot. While another stack of a
+                WholeBodyController rules, nothing happens; a state that is restored on the way goes
+                back to the targets.
 
         Returns:
             What was decided, in words; "" where all goes on.
         """
         if isinstance(controller, WholeBodyController):
+            if missing := {"direct", "detour"} - set(controller.stacks):
+                raise _core.Error(
+                    f"look: the controller has no stack '{min(missing)}', it has "
+                    f"{', '.join(controller.stacks)}; stacks=detour.stacks"
+                )
             if controller.active != self._rules():  # somebody else decided, or it starts anew
                 self.reset()
+                if controller.active == "detour":  # a state that was restored
+                    controller.use("direct")
             elif self.look_at(controller.plan, controller.qd_des, controller.dt):
                 controller.use(self._rules())
         elif self.look_at(self._robot, controller.velocity, controller.options.dt):

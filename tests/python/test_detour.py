@@ -58,7 +58,7 @@ def test_the_hand_arrives_by_another_posture(robot: hurcules.Robot, make: Make) 
         assert np.all(q <= limits.upper) and np.all(q >= limits.lower)
     hand.update(robot)
     assert np.linalg.norm(hand.error) < 1e-4
-    assert said[0].startswith("hand rests 0.39") and "goes round by another posture" in said[0]
+    assert said[0].startswith("hand: 0.4") and "goes round by another posture" in said[0]
     assert said[1:] == ["the posture is reached; the targets rule again"]
     assert jump <= 20.0 * DT * (1 + 1e-9)  # max_acceleration, through both changes
 
@@ -79,7 +79,7 @@ def test_out_of_reach_it_searches_once_and_again_for_another_target(robot: hurcu
     detour, controller = hurcules.Detour(robot, [], [hand], starts=4), velocities(robot)
     controller.set_stack(detour.stacks["direct"])
     said = run(robot, controller, detour)
-    assert said == ["hand rests 0.4 short; none of 4 descents finds a posture for all targets"]
+    assert said == ["hand: 0.4 m short; none of 4 descents finds a posture for all targets"]
     assert np.abs(controller.velocity).max() < 1e-3  # at rest, as near as it gets
     robot.set_configuration(START)
     controller.reset()
@@ -156,6 +156,87 @@ def test_a_reset_on_the_way_ends_the_detour() -> None:
     assert arm.step() == "" and not arm.detour.on_the_way
 
 
+def test_a_state_restored_on_the_way_goes_back_to_the_targets() -> None:
+    arm = Physics()
+    while not arm.detour.on_the_way:
+        arm.step()
+    saved = arm.simulation.state()
+    arm.simulation.reset()
+    arm.step()
+    arm.simulation.restore(saved)
+    assert arm.controller.active == "detour"
+    arm.step()
+    assert arm.controller.active == "direct"
+
+
+def test_a_controller_without_its_stacks_is_refused(robot: hurcules.Robot) -> None:
+    hand = hand_at(robot, AROUND)
+    detour = hurcules.Detour(robot, [], [hand])
+    controller = hurcules.WholeBodyController(robot, stacks={"reach": detour.stacks["direct"]})
+    with pytest.raises(hurcules.Error, match="has no stack 'detour', it has reach"):
+        detour.look(controller)
+
+
+@pytest.mark.parametrize("speed", [0.0005, 0.002, 0.05])
+def test_a_hand_that_is_to_go_slowly_does_not_rest(robot: hurcules.Robot, speed: float) -> None:
+    hand = hand_at(robot, (2.0, 0.5))
+    hand.set_max_speed(speed)
+    detour, controller = hurcules.Detour(robot, [], [hand]), velocities(robot)
+    controller.set_stack(detour.stacks["direct"])
+    assert run(robot, controller, detour, 5.0) == []
+
+
+def test_a_hand_that_starts_slowly_does_not_rest(robot: hurcules.Robot) -> None:
+    hand = hand_at(robot, START)
+    options = hurcules.VelocityControllerOptions(dt=0.001, max_acceleration=0.1)
+    controller = hurcules.VelocityController(robot, options)
+    detour = hurcules.Detour(robot, [], [hand])
+    controller.set_stack(detour.stacks["direct"])
+    said = []
+    for tick in range(3000):
+        if tick == 500:  # it has rested until now
+            hand.set_target(hand_at(robot, (2.0, 0.5)).target)
+        controller.step(robot)
+        said += filter(None, [detour.look(controller)])
+    assert said == []
+
+
+def test_a_slow_hand_finds_its_posture_and_goes_there_slowly(robot: hurcules.Robot) -> None:
+    hand = hand_at(robot, AROUND)
+    hand.set_max_speed(0.05)
+    assert hurcules.inverse_kinematics(robot, [hand]).reached
+    assert hand.max_speed == 0.05
+    detour, controller = hurcules.Detour(robot, [], [hand]), velocities(robot)
+    detour.posture.set_max_speed(0.3)
+    controller.set_stack(detour.stacks["direct"])
+    said = run(robot, controller, detour, 60.0)
+    assert len(said) == 2 and said[1].startswith("the posture is reached")
+
+
+def test_a_base_that_was_driven_nearer_looks_again() -> None:
+    text = re.sub('<body name="post".*', "", ARM)
+    text = text.replace(
+        "<worldbody>", '<worldbody><body name="cart"><freejoint/><geom size="0.1"/>'
+    )
+    robot = hurcules.Robot(
+        mujoco.MjModel.from_xml_string(text.replace("</worldbody>", "</body></worldbody>"))
+    )
+    robot.set_configuration(START)
+    hand = hand_at(robot, AROUND)
+    away, home = robot.qpos, robot.qpos
+    away[0] = -5.0
+    robot.set_qpos(away)
+    detour, controller = hurcules.Detour(robot, [], [hand]), velocities(robot)
+    controller.set_stack(detour.stacks["direct"])
+    said = run(robot, controller, detour, 20.0)
+    assert len(said) == 1 and "none of 32" in said[0]
+    robot.set_qpos(home)
+    controller.reset()
+    assert len(run(robot, controller, detour, 20.0)) == 2
+    hand.update(robot)
+    assert np.linalg.norm(hand.error) < 1e-4
+
+
 def test_what_is_no_detour(robot: hurcules.Robot) -> None:
     hand = hand_at(robot, AROUND)
     with pytest.raises(hurcules.Error, match="wants at least one task as a target"):
@@ -164,5 +245,9 @@ def test_what_is_no_detour(robot: hurcules.Robot) -> None:
         hurcules.Detour(robot, [], [hand], starts=0)
     with pytest.raises(hurcules.Error, match="tolerance wants a positive number, got nan"):
         hurcules.Detour(robot, [], [hand], tolerance=float("nan"))
+    with pytest.raises(hurcules.Error, match="rate wants a positive number, got inf"):
+        hurcules.Detour(robot, [], [hand], rate=np.inf)
+    with pytest.raises(hurcules.Error, match="2 finite numbers, got 2, not all finite"):
+        hurcules.Detour(robot, [], [hand]).look_at(robot, [0.0, np.nan], 0.001)
     with pytest.raises(hurcules.Error, match="stands twice"):
         hurcules.Detour(robot, [hand], [hand])

@@ -149,6 +149,13 @@ def explores(said: str) -> None:
     assert {line.partition(":")[0] for line in said.splitlines()} >= {"kinematic", "exact"}
 
 
+def goes_round(said: str) -> None:
+    assert "goes round by another posture" in said
+    miss = numbers(r"to go +(\S+) mm", said)
+    assert max(miss[:4]) > 300.0  # it rests there
+    assert miss[-1] < 0.1
+
+
 # in CI; the whole takes minutes
 SHORT = {
     "12": ["--episodes", "6", "--epochs", "100", "--judge", "2"],
@@ -176,6 +183,7 @@ RESULTS = {
     "20": picks,
     "21": follows_a_seam,
     "22": explores,
+    "23": goes_round,
 }
 
 

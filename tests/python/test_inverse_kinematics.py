@@ -1,5 +1,7 @@
 """`hurcules.inverse_kinematics`: postures that a controller does not reach in one go."""
 
+import pickle
+
 import mujoco
 import numpy as np
 import pytest
@@ -187,6 +189,13 @@ def test_a_closed_chain_is_given_whole_and_left_as_it_was() -> None:
     found.set_configuration(posture.configuration)
     hand.update(found)
     assert np.abs(hand.error).max() > 0.1  # the same angles of the motors
+
+
+def test_a_posture_is_pickled(robot: hurcules.Robot) -> None:
+    found = hurcules.inverse_kinematics(robot, [hand_at(robot, (2.0, 0.5))])
+    again = pickle.loads(pickle.dumps(found))
+    assert np.array_equal(again, found) and np.array_equal(again.qpos, found.qpos)
+    assert (again.error, again.reached, again.starts) == (found.error, True, (1, 1))
 
 
 @pytest.mark.parametrize(

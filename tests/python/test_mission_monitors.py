@@ -9,6 +9,7 @@ matter.
 from __future__ import annotations
 
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 
 import mujoco
 import numpy as np
@@ -214,6 +215,17 @@ def test_a_solver_that_does_not_end_fires_and_is_forgotten_where_no_stack_rules(
     assert simulation.phase == "back"
     simulation.step(2)
     assert simulation.log()["status"][-1] == 0.0
+
+
+def test_a_heartbeat_of_another_thread_waits_for_its_turn() -> None:
+    simulation = watching("link_age >= 100.0")
+    with ThreadPoolExecutor(1) as pool:
+        steps = pool.submit(simulation.step, 2000)
+        beats = 0
+        while not steps.done():
+            simulation.heartbeat()
+            beats += 1
+    assert beats > 1
 
 
 def test_a_lost_link_fires_and_who_never_had_one_loses_none() -> None:

@@ -68,8 +68,11 @@ seconds = 1.5
 """
 
 
-def loop(text: str = ROWS, tilt: float = 0.0, physics: bool = True) -> hurcules.Simulation:
-    model = mujoco.MjModel.from_xml_string(BOXES.format(tilt=tilt))
+def loop(
+    text: str = ROWS, tilt: float = 0.0, physics: bool = True, beside: str = ""
+) -> hurcules.Simulation:
+    boxes = BOXES.format(tilt=tilt).replace('<body name="back"', f'{beside}<body name="back"', 1)
+    model = mujoco.MjModel.from_xml_string(boxes)
     robot = hurcules.Robot(model)
     robot.stand_on("back")
     posture = hurcules.PostureTask("posture", robot)
@@ -117,6 +120,21 @@ def test_a_support_that_does_not_lie_on_the_ground_is_refused(
 ) -> None:
     with pytest.raises(Error, match=wanted):
         loop(with_support(phase, body))
+
+
+def test_walls_that_touch_are_no_ground() -> None:
+    wall = '<geom type="box" size="0.1 1 1" pos="-0.499 0 1"/>'
+    loop(
+        with_support("raise the front", "front"), beside=wall
+    )  # flat on the ground, as the back is
+
+
+def test_what_an_earlier_key_names_is_followed() -> None:
+    last = "keys = [{ share = 1.0, middle = -1.0 }]"
+    both = "keys = [{ share = 0.5, middle = -1.0 }, { share = 1.0, shoulder = 0.1 }]"
+    assert last in ROWS
+    with pytest.raises(Error, match="phase 'rest': the robot cannot stand on 'front'"):
+        loop(with_support("rest", "front", ROWS.replace(last, both)))
 
 
 def test_a_table_of_the_project_stands_on_its_legs_not_on_its_trunk() -> None:

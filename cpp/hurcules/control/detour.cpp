@@ -11,10 +11,15 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kSlow = 1e-2;   // [rad/s] or [m/s]
-constexpr double kStill = 0.1;   // [s] it has been slower: what it lacks now, it may lack for ever
-constexpr double kRest = 1e-3;   // [rad/s] or [m/s] from here on it does
-constexpr double kThere = 1e-2;  // [rad] or [m] of each coordinate: the posture is reached
+constexpr double kSlow = 1e-2;  // [rad/s] or [m/s]
+constexpr double kStill =
+    0.1;  // [s] slower than that and no nearer: what it lacks it may lack for ever
+constexpr double kBarred = 1.0;     // [s] the same on the way, which may begin slowly
+constexpr double kNearer = 1e-3;    // [m/s] or [rad/s] that are none, and no more than this share
+constexpr double kShare = 0.1;      // of how fast the task is to come
+constexpr double kRest = 1e-3;      // [rad/s] or [m/s]: it stands
+constexpr double kMostTicks = 1e6;  // of a look
+constexpr double kThere = 1e-2;     // [rad] or [m] of each coordinate: the posture is reached
 
 std::vector<StackLevel> joined(std::vector<StackLevel> levels,
                                const std::vector<StackLevel>& more) {
@@ -63,52 +68,73 @@ void Detour::reset() {
 }
 
 bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt) {
-  require(velocity.size() == robot.size(), "Detour: a velocity has " +
-                                               std::to_string(robot.size()) + " numbers, got " +
-                                               std::to_string(velocity.size()));
+  if (velocity.size() != robot.size() || !velocity.allFinite()) {
+    throw Error("Detour: a velocity wants " + std::to_string(robot.size()) +
+                " finite numbers, got " + std::to_string(velocity.size()) +
+                (velocity.allFinite() ? "" : ", not all finite"));
+  }
   decision_.clear();
   const double speed = velocity.cwiseAbs().maxCoeff();
-  still_ = speed > kSlow ? 0.0 : still_ + dt;
   if (state_ != State::Direct && targets_moved(robot)) return go_back("a target moved");
   switch (state_) {
-    case State::Direct:
-      if (still_ >= kStill) begin_search(robot);
+    case State::Direct: {
+      double most = 0.0, slowest = posture_.max_speed();
+      for (const Task* const task : targets_) {
+        most = std::max(most, short_by(*task));
+        slowest = std::min(slowest, task->max_speed());
+      }
+      if (most <= options_.tolerance) judged_ = false;
+      const bool waits = rests(most, speed, slowest, dt) && still_ >= kStill;
+      if (waits && most > options_.tolerance && !(judged_ && !targets_moved(robot)))
+        begin_search(robot);
       return false;
+    }
     case State::Searching: {
-      const auto ticks = static_cast<int>(std::lround(std::max(1.0, options_.rate * dt)));
-      return !search_.advance(ticks) && end_search(robot, speed < kRest);
+      const double ticks = std::clamp(options_.rate * dt, 1.0, kMostTicks);
+      return !search_.advance(static_cast<int>(ticks)) && end_search(robot, speed < kRest);
     }
     case State::Way:
       posture_.update(robot);
       const double off = posture_.error().cwiseAbs().maxCoeff();
       if (off < kThere) return go_back("the posture is reached");
-      if (still_ < kStill) return false;
+      if (!rests(off, speed, posture_.max_speed(), dt) || still_ < kBarred) return false;
       return go_back("barred, " + number_text(off, 3) + " before the posture");
   }
   return false;
 }
 
-void Detour::begin_search(const Robot& robot) {
-  const Task* worst = nullptr;
-  double most = options_.tolerance;
-  for (const Task* const task : targets_) {
-    if (const double lacks = lacking(*task); lacks > most) {
-      worst = task;
-      most = lacks;
-    }
+// Whether it hardly moves and comes no nearer; since when, counts `still_`. slowest [1/s]: how fast it is
+// to come.
+bool Detour::rests(double missing, double speed, double slowest, double dt) {
+  const double least = std::min(kNearer, kShare * slowest) * std::max(still_, kStill);
+  if (speed > kSlow || still_ == 0.0 || std::abs(missing - then_) > least) {
+    then_ = missing;
+    still_ = dt;
+    return false;
   }
-  if (!worst) judged_ = false;
-  if (!worst || (judged_ && !targets_moved(robot))) return;
+  still_ += dt;
+  return true;
+}
+
+void Detour::begin_search(const Robot& robot) {
+  const Task* worst = targets_.front();
+  for (const Task* const task : targets_)
+    if (short_by(*task) > short_by(*worst)) worst = task;
+  short_ = shortfall_of(*worst).text() + "; ";
   judge(robot, robot.qpos());
   search_.begin(robot);
   state_ = State::Searching;
-  short_ = worst->name() + " rests " + number_text(most, 3) + " short; ";
 }
 
 bool Detour::end_search(const Robot& robot, bool rests) {
   const Posture found = search_.best();
   if (found.reached && found.starts == 1 && !rests) {  // it gets there by itself
     reset();
+    return false;
+  }
+  const double away = (found.configuration - robot.configuration()).cwiseAbs().maxCoeff();
+  if (found.reached && away < kThere) {  // no other posture, but its last millimetre
+    state_ = State::Direct;
     return false;
   }
   if (!found.reached) {
@@ -144,13 +170,17 @@ bool Detour::targets_moved(const Robot& robot) {
   return (errors_at(robot, judged_at_) - judged_errors_).cwiseAbs().maxCoeff() > options_.tolerance;
 }
 
-// of all targets at this posture; they are measured where the robot is again afterwards
+// of all targets at this posture, the robot's root being where it is now; they are measured where the
+// robot is again afterwards
 const Vector& Detour::errors_at(const Robot& robot, const Vector& qpos) {
-  probe_.set_qpos(qpos);
+  qpos_ = qpos;
+  if (robot.root_qpos() >= 0 && !robot.floating())
+    qpos_.segment<7>(robot.root_qpos()) = robot.qpos().segment<7>(robot.root_qpos());
+  probe_.set_qpos(qpos_);
   Index row = 0;
   for (Task* const task : targets_) {
     task->update(probe_);
-    errors_.segment(row, task->rows()) = task->error();
+    errors_.segment(row, task->rows()) = (task->weights().array() > 0.0).select(task->error(), 0.0);
     row += task->rows();
     task->update(robot);
   }

@@ -16,8 +16,8 @@ namespace hurcules {
 
 struct DetourOptions {
   PostureSearchOptions search = {};
-  double tolerance = 1e-3;  // [m] or [rad] that each row may lack at rest
-  double rate = 2e4;        // [1/s] ticks of a search, a second of the loop
+  double tolerance = 1e-3;  // [m] or [rad] that a target may be short of at rest
+  double rate = 5e3;  // [1/s] ticks of a search a second of the loop; each costs a control tick
 };
 
 class Detour {
@@ -49,6 +49,7 @@ class Detour {
 
  private:
   enum class State { Direct, Searching, Way };
+  bool rests(double missing, double speed, double slowest, double dt);
   void begin_search(const Robot& robot);
   bool end_search(const Robot& robot, bool rests);
   bool go_back(const std::string& why);
@@ -63,11 +64,12 @@ class Detour {
   Robot probe_;  // where the targets are judged
   PostureSearch search_;
   State state_ = State::Direct;
-  double still_ = 0.0;  // [s] that it has rested
+  double still_ = 0.0;  // [s] that it has come no nearer
+  double then_ = 0.0;   // [m] or [rad] that was missing at the start of that
   bool judged_ = false;
   Vector judged_at_,
-      judged_errors_;  // (nq), (rows) what the targets lacked there at the last search
-  Vector errors_;      // (rows) scratch
+      judged_errors_;     // (nq), (rows) what the targets lacked there at the last search
+  Vector errors_, qpos_;  // (rows), (nq) scratch
   std::string short_, decision_;
 };
 

@@ -37,13 +37,6 @@ const char* unit_of(const Task& task) {
   return length ? "m" : "rad";
 }
 
-// rows of weight 0 ask for nothing
-double outside(const Task& task) {
-  const Vector& e = task.error();
-  const Vector beyond = e - e.cwiseMax(task.lower()).cwiseMin(task.upper());
-  return (task.weights().array() > 0.0).select(beyond, 0.0).norm();
-}
-
 // equality rows that ask for something
 Index equalities(const StackLevel& source, const Level& level) {
   Index rows = (level.lower.array() == level.upper.array()).count(), first = 0;
@@ -225,15 +218,13 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
                                  holders(solved, static_cast<int>(k), report), false, lacks < 0.0});
       continue;
     }
-    const double short_by = outside(*task);
     const bool shortened = solved.zone && solved.zone->share(k) < 1.0 - kShare;
-    if (short_by < kSmall) continue;
+    if (short_by(*task) < kSmall) continue;
     if (!shortened && !is_kept_from(solved.problem.hierarchy()[k], solved.solution.violations[k],
                                     first, task->rows())) {
       continue;
     }
-    made.shortfalls.push_back({task->name(), short_by, unit_of(*task),
-                               holders(solved, static_cast<int>(k), report), false});
+    made.shortfalls.push_back(shortfall_of(*task, holders(solved, static_cast<int>(k), report)));
   }
   return made;
 }
@@ -249,6 +240,21 @@ std::string Shortfall::text() const {
     line += held_by[i];
   }
   return line;
+}
+
+double short_by(const Task& task) {
+  double squares = 0.0;
+  for (Index i = 0; i < task.rows(); ++i) {
+    if (!(task.weights()[i] > 0.0)) continue;
+    const double e = task.error()[i];
+    const double beyond = e - std::min(std::max(e, task.lower()[i]), task.upper()[i]);
+    squares += beyond * beyond;
+  }
+  return std::sqrt(squares);
+}
+
+Shortfall shortfall_of(const Task& task, std::vector<std::string> held_by) {
+  return {task.name(), short_by(task), unit_of(task), std::move(held_by)};
 }
 
 Shortfall gave_way(const Task& task, double by, std::vector<std::string> held_by) {

@@ -43,6 +43,10 @@ struct SolvedStack {
   const Eigen::VectorXi& active_limits;  // (n)
   const DeadZone* zone = nullptr;        // null: no level was shortened
 };
+// [unit] length of a task's error outside its interval, as it was measured last; rows of weight 0 ask
+// for nothing
+[[nodiscard]] double short_by(const Task& task);
+[[nodiscard]] Shortfall shortfall_of(const Task& task, std::vector<std::string> held_by = {});
 // of a task whose target gave way by so much [unit], held by motors at their limits
 [[nodiscard]] Shortfall gave_way(const Task& task, double by, std::vector<std::string> held_by);
 // none where the solver's method makes no reports

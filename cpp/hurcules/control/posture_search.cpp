@@ -12,11 +12,13 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kDt = 0.02, kGain = 20.0;        // [s], [1/s] of a descent
-constexpr int kSecond = 50;                       // [ticks]
-constexpr int kLeast = 10, kMost = 1000;          // [s] it takes: a base may have far to go
-constexpr double kWay = 0.1;                      // [m or rad/s] of one that goes on after that
-constexpr double kRest = 1e-5;                    // [rad/s] or [m/s]: it goes no farther
+constexpr double kDt = 0.02, kGain = 20.0;  // [s], [1/s] of a descent
+constexpr int kSecond = 50;                 // [ticks]
+constexpr int kLeast = 10, kMost = 1000;    // [s] it takes: a base may have far to go
+constexpr double kWay = 0.1;                // [m or rad] a second, of one that goes on then
+constexpr double kFast = 1.5;   // [m or rad/s] at least, also where a task is to go slowly
+constexpr double kWide = 1e5;   // [rad] or [m] of a range: a wider one is none
+constexpr double kRest = 1e-5;  // [rad/s] or [m/s]: it goes no farther
 constexpr double kFree = 3.14159265358979323846;  // [rad] or [m] about where one without range is
 
 VelocityControllerOptions descent() {
@@ -42,12 +44,7 @@ Stack copied(const Stack& stack, std::vector<const Task*>& originals,
   return Stack(std::move(levels));
 }
 
-double farthest(const Posture& posture, const Vector& from) {
-  return (posture.configuration - from).cwiseAbs().maxCoeff();
-}
-
-}  // namespace
-
+// [m] or [rad] that the row lacks whose interval is farthest off; rows of weight 0 lack nothing
 double lacking(const Task& task) {
   double most = 0.0;
   for (Index i = 0; i < task.rows(); ++i) {
@@ -57,6 +54,12 @@ double lacking(const Task& task) {
   }
   return most;
 }
+
+double farthest(const Posture& posture, const Vector& from) {
+  return (posture.configuration - from).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
 
 PostureSearch::PostureSearch(const Robot& robot, const Stack& stack, PostureSearchOptions options)
     : options_(options),
@@ -91,6 +94,8 @@ void PostureSearch::begin(const Robot& robot) {
     StateReader reader(state);
     tasks_[i]->restore(reader);
     tasks_[i]->restore_settings(reader);
+    tasks_[i]->set_max_speed(std::max(tasks_[i]->max_speed(), kFast));
+    tasks_[i]->set_max_acceleration(std::numeric_limits<double>::infinity());
   }
   controller_.reset();
   random_ = Random(options_.seed);
@@ -161,7 +166,7 @@ Vector PostureSearch::drawn() {
   const std::vector<Coordinate>& coordinates = robot_.coordinates();
   for (Index i = 0; i < q.size(); ++i) {
     const Coordinate& one = coordinates[static_cast<std::size_t>(i)];
-    const bool free = !std::isfinite(one.upper - one.lower);
+    const bool free = !(one.upper - one.lower < kWide);
     const double lower = free ? present_[i] - kFree : one.lower;
     const double upper = free ? present_[i] + kFree : one.upper;
     inside[i] = std::clamp(present_[i], one.lower, one.upper);

@@ -75,7 +75,4 @@ class PostureSearch {
 [[nodiscard]] Posture inverse_kinematics(const Robot& robot, const Stack& stack,
                                          const PostureSearchOptions& options = {});
 
-// [m] or [rad] that the row lacks whose interval is farthest off; rows of weight 0 lack nothing
-[[nodiscard]] double lacking(const Task& task);
-
 }  // namespace hurcules

@@ -14,9 +14,9 @@ namespace hurcules {
 namespace {
 
 // The robot from phase to phase on level ground, and which of its coordinates are where it is.
-class Posture {
+class FollowedPosture {
  public:
-  Posture(const WholeBodyController& controller, const StandingStart& start)
+  FollowedPosture(const WholeBodyController& controller, const StandingStart& start)
       : controller_(controller),
         robot_(controller.plan().model(), controller.plan().coordinate_names()),
         known_(static_cast<std::size_t>(robot_.size()), true) {
@@ -25,8 +25,7 @@ class Posture {
     const Matrix3 level =
         Eigen::Quaterniond::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
     turn({Vector3::Zero(), level}, robot_.qpos());
-    const std::string stands =
-        start.first.empty() ? controller.plan().support_name() : start.first;
+    const std::string stands = start.first.empty() ? controller.plan().support_name() : start.first;
     if (!stands.empty()) robot_.stand_on(stands);
   }
 
@@ -64,9 +63,10 @@ class Posture {
     for (const Lead& lead : phase.leads) forget(lead);
     if (phase.keys.empty()) return;
     Vector qpos = robot_.qpos();
-    for (const auto& [name, angle] : phase.keys.back().angles)
-      phase.stack == kJoints ? place_joints(phase, name, angle, qpos)
-                             : place_coordinates(name, angle, open, qpos);
+    for (const PostureKey& key : phase.keys)
+      for (const auto& [name, angle] : key.angles)
+        phase.stack == kJoints ? place_joints(phase, name, angle, qpos)
+                               : place_coordinates(name, angle, open, qpos);
     const Skeleton::Pose stood = robot_.pose(robot_.support());
     robot_.set_qpos(qpos);
     const Skeleton::Pose stands = robot_.pose(robot_.support());
@@ -145,7 +145,7 @@ void check_supports(const MissionTable& table, const WholeBodyController& contro
                     const StandingStart& start) {
   const Robot& plan = controller.plan();
   if (plan.root_qpos() < 0 || plan.floating() || plan.closures()) return;
-  Posture posture(controller, start);
+  FollowedPosture posture(controller, start);
   std::string support = start.first;
   const auto bears = [&] {
     return SupportPart(plan, support).bears(start.plant.model(), start.plant.data());

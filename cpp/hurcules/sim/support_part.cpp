@@ -119,16 +119,20 @@ SupportFit support_fit(const Robot& robot, const std::string& body, const std::s
 }
 
 Vector3 up_of_ground(const mjModel* m, const mjData* d, int root) {
+  constexpr double kSteepest = 0.5;  // cosine from against gravity; what is steeper is a wall
+  const Vector3 against = -vector_at(m->opt.gravity, 0);
   Vector3 sum = Vector3::Zero();
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.geom[0] < 0 || contact.geom[1] < 0) continue;
     const int body[2] = {m->geom_bodyid[contact.geom[0]], m->geom_bodyid[contact.geom[1]]};
-    for (const int side : {0, 1})
-      if (m->body_rootid[body[side]] == root && m->body_weldid[body[1 - side]] == 0)
-        sum += (side == 1 ? 1.0 : -1.0) * vector_at(contact.frame, 0);
+    for (const int side : {0, 1}) {
+      if (m->body_rootid[body[side]] != root || m->body_weldid[body[1 - side]] != 0) continue;
+      const Vector3 normal = (side == 1 ? 1.0 : -1.0) * vector_at(contact.frame, 0);
+      if (normal.dot(against) >= kSteepest * against.norm()) sum += normal;
+    }
   }
-  if (sum.norm() < 1e-9) sum = -vector_at(m->opt.gravity, 0);
+  if (sum.norm() < 1e-9) sum = against;
   return sum.norm() < 1e-9 ? Vector3(Vector3::UnitZ()) : Vector3(sum.normalized());
 }
 

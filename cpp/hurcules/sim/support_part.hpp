@@ -35,8 +35,8 @@ struct SupportFit {
 // Nothing that has shapes is known, not `before` either: it fits.
 [[nodiscard]] SupportFit support_fit(const Robot& robot, const std::string& body,
                                      const std::string& before, const std::vector<bool>& known);
-// Which way is up where a robot stands: the mean normal of its contacts with what does not move, or,
-// without any, against gravity; (3) of length 1, in W.
+// Which way is up where a robot stands: the mean normal of its contacts with what does not move (of
+// those within 60 degrees of against gravity), or, without any, against gravity; (3) of length 1, in W.
 [[nodiscard]] Vector3 up_of_ground(const mjModel_* model, const mjData_* data, int robot_root);
 
 }  // namespace hurcules

@@ -93,7 +93,7 @@ TEST_F(DetourOfAnArm, TheHandArrivesByAnotherPosture) {
   controller_.set_stack(detour.direct());
   const std::vector<std::string> decisions = run(detour, 15.0);
   ASSERT_EQ(decisions.size(), 2U);
-  EXPECT_EQ(decisions[0], "hand rests 0.397 short; goes round by another posture");
+  EXPECT_EQ(decisions[0], "hand: 0.43 m short; goes round by another posture");
   EXPECT_EQ(decisions[1], "the posture is reached; the targets rule again");
   hand_.update(robot_);
   EXPECT_LT(hand_.error().norm(), 1e-4);
@@ -105,8 +105,7 @@ TEST_F(DetourOfAnArm, OutOfReachItSearchesOnce) {
   controller_.set_stack(detour.direct());
   const std::vector<std::string> decisions = run(detour, 20.0);
   ASSERT_EQ(decisions.size(), 1U);
-  EXPECT_EQ(decisions[0],
-            "hand rests 0.4 short; none of 4 descents finds a posture for all targets");
+  EXPECT_EQ(decisions[0], "hand: 0.4 m short; none of 4 descents finds a posture for all targets");
   EXPECT_LT(controller_.velocity().norm(), 1e-3);
 }
 
@@ -121,8 +120,8 @@ TEST_F(DetourOfAnArm, WhatIsNoneIsRefused) {
       error_text([&] { Detour(robot_, {}, {StackLevel(hand_)}, {}, {.tolerance = -1.0}); }),
       "tolerance"));
   Detour detour(robot_, {}, {StackLevel(hand_)});
-  EXPECT_TRUE(
-      contains(error_text([&] { detour.look(robot_, Vector::Zero(3), kDt); }), "2 numbers, got 3"));
+  EXPECT_TRUE(contains(error_text([&] { detour.look(robot_, Vector::Zero(3), kDt); }),
+                       "2 finite numbers, got 3"));
 }
 
 }  // namespace
