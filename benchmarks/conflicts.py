@@ -94,7 +94,7 @@ class Conflict:
             orientation.set_target(turn)
             self.hands.append((position, orientation))
 
-    def run(self, law: str, dt: float, round_about: bool) -> dict[str, float]:
+    def run(self, law: str, dt: float, round_about: bool = False) -> dict[str, float]:
         """Follows the stack from the first posture on, by another posture where that is wanted."""
         self.robot.set_configuration(self.start)
         levels = [StackLevel(f"hand {i}", list(hand)) for i, hand in enumerate(self.hands)]
