@@ -11,12 +11,11 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kSlow = 1e-2;  // [rad/s] or [m/s]
-constexpr double kStill =
-    0.1;  // [s] slower than that and no nearer: what it lacks it may lack for ever
+constexpr double kSlow = 1e-2;      // [rad/s] or [m/s]
+constexpr double kStill = 0.1;      // [s] slower than that, and no nearer: it may be so for ever
 constexpr double kBarred = 1.0;     // [s] the same on the way, which may begin slowly
-constexpr double kNearer = 1e-3;    // [m/s] or [rad/s] that are none, and no more than this share
-constexpr double kShare = 0.1;      // of how fast the task is to come
+constexpr double kNearer = 1e-3;    // [m/s] or [rad/s], less is no nearer; at most this share
+constexpr double kShare = 0.1;      // of how fast a task is to come
 constexpr double kRest = 1e-3;      // [rad/s] or [m/s]: it stands
 constexpr double kMostTicks = 1e6;  // of a look
 constexpr double kThere = 1e-2;     // [rad] or [m] of each coordinate: the posture is reached

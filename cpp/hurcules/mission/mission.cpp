@@ -432,9 +432,8 @@ void Mission::restore(StateReader& reader) {
   doing_ = static_cast<Doing>(reader.get_count(static_cast<Index>(Doing::Asking)));
   const Index answered = reader.get_count(2);
   answer_ = answered > 0 ? std::optional(answered == 2) : std::nullopt;
-  for (double* value :
-       {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_, &waiting_,
-        &unborne_for_}) {
+  for (double* value : {&phase_start_, &now_, &wait_until_, &extra_, &elapsed_, &progress_,
+                        &waiting_, &unborne_for_}) {
     *value = reader.get();
   }
   reader.get(forces_);

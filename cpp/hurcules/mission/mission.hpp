@@ -131,8 +131,8 @@ class Mission : public Supervisor {
   double elapsed_ = 0.0, progress_ = 0.0, waiting_ = 0.0;  // columns of the log
   double unborne_for_ = 0.0;  // [s] for so long has the support borne nothing; stays once told
   bool unborne_ = false;      // in this tick it is to be told
-  std::vector<std::string> force_names_;                   // of the controller's force tasks
-  Vector forces_;                                          // [N] (force tasks) as they read them
+  std::vector<std::string> force_names_;  // of the controller's force tasks
+  Vector forces_;                         // [N] (force tasks) as they read them
   std::string verdict_;
   std::optional<Cause> reacted_;  // in the last advance
   Vector idle_;                   // (k) the command that leaves all as it is

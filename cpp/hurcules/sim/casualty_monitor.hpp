@@ -58,7 +58,7 @@ class CasualtyMonitor {
     kContactShare,  // largest force of a contact by the robot, over its region's limit
     kSupport,       // [N] largest force that a region is carried by
     kFaceUp,        // how far the front of the chest looks up: 1 on the back, -1 on the front
-    kShift,         // [m] the centre has moved on the arms since they took all of him, level; else 0
+    kShift,  // [m] the centre has moved on the arms since they took all of him, level; else 0
     kQuantities
   };
   [[nodiscard]] static const std::vector<std::string>& names();

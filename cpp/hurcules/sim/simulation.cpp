@@ -405,8 +405,7 @@ void Simulation::record() {
   if (supervisor_) {
     const auto report = [&](const std::vector<const Task*>& tasks) {
       return TickReport{telemetry.time, controller_->law().active_limits(),
-                        telemetry.tracking_error,
-                        limit_monitor_.commanded().torque, tasks};
+                        telemetry.tracking_error, limit_monitor_.commanded().torque, tasks};
     };
     supervisor_->note_commanded(*controller_, report(planned_tasks_));
     measure_world();

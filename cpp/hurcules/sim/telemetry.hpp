@@ -34,12 +34,12 @@ struct Telemetry {
   Vector q_des, qd_des;    // (n) commanded
   Vector lag;              // [rad] (n) commanded minus seen
   Vector limit_lower,
-      limit_upper;            // [rad] (n) of the present mode, of the joints where no stack rules
-  Vector limit_speed;         // [rad/s] (n) the same
-  Vector to_lower, to_upper;  // [rad] (n) seen distance to them, negative beyond
-  Vector active;              // (n) -1 0 1: held back by a position limit
-  Vector torque, demand;      // [N m] (m) applied, and asked for
-  Vector joint_error;         // [rad] (m)
+      limit_upper;              // [rad] (n) of the present mode, of the joints where no stack rules
+  Vector limit_speed;           // [rad/s] (n) the same
+  Vector to_lower, to_upper;    // [rad] (n) seen distance to them, negative beyond
+  Vector active;                // (n) -1 0 1: held back by a position limit
+  Vector torque, demand;        // [N m] (m) applied, and asked for
+  Vector joint_error;           // [rad] (m)
   double tracking_error = 0.0;  // [rad] largest of them, of the joints of coordinates
   Vector level_error, level_error_measured;  // (p) norms, in the unit of the tasks
   Vector level_active;                       // (p) rows of any level that this one pushes against
