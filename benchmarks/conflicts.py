@@ -10,10 +10,10 @@ second, and the speed of the last 2 s. Beside them the least error of the second
 radians, squares added, as the level adds them) that keeps the first hand's pose and the limits, by
 SLSQP of SciPy from where the runs end, the posture of the targets, and three random ones: an upper
 bound of what is possible. And the least within 0.1 rad of where a run ends: where that is no less,
-the run has come to a minimum, not to a stop. `--detour`: a `hurcules.Detour` looks on for the first
-hand. Both in thousandths, which are mm where only places
+the run has come to a minimum, not to a stop. Both in thousandths, which are mm where only places
 lack; counted are the runs whose first hand arrives. Robots: that of this repository and, where they
-are installed, those of robosuite and example-robot-data.
+are installed, those of robosuite and example-robot-data. `--detour`: a `hurcules.Detour` looks on
+for the first hand.
 """
 
 from __future__ import annotations

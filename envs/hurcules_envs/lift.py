@@ -121,16 +121,9 @@ class Lift(ContactEnvironment):
         "sensor/casualty_lies", "sensor/L_feel", "sensor/R_feel",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-        safe: bool = False,
-    ) -> None:
+    def __init__(self, *, safe: bool = False, **options: Any) -> None:
         """See `ContactEnvironment`; the safe levels are off: they make this lift slower."""
-        super().__init__(fidelity, sparse, rate, action, safe)
+        super().__init__(safe=safe, **options)
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         tracks = ("m/s", "rad/s")

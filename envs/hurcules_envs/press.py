@@ -111,16 +111,9 @@ class Press(ContactEnvironment):
         "value/slide", "force/down", "joint/surface",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        fidelity: str = "exact",
-        sparse: bool = False,
-        rate: float = 20.0,
-        action: str = "twist",
-        safe: bool = False,
-    ) -> None:
+    def __init__(self, *, safe: bool = False, **options: Any) -> None:
         """See `ContactEnvironment`; the safe levels are off: they cost its policy successes."""
-        super().__init__(fidelity, sparse, rate, action, safe)
+        super().__init__(safe=safe, **options)
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         self.units = {"slide": "m/s", "down": "m/s", "force": "N"}

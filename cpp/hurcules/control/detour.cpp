@@ -83,7 +83,7 @@ bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt)
         slowest = std::min(slowest, task->max_speed());
       }
       if (most <= options_.tolerance) judged_ = false;
-      const bool waits = rests(most, speed, slowest, dt) && still_ >= kStill;
+      const bool waits = rests(most, speed, slowest, dt) >= kStill;
       if (waits && most > options_.tolerance && !(judged_ && !targets_moved(robot)))
         begin_search(robot);
       return false;
@@ -96,23 +96,21 @@ bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt)
       posture_.update(robot);
       const double off = posture_.error().cwiseAbs().maxCoeff();
       if (off < kThere) return go_back("the posture is reached");
-      if (!rests(off, speed, posture_.max_speed(), dt) || still_ < kBarred) return false;
+      if (rests(off, speed, posture_.max_speed(), dt) < kBarred) return false;
       return go_back("barred, " + number_text(off, 3) + " before the posture");
   }
   return false;
 }
 
-// Whether it hardly moves and comes no nearer; since when, counts `still_`. slowest [1/s]: how fast it is
-// to come.
-bool Detour::rests(double missing, double speed, double slowest, double dt) {
+// [s] that it has hardly moved and come no nearer; slowest [1/s]: how fast it is to come
+double Detour::rests(double missing, double speed, double slowest, double dt) {
   const double least = std::min(kNearer, kShare * slowest) * std::max(still_, kStill);
   if (speed > kSlow || still_ == 0.0 || std::abs(missing - then_) > least) {
     then_ = missing;
     still_ = dt;
-    return false;
+    return 0.0;
   }
-  still_ += dt;
-  return true;
+  return still_ += dt;
 }
 
 void Detour::begin_search(const Robot& robot) {

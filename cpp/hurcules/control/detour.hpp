@@ -49,7 +49,7 @@ class Detour {
 
  private:
   enum class State { Direct, Searching, Way };
-  bool rests(double missing, double speed, double slowest, double dt);
+  double rests(double missing, double speed, double slowest, double dt);
   void begin_search(const Robot& robot);
   bool end_search(const Robot& robot, bool rests);
   bool go_back(const std::string& why);

@@ -19,7 +19,7 @@ constexpr double kWay = 0.1;                // [m or rad] a second, of one that 
 constexpr double kFast = 1.5;   // [m or rad/s] at least, also where a task is to go slowly
 constexpr double kWide = 1e5;   // [rad] or [m] of a range: a wider one is none
 constexpr double kRest = 1e-5;  // [rad/s] or [m/s]: it goes no farther
-constexpr double kFree = 3.14159265358979323846;  // [rad] or [m] about where one without range is
+constexpr double kFree = M_PI;  // [rad] or [m] about where one without range is
 
 VelocityControllerOptions descent() {
   VelocityControllerOptions options;
@@ -97,12 +97,17 @@ void PostureSearch::begin(const Robot& robot) {
     tasks_[i]->set_max_speed(std::max(tasks_[i]->max_speed(), kFast));
     tasks_[i]->set_max_acceleration(std::numeric_limits<double>::infinity());
   }
-  controller_.reset();
   random_ = Random(options_.seed);
   ends_.clear();
+  over_ = false;
+  begin_descent();
+}
+
+// from where its robot is
+void PostureSearch::begin_descent() {
+  controller_.reset();
   nearest_.assign(lacks_.size(), std::numeric_limits<double>::infinity());
   ticks_ = 0;
-  over_ = false;
 }
 
 bool PostureSearch::advance(int ticks) {
@@ -146,18 +151,17 @@ bool PostureSearch::gets_no_nearer() {
 }
 
 void PostureSearch::end_descent() {
-  ends_.push_back({lacks_, robot_.configuration(), robot_.qpos()});
+  Posture posture{robot_.configuration(), robot_.qpos()};
+  posture.error = *std::max_element(lacks_.begin(), lacks_.end());
+  posture.reached = posture.error <= options_.tolerance;
+  ends_.push_back({std::move(posture), lacks_});
   const auto begun = static_cast<int>(ends_.size());
-  const bool at_once =
-      begun == 1 && *std::max_element(lacks_.begin(), lacks_.end()) <= options_.tolerance;
-  over_ = at_once || begun == options_.starts;
+  over_ = (begun == 1 && ends_.front().posture.reached) || begun == options_.starts;
   if (over_) return;
   const Vector q = drawn();
   robot_.set_qpos(whole_);
   robot_.set_configuration(q);
-  controller_.reset();
-  nearest_.assign(lacks_.size(), std::numeric_limits<double>::infinity());
-  ticks_ = 0;
+  begin_descent();
 }
 
 // a random posture, the farther from the present one the more descents there were
@@ -182,29 +186,20 @@ Vector PostureSearch::drawn() {
 
 Posture PostureSearch::best() const {
   require(over_, "the search for a posture is not over yet: advance returns true");
-  std::vector<Posture> found;
-  for (const End& end : ends_) {
-    Posture posture{end.configuration, end.qpos};
-    posture.error = *std::max_element(end.lacks.begin(), end.lacks.end());
-    posture.reached = posture.error <= options_.tolerance;
-    found.push_back(std::move(posture));
-  }
-  const auto reaching =
-      std::count_if(found.begin(), found.end(), [](const Posture& one) { return one.reached; });
-  const auto nearer = [&](const Posture& a, const Posture& b) {
-    if (a.reached != b.reached) return a.reached;
-    if (a.reached) return farthest(a, present_) < farthest(b, present_);
+  const auto nearer = [&](const End& a, const End& b) {
+    if (a.posture.reached != b.posture.reached) return a.posture.reached;
+    if (a.posture.reached) return farthest(a.posture, present_) < farthest(b.posture, present_);
     // what differs by less than the tolerance is alike
-    const std::vector<double>& lacks = ends_[static_cast<std::size_t>(&a - found.data())].lacks;
-    const std::vector<double>& others = ends_[static_cast<std::size_t>(&b - found.data())].lacks;
-    return std::lexicographical_compare(
-        lacks.begin(), lacks.end(), others.begin(), others.end(), [&](double one, double other) {
-          return std::floor(one / options_.tolerance) < std::floor(other / options_.tolerance);
-        });
+    return std::lexicographical_compare(a.lacks.begin(), a.lacks.end(), b.lacks.begin(),
+                                        b.lacks.end(), [&](double one, double other) {
+                                          return std::floor(one / options_.tolerance) <
+                                                 std::floor(other / options_.tolerance);
+                                        });
   };
-  Posture best = *std::min_element(found.begin(), found.end(), nearer);
-  best.starts = static_cast<int>(found.size());
-  best.reaching = static_cast<int>(reaching);
+  Posture best = std::min_element(ends_.begin(), ends_.end(), nearer)->posture;
+  best.starts = static_cast<int>(ends_.size());
+  best.reaching = static_cast<int>(std::count_if(
+      ends_.begin(), ends_.end(), [](const End& one) { return one.posture.reached; }));
   return best;
 }
 

@@ -48,9 +48,10 @@ class PostureSearch {
 
  private:
   struct End {
+    Posture posture;
     std::vector<double> lacks;  // of each level
-    Vector configuration, qpos;
   };
+  void begin_descent();
   void tick();
   void measure();
   [[nodiscard]] bool gets_no_nearer();
