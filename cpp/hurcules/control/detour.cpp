@@ -11,7 +11,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kSlow = 1e-2;      // [rad/s] or [m/s]
+constexpr double kCrawl = 1e-2;     // [rad/s] or [m/s]
 constexpr double kStill = 0.1;      // [s] slower than that, and no nearer: it may be so for ever
 constexpr double kBarred = 1.0;     // [s] the same on the way, which may begin slowly
 constexpr double kNearer = 1e-3;    // [m/s] or [rad/s], less is no nearer; at most this share
@@ -105,7 +105,7 @@ bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt)
 // [s] that it has hardly moved and come no nearer; slowest [1/s]: how fast it is to come
 double Detour::rests(double missing, double speed, double slowest, double dt) {
   const double least = std::min(kNearer, kShare * slowest) * std::max(still_, kStill);
-  if (speed > kSlow || still_ == 0.0 || std::abs(missing - then_) > least) {
+  if (speed > kCrawl || still_ == 0.0 || std::abs(missing - then_) > least) {
     then_ = missing;
     still_ = dt;
     return 0.0;
