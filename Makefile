@@ -8,16 +8,18 @@ MISSION ?= casualty
 DEMO_ARGS ?=
 WERROR ?= OFF
 ASSERTS ?= OFF
+# OFF: each source by itself, for work on a few of them
+TOGETHER ?= ON
 JOBS ?= $(shell .ci/machine jobs)
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
 VENV := .venv
 BIN := $(VENV)/bin
-PRODUCT := build/product
 BUILD := build/make
 RELEASE := build/release
 STEP := .ci/step build/logs
 PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
+VARIANT := $(WERROR)-$(ASSERTS)-$(TOGETHER)
 SOURCES := pyproject.toml CMakeLists.txt $(shell find cpp python/bindings -name '*.?pp' -o -name CMakeLists.txt -o -name '*.cmake*')
 TEST_SOURCES := $(shell find tests/cpp tests/fuzz benchmarks -name '*.?pp' -o -name CMakeLists.txt)
 
@@ -30,7 +32,7 @@ $(shell test ! -d $(VENV) || $(BIN)/python -c '' 2>/dev/null || rm -rf $(VENV))
 .PHONY: demo test ctest pytest sanitize fuzz proof bench bench-instructions stubs architecture product setup wheel machine clean
 
 # where the tests are built already, the demo uses that build
-demo: $(if $(wildcard $(BUILD)/installed-*),setup,product)
+demo: $(if $(wildcard $(BUILD)/tests-*),setup,product)
 	@$(BIN)/python -m hurcules run $(MISSION) $(DEMO_ARGS)
 
 # pytest runs the examples too
@@ -82,11 +84,12 @@ stubs: setup
 # docs/architecture.md out of the include and import lines
 architecture: setup
 	$(BIN)/python benchmarks/figures/architecture.py
-product: $(PRODUCT)/installed-$(WERROR)-$(ASSERTS)
+
+product: $(BUILD)/product-$(VARIANT)
 
 # what its prerequisites look for, too: one look, one question
 setup: PURPOSE := test
-setup: $(BUILD)/installed-$(WERROR)-$(ASSERTS)
+setup: $(BUILD)/tests-$(VARIANT)
 
 # looked at in every call, since machines change between two
 machine:
@@ -104,25 +107,22 @@ $(VENV)/ready-test: $(VENV)/ready
 	@$(STEP)/packages-test.log "downloading Python packages for the tests" $(PIP) install -r build/requirements-test.txt
 	@touch $@
 
-# what users get: no tests, no benchmarks, sources compiled together
-$(PRODUCT)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready build/names $(SOURCES) | machine
-	@$(STEP)/product.log "compiling Hurcules" $(PIP) install --verbose --no-build-isolation --editable '.[report]' \
-	  --config-settings build-dir=$(PRODUCT) \
-	  --config-settings cmake.define.HURCULES_WERROR=$(WERROR) \
-	  --config-settings cmake.define.HURCULES_ASSERTS=$(ASSERTS)
-	@rm -f $(PRODUCT)/installed-* $(BUILD)/installed-*
+# one build serves the module and, from its objects on, the tests and the benchmarks
+INSTALL = $(PIP) install --verbose --no-build-isolation --editable '.[report]' --config-settings build-dir=$(BUILD) \
+  --config-settings cmake.define.HURCULES_PRECOMPILE=$(TOGETHER) \
+  --config-settings cmake.define.HURCULES_WERROR=$(WERROR) \
+  --config-settings cmake.define.HURCULES_ASSERTS=$(ASSERTS) \
+  --config-settings cmake.define.HURCULES_TESTS=$(1) \
+  --config-settings cmake.define.HURCULES_BENCHMARKS=$(1)
+
+$(BUILD)/product-$(VARIANT): $(VENV)/ready build/names $(SOURCES) | machine
+	@$(STEP)/product.log "compiling Hurcules" $(call INSTALL,OFF)
+	@rm -f $(BUILD)/product-* $(BUILD)/tests-*
 	@touch $@
 
-# one build serves the module, the tests and the benchmarks
-$(BUILD)/installed-$(WERROR)-$(ASSERTS): $(VENV)/ready-test build/names $(SOURCES) $(TEST_SOURCES) | machine
-	@$(STEP)/tests.log "compiling Hurcules, its tests and benchmarks" \
-	  $(PIP) install --verbose --no-build-isolation --editable '.[report]' \
-	  --config-settings build-dir=$(BUILD) \
-	  --config-settings cmake.define.HURCULES_TESTS=ON \
-	  --config-settings cmake.define.HURCULES_BENCHMARKS=ON \
-	  --config-settings cmake.define.HURCULES_WERROR=$(WERROR) \
-	  --config-settings cmake.define.HURCULES_ASSERTS=$(ASSERTS)
-	@rm -f $(PRODUCT)/installed-* $(BUILD)/installed-*
+$(BUILD)/tests-$(VARIANT): $(VENV)/ready-test build/names $(SOURCES) $(TEST_SOURCES) | machine
+	@$(STEP)/tests.log "compiling Hurcules, its tests and benchmarks" $(call INSTALL,ON)
+	@rm -f $(BUILD)/product-* $(BUILD)/tests-*
 	@touch $@
 
 # a manylinux wheel in dist/, tried in an environment of its own without a compiler
