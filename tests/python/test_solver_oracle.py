@@ -23,7 +23,7 @@ from hierarchies import CLASSES, to_levels
 from hurcules import rhqp
 from oracle import Oracle, OracleError, Rows, equality_rows_only
 
-PROBLEMS = int(os.environ.get("HURCULES_PROBLEMS", "750"))
+PROBLEMS = int(os.environ.get("HURCULES_PROBLEMS", "250"))
 AGREES = 1e-6
 PROVEN = 1e-9
 ALL_CLASSES = {**CLASSES, **HARD_CLASSES}

@@ -86,7 +86,7 @@ double JointPid::rate_at(Index i, const JointError& error, double torque) const 
   const double dt = options_.dt, e = error.position[i];
   const double at_rest = error.velocity[i] + options_.K_P[i] * e +
                          options_.K_I[i] * (integral_[i] + e * dt);  // demand over gain
-  return (torque / gain_[i] - at_rest) / (1.0 + options_.K_P[i] * dt + options_.K_I[i] * dt * dt);
+  return torque / gain_[i] - at_rest;
 }
 
 const Vector& JointPid::compute(const JointError& error) {

@@ -237,16 +237,21 @@ void JointServo::place(Index joint, VectorRef qpos) const {
   qpos.segment<4>(own.qpos) << turn.w(), turn.vec();
 }
 
-void JointServo::find_position_error(const Vector& reference, const Vector& qpos) {
+void JointServo::find_position_error(const Vector& qpos) {
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& own = actuator(i);
     if (own.part < 0) {
-      error_.position[i] = reference[i] - qpos[own.qpos];
+      error_.position[i] = reference_[i] - qpos[own.qpos];
     } else {  // about the axes of the body as it is
       const Matrix3 R = rotation_of(qpos.data() + own.qpos);
-      error_.position[i] = rotation_log(R.transpose() * rotation(i, reference))[own.part - kTurns];
+      error_.position[i] = rotation_log(R.transpose() * rotation(i, reference_))[own.part - kTurns];
     }
   }
+}
+
+void JointServo::find_position_error_now(const Vector& qpos) {
+  reference_ = position_ - pid_.options().dt * velocity_;
+  find_position_error(qpos);
 }
 
 void JointServo::follow(const Vector& q, const Vector& velocity) {
@@ -316,7 +321,7 @@ void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef 
   efforts.setZero();
   acceleration.setZero();  // for now the rated inertia
   follow_readings(state);
-  find_position_error(position_, state.qpos);
+  find_position_error_now(state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     const ActuatorStatus& status =
@@ -360,7 +365,7 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     reference_[i] = motor.factor * q[motor.coordinate] + offset_[i];
   }
-  find_position_error(reference_, state.qpos);
+  find_position_error(state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const double seen = seen_speed(i, state);
     if (rests_[static_cast<std::size_t>(i)].on) continue;
@@ -412,8 +417,8 @@ void JointServo::follow_readings(const RobotState& state) {
   for (Index i = 0; i < size(); ++i) {
     const Trust trust = trust_[static_cast<std::size_t>(i)];
     if (trust == Trust::All) continue;
-    position_[i] = actuator(i).position(state.qpos);
     velocity_[i] = trust == Trust::Speed ? 0.0 : state.qvel[actuator(i).dof];
+    position_[i] = actuator(i).position(state.qpos) + pid_.options().dt * velocity_[i];
     pid_.forget(i);
   }
 }
@@ -421,7 +426,7 @@ void JointServo::follow_readings(const RobotState& state) {
 void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   read_brakes(state);
   follow_readings(state);
-  find_position_error(position_, state.qpos);
+  find_position_error_now(state.qpos);
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     const ActuatorStatus& status = state.actuators[static_cast<std::size_t>(motor.actuator)];

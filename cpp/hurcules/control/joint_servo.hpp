@@ -58,9 +58,9 @@ class JointServo {
   // cannot be made to give an effort
   JointServo(const Robot& robot, const std::vector<ServoGains>& table, double dt);
 
-  // where the coordinates shall be, (n) [rad], (n) [rad/s]
+  // where the coordinates shall be at the end of this period, (n) [rad], (n) [rad/s]
   void follow(const Vector& q, const Vector& velocity);
-  // where one joint shall be, whatever its coordinate says
+  // where one joint shall be then, whatever its coordinate says
   void move(Index joint, double position, double velocity);
   // What the model couples to a joint that no coordinate moves:
   //   q_follower = slope q_joint + shift
@@ -158,8 +158,10 @@ class JointServo {
   void find_ties(const mjModel_& model);
   void read_brakes(const RobotState& state);
   void follow_readings(const RobotState& state);
-  // from where the joints are to these references (m)
-  void find_position_error(const Vector& reference, const Vector& qpos);
+  // from where the joints are to reference_ (m)
+  void find_position_error(const Vector& qpos);
+  // to where they shall be at the moment
+  void find_position_error_now(const Vector& qpos);
   // [rad/s] that a joint is seen to go with since the last call: one reading that is wrong, of its
   // place or its speed, does not move it
   double seen_speed(Index joint, const RobotState& state);

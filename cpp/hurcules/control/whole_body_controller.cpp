@@ -598,7 +598,7 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
                                 const RobotState& state) {
   switch (channel.kind()) {
     case ChannelKind::Twist:
-      return channel.task()->advance(command, dt());
+      return channel.task()->advance(command, 0.0);  // moves in move_targets
     case ChannelKind::Delta:
       if (given && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
       return;
@@ -719,6 +719,18 @@ void WholeBodyController::solve(const RobotState& state) {
   if (scaled_) held_back_ += dt() * (wished_ - law.next_velocity(qd_));
   yielding_.update(scaled_, law.rate(), dt());
   law.integrate(q_, qd_);
+  move_targets();
+}
+
+// to where the plan is now: at the end of the period
+void WholeBodyController::move_targets() {
+  Index row = 0;
+  for (const Channel& channel : channels_) {
+    const auto part = command_.segment(row, channel.size());
+    row += channel.size();
+    if (channel.kind() == ChannelKind::Twist && !part.isZero(0.0))
+      channel.task()->advance(part, dt());
+  }
 }
 
 void WholeBodyController::hold() {

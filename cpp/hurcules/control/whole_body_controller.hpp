@@ -134,6 +134,7 @@ class WholeBodyController {
   void require_command(const Vector& command) const;
   void measure();
   void solve(const RobotState& state);
+  void move_targets();
   void actuate(const RobotState& state, VectorRef ctrl);
   // in place of actuate, where there is no plant: the references of the servos follow, and the
   // profiles of the tracks go on

@@ -106,6 +106,25 @@ TEST(WholeBody, LeadsTheTipByACommandAndHoldsItAfterwards) {
   }
 }
 
+// Whatever the period, the tip does not run ahead of the target by ticks, each of 0.12 or 0.35 mm.
+TEST(WholeBody, TheTipIsWhereTheTargetIsAtTheEndOfATick) {
+  const ModelPtr model = load_model_text(arm(kMotors));
+  for (const double dt : {0.002, 0.006}) {
+    SimulationOptions options;
+    options.record = false;
+    Simulation simulation(model, make(model, dt), options);
+    const Frame site = simulation.world().frame("tip");
+    const auto& tip = dynamic_cast<const PositionTask&>(*simulation.controller().tasks().front());
+    const Vector command = Eigen::Vector3d(-0.05, 0.03, 0.0);
+    simulation.step(static_cast<int>(2.0 / dt), &command);
+    for (int i = 0; i < 20; ++i) {
+      simulation.step(1, &command);
+      const Vector3 place = simulation.world().position(site);
+      EXPECT_LT((Eigen::Vector2d(place.x(), place.z()) - tip.target()).norm(), 2e-5);
+    }
+  }
+}
+
 TEST(WholeBody, HoldsAJointWithoutACoordinateWithinItsRange) {
   Simulation simulation = simulate();
   const Vector command = Eigen::Vector3d(0.0, 0.0, 0.1);
