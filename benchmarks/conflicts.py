@@ -13,7 +13,7 @@ bound of what is possible. And the least within 0.1 rad of where a run ends: whe
 the run has come to a minimum, not to a stop. Both in thousandths, which are mm where only places
 lack; counted are the runs whose first hand arrives. Robots: that of this repository and, where they
 are installed, those of robosuite and example-robot-data. `--detour`: a `hurcules.Detour` looks on
-for the first hand.
+for both hands.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ class Conflict:
         below = [CenterOfMassTask("com", self.robot), PostureTask("posture", self.robot)]
         stack, detour = Stack([self.limits, *levels, *below]), None
         if round_about:
-            detour = Detour(self.robot, [self.limits], levels[:1], [*levels[1:], *below])
+            detour = Detour(self.robot, [self.limits], levels, below)
             stack = detour.stacks["direct"]
         motion = follow(self.robot, stack, self.limits, law, dt, SECONDS, detour)
         row = {"speed": motion.fastest, "change": motion.hardest, "excess": motion.excess}

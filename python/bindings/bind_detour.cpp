@@ -29,7 +29,8 @@ constexpr const char* kPosture =
 constexpr const char* kInverseKinematics =
     R"(The posture nearest to the present one, of those found, that meets all tasks.
 
-Where none does: the one that lacks least in the first level, then in the second, and so on.
+Where none does: the one that lacks least in the first level, then in the second, and so on (the
+norm of its rows; ten tolerances more or less are alike).
 
 A controller descends from where the robot stands; where limits or singularities end the
 descent, others begin at random postures, each farther from the present one than the last.
@@ -93,7 +94,7 @@ struct HeldDetour {
 
 HeldDetour make_detour(const Robot& robot, const StackLike& before, const StackLike& targets,
                        const StackLike& below, int starts, std::uint64_t seed, double tolerance,
-                       double rate) {
+                       double nearer, double rate) {
   HeldDetour made;
   const std::vector<StackLevel> first = levels_of(before, made.kept);
   const std::vector<StackLevel> middle = levels_of(targets, made.kept);
@@ -102,6 +103,7 @@ HeldDetour make_detour(const Robot& robot, const StackLike& before, const StackL
   options.search.starts = starts;
   options.search.seed = seed;
   options.tolerance = tolerance;
+  options.nearer = nearer;
   options.rate = rate;
   made.detour = std::make_unique<Detour>(robot, first, middle, last, options);
   return made;
@@ -165,7 +167,8 @@ void bind_detour(py::module_& module) {
   py::class_<HeldDetour>(module, "Detour", kDetour)
       .def(py::init(&make_detour), "robot"_a, "before"_a, "targets"_a, "below"_a = py::tuple(),
            py::kw_only(), "starts"_a = defaults.starts, "seed"_a = defaults.seed,
-           "tolerance"_a = options.tolerance, "rate"_a = options.rate)
+           "tolerance"_a = options.tolerance, "nearer"_a = options.nearer,
+           "rate"_a = options.rate)
       .def("look_at", &look_at, "robot"_a, "velocity"_a, "dt"_a, kLookAt)
       .def(
           "reset", [](HeldDetour& self) { self.detour->reset(); },

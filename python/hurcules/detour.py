@@ -18,6 +18,7 @@ class Detour(_core.Detour):
     target wants another posture: an elbow or a wrist turned the other way. Once the robot rests, a
     detour looks for one as `inverse_kinematics` does, leads all joints there with what comes before
     all else kept, and lets the targets rule again. The hand may go a long way round meanwhile.
+    Where no posture meets all targets, one that comes clearly nearer is led to.
 
     Args:
         robot: that the tasks were made for.
@@ -27,6 +28,8 @@ class Detour(_core.Detour):
         below: levels that take what freedom is left; nobody asks whether they are met.
         options: by name, `starts` (descents of a search at most, 32), `seed` of their random
             postures (0), `tolerance` by which a target may be missed at rest (1e-3 m or rad),
+            `nearer`, by how much a level must lack less where no posture meets all targets, and
+            none before it more (0.02 m or rad, the norm of its rows; inf: none is taken),
             `rate` of the search (5e3 of its ticks a second of the loop: five in a tick of 1 ms,
             each of which takes as long as a tick of the controller).
 

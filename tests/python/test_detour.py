@@ -79,7 +79,8 @@ def test_out_of_reach_it_searches_once_and_again_for_another_target(robot: hurcu
     detour, controller = hurcules.Detour(robot, [], [hand], starts=4), velocities(robot)
     controller.set_stack(detour.stacks["direct"])
     said = run(robot, controller, detour)
-    assert said == ["hand: 0.4 m short; none of 4 descents finds a posture for all targets"]
+    none = "none of 4 descents finds a posture for all targets, or a nearer one"
+    assert said == [f"hand: 0.4 m short; {none}"]
     assert np.abs(controller.velocity).max() < 1e-3  # at rest, as near as it gets
     robot.set_configuration(START)
     controller.reset()

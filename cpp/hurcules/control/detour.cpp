@@ -55,6 +55,8 @@ Detour::Detour(const Robot& robot, const std::vector<StackLevel>& before,
       errors_(rows_of(targets_)) {
   require(options.tolerance > 0.0,
           "Detour: tolerance wants a positive number, got " + number_text(options.tolerance));
+  require(options.nearer > 0.0,
+          "Detour: nearer wants a positive number, got " + number_text(options.nearer));
   require(options.rate > 0.0 && std::isfinite(options.rate),
           "Detour: rate wants a positive number, got " + number_text(options.rate));
 }
@@ -134,10 +136,12 @@ bool Detour::end_search(const Robot& robot, bool rests) {
     state_ = State::Direct;
     return false;
   }
-  if (!found.reached) {
+  const double nearer = found.reached ? 0.0 : search_.nearer();
+  if (!found.reached && nearer < options_.nearer) {
     state_ = State::Direct;
     decision_ = short_ + "none of " + std::to_string(found.starts) +
-                " descents finds a posture for all targets";
+                " descents finds a posture for all targets" +
+                (std::isfinite(options_.nearer) ? ", or a nearer one" : "");
     return false;
   }
   judge(robot, found.qpos);
@@ -145,6 +149,7 @@ bool Detour::end_search(const Robot& robot, bool rests) {
   state_ = State::Way;
   still_ = 0.0;
   decision_ = short_ + "goes round by another posture";
+  if (!found.reached) decision_ += ", nearer by " + number_text(nearer, 3);
   return true;
 }
 

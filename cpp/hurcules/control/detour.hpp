@@ -3,7 +3,8 @@
 // A controller descends; where limits of joints end the descent, the target wants another posture: an
 // elbow or a wrist turned the other way. Once the robot rests short of a target, a detour looks for
 // one (posture_search.hpp), leads all joints there with what comes before all else kept, and lets the
-// targets rule again. The hand may go a long way round meanwhile.
+// targets rule again. The hand may go a long way round meanwhile. Where no posture meets all targets,
+// one that comes clearly nearer to the first of them that it can is as good.
 #pragma once
 
 #include <string>
@@ -17,6 +18,8 @@ namespace hurcules {
 struct DetourOptions {
   PostureSearchOptions search = {};
   double tolerance = 1e-3;  // [m] or [rad] that a target may be short of at rest
+  // [m] or [rad] by which a posture that does not meet all targets must come nearer; inf: none does
+  double nearer = 0.02;
   double rate = 5e3;  // [1/s] ticks of a search a second of the loop; each costs a control tick
 };
 
@@ -37,7 +40,7 @@ class Detour {
 
   // After each tick: the robot at the reference, its velocity (n), the period [s]. True where from now on
   // the other stack shall rule. While the robot rests short of a target, each look takes a search some
-  // ticks further. For the same targets there is one search: where it finds no posture, or what comes
+  // ticks further. For the same targets there is one search: where it finds none, or what comes
   // before bars the way, the robot stays at rest until a target moves. A target that moves on the way
   // ends the detour.
   bool look(const Robot& robot, const ConstVectorRef& velocity, double dt);

@@ -44,15 +44,11 @@ Stack copied(const Stack& stack, std::vector<const Task*>& originals,
   return Stack(std::move(levels));
 }
 
-// [m] or [rad] that the row lacks whose interval is farthest off; rows of weight 0 lack nothing
-double lacking(const Task& task) {
-  double most = 0.0;
-  for (Index i = 0; i < task.rows(); ++i) {
-    if (!(task.weights()[i] > 0.0)) continue;
-    const double error = task.error()[i];
-    most = std::max(most, std::abs(std::clamp(error, task.lower()[i], task.upper()[i]) - error));
-  }
-  return most;
+// [m] or [rad] that a row lacks of its interval; one of weight 0 lacks nothing
+double lacking(const Task& task, Index row) {
+  if (!(task.weights()[row] > 0.0)) return 0.0;
+  const double error = task.error()[row];
+  return std::abs(std::clamp(error, task.lower()[row], task.upper()[row]) - error);
 }
 
 double farthest(const Posture& posture, const Vector& from) {
@@ -118,9 +114,9 @@ bool PostureSearch::advance(int ticks) {
 void PostureSearch::tick() {
   controller_.compute(robot_);
   measure();
-  const double most = *std::max_element(lacks_.begin(), lacks_.end());
+  if (ends_.empty() && ticks_ == 0) present_lacks_ = lacks_;
   const bool rests = controller_.velocity().cwiseAbs().maxCoeff() < kRest;
-  if (most <= 0.1 * options_.tolerance || rests || gets_no_nearer()) {
+  if (most_ <= 0.1 * options_.tolerance || rests || gets_no_nearer()) {
     end_descent();
     return;
   }
@@ -132,10 +128,17 @@ void PostureSearch::tick() {
 
 // of the tasks where the controller has measured them
 void PostureSearch::measure() {
+  most_ = 0.0;
   for (std::size_t k = 0; k < lacks_.size(); ++k) {
-    lacks_[k] = 0.0;
-    for (const Task* const task : stack_.levels()[k].tasks)
-      lacks_[k] = std::max(lacks_[k], lacking(*task));
+    double squares = 0.0;
+    for (const Task* const task : stack_.levels()[k].tasks) {
+      for (Index row = 0; row < task->rows(); ++row) {
+        const double lack = lacking(*task, row);
+        most_ = std::max(most_, lack);
+        squares += lack * lack;
+      }
+    }
+    lacks_[k] = std::sqrt(squares);
   }
 }
 
@@ -152,7 +155,7 @@ bool PostureSearch::gets_no_nearer() {
 
 void PostureSearch::end_descent() {
   Posture posture{robot_.configuration(), robot_.qpos()};
-  posture.error = *std::max_element(lacks_.begin(), lacks_.end());
+  posture.error = most_;
   posture.reached = posture.error <= options_.tolerance;
   ends_.push_back({std::move(posture), lacks_});
   const auto begun = static_cast<int>(ends_.size());
@@ -184,23 +187,37 @@ Vector PostureSearch::drawn() {
   return inside + share * (q - inside);
 }
 
-Posture PostureSearch::best() const {
+const PostureSearch::End& PostureSearch::best_end() const {
   require(over_, "the search for a posture is not over yet: advance returns true");
   const auto nearer = [&](const End& a, const End& b) {
     if (a.posture.reached != b.posture.reached) return a.posture.reached;
     if (a.posture.reached) return farthest(a.posture, present_) < farthest(b.posture, present_);
-    // what differs by less than the tolerance is alike
+    const auto less = [&](double one, double other) {
+      return std::floor(one / alike()) < std::floor(other / alike());
+    };
     return std::lexicographical_compare(a.lacks.begin(), a.lacks.end(), b.lacks.begin(),
-                                        b.lacks.end(), [&](double one, double other) {
-                                          return std::floor(one / options_.tolerance) <
-                                                 std::floor(other / options_.tolerance);
-                                        });
+                                        b.lacks.end(), less);
   };
-  Posture best = std::min_element(ends_.begin(), ends_.end(), nearer)->posture;
+  return *std::min_element(ends_.begin(), ends_.end(), nearer);
+}
+
+Posture PostureSearch::best() const {
+  Posture best = best_end().posture;
   best.starts = static_cast<int>(ends_.size());
   best.reaching = static_cast<int>(std::count_if(
       ends_.begin(), ends_.end(), [](const End& one) { return one.posture.reached; }));
   return best;
+}
+
+double PostureSearch::nearer() const {
+  const std::vector<double>& found = best_end().lacks;
+  double most = 0.0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const double less = present_lacks_[k] - found[k];
+    if (less < -alike()) break;
+    most = std::max(most, less);
+  }
+  return most;
 }
 
 Posture inverse_kinematics(const Robot& robot, const Stack& stack,

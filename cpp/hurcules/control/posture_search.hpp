@@ -42,15 +42,20 @@ class PostureSearch {
   // so many ticks of its descents further; false once it is over
   bool advance(int ticks);
   // Of the postures that meet all tasks the nearest to the first one; where there is none, the one
-  // that lacks least in the first level, then in the second, and so on. Throws Error before `advance`
-  // has ended it.
+  // that lacks least in the first level, then in the second, and so on: the norm of its rows, and ten
+  // tolerances more or less are alike. Throws Error before `advance` has ended it.
   [[nodiscard]] Posture best() const;
+  // [m] or [rad] the most that a level lacks less there than at the first one, up to the first level
+  // that lacks more
+  [[nodiscard]] double nearer() const;
 
  private:
   struct End {
     Posture posture;
     std::vector<double> lacks;  // of each level
   };
+  [[nodiscard]] const End& best_end() const;
+  [[nodiscard]] double alike() const { return 10.0 * options_.tolerance; }
   void begin_descent();
   void tick();
   void measure();
@@ -68,6 +73,8 @@ class PostureSearch {
   Vector present_, whole_;  // (n), (nq) where it began
   std::vector<End> ends_;
   std::vector<double> lacks_, nearest_;  // of each level; the least so far
+  std::vector<double> present_lacks_;    // of each level, where it began
+  double most_ = 0.0;                    // of any row
   int ticks_ = 0;                        // of this descent
   bool over_ = false;
 };
