@@ -1,4 +1,4 @@
-"""Experts of the environments of contact, and what hold, constant and random actions reach.
+"""Experts of the environments, and what hold, constant and random actions reach.
 
 Run:  python benchmarks/contact_environments.py [--seeds 40] [--fidelity exact] [--trivial] [NAME]
 """
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 import hurcules_envs  # noqa: F401  registers
 from hurcules_envs.contact import ContactEnvironment
+from hurcules_envs.drive import Drive
 from hurcules_envs.environment import Environment, Numbers
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.reach import Reach
@@ -71,7 +72,7 @@ def main() -> None:
     for name in given.names:
         spec = gymnasium.spec(f"Hurcules/{name}-v0")
         environment = make_environment(spec.kwargs["environment"], {"fidelity": given.fidelity})
-        assert isinstance(environment, ContactEnvironment | Reach)
+        assert isinstance(environment, ContactEnvironment | Reach | Drive)
         policies: dict[str, Policy] = {"expert": environment.expert}
         if given.trivial:
             size = len(Episodes(environment, 1, 1).action_scale)

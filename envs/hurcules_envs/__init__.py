@@ -26,9 +26,13 @@ _ENVIRONMENTS: dict[str, tuple[str, int, dict[str, object]]] = {
 }
 
 # joints commanded in place of hands and forces, for comparison
-for _name in ("Reach", "Press", "Valve", "Door", "Carry", "Lift"):
-    _class, _steps, _ = _ENVIRONMENTS[f"Hurcules/{_name}-v0"]
-    _ENVIRONMENTS[f"Hurcules/{_name}Joint-v0"] = (_class, _steps, {"action": "joint"})
+for _name in (
+    "Reach-v0", "ReachPrecise-v0", "Drive-v0", "Press-v0", "Valve-v0", "Door-v0", "Carry-v0",
+    "Stretch-v1", "Lift-v0",
+):  # fmt: skip
+    _class, _steps, _ = _ENVIRONMENTS[f"Hurcules/{_name}"]
+    _twin = _name.replace("-", "Joint-")
+    _ENVIRONMENTS[f"Hurcules/{_twin}"] = (_class, _steps, {"action": "joint"})
 
 ENVIRONMENTS = ("Hurcules/Stretch-v0", *_ENVIRONMENTS)
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.rendering import make_renderer, overview_camera, pose
 from hurcules.validation import require_known
+from hurcules_envs.checks import require_open
 from hurcules_envs.copies import GENERATOR, Copied, generator_numbers, generator_state
 from hurcules_envs.episodes import numbers_of
 from hurcules_envs.observations import observation_space
@@ -81,6 +82,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         self._box = observation_space(self.observation_names)
         self.observation_space = self._box
         self._renderer: mujoco.Renderer | None = None
+        self._closed = False
         self._copy = mujoco.MjData(self.simulation.model)
         self._start()
 
@@ -95,8 +97,10 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
             options: none are known.
 
         Raises:
+            gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
             hurcules.Error: an option that does not exist.
         """
+        require_open(self._closed, "reset")
         super().reset(seed=seed)
         if options:
             raise hurcules.Error(f"reset: no options exist, got {', '.join(map(str, options))}")
@@ -119,6 +123,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
             hurcules.Error: the action is no array of numbers, has another shape or holds NaN or
                 infinity.
         """
+        require_open(self._closed, "step")
         command = self._checked(action) * self.action_scale
         self.simulation.step(FRAME_SKIP, command)
         terms = self._reward()
@@ -175,6 +180,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         if self._renderer is not None:
             self._renderer.close()
             self._renderer = None
+        self._closed = True
 
     def _went_on(self) -> Array:
         return self.get_state()

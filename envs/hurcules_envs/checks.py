@@ -11,6 +11,7 @@ from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
+from gymnasium.error import ClosedEnvironmentError
 from numpy.typing import NDArray
 
 import hurcules
@@ -24,6 +25,7 @@ __all__ = [
     "require_flag",
     "require_names",
     "require_numbers",
+    "require_open",
 ]
 
 
@@ -180,6 +182,16 @@ def require_names(
     for name in known if complete else ():
         if name not in given:
             raise hurcules.Error(f"{where}: {noun} '{name}' is missing")
+
+
+def require_open(closed: bool, call: str) -> None:
+    """An environment that is not closed.
+
+    Raises:
+        gymnasium.error.ClosedEnvironmentError: it is; the text says what was called.
+    """
+    if closed:
+        raise ClosedEnvironmentError(f"{call}() of an environment that was closed")
 
 
 def require_finite(where: str, values: Array) -> None:

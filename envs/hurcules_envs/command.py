@@ -21,6 +21,7 @@ from hurcules.output import Output
 from hurcules.plugins import PolicyOptions
 from hurcules.validation import require_known
 from hurcules_envs import evaluation
+from hurcules_envs.endings import Ending
 from hurcules_envs.imitation import ask_expert
 from hurcules_envs.policy import Policy
 from hurcules_envs.randomisation import NAMES
@@ -173,7 +174,7 @@ def evaluate(
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
-    """Judge a policy: success with its 95 % interval, falls, limits, self-contact.
+    """Judge a policy: success with its 95 % interval, endings, return, cost, falls, self-contact.
 
     Runs without PyTorch. Writes evaluation.json, beside that of other settings evaluation-2.json.
 
@@ -298,10 +299,12 @@ def _judge(
     words = ", ".join(f"{key} {value}" for key, value in options.items())
     console.print(f"{name} ({words}), {episodes} episodes")
     console.print(f"  success        {result.success:.0%} ({result.low:.0%} to {result.high:.0%})")
+    counted = ", ".join(f"{n} {Ending[name].text}" for name, n in result.endings.items())
+    console.print(f"  endings        {counted}")
+    console.print(f"  return         {result.mean_return:.2f}, mean")
+    console.print(f"  cost           {result.mean_cost:.2f}, mean")
     console.print(f"  steps          {result.mean_length:.0f}, mean")
     console.print(f"  falls          {result.falls:.0%}")
-    if result.failures:
-        console.print(f"  failed else    {result.failures:.0%}")
     console.print(f"  over a limit   {1e3 * result.limit_excess:.1f} mrad at most, measured")
     console.print(f"  self-contact   {result.self_contacts:.2%} of the steps")
     console.print(f"  {output.saved[0]}")

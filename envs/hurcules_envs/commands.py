@@ -10,10 +10,12 @@ import numpy as np
 
 import hurcules
 from hurcules.validation import require_known
+from hurcules_envs.environment import Array, Environment, Group
 
-__all__ = ["ACTIONS", "channel_of", "joint_channel"]
+__all__ = ["ACTIONS", "TWINS", "by_joints", "channel_of", "joint_channel"]
 
 ACTIONS = ("twist", "delta", "pose", "joint")
+TWINS = ("twist", "joint")  # of an environment that has no other than its own and the twin's
 
 # by action: full scale of positions [m/s or m] and of orientations [rad/s or rad]
 _SCALES: Mapping[str, tuple[float, float]] = {
@@ -60,3 +62,37 @@ def joint_channel(
     kinds = [model.jnt_type[one.joints[0].joint] for one in robot.coordinates]
     units = ["m/s" if kind == slide else "rad/s" for kind in kinds]
     return hurcules.Twist(posture, scale), scale, units
+
+
+def by_joints(
+    environment: Environment,
+    plan: hurcules.Robot,
+    model: mujoco.MjModel,
+    channels: Mapping[str, Any],
+    beside: Mapping[str, float | Array],
+) -> tuple[hurcules.PostureTask, dict[str, Any]]:
+    """Makes velocities of all coordinates what a policy commands, for comparison.
+
+    Its actions, their units and what is seen change: the coordinates, in place of the lead.
+
+    Args:
+        environment: whose actions, units, observation and quantities are set.
+        plan: the robot.
+        model: of the physics.
+        channels: by name, those of the environment's own action.
+        beside: by channel the scale of what is commanded with the joints as before.
+
+    Returns:
+        The task that takes the place of all others after the limits and safe levels, and the
+        channels of the controller.
+    """
+    joints = hurcules.PostureTask("joints", plan)
+    channel, scale, units = joint_channel(joints, plan, model)
+    kept = {name: unit for name, unit in environment.units.items() if name in beside}
+    environment.units = {"joints": units, **kept}
+    environment.actions, environment.components = {"joints": scale, **beside}, {}
+    if "q" not in environment.quantities:
+        seen = [group for group in environment.observation if group.name != "lead"]
+        environment.observation = (*seen, Group("q", len(scale), "rad", 10.0, "coordinates"))
+        environment.quantities = (*environment.quantities, "q")
+    return joints, {"joints": channel} | {name: channels[name] for name in beside}

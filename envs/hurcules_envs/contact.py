@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import mjcf
 from hurcules.validation import require_known
-from hurcules_envs.commands import joint_channel
-from hurcules_envs.environment import Array, Environment, Group, Numbers, tick_of
+from hurcules_envs.commands import TWINS, by_joints
+from hurcules_envs.environment import Array, Environment, Numbers, tick_of
 from hurcules_envs.robots import load_robot
 from hurcules_envs.standing import SUPPORT
 
@@ -127,16 +127,13 @@ class ContactEnvironment(Environment):
         Raises:
             hurcules.Error: another action than "twist" and "joint".
         """
-        require_known("action", self.action, ("twist", "joint"))
+        require_known("action", self.action, TWINS)
         limits = [level for level in levels if isinstance(level, hurcules.JointLimits)]
         rest = [level for level in levels if level not in limits]
         first = [*limits, *(self.guards(plan) if safe else [])]
         if self.action == "joint":
-            joints = hurcules.PostureTask("joints", plan)
-            channel, scale, units = joint_channel(joints, plan, self._model)
+            joints, channels = by_joints(self, plan, self._model, channels, self.beside)
             first = [*first, joints]
-            channels = {"joints": channel} | {name: channels[name] for name in self.beside}
-            self._command_joints(scale, units)
         return hurcules.WholeBodyController(plan, [*first, *rest], dict(channels), **options)
 
     def guards(self, plan: hurcules.Robot) -> list[Any]:
@@ -151,15 +148,6 @@ class ContactEnvironment(Environment):
         return hurcules.Simulation(
             model=self._model, controller=controller, record=False, fall=fall
         )
-
-    def _command_joints(self, scale: Array, units: Sequence[str]) -> None:
-        kept = {name: unit for name, unit in self.units.items() if name in self.beside}
-        self.units = {"joints": units, **kept}
-        self.actions, self.components = {"joints": scale, **self.beside}, {}
-        if "q" not in self.quantities:
-            seen = [group for group in self.observation if group.name != "lead"]
-            self.observation = (*seen, Group("q", len(scale), "rad", 10.0, "coordinates"))
-            self.quantities = (*self.quantities, "q")
 
     @abstractmethod
     def scene(self) -> mujoco.MjSpec:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules.validation import require_known
+from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.drawing import add_arrow
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.rotations import quaternion
@@ -46,6 +47,9 @@ class Drive(Environment):
     | 1     | drive_yaw_rate | rad/s | 1.0   | yaw rate, > 0 to the left                        |
     | 2     | legs           | rad/s | 0.3   | both knees: > 0 lifts the body on its lower legs |
 
+    With the action "joint" the velocity of each coordinate's reference comes first, in place of the
+    legs alone, and the observation ends with the coordinates.
+
     Observation: Dict of `observation` (15,), `achieved_goal` and `desired_goal` (4,): x, y [m],
     cosine and sine of the heading.
 
@@ -78,6 +82,7 @@ class Drive(Environment):
         terrain_seed: int = 0,
         sparse: bool = False,
         rate: float = 10.0,
+        action: str = "twist",
     ) -> None:
         """Builds robot, ground and loop.
 
@@ -87,10 +92,12 @@ class Drive(Environment):
             terrain_seed: of one of the last four, which are drawn; the others are as they are.
             sparse: reward of success and fall only.
             rate: steps a second [Hz].
+            action: "twist" (the table), or "joint": tracks, and the velocity of each coordinate.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
+        require_known("action", action, TWINS)
         require_known("terrain", terrain, TERRAINS)
         if fidelity == "kinematic" and terrain != "flat":
             raise hurcules.Error(f"fidelity: without physics the ground is flat, not {terrain}")
@@ -106,32 +113,6 @@ class Drive(Environment):
         robot = hurcules.Robot(model)
         robot.set_keyframe("drive")
         self._qpos = robot.qpos.copy()
-        legs = hurcules.PostureTask("legs", robot, ["KN"])
-        legs.max_lead = 0.2
-        posture = hurcules.PostureTask("posture", robot)
-        controller = hurcules.WholeBodyController(
-            robot,
-            [legs, posture],
-            {
-                "drive": hurcules.Drive(SPEED, YAW_RATE),
-                "legs": hurcules.Twist(legs, LEGS),
-            },
-            dt=tick,
-            base="sensed",
-            drive=hurcules.DriveOptions(),
-            torque_scaling=physics,
-        )
-        self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
-        self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
-        if physics:
-            model = hurcules.models.with_timestep(model, tick)
-        self.simulation = hurcules.Simulation(
-            model=model,
-            controller=controller,
-            record=False,
-            physics=physics,
-            fall=hurcules.FallOptions("upper_legs", max_tilt=TILT),
-        )
         self.goal = 4
         self.memory = {"goal": 4, "before": 4, "now": 4}  # the last two as they are seen
         self.memory |= dict.fromkeys(("way", "skew", "gained", "aligned", "speed", "done"), 1)
@@ -150,6 +131,47 @@ class Drive(Environment):
             Group("up", 3, "1", 1.0, "the vertical, seen from the robot"),
             Group("legs", 1, "rad", 4.0, "knee"),
             Group("margin", 1, "m", 2.0, "of the centre of mass within what it stands on"),
+        )
+        self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
+        self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
+        controller = self._controller(robot, model, action, tick, physics=physics)
+        if physics:
+            model = hurcules.models.with_timestep(model, tick)
+        self.simulation = hurcules.Simulation(
+            model=model,
+            controller=controller,
+            record=False,
+            physics=physics,
+            fall=hurcules.FallOptions("upper_legs", max_tilt=TILT),
+        )
+
+    def _controller(
+        self,
+        plan: hurcules.Robot,
+        model: mujoco.MjModel,
+        action: str,
+        tick: float,
+        *,
+        physics: bool,
+    ) -> hurcules.WholeBodyController:
+        legs = hurcules.PostureTask("legs", plan, ["KN"])
+        legs.max_lead = 0.2
+        channels: dict[str, Any] = {
+            "drive": hurcules.Drive(SPEED, YAW_RATE),
+            "legs": hurcules.Twist(legs, LEGS),
+        }
+        first = legs
+        if action == "joint":
+            drive = {"drive": self.actions["drive"]}
+            first, channels = by_joints(self, plan, model, channels, drive)
+        return hurcules.WholeBodyController(
+            plan,
+            [first, hurcules.PostureTask("posture", plan)],
+            channels,
+            dt=tick,
+            base="sensed",
+            drive=hurcules.DriveOptions(),
+            torque_scaling=physics,
         )
 
     def start(self, generator: np.random.Generator) -> Start:
@@ -211,7 +233,7 @@ class Drive(Environment):
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Progress and heading, then what ends the episode."""
         shaped = 0.0 if self.sparse else 1.0
-        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / 3.0
+        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
         return {
             "progress": shaped * numbers["gained"][:, 0],
             "heading": shaped * numbers["aligned"][:, 0],

@@ -1,12 +1,17 @@
 """Why an episode is over: what `info["ending"]` says."""
 
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
 from enum import IntEnum
+from typing import Any
 
 __all__ = ["Ending"]
 
 
 class Ending(IntEnum):
-    """The endings of simulations, `hurcules.Ending`, and the time limit of a vector."""
+    """The endings of simulations, `hurcules.Ending`, and the limit of steps."""
 
     Running = 0
     Completed = 1
@@ -17,3 +22,19 @@ class Ending(IntEnum):
     SolverFailed = 6
     Held = 7
     TimeLimit = 8
+
+    @classmethod
+    def of(cls, info: Mapping[str, Any], truncated: bool) -> Ending:
+        """Of a step of a single environment, whose limit is a wrapper that `info` knows nothing of.
+
+        Args:
+            info: of the step.
+            truncated: what the step gave.
+        """
+        ending = cls(int(info["ending"]))
+        return cls.TimeLimit if truncated and ending == cls.Running else ending
+
+    @property
+    def text(self) -> str:
+        """Its name in words: "time limit"."""
+        return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", self.name).lower()

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import hurcules
 from hurcules.shares import wilson
+from hurcules_envs.endings import Ending
 from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import full_id, make_episodes, steps_of_episode
@@ -39,6 +39,7 @@ class Evaluation:
         limit_excess: worst, measured [rad].
         self_contacts: share of steps in which the robot touched itself.
         mean_cost: sum of `cost` in info, mean.
+        endings: how many episodes were over by each `Ending`, by its name.
     """
 
     episodes: int
@@ -52,6 +53,7 @@ class Evaluation:
     limit_excess: float
     self_contacts: float
     mean_cost: float
+    endings: dict[str, int]
 
 
 def evaluate(
@@ -84,7 +86,8 @@ def evaluate(
         act.check(environment, eyes.observation_space, batch.single_action_space)
     seen = batch.look(remember=None)
     running = np.ones(episodes, dtype=bool)
-    success, fell, failed = (np.zeros(episodes, dtype=bool) for _ in range(3))
+    success, failed = np.zeros(episodes, dtype=bool), np.zeros(episodes, dtype=bool)
+    endings = np.full(episodes, Ending.TimeLimit)
     returns, lengths = np.zeros(episodes), np.zeros(episodes)
     touching, excess, cost = 0.0, 0.0, 0.0
     shape = (episodes, len(batch.action_scale))
@@ -101,11 +104,13 @@ def evaluate(
             excess = max(excess, float(info["limit_excess"][running].max()))
             success[running] = info["is_success"][running]
             failed[running] = info["failed"][running]
-            fell[running] = info["ending"][running] == int(hurcules.Ending.Fell)
-            running &= ~seen.terminated
+            ended = running & seen.terminated
+            endings[ended] = info["ending"][ended]
+            running &= ~ended
             if not running.any():
                 break
     low, high = wilson(int(success.sum()), episodes)
+    fell = endings == Ending.Fell
     return Evaluation(
         episodes=episodes,
         success=float(success.mean()),
@@ -118,4 +123,5 @@ def evaluate(
         limit_excess=excess,
         self_contacts=touching / float(lengths.sum()),
         mean_cost=cost / episodes,
+        endings={one.name: n for one in Ending if (n := int((endings == one).sum()))},
     )

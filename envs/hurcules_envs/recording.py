@@ -22,6 +22,7 @@ import numpy as np
 import hurcules
 from hurcules.validation import require_known
 from hurcules_envs.data_formats import FORMATS
+from hurcules_envs.endings import Ending
 from hurcules_envs.episode_data import Episode, Recording
 from hurcules_envs.registry import full_id, steps_of_episode
 
@@ -219,6 +220,8 @@ def record_episode(env: Any, act: Act, seed: int) -> Episode:
         action = np.clip(np.asarray(chosen, dtype=np.float32), -1.0, 1.0)
         observation, reward, terminated, truncated, info = env.step(action)
         over = terminated or truncated
+        if "ending" in info:
+            info = {**info, "ending": np.int64(Ending.of(info, truncated))}
         seen.append(_parts(observation))
         told.append(info)
         steps.append((action, reward, terminated, truncated))

@@ -33,6 +33,10 @@ __all__ = [
 class UnknownOption(hurcules.Error, TypeError):
     """A keyword that an environment has not: a TypeError too, as Python and TorchRL expect."""
 
+    def __init__(self, text: str) -> None:
+        """Without what `gymnasium.make` adds to a TypeError: all arguments as Python has them."""
+        super().__init__(text.partition(" was raised from the environment creator")[0])
+
 
 def register(name: str, environment: str, max_episode_steps: int, **options: Any) -> None:
     """Makes an environment known to `gymnasium.make` and `gymnasium.make_vec`.
@@ -137,7 +141,10 @@ def native_options(name: str, options: Mapping[str, Any]) -> dict[str, Any]:
     """
     given = {**spec_of(name).kwargs, **options}
     if "environment" not in given:
-        raise hurcules.Error(f"{name} has no native vector")
+        raise hurcules.Error(
+            f"{name} has no native vector, which is wanted here: that has what "
+            "hurcules_envs.register made known, Stretch-v1 say"
+        )
     return given
 
 

@@ -18,8 +18,9 @@ from hurcules.plugins import PolicyOptions
 from hurcules.rendering import RendererError
 from hurcules.run import DONE, FAILED, INTERRUPTED, progress_bar
 from hurcules.video import encode
+from hurcules_envs.endings import Ending
 from hurcules_envs.policy import Policy
-from hurcules_envs.registry import fidelities_of, full_id, steps_of_episode
+from hurcules_envs.registry import fidelities_of, full_id, native_options, steps_of_episode
 
 __all__ = ["environment_of", "run_policy"]
 
@@ -51,11 +52,11 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
     name = full_id(given) if given else policy.environment
     if not name:
         raise hurcules.Error(f"{policy.path} does not say its environment: name one, Reach-v0 say")
+    known = fidelities_of(name)
     if policy.environment and name != policy.environment:
         raise hurcules.Error(
             f"{policy.path}: wanted a policy of {name}, got one of {policy.environment}"
         )
-    known = fidelities_of(name)
     chosen = {option: value for option, value in others.items() if value}
     if not known and chosen.get("fidelity") == "exact":  # there is no other
         del chosen["fidelity"]
@@ -80,7 +81,8 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
         The exit code: DONE after a success, FAILED, or INTERRUPTED.
 
     Raises:
-        hurcules.Error: there is no such policy, or it does not fit the environment.
+        hurcules.Error: there is no such policy, it does not fit the environment, or that has no
+            native vector.
         hurcules.output.WriteError: a file could not be written.
     """
     policy = Policy(options.policy)
@@ -88,6 +90,7 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
         policy, options.environment, fidelity=options.fidelity, robot=options.robot,
         frames=options.frames,
     )  # fmt: skip
+    native_options(name, settings)
     lost = extras.without() if options.video else "not asked for (--no-video)"
     steps = steps_of_episode(name, settings)
     mode = None if lost else "rgb_array"
@@ -115,6 +118,8 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
             console.print(f"no film: {episode.undrawn}", style="yellow", markup=False)
     env.close()
     _report(summary, output, console)
+    judged = f"hurcules evaluate {options.policy} {options.environment or ''}".rstrip()
+    console.print(f"one episode; how often it succeeds: {judged}", soft_wrap=True, markup=False)
     if interrupts.noted:
         return INTERRUPTED
     return DONE if summary["success"] else FAILED
@@ -127,6 +132,7 @@ class _Episode:
         self._env, self._draw = env, draw
         self.undrawn = ""  # why there are no pictures
         self.over, self.success, self.failed, self.time = False, False, False, 0.0
+        self.ending = Ending.Running
         self.pictures: list[Any] = []
         self.states: list[Any] = []  # qpos (nq,)
         self.actions: list[Any] = []
@@ -140,7 +146,7 @@ class _Episode:
     def step(self, policy: Policy) -> None:
         action = policy.one(self._seen)
         self._seen, reward, terminated, truncated, info = self._env.step(action)
-        self.over = terminated or truncated
+        self.over, self.ending = terminated or truncated, Ending.of(info, truncated)
         self.success, self.failed, self.time = info["is_success"], info["failed"], info["time"]
         self.actions.append(action)
         self.rewards.append(float(reward))
@@ -153,9 +159,10 @@ class _Episode:
         terms = [key for key in self.infos[0] if key.startswith("reward_")]
         reached = [i["time"] for i in self.infos if i["is_success"]]
         return {
-            "success": bool(self.success), "failed": bool(self.failed), "steps": len(self.rewards),
+            "success": bool(self.success), "failed": bool(self.failed), "ending": self.ending.name,
+            "steps": len(self.rewards),
             "simulated_seconds": float(self.time), "success_s": min(reached, default=None),
-            "return": sum(self.rewards),
+            "return": sum(self.rewards), "cost": float(sum(info["cost"] for info in self.infos)),
             **{key: float(sum(info[key] for info in self.infos)) for key in terms}, **worst,
         }  # fmt: skip
 
@@ -184,9 +191,12 @@ def _report(summary: dict[str, Any], output: Output, console: Console) -> None:
     table = Table(box=None, padding=(0, 3, 0, 0), show_header=False)
     table.add_column()
     table.add_column(justify="right")
+    if not summary["interrupted"]:
+        table.add_row("ending", Ending[summary["ending"]].text)
     if summary["success_s"] is not None:
         table.add_row("succeeded after", f"{summary['success_s']:.1f} s")
     table.add_row("return", f"{summary['return']:.2f}")
+    table.add_row("cost", f"{summary['cost']:g}")
     known = summary["options"].get("fidelity") != "kinematic"  # what only the physics says
     for key, label, unit, factor, _ in FIGURES:
         if key in PHYSICAL and not known:

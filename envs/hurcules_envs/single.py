@@ -10,13 +10,14 @@ from typing import Any
 import gymnasium
 import mujoco
 import numpy as np
-from gymnasium.error import ClosedEnvironmentError, ResetNeeded
+from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 import hurcules
 from hurcules import _core
 from hurcules.rendering import pose
 from hurcules.view import opened
+from hurcules_envs.checks import require_open
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
 from hurcules_envs.episodes import Episodes, Step, state_of
@@ -160,7 +161,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
             gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
             hurcules.Error: an option that does not exist, or a range that is none.
         """
-        self._require_open("reset")
+        require_open(self._closed, "reset")
         super().reset(seed=seed)
         # a limit is Gymnasium's, and is not told: what was cut after so many steps shows it
         warn_of_rate(self.spec, self.environment.rate, self._steps)
@@ -258,12 +259,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
             self.set_state(there["state"])
             self._steps = there["steps"]
 
-    def _require_open(self, call: str) -> None:
-        if self._closed:
-            raise ClosedEnvironmentError(f"{call}() of an environment that was closed")
-
     def _require_begun(self, call: str) -> None:
-        self._require_open(call)
+        require_open(self._closed, call)
         if not self._begun:
             raise ResetNeeded(f"no episode has begun: call reset() before {call}()")
 

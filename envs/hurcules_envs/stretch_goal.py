@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import lift, mjcf, scenes
+from hurcules.validation import require_known
+from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.contact import view
 from hurcules_envs.drawing import add_ball
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of
@@ -56,6 +58,9 @@ class Stretch(Environment):
     | 8 | pelvis | 0.15 | m/s | reference of the pelvis, forward |
     | 9 | gaze_0 | 0.3 | rad/s | line of sight of the head, to the left |
     | 10 | gaze_1 | 0.3 | rad/s | up |
+
+    With the action "joint" these are the velocities of the coordinates' references, and the
+    observation ends with the coordinates, without the lead.
 
     Observation:
 
@@ -113,19 +118,27 @@ class Stretch(Environment):
         "contact_force/casualty_pelvis", "monitor/static_margin_m",
     )  # fmt: skip
 
-    def __init__(self, fidelity: str = "exact", sparse: bool = False, rate: float = 20.0) -> None:
+    def __init__(
+        self,
+        fidelity: str = "exact",
+        sparse: bool = False,
+        rate: float = 20.0,
+        action: str = "twist",
+    ) -> None:
         """Builds robot, person, controller and loop.
 
         Args:
             fidelity: "exact", "fast" or "kinematic".
             sparse: reward of the ends alone.
             rate: steps a second [Hz].
+            action: "twist" (the table), or "joint", velocities of coordinates, for comparison.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         tick = tick_of(fidelity, rate)
-        self.sparse, self.rate = sparse, rate
+        require_known("action", action, TWINS)
+        self.sparse, self.rate, self._action = sparse, rate, action
         self.units = {
             "left": "m/s", "right": "m/s", "left_pitch": "rad/s", "right_pitch": "rad/s",
             "pelvis": "m/s", "gaze": "rad/s",
@@ -138,7 +151,7 @@ class Stretch(Environment):
         robot = hurcules.Robot(model)
         robot.set_keyframe("stretch")
         robot.stand_on(lift.SUPPORT)
-        controller = self._controller(robot, tick, physics=fidelity != "kinematic")
+        controller = self._controller(robot, model, tick, physics=fidelity != "kinematic")
         self.simulation = hurcules.Simulation(
             model=hurcules.models.with_timestep(model, tick),
             controller=controller,
@@ -164,7 +177,9 @@ class Stretch(Environment):
                 spec.delete(joint)
         return spec
 
-    def _controller(self, plan: hurcules.Robot, tick: float, *, physics: bool) -> Any:
+    def _controller(
+        self, plan: hurcules.Robot, model: mujoco.MjModel, tick: float, *, physics: bool
+    ) -> Any:
         limits = hurcules.JointLimits("joint", plan)
         for name, (lower, upper) in hurcules.mode_ranges("rescue_ready").items():
             limits.set_range(name, lower, upper)
@@ -176,10 +191,15 @@ class Stretch(Environment):
         pelvis = hurcules.PositionTask("pelvis", plan, "pelvis", axes=[[1.0, 0.0, 0.0]])
         gaze = hurcules.GazeTask("gaze", plan, "gaze")
         tasks = [*hands, *pitch, pelvis, gaze]
+        levels: list[Any] = [limits, apart, hands, pitch, pelvis, gaze]
+        channels: Any = {t.name: hurcules.Twist(t, self.actions[t.name]) for t in tasks}
+        if self._action == "joint":
+            joints, channels = by_joints(self, plan, model, channels, {})
+            levels.insert(2, joints)
         return hurcules.WholeBodyController(
             plan,
-            [limits, apart, hands, pitch, pelvis, gaze],
-            {task.name: hurcules.Twist(task, self.actions[task.name]) for task in tasks},
+            levels,
+            channels,
             dt=tick,
             support=lift.SUPPORT,
             torque_scaling=physics,

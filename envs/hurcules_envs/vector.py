@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 from gymnasium import logger, spaces
-from gymnasium.error import ClosedEnvironmentError, ResetNeeded
+from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules_envs.checks import require_open
 from hurcules_envs.copies import Copied
 from hurcules_envs.endings import Ending
 from hurcules_envs.environment import Numbers
@@ -140,7 +141,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
             hurcules.Error: an unknown option, a range that is none, or a mask of another shape.
         """
-        self._require_open("reset")
+        require_open(self.closed, "reset")
         ranges = dict(known_ranges(options or {}, "reset_mask"))
         mask = ranges.pop("reset_mask", None)
         chosen = np.ones(self.num_envs, dtype=bool) if mask is None else np.asarray(mask)
@@ -252,10 +253,6 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             if one is not None:
                 one.close()
 
-    def _require_open(self, call: str) -> None:
-        if self.closed:
-            raise ClosedEnvironmentError(f"{call}() of a vector that was closed")
-
     def _went_on(self) -> dict[str, Any]:
         ranges = dict(self._episodes.randomisation.ranges)
         return {"ranges": ranges, "state": self.get_state() if self._begun else None}
@@ -266,7 +263,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             self.set_state(there["state"])
 
     def _require_begun(self, call: str) -> None:
-        self._require_open(call)
+        require_open(self.closed, call)
         if not self._begun:
             waiting = np.flatnonzero(self._steps < 0).tolist()
             raise ResetNeeded(f"episodes {waiting} have not begun: call reset() before {call}()")

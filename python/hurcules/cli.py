@@ -139,7 +139,7 @@ def run_mission(
 
     A test method tries harder and harder settings until one fails. Its parameter's name selects
     settings instead, and other parameters of its scene may follow (degrees, m). A policy acts for
-    an episode of its environment.
+    one episode of its environment; `hurcules evaluate` tells how often it succeeds.
 
     Exit status: 0 done, 1 the mission failed (`summary.json` says why), with --seeds one of them,
     2 wrong usage, 130 Ctrl-C.
@@ -172,6 +172,7 @@ def run_mission(
     """
     _require_no_option(mission)
     if policy is not None:
+        _refuse(context, ("seeds",), "not with --policy; `hurcules evaluate` judges many episodes")
         _refuse(context, (*_MISSION_OPTIONS, *_METHOD_OPTIONS[1:]), "not with --policy")
         if context.args:
             raise Error(f"unexpected argument: {context.args[0]}")

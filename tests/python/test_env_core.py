@@ -27,6 +27,7 @@ from hurcules_envs.registry import (
     make_episodes,
     steps_of_episode,
 )
+from hurcules_envs.stretch import StretchEnv
 
 FAST = {"fidelity": "kinematic"}
 IDS = [
@@ -36,7 +37,10 @@ IDS = [
     ("Hurcules/Reach-v0", {**FAST, "action": "pose"}),
     ("Hurcules/ReachJoint-v0", FAST),
     ("Hurcules/ReachPrecise-v0", FAST),
+    ("Hurcules/ReachPreciseJoint-v0", FAST),
     ("Hurcules/Drive-v0", FAST),
+    ("Hurcules/DriveJoint-v0", FAST),
+    ("Hurcules/StretchJoint-v1", FAST),
     ("Hurcules/Drive-v0", {**FAST, "flat": True}),
     ("Hurcules/Drive-v0", {"fidelity": "fast", "terrain": "ramps"}),
 ]
@@ -49,6 +53,8 @@ def same(one, other):
 
 
 def row(observation, i):
+    if not isinstance(observation, dict):
+        return observation[i]
     return {name: v[i] for name, v in observation.items()}
 
 
@@ -345,6 +351,7 @@ def test_the_reward_of_a_drive_counts_the_way_that_it_came():
         ("ReachPrecise-v0", {"action": "pose"}, ["m"] * 6 + ["rad"] * 6),
         ("ReachJoint-v0", {}, ["rad/s"] * 13),
         ("Drive-v0", {}, ["m/s", "rad/s", "rad/s"]),
+        ("DriveJoint-v0", {}, ["rad/s"] * 13 + ["m/s", "rad/s"]),
     ],
 )
 def test_actions_have_units(name, options, units):
@@ -352,6 +359,26 @@ def test_actions_have_units(name, options, units):
     assert env.action_units == units
     vector = gym.make_vec(f"Hurcules/{name}", num_envs=1, **FAST, **options)
     assert vector.action_units == units
+
+
+@pytest.mark.parametrize("name", ["ReachPreciseJoint-v0", "DriveJoint-v0", "StretchJoint-v1"])
+def test_a_twin_moves_the_coordinate_that_is_commanded_and_ends_its_observation_with_them(name):
+    env = gym.make(f"Hurcules/{name}", **FAST).unwrapped
+    seen, _ = env.reset(seed=0)
+    action = np.zeros(env.action_space.shape, np.float32)
+    moving = env.action_names.index("joints_3")
+    action[moving] = -1.0
+    before = env.numbers["q"].copy()
+    for _ in range(4):
+        seen, _, terminated, _, info = env.step(action)
+    moved = (env.numbers["q"] - before)[0]
+    assert not terminated and moved[3] < -0.1 * env.action_scale[moving]
+    assert abs(moved).argmax() == 3 and np.delete(abs(moved), 3).max() < 1e-3
+    flat = seen["observation"] if isinstance(seen, dict) else seen
+    assert np.allclose(flat[-len(moved) :], env.numbers["q"][0], atol=1e-6)
+    assert info["commanded_excess"] == 0.0
+    with pytest.raises(hurcules.Error, match="action 'torque' does not exist; there are: twist"):
+        gym.make(f"Hurcules/{name}", action="torque", **FAST)
 
 
 def test_specs_and_environments_can_be_stored():
@@ -593,7 +620,8 @@ def test_the_last_fidelity_is_what_training_takes(name: str, known: tuple[str, .
 
 def test_what_was_closed_is_not_stepped() -> None:
     vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, fidelity="kinematic")
-    for env in (vector, gym.make("Hurcules/Reach-v0", fidelity="kinematic").unwrapped):
+    reach = gym.make("Hurcules/Reach-v0", fidelity="kinematic").unwrapped
+    for env in (vector, reach, StretchEnv()):
         env.reset(seed=0)
         env.close()
         for use in (env.reset, lambda env=env: env.step(np.zeros(env.action_space.shape))):

@@ -19,6 +19,7 @@ import hurcules
 import hurcules_envs
 from hurcules.cli import main
 from hurcules.shares import wilson
+from hurcules_envs.endings import Ending
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, read, write
 from hurcules_envs.policy import Policy, shipped
@@ -75,6 +76,41 @@ def test_a_policy_acts_in_one_line_and_is_judged(tmp_path: Path) -> None:
     assert wilson(8, 8) == pytest.approx((0.676, 1.0), abs=1e-3)  # Wilson (1927)
 
 
+def test_endings_are_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ahead = np.tile([[0.0] * 11, [1.0, 0.0, 0.0] * 2 + [0.0] * 5], (2, 1))  # holds, goes too far
+    result = evaluate(lambda _: ahead, "Stretch-v1", 4, fidelity="kinematic")
+    assert result.endings == {"Missed": 2, "TimeLimit": 2}
+    assert (result.failures, result.falls) == (0.5, 0.0)
+    weights = {"weight": np.zeros((28, 11)), "bias": ahead[1]}
+    nodes = (Node("Gemm", ("observation", "weight", "bias"), ("action",)),)
+    metadata = {"environment": "Hurcules/Stretch-v1"}
+    write(tmp_path / "a.onnx", Graph(nodes, weights, {"observation": 28}, {"action": 11}, metadata))
+    words = [str(tmp_path / "a.onnx"), "--fidelity", "kinematic", "--out", str(tmp_path)]
+    assert main(["run", "--policy", *words, "--no-video"]) == 1
+    said = " ".join(capsys.readouterr().out.split())
+    assert "failed, " in said and "ending missed return -" in said
+    assert f"hurcules evaluate {tmp_path / 'a.onnx'}" in said
+    assert main(["evaluate", *words, "--episodes", "2"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "success 0% (0% to 66%) endings 2 missed return -" in said
+    figures = json.loads((tmp_path / "evaluation.json").read_text())
+    assert figures["endings"] == {"Missed": 2}
+
+
+def test_a_single_environment_whose_limit_is_a_wrapper_has_the_vectors_ending() -> None:
+    options = {"fidelity": "kinematic", "max_episode_steps": 2}
+    env = gymnasium.make("Hurcules/Reach-v0", **options)
+    vector = gymnasium.make_vec("Hurcules/Reach-v0", num_envs=1, **options)
+    for one in (env, vector):
+        one.reset(seed=0)
+    for _ in range(2):
+        *_, truncated, info = env.step(np.zeros(6, np.float32))
+        wanted = vector.step(np.zeros((1, 6), np.float32))[4]["ending"][0]
+        assert Ending.of(info, truncated) == wanted
+    assert truncated and Ending.of(info, truncated).text == "time limit"
+    assert Ending.of({"ending": 4}, True) == Ending.Fell
+
+
 @pytest.mark.parametrize("name", sorted(shipped()))
 def test_what_ships_solves_its_environment(name: str) -> None:
     policy = Policy(name.split("/")[1])
@@ -115,6 +151,7 @@ def test_the_command_line_runs_an_episode(tmp_path: Path) -> None:
     assert main([*words, "--out", str(tmp_path)]) == 0
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert (summary["success"], summary["steps"], summary["seed"]) == (True, 100, 3)
+    assert (summary["ending"], summary["cost"]) == ("TimeLimit", 0.0)
     terms = [value for key, value in summary.items() if key.startswith("reward_")]
     assert sum(terms) == pytest.approx(summary["return"])
     with np.load(tmp_path / "episode.npz") as episode:
@@ -135,7 +172,8 @@ def test_an_episode_that_was_interrupted_is_no_failure(
     monkeypatch.setattr(Policy, "one", acts)
     words = ["run", "--policy", "Reach-v0", "--fidelity", "kinematic", "--no-video"]
     assert main([*words, "--out", str(tmp_path)]) == 130
-    assert "\ninterrupted, 0.1 s, 1 steps\n" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "\ninterrupted, 0.1 s, 1 steps\n" in said and "ending" not in said
 
 
 def test_an_episode_lasts_as_long_at_the_rate_of_its_policy(tmp_path: Path) -> None:
@@ -190,7 +228,13 @@ def test_policies_of_others_are_refused(tmp_path: Path, capsys: pytest.CaptureFi
     assert "wanted the inputs achieved_goal (4), desired_goal (4), observation (15)" in complaint(
         "evaluate", bare, "Drive-v0", "--fidelity", "kinematic", "--episodes", "1"
     )
-    assert "does not exist" in complaint("run", "--policy", bare, "Fly-v0")
+    for file in (bare, reach):  # of the second it said that it is no policy of Fly-v0
+        assert "'Hurcules/Fly-v0' does not exist" in complaint("run", "--policy", file, "Fly-v0")
+    assert "Stretch-v0 has no native vector" in complaint("run", "--policy", bare, "Stretch-v0")
+    other = linear(tmp_path / "c.onnx", metadata=REACH | {"options": '{"colour": "red"}'})
+    said = complaint("run", "--policy", str(other), "--no-video")
+    assert "option 'colour' does not exist" in said
+    assert said.endswith(", push, payload\n")  # Gymnasium's words about its creator came after it
     assert "for policies" in complaint("run", "stretch", "--fidelity", "fast")
     assert "not with --policy" in complaint("run", "--policy", reach, "--seconds", "3")
 

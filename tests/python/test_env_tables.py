@@ -1,10 +1,14 @@
 """The tables in the text of each environment are compared with its spaces and its reward."""
 
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import gymnasium
 import numpy as np
 
+import hurcules_envs
 from environments import env
 from hurcules_envs.base import HurculesEnv
 
@@ -64,3 +68,14 @@ def test_the_coordinates_stand_in_the_order_of_the_text(env: HurculesEnv) -> Non
     text = " ".join((type(env).__doc__ or "").split())
     positions = [name[2:] for name in env.observation_names if name.startswith("q/")]
     assert ", ".join(positions) in text
+
+
+def test_the_page_of_each_environment_is_the_text_of_the_classes(root: Path) -> None:
+    script = root / "benchmarks" / "figures" / "each_environment.py"
+    done = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    text = (root / "docs" / "each_environment.md").read_text(encoding="utf-8")
+    for name in hurcules_envs.ENVIRONMENTS:
+        assert name.split("/")[1] in text
+    for picture in re.findall(r"!\[.*?\]\((.*?)\)", text):
+        assert (root / "docs" / picture).is_file()

@@ -22,6 +22,7 @@ import hurcules
 from hurcules.cli import main
 from hurcules_envs import recording
 from hurcules_envs.data_formats import FORMATS, Format, _robot_type
+from hurcules_envs.endings import Ending
 from hurcules_envs.episode_data import Episode, Recording
 from hurcules_envs.onnx_file import Graph, write
 from hurcules_envs.stretch import StretchEnv
@@ -333,6 +334,7 @@ def test_who_acts_ends_an_episode_or_begins_it_anew(tmp_path, plain):
     first, second = plain
     assert (first.seed, len(first.actions), first.success) == (0, 6, False)
     assert first.truncated.tolist() == [False] * 5 + [True] and not first.terminated.any()
+    assert not first.infos["ending"].any()  # no limit cut it
     assert (second.seed, second.success, bool(second.terminated[-1])) == (1, True, True)
     assert np.array_equal(
         first.actions[0], recording.record_episode(gym.make(NAME, **FAST), expert, 0).actions[0]
@@ -369,6 +371,8 @@ def test_recorded_episodes_last_as_long_at_any_rate(tmp_path, plain):
     for given, steps in (({"rate": 10}, 50), ({"rate": 10, "max_episode_steps": 7}, 7)):
         recording.record("Reach-v0", holds, 1, tmp_path / str(steps), form="plain", **FAST, **given)
         assert len(plain[0].actions) == steps
+        ending = plain[0].infos["ending"]  # the wrapper that cuts it tells no info
+        assert ending.tolist() == [int(Ending.Running)] * steps + [int(Ending.TimeLimit)]
 
 
 def test_what_is_kept_is_told_and_never_thrown_away(tmp_path, plain):
