@@ -21,6 +21,7 @@ from hurcules_envs.contact import (
     add_force_sensor,
     box_mark,
     resize_box,
+    stiffen_fingers,
     view,
 )
 from hurcules_envs.environment import Array, Group, Numbers, Start
@@ -47,6 +48,8 @@ HALF = np.array([[0.05, 0.19, 0.09], [0.06, 0.25, 0.14]])  # [m] half sizes of t
 ASIDE = 0.02  # [m] of the box from the table's middle
 GOAL = np.array([[0.0, -0.06, 0.08], [0.10, 0.06, 0.25]])  # [m] from where the box stands
 YAW = 0.2  # [rad] of the goal to either side
+# what bends with it keeps so far [m] from the table: it leant on that, and fell
+TRUNK, OFF = ("pelvis_drum", "waist_top", "torso", "L_uarm", "R_uarm"), 0.06
 
 
 class Carry(ContactEnvironment):
@@ -228,6 +231,7 @@ class Carry(ContactEnvironment):
         )  # fmt: skip
         for side in "LR":
             add_force_sensor(spec, f"{side}_feel", f"{side}_wr2")
+        stiffen_fingers(spec)
         return spec
 
     def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:
@@ -275,9 +279,12 @@ class Carry(ContactEnvironment):
         return simulation
 
     def guards(self, plan: hurcules.Robot) -> list[Any]:
-        """Of a robot of one's own: pads and table count too."""
+        """The table counts too: for the trunk, and of a robot of one's own for all of it."""
         if self._own is None:
-            return super().guards(plan)
+            *levels, apart = super().guards(plan)
+            pairs = [(part, "table") for part in TRUNK]
+            table = hurcules.DistanceTask("table", plan, pairs, OFF, 2 * OFF, as_it_stands=True)
+            return [*levels, [*apart, table]]
         return Safety(self._own.setup.name, self._model, plan, "").levels(plan)
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:

@@ -17,6 +17,7 @@ from hurcules.validation import require_known
 from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.environment import Array, Environment, Numbers, tick_of
 from hurcules_envs.robots import load_robot
+from hurcules_envs.safety import STANDS, TIPS
 from hurcules_envs.standing import SUPPORT
 
 __all__ = [
@@ -26,11 +27,13 @@ __all__ = [
     "contact_tick",
     "euler_quat",
     "resize_box",
+    "stiffen_fingers",
     "view",
 ]
 
 PHYSICS = ("exact", "fast")  # fidelities
 TILT = 0.35  # [rad] of what it stands on: it falls
+STOP = 0.008  # [s] time constant of a finger's stops, two ticks of "fast"
 
 
 def contact_tick(fidelity: str, rate: float) -> float:
@@ -64,7 +67,8 @@ class ContactEnvironment(Environment):
         body: the robot, "rescue" or "manipulation".
         support: what it stands on, "" for a fixed base.
         clear: by body what it keeps from the ground [m] in place of what is usual, 0: nothing.
-        hanging: [m] that its parts in springs keep, None: what is usual.
+        hanging: [m] that its parts in springs keep from its tracks, None: what is usual.
+        within: [m] that centre of mass and zero moment point keep within its contacts.
     """
 
     fidelities = PHYSICS
@@ -72,6 +76,7 @@ class ContactEnvironment(Environment):
     support: str = SUPPORT
     clear: ClassVar[Mapping[str, float]] = MappingProxyType({})
     hanging: ClassVar[float | None] = None
+    within: ClassVar[tuple[float, float]] = (STANDS, TIPS)
     action: str = "twist"
     beside: Mapping[str, float | Array] = MappingProxyType({})
 
@@ -139,7 +144,7 @@ class ContactEnvironment(Environment):
     def guards(self, plan: hurcules.Robot) -> list[Any]:
         """The safe levels of the robot where it stands in the scene."""
         return load_robot(self.body).safety.levels_in_scene(
-            self._model, plan, self.clear, self.hanging
+            self._model, plan, self.clear, self.hanging, self.within
         )
 
     def loop(self, controller: hurcules.WholeBodyController) -> hurcules.Simulation:
@@ -194,6 +199,16 @@ def add_force_sensor(spec: mujoco.MjSpec, name: str, body: str) -> None:
     )
     found, force = mujoco.mjtConDataField.mjCONDATA_FOUND, mujoco.mjtConDataField.mjCONDATA_FORCE
     sensor.intprm[:3] = [(1 << int(found)) | (1 << int(force)), 3, 1]  # data, net force, one of it
+
+
+def stiffen_fingers(spec: mujoco.MjSpec) -> None:
+    """Stops of fingers and their pads hold: as MuJoCo has them they give, and fingers meet.
+
+    A side load of 600 N on one of two closed fingers took up the 10 mm between them.
+    """
+    for joint in spec.joints:
+        if "_grip_" in joint.name or "_pad_" in joint.name:
+            joint.solref_limit = [STOP, 1.0]
 
 
 def euler_quat(roll: float, pitch: float, yaw: float) -> Array:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
-from hurcules_envs.contact import ContactEnvironment, add_force_sensor, view
+from hurcules_envs.contact import ContactEnvironment, add_force_sensor, stiffen_fingers, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
 from hurcules_envs.standing import SUPPORT, place_hands, settle
 
@@ -108,6 +108,7 @@ class Door(ContactEnvironment):
         body = spec.worldbody.add_body(name="door", pos=[*DOOR, 0.0])
         spec.attach(child, prefix="door_", frame=body.add_frame())
         add_force_sensor(spec, "R_feel", "R_hand")
+        stiffen_fingers(spec)
         return spec
 
     def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:

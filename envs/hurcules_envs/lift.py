@@ -87,8 +87,9 @@ class Lift(ContactEnvironment):
     body = "rescue"
     hanging = 0.02  # hands go 0.2 m/s and hardly swing; the lift leads 18 mm from a track
     clear: ClassVar[Mapping[str, float]] = MappingProxyType(
-        {"L_larm": 0.0, "R_larm": 0.0}
-    )  # scoops
+        # scoops; and the lift leads upper arms down to 50 mm
+        {"L_larm": 0.0, "R_larm": 0.0, "L_uarm": 0.02, "R_uarm": 0.02}
+    )
     task_description = "Drive the arms under the person and lift him off the ground."
     terms = ("under", "raised", "harm", "success")
     observation = (
@@ -120,10 +121,6 @@ class Lift(ContactEnvironment):
         "position/casualty_thorax", "position/casualty_pelvis", "sensor/casualty_centre",
         "sensor/casualty_lies", "sensor/L_feel", "sensor/R_feel",
     )  # fmt: skip
-
-    def __init__(self, *, safe: bool = False, **options: Any) -> None:
-        """See `ContactEnvironment`; the safe levels are off: they make this lift slower."""
-        super().__init__(safe=safe, **options)
 
     def _build(self, model: mujoco.MjModel, tick: float) -> None:
         tracks = ("m/s", "rad/s")

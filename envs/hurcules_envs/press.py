@@ -84,7 +84,8 @@ class Press(ContactEnvironment):
     body = "rescue"
     # the hand that presses is commanded below the plate, as far as its spring gives
     clear: ClassVar[Mapping[str, float]] = MappingProxyType({"R_larm": 0.04})
-    hanging = 0.02  # hands that go 0.1 m/s hardly swing, and the path leads 26 mm from a track
+    hanging = 0.02  # the path leads 24 mm from a track
+    within = (0.20, 0.16)  # it kneels in the middle; nearer the edge it rocked, and fell
     task_description = "Press on the surface with the wanted force while sliding along the path."
     terms = ("distance", "force", "passed", "success")
     observation = (

@@ -7,7 +7,7 @@ flat ground; in a scene the same pairs keep their distances, as the robot stands
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 import hurcules
 
-__all__ = ["FIRM", "STANDS", "Safety", "on_tracks", "support_polygon"]
+__all__ = ["FIRM", "STANDS", "TIPS", "Safety", "on_tracks", "support_polygon"]
 
 Array = NDArray[np.float64]
 
@@ -96,18 +96,22 @@ class Safety:
         plan: hurcules.Robot,
         clear: Mapping[str, float] = NO_OTHERS,
         hanging: float | None = None,
+        within: tuple[float, float] = (STANDS, TIPS),
     ) -> list[Any]:
         """The same in a scene. What is nearer than its margin there keeps half of what it has.
 
         Args:
             model: the scene.
             plan: the robot in it, where it stands.
-            clear: by body what it and all that hangs on it keep from the ground [m]; 0: nothing.
-            hanging: [m] that parts in springs keep, where they swing less; None: `apart_by`.
+            clear: by body what it and all that hangs on it keep from the ground [m], but for what
+                hangs on another one of these; 0: nothing.
+            hanging: [m] that parts in springs keep from the tracks, where they swing less; None:
+                `apart_by`.
+            within: [m] that centre of mass and zero moment point keep within the contacts.
         """
         polygon, height = support_polygon(model, plan, self._support)
         room = 0.5 * _room(plan, polygon, self._support)
-        margins = min(STANDS, room), min(TIPS, room)
+        margins = (min(margin, room) for margin in within)
         standing = _standing(plan, polygon, self._support, height, *margins)
         return [*standing, self.distances_in_scene(model, plan, clear, hanging)]
 
@@ -120,16 +124,17 @@ class Safety:
     ) -> list[hurcules.DistanceTask]:
         """The last of these levels, see `levels_in_scene`."""
         kept: list[_Kept] = []
-        for found in self._kept:
-            one = found
-            if hanging is not None and found.name.endswith(SWINGS):
-                one = replace(found, margin=hanging)
+        for one in self._kept if hanging is None else self._beside_tracks(hanging):
             # parts that are not mounted here are left out
             ids = {pair: [_geom(model, name) for name in pair] for pair in one.pairs}
             bodies = {pair: _grounded(model, both) for pair, both in ids.items() if min(both) >= 0}
-            mine = {name: model.body(name).id for name in clear}
-            own = {name: [p for p in bodies if mine[name] in bodies[p]] for name in clear}
-            others = [p for p in bodies if not any(p in pairs for pairs in own.values())]
+            by_id = {int(model.body(name).id): name for name in clear}
+            # of a pair the named body that is nearest to its part
+            owner = {p: max(chain & by_id.keys(), default=0) for p, chain in bodies.items()}
+            own = {
+                name: [p for p, body in owner.items() if by_id.get(body) == name] for name in clear
+            }
+            others = [p for p, body in owner.items() if not body]
             kept.append(replace(one, pairs=others))
             kept += [
                 replace(one, name=f"{one.name} of {name}", pairs=pairs, margin=clear[name])
@@ -137,6 +142,18 @@ class Safety:
                 if clear[name] > 0.0
             ]
         return [one.task(plan) for one in kept if one.pairs]
+
+    def _beside_tracks(self, margin: float) -> Iterator[_Kept]:
+        """What is kept, where parts in springs keep another margin [m] from the tracks."""
+        model = self._model
+        tracks = {model.geom(i).name for i in np.flatnonzero(model.geom_contype == TRACK)}
+        for one in self._kept:
+            if not one.name.endswith(SWINGS):
+                yield one
+                continue
+            beside = [pair for pair in one.pairs if tracks & set(pair)]
+            yield replace(one, pairs=[pair for pair in one.pairs if pair not in beside])
+            yield replace(one, name=f"{one.name} beside tracks", pairs=beside, margin=margin)
 
     def apart(self) -> hurcules.DistanceTask:
         """Parts of the robot keep away from each other, all by `apart_by`."""

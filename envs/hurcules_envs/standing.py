@@ -76,4 +76,8 @@ def settle(simulation: hurcules.Simulation) -> hurcules.Robot:
     robot = hurcules.Robot(simulation.model)
     robot.set_qpos(simulation.data.qpos)
     robot.stand_on(SUPPORT)
+    q, ends = robot.configuration, robot.coordinates
+    within = np.clip(q, [one.lower for one in ends], [one.upper for one in ends])
+    if (within != q).any():  # it may rest at a stop
+        robot.set_configuration(within)
     return robot

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules import models
-from hurcules_envs.contact import ContactEnvironment, view
+from hurcules_envs.contact import ContactEnvironment, stiffen_fingers, view
 from hurcules_envs.environment import Array, Group, Numbers, Start
 from hurcules_envs.standing import SUPPORT, place_hands, settle
 
@@ -110,6 +110,7 @@ class Valve(ContactEnvironment):
         child = mujoco.MjSpec.from_file(str(models.folder() / "objects" / "valve.xml"))
         body = spec.worldbody.add_body(name="valve", pos=[WHEEL[0], WHEEL[1], 0.0])
         spec.attach(child, prefix="valve_", frame=body.add_frame())
+        stiffen_fingers(spec)
         return spec
 
     def _loop(self, plan: hurcules.Robot, tick: float, *, safe: bool) -> Any:

@@ -235,6 +235,49 @@ def test_a_box_is_carried_without_an_elbow_at_the_trunk() -> None:
     assert succeeded[True]
 
 
+def test_levels_are_on_but_for_press() -> None:
+    for name in CLASSES:
+        levels = single(f"Hurcules/{name}-v0").simulation.levels
+        assert ("zero moment" in levels) == (name != "Press")
+
+
+def test_only_tracks_and_scoops_may_come_near_in_a_scene() -> None:
+    """Scoops met the head, and each other, where all kept the 20 mm that the path wants."""
+    for name, floor in (("Press", {"R_larm": 0.04}), ("Lift", {"L_uarm": 0.02, "R_uarm": 0.02})):
+        controller = single(f"Hurcules/{name}-v0", safe=True).simulation.controller
+        margins = {
+            frozenset(pair): (task.name, task.lower[0])
+            for task in controller.tasks
+            if isinstance(task, hurcules.DistanceTask)
+            for pair in task.pairs(controller.plan)
+        }
+        assert margins[frozenset(("L_scoop_flange", "R_scoop_flange"))][1] == 0.12
+        assert margins[frozenset(("L_scoop_flange", "head"))][1] == 0.12
+        assert margins[frozenset(("R_scoop_root", "R_lower_toe"))][1] == 0.02
+        of = {one.rsplit(" ", 1)[1]: lower for one, lower in margins.values() if " of " in one}
+        assert of == floor
+        assert (frozenset(("R_scoop_tip", "floor")) in margins) == (name == "Press")
+
+
+def test_a_side_load_brings_no_two_fingers_together() -> None:
+    env = single("Hurcules/Door-v0")
+    env.reset(seed=0)
+    model, data = env.model, env.data
+    geoms = [model.geom(f"R_finger_{i}").id for i in "12"]
+    data.xfrc_applied[model.body("R_finger_2").id] = [0.0, -600.0, 0.0, 0.0, 0.0, 0.0]
+    data.xfrc_applied[model.body("R_hand").id] = [0.0, 600.0, 0.0, 0.0, 0.0, 0.0]
+    for _ in range(50):
+        mujoco.mj_step(model, data)
+    assert mujoco.mj_geomDistance(model, data, *geoms, 1.0, None) > 0.004
+
+
+def test_a_trunk_that_is_led_into_the_table_stops_before_it() -> None:
+    controller = single("Hurcules/Carry-v0").simulation.controller
+    table = controller.task("table")
+    assert {pair[0] for pair in table.pairs(controller.plan)} >= {"torso", "L_uarm", "R_uarm"}
+    assert set(table.lower) == {0.06}
+
+
 def test_what_the_robot_presses_on_a_person_is_told_and_costs() -> None:
     env = single("Hurcules/Lift-v0")
     _, info = env.reset(seed=0)
