@@ -1,11 +1,11 @@
 """Two hands, one out of reach: how near does the far one come, beside the nearest that there is?
 
 Run:  python benchmarks/conflicts.py [--dt 0.005 0.001] [--seeds 10] [--only baxter] [--law thesis]
-                                     [--detour] [--out FILE.json]
+                                     [--detour] [--seconds 25] [--out FILE.json]
 
 The stack is `limits < first hand < second hand < centre of mass < posture`, both hands in 6-D, all
 else by default. The first hand's pose is that of a posture half the way to a random one, the second
-one's lies 1.5 m beyond that in a random direction. After 25 s: error of the first hand, of the
+one's lies 1.5 m beyond that in a random direction. After 25 s (`--seconds`): error of the first hand, of the
 second, and the speed of the last 2 s. Beside them the least error of the second level (metres and
 radians, squares added, as the level adds them) that keeps the first hand's pose and the limits, by
 SLSQP of SciPy from where the runs end, the posture of the targets, and three random ones: an upper
@@ -94,7 +94,9 @@ class Conflict:
             orientation.set_target(turn)
             self.hands.append((position, orientation))
 
-    def run(self, law: str, dt: float, round_about: bool = False) -> dict[str, float]:
+    def run(
+        self, law: str, dt: float, round_about: bool = False, seconds: float = SECONDS
+    ) -> dict[str, float]:
         """Follows the stack from the first posture on, by another posture where that is wanted."""
         self.robot.set_configuration(self.start)
         levels = [StackLevel(f"hand {i}", list(hand)) for i, hand in enumerate(self.hands)]
@@ -103,7 +105,7 @@ class Conflict:
         if round_about:
             detour = Detour(self.robot, [self.limits], levels, below)
             stack = detour.stacks["direct"]
-        motion = follow(self.robot, stack, self.limits, law, dt, SECONDS, detour)
+        motion = follow(self.robot, stack, self.limits, law, dt, seconds, detour)
         row = {"speed": motion.fastest, "change": motion.hardest, "excess": motion.excess}
         errors = self.errors(self.robot.configuration)
         for name, (e, _) in zip(("near", "far"), errors, strict=True):
@@ -183,7 +185,7 @@ def examine(arm: Arm, seed: int, options: argparse.Namespace) -> list[dict[str, 
     """A row for each control period."""
     conflict, rows, ends = Conflict(arm, seed), [], []
     for dt in options.dt:
-        run = conflict.run(options.law, dt, options.detour)
+        run = conflict.run(options.law, dt, options.detour, options.seconds)
         ends.append(conflict.robot.configuration)
         rows.append({"robot": arm.name, "seed": seed, "dt": dt, **run})
     inside = conflict.inside
@@ -220,6 +222,7 @@ def main() -> None:
     parser.add_argument("--law", default="arrive", choices=["arrive", "thesis"])
     parser.add_argument("--detour", action="store_true")
     parser.add_argument("--dt", type=float, nargs="+", default=[0.005, 0.001], help="[s]")
+    parser.add_argument("--seconds", type=float, default=SECONDS)
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--only", default="", help="part of a name")
     parser.add_argument("--out", type=Path, help="a JSON file")
