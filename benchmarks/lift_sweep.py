@@ -103,7 +103,11 @@ def settings(kind: str, seeds: int, first: int | None) -> Iterator[tuple[Cell, i
 
 
 def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
-    """One run: how it ended, its figures, and the largest share of a motor's peak torque."""
+    """One run: how it ended, its figures, and the largest of some quantities in each phase.
+
+    `torque_share` of a motor's peak torque, `face_N` [N] by which the robot presses the face,
+    `head_mps2` [m/s^2] with gravity.
+    """
     mission, cell, seed = task
     simulation = hurcules.Simulation(
         mission, seed, variation=VARIATION, record=False, parameters=cell
@@ -112,14 +116,16 @@ def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
     joints = [model.joint(name).id for name in controller.joints]
     motors = [model.actuator_trnid[: model.nu, 0].tolist().index(joint) for joint in joints]
     peak = model.actuator_forcerange[motors, 1]
-    share: dict[str, float] = defaultdict(float)
+    seen = hurcules.Quantities(simulation, ["casualty/force/face", "casualty/head_mps2"])
+    share, face, head = (defaultdict[str, float](float) for _ in range(3))
     while not simulation.finished:
-        simulation.step(20)
+        simulation.step()
         if simulation.question and simulation.phase == "settle":
             simulation.answer(True)  # to lift who does not lie on the back
-        now = np.abs(controller.torque) / peak
+        now = (np.max(np.abs(controller.torque) / peak), *simulation.read(seen))
         phase = simulation.phase
-        share[phase] = max(share[phase], float(now.max()))
+        for most, value in zip((share, face, head), now, strict=True):
+            most[phase] = max(most[phase], float(value))
     return {
         **cell,
         "mission": mission,
@@ -129,6 +135,8 @@ def lift(task: tuple[str, Cell, int]) -> dict[str, Any]:
         "phase": simulation.phase,
         "seconds": simulation.time,
         "torque_share": dict(share),
+        "face_N": dict(face),
+        "head_mps2": dict(head),
         "figures": {name: float(value) for name, value in simulation.figures().items()},
     }
 
@@ -153,23 +161,39 @@ def _slid(figures: dict[str, float]) -> float:
     return max(figures[name] for name in names if name in figures)
 
 
+def _largest(runs: list[dict[str, Any]], name: str) -> float:
+    """Of the phases but the first, in which who lies on a side rolls over; nan if not noted."""
+    return max(
+        (value for run in runs for phase, value in run.get(name, {}).items() if phase != "settle"),
+        default=float("nan"),
+    )
+
+
 def show(path: Path) -> None:
     """Prints the map: a line a cell with how many of how many, and why not."""
     runs = held(path)
     table = defaultdict(list)
     for run in runs:
         table[_place(run)].append(run)
-    print("mass  ahead  left   yaw    mu          pose   success  push  slid   torque  failures")
+    print(
+        "mass  ahead  left   yaw    mu          pose   success  push  slid   torque "
+        "contact  face  head  carried  failures"
+    )
     for place, found in table.items():
         mass, dx, dy, yaw, mu, pose, terrain = place
         good = sum(run["success"] for run in found)
         push = max(run["figures"]["push_N"] for run in found)
         drift = max(_slid(run["figures"]) for run in found)
         torque = max(max(run["torque_share"].values()) for run in found)
+        contact, carried = (
+            max(run["figures"][name] for run in found) for name in ("contact_share", "support_N")
+        )
+        face, head = (_largest(found, name) for name in ("face_N", "head_mps2"))
         why = "; ".join(run["reason"] for run in found if not run["success"])
         print(
             f"{mass:4} {dx:+6.2f} {dy:+6.2f} {yaw:+6.2f} {mu:5.2f} {pose:>12} "
-            f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f}   {terrain} {why}"
+            f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f} "
+            f"{contact:7.1f} {face:5.0f} {head:5.0f} {carried:8.0f}   {terrain} {why}"
         )
     good = sum(run["success"] for run in runs)
     print(f"{good} of {len(runs)}")
