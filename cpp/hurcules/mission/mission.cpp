@@ -144,7 +144,6 @@ void Mission::reset(WholeBodyController& controller, const Robot& world) {
   for (PhaseRow& row : rows_) row.reset();
   gauges_.reset();
   why_ = {};
-  cause_ = 0;
   wait_until_ = 0.0;
   forces_.setZero();
   verdict_.clear();
@@ -161,6 +160,7 @@ void Mission::enter(std::size_t phase, WholeBodyController& controller, double t
   phase_ = phase;
   phase_start_ = now_ = time;
   doing_ = Doing::Leading;
+  cause_ = 0;
   elapsed_ = progress_ = extra_ = unborne_for_ = 0.0;
   unborne_ = false;
   waiting_ = paused_ ? 1.0 : 0.0;

@@ -245,6 +245,30 @@ TEST_F(MissionTest, AnAnswerGoesOnOrTakesTheNextReaction) {
   }
 }
 
+TEST_F(MissionTest, APhaseAfterAnAnswerCanBeRestored) {
+  MissionTable table;
+  table.phases = {{.name = "carry",
+                   .stack = "reach",
+                   .seconds = 0.3,
+                   .troubles = {{{"load", true, 5.0},
+                                 {{ReactionKind::Ask, "", 9.0, 1}, {ReactionKind::Abort}}}}},
+                  {.name = "rest", .stack = "reach", .seconds = 5.0}};
+  const auto mission = make(table);
+  load_ = 6.0;
+  tick(*mission);
+  mission->answer(true);
+  for (int i = 0; i < 8; ++i) tick(*mission);
+  ASSERT_EQ(mission->phase(), 1);
+  std::vector<double> state;
+  StateWriter writer(state);
+  mission->save(writer);
+  const auto other = make(table);
+  StateReader reader(state);
+  other->restore(reader);
+  EXPECT_TRUE(reader.at_end());
+  EXPECT_EQ(other->phase(), 1);
+}
+
 TEST_F(MissionTest, APauseFreezesTheTable) {
   const auto mission = make(wave_table());
   tick(*mission), tick(*mission);
