@@ -252,3 +252,32 @@ def test_what_is_no_detour(robot: hurcules.Robot) -> None:
         hurcules.Detour(robot, [], [hand]).look_at(robot, [0.0, np.nan], 0.001)
     with pytest.raises(hurcules.Error, match="stands twice"):
         hurcules.Detour(robot, [hand], [hand])
+
+
+# two poses that Hurcules cannot both have; the far hand ends in a minimum 0.3 m beyond another one
+NEAR = (
+    [[0.819, 0.312, 0.482], [0.193, 0.641, -0.743], [-0.541, 0.701, 0.465]],
+    [1.159, -0.206, 0.261],
+)
+FAR = [[0.778, -0.553, 0.299], [0.589, 0.475, -0.654], [0.22, 0.685, 0.695]], [0.369, -0.386, 1.142]
+
+
+def test_of_a_robot_on_its_feet_the_far_hand_comes_nearer_by_another_posture() -> None:
+    robot = hurcules.Robot(hurcules.models.load("manipulation"))
+    robot.set_keyframe("ready")
+    robot.stand_on("lower_leg_L")
+    hands = []
+    for name, (turn, place) in (("R_tcp", NEAR), ("L_tcp", FAR)):
+        a, _, b = np.linalg.svd(turn)  # the nearest rotation to three decimals
+        hands.append(hurcules.PoseTask(name, robot, name))
+        hands[-1].set_target(np.array(place), a @ b)
+    limits = hurcules.JointLimits("limits", robot)
+    detour = hurcules.Detour(robot, [limits], hands, [hurcules.PostureTask("posture", robot)])
+    controller = velocities(robot)
+    controller.set_stack(detour.stacks["direct"])
+    said = run(robot, controller, detour, 5.0)
+    assert said == [] and np.linalg.norm(hands[1].error) > 0.55
+    said = run(robot, controller, detour, 15.0)
+    assert len(said) == 2 and "goes round by another posture, nearer by 0.3" in said[0]
+    assert said[1] == "the posture is reached; the targets rule again"
+    assert np.linalg.norm(hands[1].error) < 0.26 and np.linalg.norm(hands[0].error) < 1e-5

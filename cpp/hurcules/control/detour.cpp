@@ -1,5 +1,6 @@
 #include "hurcules/control/detour.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -172,13 +173,22 @@ bool Detour::targets_moved(const Robot& robot) {
   return (errors_at(robot, judged_at_) - judged_errors_).cwiseAbs().maxCoeff() > options_.tolerance;
 }
 
-// of all targets at this posture, the robot's root being where it is now; they are measured where the
-// robot is again afterwards
+// of all targets at this posture, the support being where it is now; they are measured where the robot
+// is again afterwards
 const Vector& Detour::errors_at(const Robot& robot, const Vector& qpos) {
-  qpos_ = qpos;
-  if (robot.root_qpos() >= 0 && !robot.floating())
-    qpos_.segment<7>(robot.root_qpos()) = robot.qpos().segment<7>(robot.root_qpos());
-  probe_.set_qpos(qpos_);
+  probe_.set_qpos(qpos);
+  if (robot.root_qpos() >= 0 && !robot.floating()) {
+    const Frame support = robot.support();
+    const Matrix3 turn = robot.orientation(support) * probe_.orientation(support).transpose();
+    qpos_ = qpos;
+    auto root = qpos_.segment<7>(robot.root_qpos());
+    const Vector3 place = root.head<3>();
+    const Eigen::Quaterniond stood(root[3], root[4], root[5], root[6]);
+    const Eigen::Quaterniond turned = Eigen::Quaterniond(turn) * stood;
+    root << robot.position(support) + turn * (place - probe_.position(support)), turned.w(),
+        turned.vec();
+    probe_.set_qpos(qpos_);
+  }
   Index row = 0;
   for (Task* const task : targets_) {
     task->update(probe_);
