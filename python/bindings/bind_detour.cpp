@@ -30,7 +30,7 @@ constexpr const char* kInverseKinematics =
     R"(The posture nearest to the present one, of those found, that meets all tasks.
 
 Where none does: the one that lacks least in the first level, then in the second, and so on (the
-norm of its rows; ten tolerances more or less are alike).
+norm of its rows, in steps of ten tolerances).
 
 A controller descends from where the robot stands; where limits or singularities end the
 descent, others begin at random postures, each farther from the present one than the last.

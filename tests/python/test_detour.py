@@ -113,9 +113,14 @@ def test_what_comes_before_bars_the_way() -> None:
     hand, post = hand_at(robot, AROUND), hurcules.obstacles(robot)
     detour, controller = hurcules.Detour(robot, [post], [hand]), velocities(robot)
     controller.set_stack(detour.stacks["direct"])
+    while not detour.on_the_way:
+        run(robot, controller, detour, DT)
+    rested = robot.configuration
     said = run(robot, controller, detour, 15.0)
-    assert len(said) == 2 and said[1].startswith("barred, ")
+    assert said[0].startswith("barred, ") and said[0].endswith(" before the posture; goes back")
+    assert said[1:] == ["it is back; the targets rule again"]
     assert np.abs(controller.velocity).max() < 1e-3
+    assert robot.configuration == pytest.approx(rested, abs=5e-3)
     assert run(robot, controller, detour) == []
 
 

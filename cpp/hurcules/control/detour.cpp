@@ -53,6 +53,8 @@ Detour::Detour(const Robot& robot, const std::vector<StackLevel>& before,
       way_(joined(before, {StackLevel(posture_)})),
       probe_(robot.model(), robot.coordinate_names()),
       search_(robot, Stack(joined(before, targets)), options.search),
+      first_target_(before.size()),
+      moved_by_(options.tolerance),
       errors_(rows_of(targets_)) {
   require(options.tolerance > 0.0,
           "Detour: tolerance wants a positive number, got " + number_text(options.tolerance));
@@ -77,7 +79,7 @@ bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt)
   }
   decision_.clear();
   const double speed = velocity.cwiseAbs().maxCoeff();
-  if (state_ != State::Direct && targets_moved(robot)) return go_back("a target moved");
+  if (state_ != State::Direct && targets_moved(robot)) return let_targets_rule("a target moved");
   switch (state_) {
     case State::Direct: {
       double most = 0.0, slowest = posture_.max_speed();
@@ -98,9 +100,8 @@ bool Detour::look(const Robot& robot, const ConstVectorRef& velocity, double dt)
     case State::Way:
       posture_.update(robot);
       const double off = posture_.error().cwiseAbs().maxCoeff();
-      if (off < kThere) return go_back("the posture is reached");
-      if (rests(off, speed, posture_.max_speed(), dt) < kBarred) return false;
-      return go_back("barred, " + number_text(off, 3) + " before the posture");
+      if (off < kThere) return let_targets_rule(returns_ ? "it is back" : "the posture is reached");
+      return rests(off, speed, posture_.max_speed(), dt) >= kBarred && be_barred(off);
   }
   return false;
 }
@@ -122,6 +123,7 @@ void Detour::begin_search(const Robot& robot) {
     if (short_by(*task) > short_by(*worst)) worst = task;
   short_ = shortfall_of(*worst).text() + "; ";
   judge(robot, robot.qpos());
+  moved_by_ = options_.tolerance;
   search_.begin(robot);
   state_ = State::Searching;
 }
@@ -137,7 +139,7 @@ bool Detour::end_search(const Robot& robot, bool rests) {
     state_ = State::Direct;
     return false;
   }
-  const double nearer = found.reached ? 0.0 : search_.nearer();
+  const double nearer = found.reached ? 0.0 : search_.nearer(first_target_);
   if (!found.reached && nearer < options_.nearer) {
     state_ = State::Direct;
     decision_ = short_ + "none of " + std::to_string(found.starts) +
@@ -146,7 +148,10 @@ bool Detour::end_search(const Robot& robot, bool rests) {
     return false;
   }
   judge(robot, found.qpos);
+  moved_by_ = found.reached ? options_.tolerance : options_.nearer;
   posture_.set_target(found.configuration);
+  began_ = robot.configuration();
+  returns_ = false;
   state_ = State::Way;
   still_ = 0.0;
   decision_ = short_ + "goes round by another posture";
@@ -154,8 +159,19 @@ bool Detour::end_search(const Robot& robot, bool rests) {
   return true;
 }
 
+// back to where it came from, unless that is barred too
+bool Detour::be_barred(double off) {
+  const std::string why = "barred, " + number_text(off, 3) + " before the posture";
+  if (returns_) return let_targets_rule(why);
+  returns_ = true;
+  posture_.set_target(began_);
+  still_ = 0.0;
+  decision_ = why + "; goes back";
+  return false;
+}
+
 // whether a stack must change
-bool Detour::go_back(const std::string& why) {
+bool Detour::let_targets_rule(const std::string& why) {
   const bool was_on_the_way = on_the_way();
   state_ = State::Direct;
   still_ = 0.0;
@@ -170,7 +186,7 @@ void Detour::judge(const Robot& robot, const Vector& qpos) {
 }
 
 bool Detour::targets_moved(const Robot& robot) {
-  return (errors_at(robot, judged_at_) - judged_errors_).cwiseAbs().maxCoeff() > options_.tolerance;
+  return (errors_at(robot, judged_at_) - judged_errors_).cwiseAbs().maxCoeff() > moved_by_;
 }
 
 // of all targets at this posture, the support being where it is now; they are measured where the robot

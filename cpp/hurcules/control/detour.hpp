@@ -40,9 +40,9 @@ class Detour {
 
   // After each tick: the robot at the reference, its velocity (n), the period [s]. True where from now on
   // the other stack shall rule. While the robot rests short of a target, each look takes a search some
-  // ticks further. For the same targets there is one search: where it finds none, or what comes
-  // before bars the way, the robot stays at rest until a target moves. A target that moves on the way
-  // ends the detour.
+  // ticks further. For the same targets there is one search: where it finds none, the robot stays at
+  // rest until a target moves; where what comes before bars the way, it goes back first. A target that
+  // moves on the way ends the detour: by `tolerance`, or by `nearer` where it is not to be met.
   bool look(const Robot& robot, const ConstVectorRef& velocity, double dt);
   [[nodiscard]] bool on_the_way() const { return state_ == State::Way; }
   // what the last look decided, in words; "" where all goes on
@@ -55,7 +55,8 @@ class Detour {
   double rests(double missing, double speed, double slowest, double dt);
   void begin_search(const Robot& robot);
   bool end_search(const Robot& robot, bool rests);
-  bool go_back(const std::string& why);
+  bool let_targets_rule(const std::string& why);
+  bool be_barred(double off);
   void judge(const Robot& robot, const Vector& qpos);
   [[nodiscard]] bool targets_moved(const Robot& robot);
   const Vector& errors_at(const Robot& robot, const Vector& qpos);
@@ -70,6 +71,10 @@ class Detour {
   double still_ = 0.0;  // [s] that it has come no nearer
   double then_ = 0.0;   // [m] or [rad] that was missing at the start of that
   bool judged_ = false;
+  bool returns_ = false;        // the way was barred
+  Vector began_;                // (n) where it began
+  std::size_t first_target_;    // of the levels of the search
+  double moved_by_;             // [m] or [rad] from which on a target has moved
   Vector judged_at_,
       judged_errors_;     // (nq), (rows) what the targets lacked there at the last search
   Vector errors_, qpos_;  // (rows), (nq) scratch

@@ -237,21 +237,19 @@ void JointServo::place(Index joint, VectorRef qpos) const {
   qpos.segment<4>(own.qpos) << turn.w(), turn.vec();
 }
 
-void JointServo::find_position_error(const Vector& qpos) {
+void JointServo::find_position_error(const Vector& reference, double ahead, const Vector& qpos) {
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& own = actuator(i);
     if (own.part < 0) {
-      error_.position[i] = reference_[i] - qpos[own.qpos];
+      error_.position[i] = reference[i] - ahead * velocity_[i] - qpos[own.qpos];
     } else {  // about the axes of the body as it is
+      const std::array<Index, 3>& ball = motors_[static_cast<std::size_t>(i)].ball;
+      const Vector3 turn(velocity_[ball[0]], velocity_[ball[1]], velocity_[ball[2]]);
       const Matrix3 R = rotation_of(qpos.data() + own.qpos);
-      error_.position[i] = rotation_log(R.transpose() * rotation(i, reference_))[own.part - kTurns];
+      const Matrix3 now = rotation(i, reference) * rotation_exp(-ahead * turn);
+      error_.position[i] = rotation_log(R.transpose() * now)[own.part - kTurns];
     }
   }
-}
-
-void JointServo::find_position_error_now(const Vector& qpos) {
-  reference_ = position_ - pid_.options().dt * velocity_;
-  find_position_error(qpos);
 }
 
 void JointServo::follow(const Vector& q, const Vector& velocity) {
@@ -321,7 +319,7 @@ void JointServo::feedback(const RobotState& state, VectorRef efforts, VectorRef 
   efforts.setZero();
   acceleration.setZero();  // for now the rated inertia
   follow_readings(state);
-  find_position_error_now(state.qpos);
+  find_position_error(position_, pid_.options().dt, state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     const ActuatorStatus& status =
@@ -365,7 +363,7 @@ const VelocityBounds& JointServo::velocity_bounds(const Vector& q, const Vector&
     const Motor& motor = motors_[static_cast<std::size_t>(i)];
     reference_[i] = motor.factor * q[motor.coordinate] + offset_[i];
   }
-  find_position_error(state.qpos);
+  find_position_error(reference_, 0.0, state.qpos);
   for (Index i = 0; i < coordinate_joints_; ++i) {
     const double seen = seen_speed(i, state);
     if (rests_[static_cast<std::size_t>(i)].on) continue;
@@ -426,7 +424,7 @@ void JointServo::follow_readings(const RobotState& state) {
 void JointServo::compute(const RobotState& state, VectorRef ctrl) {
   read_brakes(state);
   follow_readings(state);
-  find_position_error_now(state.qpos);
+  find_position_error(position_, pid_.options().dt, state.qpos);
   for (Index i = 0; i < size(); ++i) {
     const JointActuator& motor = motors_[static_cast<std::size_t>(i)].actuator;
     const ActuatorStatus& status = state.actuators[static_cast<std::size_t>(motor.actuator)];

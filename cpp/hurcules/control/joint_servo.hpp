@@ -158,10 +158,8 @@ class JointServo {
   void find_ties(const mjModel_& model);
   void read_brakes(const RobotState& state);
   void follow_readings(const RobotState& state);
-  // from where the joints are to reference_ (m)
-  void find_position_error(const Vector& qpos);
-  // to where they shall be at the moment
-  void find_position_error_now(const Vector& qpos);
+  // from where the joints are to where those references (m) are now, which are so far ahead [s]
+  void find_position_error(const Vector& reference, double ahead, const Vector& qpos);
   // [rad/s] that a joint is seen to go with since the last call: one reading that is wrong, of its
   // place or its speed, does not move it
   double seen_speed(Index joint, const RobotState& state);

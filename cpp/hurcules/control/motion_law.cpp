@@ -79,7 +79,7 @@ class AccelerationLaw : public LawOf<AccelerationController> {
   Vector next_;
 };
 
-// what it leads is the robot itself, which goes on as it goes
+// what it leads is the robot itself: nothing is integrated
 class TorqueLaw final : public AccelerationLaw {
  public:
   using AccelerationLaw::AccelerationLaw;
@@ -92,9 +92,7 @@ class TorqueLaw final : public AccelerationLaw {
   }
   bool scale(const VelocityBounds&, const Vector&) override { return false; }
   const Vector& next_velocity(const Vector& velocity) override { return velocity; }
-  void integrate(Vector& q, Vector& velocity) const override {
-    q += controller_.options().dt * velocity;
-  }
+  void integrate(Vector&, Vector&) const override {}
 };
 
 }  // namespace

@@ -193,7 +193,7 @@ const PostureSearch::End& PostureSearch::best_end() const {
     if (a.posture.reached != b.posture.reached) return a.posture.reached;
     if (a.posture.reached) return farthest(a.posture, present_) < farthest(b.posture, present_);
     const auto less = [&](double one, double other) {
-      return std::floor(one / alike()) < std::floor(other / alike());
+      return std::floor(one / step_of_lacks()) < std::floor(other / step_of_lacks());
     };
     return std::lexicographical_compare(a.lacks.begin(), a.lacks.end(), b.lacks.begin(),
                                         b.lacks.end(), less);
@@ -209,13 +209,13 @@ Posture PostureSearch::best() const {
   return best;
 }
 
-double PostureSearch::nearer() const {
+double PostureSearch::nearer(std::size_t first) const {
   const std::vector<double>& found = best_end().lacks;
   double most = 0.0;
   for (std::size_t k = 0; k < found.size(); ++k) {
     const double less = present_lacks_[k] - found[k];
-    if (less < -alike()) break;
-    most = std::max(most, less);
+    if (less < -step_of_lacks()) break;
+    if (k >= first) most = std::max(most, less);
   }
   return most;
 }

@@ -42,12 +42,12 @@ class PostureSearch {
   // so many ticks of its descents further; false once it is over
   bool advance(int ticks);
   // Of the postures that meet all tasks the nearest to the first one; where there is none, the one
-  // that lacks least in the first level, then in the second, and so on: the norm of its rows, and ten
-  // tolerances more or less are alike. Throws Error before `advance` has ended it.
+  // that lacks least in the first level, then in the second, and so on: the norm of its rows, in
+  // steps of ten tolerances. Throws Error before `advance` has ended it.
   [[nodiscard]] Posture best() const;
-  // [m] or [rad] the most that a level lacks less there than at the first one, up to the first level
-  // that lacks more
-  [[nodiscard]] double nearer() const;
+  // [m] or [rad] the most that a level from `first` on lacks less there than at the first posture;
+  // only up to the first level of all that lacks more, by ten tolerances
+  [[nodiscard]] double nearer(std::size_t first) const;
 
  private:
   struct End {
@@ -55,7 +55,7 @@ class PostureSearch {
     std::vector<double> lacks;  // of each level
   };
   [[nodiscard]] const End& best_end() const;
-  [[nodiscard]] double alike() const { return 10.0 * options_.tolerance; }
+  [[nodiscard]] double step_of_lacks() const { return 10.0 * options_.tolerance; }
   void begin_descent();
   void tick();
   void measure();

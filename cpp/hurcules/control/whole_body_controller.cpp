@@ -178,13 +178,13 @@ WholeBodyController::WholeBodyController(const Robot& robot, std::vector<NamedSt
   for (const NamedStack& stack : stacks_)
     stack_names.push_back(stack.name + std::to_string(static_cast<int>(stack.order)));
   names_ = hash_of_names({&coordinates, &task_names, &command_names_, &stack_names});
-  scale_ = command_ = Vector::Zero(static_cast<Index>(command_names_.size()));
+  scale_ = command_ = rates_ = Vector::Zero(static_cast<Index>(command_names_.size()));
   Index row = 0;
   for (const Channel& channel : channels_) {
     scale_.segment(row, channel.size()) = channel.scale();
     row += channel.size();
   }
-  q_ = qd_ = held_back_ = wished_ = efforts_ = Vector::Zero(plan_.size());
+  q_ = qd_ = held_back_ = wished_ = efforts_ = step_ = next_ = Vector::Zero(plan_.size());
   feed_forward_ = FeedForward(servo_, plan_.size(), *options_.decoupled, options_.dt);
   delta_ = Vector::Zero(scale_.size());
   seen_ = Vector::Zero(servo_.size());
@@ -238,6 +238,7 @@ void WholeBodyController::check_channels() {
       if (channel.kind() == ChannelKind::Joint) led_[static_cast<std::size_t>(joint)] = true;
     }
     if (channel.kind() == ChannelKind::Control) add_led_control(channel);
+    if (channel.kind() == ChannelKind::Twist) add_target_rate(channel);
     if (!channel.task()) continue;
     const auto found = std::find(tasks_.begin(), tasks_.end(), channel.task());
     require(found != tasks_.end(), "channel '" + channel.name() + "' moves task '" +
@@ -246,6 +247,14 @@ void WholeBodyController::check_channels() {
     twins_[static_cast<std::size_t>(found - tasks_.begin())] = channel.task()->clone();
     if (!sensed_) sensed_ = std::make_unique<Robot>(plan_.model(), plan_.coordinate_names());
   }
+}
+
+// its names are the last ones by then
+void WholeBodyController::add_target_rate(const Channel& channel) {
+  for (const TargetRate& one : target_rates_)
+    if (one.task == channel.task()) return;
+  const Index row = static_cast<Index>(command_names_.size()) - channel.size();
+  target_rates_.push_back({channel.task(), row, channel.size(), false});
 }
 
 void WholeBodyController::add_led_control(const Channel& channel) {
@@ -320,6 +329,7 @@ void WholeBodyController::reset(const Vector& qpos, bool keep_targets) {
   held_back_.setZero();
   yielding_.forget();
   command_.setZero();
+  rates_.setZero();
   active_ = 0;
   moves_joints_ = scaled_ = begun_ = false;
   stopping_.assign(stopping_.size(), false);
@@ -543,12 +553,13 @@ void WholeBodyController::miss_readings() {
 void WholeBodyController::apply(const Vector* command, bool first, const RobotState& state) {
   forces_.tell(plan_, state.qpos, state.qvel, state.sensors);
   miss_readings();
+  add_up_twists();
+  for (TargetRate& rate : target_rates_) rate.moves = !rates_.segment(rate.row, rate.size).isZero(0.0);
   Index row = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Index size = channels_[i].size();
     const ChannelKind kind = channels_[i].kind();
     auto part = command_.segment(row, size);
-    const bool moved = !part.isZero(0.0);
     const bool given = command && !std::isnan((*command)[row]) && reaches(i) &&
                        (first || !channels_[i].acts_once());
     if (given) {
@@ -560,12 +571,31 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
     row += size;
     if (kind == ChannelKind::Joints) {
       if (moves_joints_) lead_joints(moved_[i], part);
-    } else if (kind != ChannelKind::Twist || moved || !part.isZero(0.0)) {
-      // a twist that rests leaves a target that somebody else moves alone
+    } else {
       apply(channels_[i], part, given, state);
     }
   }
+  add_up_twists();
+  for (const TargetRate& one : target_rates_) {
+    // a twist that rests leaves a target that somebody else moves alone
+    const auto rate = rates_.segment(one.row, one.size);
+    if (one.moves || !rate.isZero(0.0)) one.task->advance(rate, 0.0);  // it moves in move_targets
+  }
   if (moves_joints_) stop_joints();
+}
+
+// of all channels of a task
+void WholeBodyController::add_up_twists() {
+  rates_.setZero();
+  Index row = 0;
+  for (const Channel& channel : channels_) {
+    const Index size = channel.size();
+    for (const TargetRate& one : target_rates_) {
+      if (channel.kind() == ChannelKind::Twist && channel.task() == one.task)
+        rates_.segment(one.row, size) += command_.segment(row, size);
+    }
+    row += size;
+  }
 }
 
 // a rate moves what the stack that rules measures, nothing else
@@ -598,7 +628,7 @@ void WholeBodyController::apply(const Channel& channel, const ConstVectorRef& co
                                 const RobotState& state) {
   switch (channel.kind()) {
     case ChannelKind::Twist:
-      return channel.task()->advance(command, 0.0);  // moves in move_targets
+      return;  // all of a task together
     case ChannelKind::Delta:
       if (given && (command.array() != 0.0).any()) set_delta(*channel.task(), command, state);
       return;
@@ -724,18 +754,16 @@ void WholeBodyController::solve(const RobotState& state) {
 
 // to where the plan is now: at the end of the period
 void WholeBodyController::move_targets() {
-  Index row = 0;
-  for (const Channel& channel : channels_) {
-    const auto part = command_.segment(row, channel.size());
-    row += channel.size();
-    if (channel.kind() == ChannelKind::Twist && !part.isZero(0.0))
-      channel.task()->advance(part, dt());
+  for (const TargetRate& one : target_rates_) {
+    const auto rate = rates_.segment(one.row, one.size);
+    if (!rate.isZero(0.0)) one.task->advance(rate, dt());
   }
 }
 
 void WholeBodyController::hold() {
   qd_.setZero();
   command_.setZero();
+  rates_.setZero();
   scaled_ = false;
 }
 
@@ -750,6 +778,11 @@ void WholeBodyController::refer() {
   if (moves_joints_) {
     servo_.release(q_, qd_);
     plan_.set_configuration(q_);
+  } else if (by_torques()) {  // the robot itself, which goes on as it goes
+    next_ = q_;
+    step_ = dt() * qd_;
+    add_step(plan_.rotations(), step_, next_);
+    servo_.follow(next_, qd_);
   } else {
     servo_.follow(q_, qd_);
   }

@@ -189,6 +189,14 @@ class WholeBodyController {
     ActuatorControl control = {};
     double value = 0.0;
   };
+  // how fast the Twist channels of a task move its target
+  struct TargetRate {
+    Task* task = nullptr;
+    Index row = 0, size = 0;  // in rates_
+    bool moves = false;       // since the tick before
+  };
+  void add_target_rate(const Channel& channel);
+  void add_up_twists();
   void require_member(const ForceTask& task) const;
   void require_rows(int first, int count) const;  // of the model's sensors
   void add_led_control(const Channel& channel);
@@ -236,6 +244,8 @@ class WholeBodyController {
   bool begun_ = false;  // `tick` was called since the start
   const void* loop_ = nullptr;
   Vector scale_, command_;
+  std::vector<TargetRate> target_rates_;
+  Vector rates_;  // (k)
   Vector q_, qd_, held_back_;
   YieldingTargets yielding_;
   FeedForward feed_forward_;
@@ -243,7 +253,7 @@ class WholeBodyController {
   Vector seen_;              // (m) joints in the last `tick`
   Vector ahead_;             // (nq) scratch
   Vector qpos_, qvel_;       // as read in this tick of a loop of one's own
-  Vector wished_, efforts_;  // (n) scratch
+  Vector wished_, efforts_, step_, next_;  // (n) scratch
   Vector delta_;             // scratch
   Frame support_;
   std::vector<double> scratch_;

@@ -85,6 +85,17 @@ TEST_P(BallJointInTheLoop, Arrives) {
   EXPECT_LT(simulation.plant().qvel().cwiseAbs().maxCoeff(), 1e-4);
 }
 
+// no tick ahead of it or behind: 0.1 mm and 0.3 mrad each
+TEST_P(BallJointInTheLoop, TheTipIsWhereTheTargetIs) {
+  Simulation simulation = simulate(GetParam());
+  const Vector command = twist(0.1, 0.0, 0.0, 0.0, 0.2, 0.2);
+  simulation.step(1000, &command);
+  const auto task = simulation.controller().task("tip").clone();
+  task->update(simulation.world());
+  EXPECT_LT(task->error().head<3>().norm(), 2e-5);
+  EXPECT_LT(task->error().tail<3>().norm(), 6e-5);
+}
+
 TEST_P(BallJointInTheLoop, KeepsItsRange) {
   Simulation simulation = simulate(GetParam());
   const Vector command = twist(0.2, 0.5, 0.3);

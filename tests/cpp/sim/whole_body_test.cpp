@@ -43,7 +43,8 @@ const char* const kServos =
     R"(<position joint="j1" kp="2000" kv="100"/><position joint="j2" kp="2000" kv="100"/>
        <position joint="j3" kp="1000" kv="50"/><position joint="finger" kp="100"/>)";
 
-std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.002) {
+std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.002,
+                                          bool two_lead = false) {
   Robot robot(model, {"j1", "j2", "j3"});
   robot.set_keyframe("bent");
   auto tip = std::make_unique<PositionTask>(
@@ -56,6 +57,10 @@ std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.0
   std::vector<Channel> channels = {
       {"tip", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5), {"x", "z"}},
       Channel::joint("finger", "finger", 0.1)};
+  if (two_lead) {
+    channels.push_back(
+        {"other", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5), {"x", "z"}});
+  }
   auto controller = std::make_shared<WholeBodyController>(
       robot,
       std::vector<NamedStack>{
@@ -123,6 +128,21 @@ TEST(WholeBody, TheTipIsWhereTheTargetIsAtTheEndOfATick) {
       EXPECT_LT((Eigen::Vector2d(place.x(), place.z()) - tip.target()).norm(), 2e-5);
     }
   }
+}
+
+TEST(WholeBody, TwoTwistsOfATaskAddUpWithoutALag) {
+  const ModelPtr model = load_model_text(arm(kMotors));
+  SimulationOptions options;
+  options.record = false;
+  Simulation one(model, make(model, 0.002), options);
+  Simulation two(model, make(model, 0.002, true), options);
+  const Vector whole = Eigen::Vector3d(-0.05, 0.03, 0.0);
+  Vector shared(5);
+  shared << -0.08, 0.0, 0.0, 0.03, 0.03;
+  one.step(500, &whole);
+  two.step(500, &shared);
+  const Frame tip = one.world().frame("tip");
+  EXPECT_LT((one.world().position(tip) - two.world().position(tip)).norm(), 1e-9);
 }
 
 TEST(WholeBody, HoldsAJointWithoutACoordinateWithinItsRange) {
