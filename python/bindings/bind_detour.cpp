@@ -167,8 +167,7 @@ void bind_detour(py::module_& module) {
   py::class_<HeldDetour>(module, "Detour", kDetour)
       .def(py::init(&make_detour), "robot"_a, "before"_a, "targets"_a, "below"_a = py::tuple(),
            py::kw_only(), "starts"_a = defaults.starts, "seed"_a = defaults.seed,
-           "tolerance"_a = options.tolerance, "nearer"_a = options.nearer,
-           "rate"_a = options.rate)
+           "tolerance"_a = options.tolerance, "nearer"_a = options.nearer, "rate"_a = options.rate)
       .def("look_at", &look_at, "robot"_a, "velocity"_a, "dt"_a, kLookAt)
       .def(
           "reset", [](HeldDetour& self) { self.detour->reset(); },

@@ -2201,6 +2201,7 @@ class Detour:
         starts: int = 32,
         seed: int = 0,
         tolerance: float = 0.001,
+        nearer: float = 0.02,
         rate: float = 5000.0,
     ) -> None: ...
     def look_at(self, robot: Robot, velocity: ArrayLike, dt: float) -> bool:
@@ -4575,7 +4576,8 @@ def inverse_kinematics(
 ) -> Posture:
     """The posture nearest to the present one, of those found, that meets all tasks.
 
-    Where none does: the one that lacks least in the first level, then in the second, and so on.
+    Where none does: the one that lacks least in the first level, then in the second, and so on (the
+    norm of its rows, in steps of ten tolerances).
 
     A controller descends from where the robot stands; where limits or singularities end the
     descent, others begin at random postures, each farther from the present one than the last.

@@ -71,10 +71,10 @@ class Detour {
   double still_ = 0.0;  // [s] that it has come no nearer
   double then_ = 0.0;   // [m] or [rad] that was missing at the start of that
   bool judged_ = false;
-  bool returns_ = false;        // the way was barred
-  Vector began_;                // (n) where it began
-  std::size_t first_target_;    // of the levels of the search
-  double moved_by_;             // [m] or [rad] from which on a target has moved
+  bool returns_ = false;      // the way was barred
+  Vector began_;              // (n) where it began
+  std::size_t first_target_;  // of the levels of the search
+  double moved_by_;           // [m] or [rad] from which on a target has moved
   Vector judged_at_,
       judged_errors_;     // (nq), (rows) what the targets lacked there at the last search
   Vector errors_, qpos_;  // (rows), (nq) scratch

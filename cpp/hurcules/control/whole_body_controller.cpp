@@ -554,7 +554,8 @@ void WholeBodyController::apply(const Vector* command, bool first, const RobotSt
   forces_.tell(plan_, state.qpos, state.qvel, state.sensors);
   miss_readings();
   add_up_twists();
-  for (TargetRate& rate : target_rates_) rate.moves = !rates_.segment(rate.row, rate.size).isZero(0.0);
+  for (TargetRate& rate : target_rates_)
+    rate.moves = !rates_.segment(rate.row, rate.size).isZero(0.0);
   Index row = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Index size = channels_[i].size();

@@ -249,12 +249,12 @@ class WholeBodyController {
   Vector q_, qd_, held_back_;
   YieldingTargets yielding_;
   FeedForward feed_forward_;
-  Vector start_;             // (nq) where the plan stands
-  Vector seen_;              // (m) joints in the last `tick`
-  Vector ahead_;             // (nq) scratch
-  Vector qpos_, qvel_;       // as read in this tick of a loop of one's own
+  Vector start_;                           // (nq) where the plan stands
+  Vector seen_;                            // (m) joints in the last `tick`
+  Vector ahead_;                           // (nq) scratch
+  Vector qpos_, qvel_;                     // as read in this tick of a loop of one's own
   Vector wished_, efforts_, step_, next_;  // (n) scratch
-  Vector delta_;             // scratch
+  Vector delta_;                           // scratch
   Frame support_;
   std::vector<double> scratch_;
 };

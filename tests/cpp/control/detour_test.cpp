@@ -127,7 +127,9 @@ TEST_F(DetourOfAnArm, OutOfReachItSearchesOnce) {
   controller_.set_stack(detour.direct());
   const std::vector<std::string> decisions = run(detour, 20.0);
   ASSERT_EQ(decisions.size(), 1U);
-  EXPECT_EQ(decisions[0], "hand: 0.4 m short; none of 4 descents finds a posture for all targets, or a nearer one");
+  EXPECT_EQ(
+      decisions[0],
+      "hand: 0.4 m short; none of 4 descents finds a posture for all targets, or a nearer one");
   EXPECT_LT(controller_.velocity().norm(), 1e-3);
 }
 

@@ -58,8 +58,7 @@ std::shared_ptr<WholeBodyController> make(const ModelPtr& model, double dt = 0.0
       {"tip", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5), {"x", "z"}},
       Channel::joint("finger", "finger", 0.1)};
   if (two_lead) {
-    channels.push_back(
-        {"other", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5), {"x", "z"}});
+    channels.push_back({"other", ChannelKind::Twist, *tip, Vector::Constant(1, 0.5), {"x", "z"}});
   }
   auto controller = std::make_shared<WholeBodyController>(
       robot,
