@@ -5,15 +5,15 @@ Run:  python benchmarks/conflicts.py [--dt 0.005 0.001] [--seeds 10] [--only bax
 
 The stack is `limits < first hand < second hand < centre of mass < posture`, both hands in 6-D, all
 else by default. The first hand's pose is that of a posture half the way to a random one, the second
-one's lies 1.5 m beyond that in a random direction. After 25 s (`--seconds`): error of the first hand, of the
-second, and the speed of the last 2 s. Beside them the least error of the second level (metres and
-radians, squares added, as the level adds them) that keeps the first hand's pose and the limits, by
-SLSQP of SciPy from where the runs end, the posture of the targets, and three random ones: an upper
-bound of what is possible. And the least within 0.1 rad of where a run ends: where that is no less,
-the run has come to a minimum, not to a stop. Both in thousandths, which are mm where only places
-lack; counted are the runs whose first hand arrives. Robots: that of this repository and, where they
-are installed, those of robosuite and example-robot-data. `--detour`: a `hurcules.Detour` looks on
-for both hands.
+one's lies 1.5 m beyond that in a random direction. After 25 s (`--seconds`): error of the first
+hand, of the second, and the speed of the last 2 s. Beside them the least error of the second level
+(metres and radians, squares added, as the level adds them) that keeps the first hand's pose and the
+limits, by SLSQP of SciPy from where the runs end, the posture of the targets, and three random
+ones: an upper bound of what is possible. And the least within 0.1 rad of where a run ends: where
+that is no less, the run has come to a minimum, not to a stop. Both in thousandths, which are mm
+where only places lack; counted are the runs whose first hand arrives. Robots: that of this
+repository and, where they are installed, those of robosuite and example-robot-data. `--detour`: a
+`hurcules.Detour` looks on for both hands.
 """
 
 from __future__ import annotations

@@ -19,10 +19,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+import hurcules
 from hurcules.shares import wilson
+from hurcules.validation import require_known
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.imitation import ask_expert, demonstrate
-from hurcules_envs.registry import fidelities_of, full_id, make_episodes, steps_of_episode
+from hurcules_envs.registry import (
+    fidelities_of,
+    full_id,
+    make_episodes,
+    native_options,
+    steps_of_episode,
+)
 
 NAMES = ("Reach-v0", "Drive-v0", "Press-v0", "Valve-v0", "Door-v0", "Carry-v0", "Lift-v0")
 SEARCHED, JUDGED = 5_000, 20_000  # first seeds; of demonstrations 1,000
@@ -67,8 +75,9 @@ def fitted(name: str, episodes: int, noise: float, **options: Any) -> tuple[Arra
         beyond = (np.abs(wanted) >= 1.0) & (given * np.sign(wanted) > 1.0)
         law = np.linalg.lstsq(seen, np.where(beyond, given, wanted), rcond=1e-6)[0]
     left = shown.actions - np.clip(seen @ law, -1.0, 1.0)
-    explained = 1.0 - (left**2).sum() / ((shown.actions - shown.actions.mean(axis=0)) ** 2).sum()
-    print(f"{name}: the law explains {explained:.0%} of {len(left)} expert actions", flush=True)
+    varied = ((shown.actions - shown.actions.mean(axis=0)) ** 2).sum()
+    share = f"{1.0 - (left**2).sum() / varied:.0%}" if varied else "none (they never change)"
+    print(f"{name}: the law explains {share} of {len(left)} expert actions", flush=True)
     return law.T, mean.astype(float), deviation.astype(float)
 
 
@@ -110,26 +119,62 @@ def policies(name: str, given: argparse.Namespace, **options: Any) -> dict[str, 
     }
 
 
-def main() -> None:
-    """Prints a line a policy."""
+def at_least(least: int) -> Callable[[str], int]:
+    """A type for argparse: whole numbers from there on."""
+
+    def number(text: str) -> int:
+        if not text.isdecimal() or int(text) < least:
+            raise argparse.ArgumentTypeError(f"wanted a whole number from {least} on, got {text!r}")
+        return int(text)
+
+    return number
+
+
+def asked(words: list[str] | None = None) -> tuple[argparse.Namespace, dict[str, str]]:
+    """The arguments, and the fidelity of each environment by its id.
+
+    Args:
+        words: of the command; None: those of this process.
+    """
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", default=NAMES)
     parser.add_argument("--fidelity", help="by default the fastest")
-    parser.add_argument("--judged", type=int, default=20, help="episodes of each policy")
-    parser.add_argument("--demonstrations", type=int, default=30, help="of the expert")
+    parser.add_argument("--judged", type=at_least(1), default=20, help="episodes of each policy")
+    parser.add_argument("--demonstrations", type=at_least(1), default=30, help="of the expert")
     parser.add_argument("--noise", type=float, default=0.3, help="of its pushes; Press wants 0.1")
-    parser.add_argument("--generations", type=int, default=6, help="of the search; 0: none")
-    parser.add_argument("--drawn", type=int, default=32, help="laws a generation, an episode each")
-    given = parser.parse_args()
+    parser.add_argument("--generations", type=at_least(0), default=6, help="0: no search")
+    parser.add_argument(
+        "--drawn", type=at_least(KEPT), default=32, help="laws a generation, an episode each"
+    )
+    given = parser.parse_args(words)
+    fidelities = {}
     for name in map(full_id, given.names):
-        options = {"fidelity": given.fidelity or fidelities_of(name)[-1]}
+        try:
+            native_options(name, {})
+            known = fidelities_of(name)
+            chosen = given.fidelity or next(reversed(known), "")
+            require_known(f"{name}: fidelity", chosen, known)
+            episodes = make_episodes(name, 1, 0, 1, fidelity=chosen)
+            episodes.look(remember=None)
+            ask_expert(name, episodes, (1, len(episodes.action_scale)))
+        except hurcules.Error as error:
+            parser.error(str(error))
+        fidelities[name] = chosen
+    return given, fidelities
+
+
+def main() -> None:
+    """Prints a line a policy."""
+    given, fidelities = asked()
+    for name, fidelity in fidelities.items():
+        options = {"fidelity": fidelity}
         seeds = [JUDGED + i for i in range(given.judged)]
         for title, act in policies(name, given, **options).items():
             start = time.perf_counter()
             success, returns = run(name, act, seeds, **options)
             low, high = wilson(int(success.sum()), len(seeds))
             print(
-                f"{name:18} {options['fidelity']:9} {title:32} {int(success.sum()):3} of "
+                f"{name:18} {fidelity:9} {title:32} {int(success.sum()):3} of "
                 f"{len(seeds)} ({low:.0%} to {high:.0%}), return {returns.mean():7.2f}, "
                 f"{time.perf_counter() - start:4.0f} s",
                 flush=True,

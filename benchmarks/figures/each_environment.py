@@ -18,7 +18,7 @@ import gymnasium
 import imageio.v3 as imageio
 
 import hurcules_envs
-from hurcules_envs.registry import steps_of_episode
+from hurcules_envs.registry import usual_rate
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 SEED = 3
@@ -44,9 +44,8 @@ def section(name: str) -> str:
     module, kind = spec.kwargs.get("environment", spec.entry_point).split(":")
     of = getattr(import_module(module), kind)
     steps = spec.max_episode_steps or 0
-    own = "environment" in spec.kwargs  # Stretch-v0 knows no other rate than 50 Hz
-    seconds = (steps_of_episode(spec.id, {"rate": 1000.0}) or 0) / 1000 if own else steps / 50
-    limit = f"{steps:,} steps, {seconds:g} s"
+    rate = usual_rate(spec, of.rate) if "environment" in spec.kwargs else 50.0  # of Stretch-v0
+    limit = f"{steps:,} steps, {steps / rate:g} s"
     twin = name.replace("-", "Joint-")
     known = f"Hurcules/{twin}" in hurcules_envs.ENVIRONMENTS
     beside = f"; joints as the action: `{twin}`" if known else ""

@@ -97,7 +97,8 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
             options: none are known.
 
         Raises:
-            gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
+            gymnasium.error.ClosedEnvironmentError: it was closed; `step`, `render`,
+                states and copies too.
             hurcules.Error: an option that does not exist.
         """
         require_open(self._closed, "reset")
@@ -137,6 +138,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
 
     def get_state(self) -> Array:
         """Everything that decides how the episode goes on, and how the next ones start."""
+        require_open(self._closed, "get_state")
         own = [generator_numbers(self.np_random), self._memory()]
         return np.concatenate([*own, self.simulation.state()])
 
@@ -146,6 +148,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         Raises:
             hurcules.Error: it is no state, or belongs to another environment.
         """
+        require_open(self._closed, "set_state")
         values = numbers_of("state", state)
         own = GENERATOR + len(self._memory())
         if values.ndim != 1 or len(values) <= own:
@@ -167,6 +170,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         Raises:
             hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
         """
+        require_open(self._closed, "render")
         if self.render_mode is None:
             gymnasium.logger.warn("render() without a render mode: pass render_mode='rgb_array'")
             return None
@@ -183,6 +187,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         self._closed = True
 
     def _went_on(self) -> Array:
+        require_open(self._closed, "copy")
         return self.get_state()
 
     def _go_on(self, state: Array) -> None:

@@ -7,6 +7,10 @@ from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any
 
+import numpy as np
+
+import hurcules
+
 __all__ = ["Ending"]
 
 
@@ -30,8 +34,17 @@ class Ending(IntEnum):
         Args:
             info: of the step.
             truncated: what the step gave.
+
+        Raises:
+            hurcules.Error: `info` has no ending, one that does not exist, or those of a vector.
         """
-        ending = cls(int(info["ending"]))
+        given: Any = info.get("ending")
+        if np.ndim(given) != 0 or given not in list(cls):
+            raise hurcules.Error(
+                f"info: wanted 'ending', a number from 0 to {max(cls)}, as a single environment "
+                f"gives it, got {given!r}"
+            )
+        ending = cls(int(given))
         return cls.TimeLimit if truncated and ending == cls.Running else ending
 
     @property

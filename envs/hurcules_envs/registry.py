@@ -26,6 +26,7 @@ __all__ = [
     "register",
     "spec_of",
     "steps_of_episode",
+    "usual_rate",
     "warn_of_rate",
 ]
 
@@ -142,8 +143,8 @@ def native_options(name: str, options: Mapping[str, Any]) -> dict[str, Any]:
     given = {**spec_of(name).kwargs, **options}
     if "environment" not in given:
         raise hurcules.Error(
-            f"{name} has no native vector, which is wanted here: that has what "
-            "hurcules_envs.register made known, Stretch-v1 say"
+            f"{name} has no native vector: wanted an environment that was registered by "
+            "hurcules_envs.register, Stretch-v1 say"
         )
     return given
 
@@ -210,7 +211,7 @@ def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:
     known = spec_of(name)
     if known.max_episode_steps is None or "rate" not in options:
         return known.max_episode_steps
-    return round(known.max_episode_steps * options["rate"] / _usual_rate(known, options["rate"]))
+    return round(known.max_episode_steps * options["rate"] / usual_rate(known, options["rate"]))
 
 
 def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
@@ -224,7 +225,7 @@ def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
     known = gymnasium.registry.get(spec.id) if spec else None
     if known is None or limit != known.max_episode_steps:
         return
-    usual = _usual_rate(known, rate)
+    usual = usual_rate(known, rate)
     if rate != usual:
         gymnasium.logger.warn(
             f"{known.id}: at rate={rate:g} an episode of {limit:g} steps lasts {limit / rate:g} s, "
@@ -233,7 +234,13 @@ def warn_of_rate(spec: EnvSpec | None, rate: float, limit: float) -> None:
         )
 
 
-def _usual_rate(known: EnvSpec, otherwise: float) -> float:
+def usual_rate(known: EnvSpec, otherwise: float) -> float:
+    """The rate that an environment has where none is asked for [Hz].
+
+    Args:
+        known: how it is registered.
+        otherwise: where its class has no keyword `rate`.
+    """
     of_class = _keywords(_class_of(known.kwargs["environment"])).get("rate")
     return float(known.kwargs.get("rate", of_class.default if of_class else otherwise))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -118,11 +119,23 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
             console.print(f"no film: {episode.undrawn}", style="yellow", markup=False)
     env.close()
     _report(summary, output, console)
-    judged = f"hurcules evaluate {options.policy} {options.environment or ''}".rstrip()
-    console.print(f"one episode; how often it succeeds: {judged}", soft_wrap=True, markup=False)
+    console.print(
+        f"one episode; how often it succeeds: {_judging(options)}", soft_wrap=True, markup=False
+    )
     if interrupts.noted:
         return INTERRUPTED
     return DONE if summary["success"] else FAILED
+
+
+def _judging(options: PolicyOptions) -> str:
+    """The command that judges this policy in this setting."""
+    words = ["hurcules", "evaluate", options.policy]
+    words += [options.environment] if options.environment else []
+    words += ["--fidelity", options.fidelity] if options.fidelity != "exact" else []
+    words += ["--robot", options.robot] if options.robot else []
+    for frame in options.frames:
+        words += ["--frame", frame]
+    return shlex.join(words)
 
 
 class _Episode:

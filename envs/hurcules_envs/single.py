@@ -158,7 +158,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
                 this episode and those after it.
 
         Raises:
-            gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
+            gymnasium.error.ClosedEnvironmentError: it was closed; `step`, `render`,
+                states and copies too.
             hurcules.Error: an option that does not exist, or a range that is none.
         """
         require_open(self._closed, "reset")
@@ -217,6 +218,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         Raises:
             hurcules.Error: it is no state, or belongs to another environment or version.
         """
+        require_open(self._closed, "set_state")
         if not self._begun:
             self.reset()
         self._episodes.restore(state_of(state, self.get_state().shape)[None])
@@ -231,6 +233,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         Raises:
             hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
         """
+        require_open(self._closed, "render")
         if self.render_mode is None:
             gymnasium.logger.warn("render() without a render mode: pass render_mode='rgb_array'")
             return None
@@ -248,6 +251,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._closed = True
 
     def _went_on(self) -> dict[str, Any]:
+        require_open(self._closed, "copy")
         there: dict[str, Any] = {"ranges": dict(self._episodes.randomisation.ranges)}
         if self._begun:
             there |= {"state": self.get_state(), "steps": self._steps}

@@ -138,7 +138,8 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
                 episodes, see `randomisation`, which hold for all that begin from now on.
 
         Raises:
-            gymnasium.error.ClosedEnvironmentError: it was closed; `step` too.
+            gymnasium.error.ClosedEnvironmentError: it was closed; `step`, `render`,
+                states and copies too.
             hurcules.Error: an unknown option, a range that is none, or a mask of another shape.
         """
         require_open(self.closed, "reset")
@@ -214,6 +215,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         Raises:
             hurcules.Error: they are no states, or belong to another environment or version.
         """
+        require_open(self.closed, "set_state")
         if not self._begun:
             self.reset()
         values = state_of(state, self.get_state().shape)
@@ -232,6 +234,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         Raises:
             hurcules.rendering.RendererError: there is no OpenGL that works; names the remedy.
         """
+        require_open(self.closed, "render")
         if self.render_mode is None:
             logger.warn("render() without a render mode: pass render_mode='rgb_array'")
             return None
@@ -254,6 +257,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
                 one.close()
 
     def _went_on(self) -> dict[str, Any]:
+        require_open(self.closed, "copy")
         ranges = dict(self._episodes.randomisation.ranges)
         return {"ranges": ranges, "state": self.get_state() if self._begun else None}
 

@@ -618,14 +618,22 @@ def test_the_last_fidelity_is_what_training_takes(name: str, known: tuple[str, .
     assert fidelities_of(f"Hurcules/{name}") == known
 
 
-def test_what_was_closed_is_not_stepped() -> None:
+def test_what_was_closed_is_not_used() -> None:
     vector = gym.make_vec("Hurcules/Reach-v0", num_envs=2, fidelity="kinematic")
     reach = gym.make("Hurcules/Reach-v0", fidelity="kinematic").unwrapped
     for env in (vector, reach, StretchEnv()):
         env.reset(seed=0)
+        state = env.get_state()
         env.close()
-        for use in (env.reset, lambda env=env: env.step(np.zeros(env.action_space.shape))):
-            with pytest.raises(gym.error.ClosedEnvironmentError, match="was closed"):
+        for call, use in {
+            "reset": env.reset,
+            "step": lambda env=env: env.step(np.zeros(env.action_space.shape)),
+            "render": env.render,
+            "get_state": env.get_state,
+            "set_state": lambda env=env, state=state: env.set_state(state),
+            "copy": lambda env=env: copy.deepcopy(env),
+        }.items():
+            with pytest.raises(gym.error.ClosedEnvironmentError, match=rf"{call}\(.*was closed"):
                 use()
 
 

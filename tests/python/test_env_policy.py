@@ -6,10 +6,12 @@ Not tested: that training leads anywhere (docs/environments.md has the figures).
 """
 
 import json
+import shlex
 import signal
 import sys
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -18,11 +20,13 @@ import pytest
 import hurcules
 import hurcules_envs
 from hurcules.cli import main
+from hurcules.plugins import PolicyOptions
 from hurcules.shares import wilson
 from hurcules_envs.endings import Ending
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, read, write
 from hurcules_envs.policy import Policy, shipped
+from hurcules_envs.running import _judging
 
 REACH = {"environment": "Hurcules/Reach-v0", "options": '{"fidelity": "kinematic"}'}
 GOAL = {"desired_goal": 6, "achieved_goal": 6}
@@ -109,6 +113,27 @@ def test_a_single_environment_whose_limit_is_a_wrapper_has_the_vectors_ending() 
         assert Ending.of(info, truncated) == wanted
     assert truncated and Ending.of(info, truncated).text == "time limit"
     assert Ending.of({"ending": 4}, True) == Ending.Fell
+
+
+@pytest.mark.parametrize("info", [{}, {"ending": 99}, {"ending": 4.5}, {"ending": np.zeros(2)}])
+def test_an_ending_that_is_none_is_told(info: dict[str, Any]) -> None:
+    with pytest.raises(hurcules.Error, match="wanted 'ending', a number from 0 to 8, as a single"):
+        Ending.of(info, True)
+
+
+def test_the_command_that_judges_has_the_setting_of_the_episode(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "my own").mkdir()
+    path = str(linear(tmp_path / "my own" / "a.onnx", 8.0))
+    words = [path, "Reach-v0", "--fidelity", "kinematic", "--robot", "manipulation"]
+    assert main(["run", "--policy", *words, "--no-video", "--out", str(tmp_path / "out")]) < 2
+    assert f"how often it succeeds: hurcules evaluate {shlex.join(words)}\n" in (
+        capsys.readouterr().out
+    )
+    files = PolicyOptions("a.onnx", robot="two arms.xml", frames=("left", "right"))
+    wanted = "hurcules evaluate a.onnx --robot 'two arms.xml' --frame left --frame right"
+    assert _judging(files) == wanted
 
 
 @pytest.mark.parametrize("name", sorted(shipped()))
