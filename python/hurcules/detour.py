@@ -62,8 +62,8 @@ class Detour(_core.Detour):
         """Looks at the robot after a tick; where it rests short of a target, another stack rules.
 
         A search goes on from look to look, while the robot rests. For the same targets there is
-        one: where it finds no posture, or what comes before bars the way, the robot stays at rest
-        until a target moves. A target that moves on the way ends the detour.
+        one: where it finds none, the robot stays at rest until a target moves; where what comes
+        before bars the way, it goes back first. A target that moves on the way ends the detour.
 
         Args:
             controller: a WholeBodyController that has `stacks`, or another one whose stack was set
