@@ -149,7 +149,7 @@ def test_parameters_that_nobody_writes_are_an_error(cart: str) -> None:
 
 
 class Ends(Cart):
-    """Heavy loads fly apart; a cart beyond 20 mm has failed, at 10 mm it is done."""
+    """Heavy loads fly apart; a cart beyond 18 mm has failed, at 10 mm it is done."""
 
     def configure(self, model: mujoco.MjModel, values: Mapping[str, Array]) -> None:
         """A spring that pushes, of heavy loads."""
@@ -159,7 +159,7 @@ class Ends(Cart):
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
         """Between the two places."""
         place = numbers["position/cart"][:, 0]
-        return (place > 0.01) & (place < 0.02)
+        return (place > 0.01) & (place < 0.018)
 
     def ended(self, numbers: Numbers) -> NDArray[np.bool_]:
         """Success ends it."""
@@ -167,7 +167,7 @@ class Ends(Cart):
 
     def failed(self, numbers: Numbers) -> NDArray[np.bool_]:
         """Beyond."""
-        return numbers["position/cart"][:, 0] >= 0.02
+        return numbers["position/cart"][:, 0] >= 0.018
 
 
 ENDS = f"{__name__}:Ends"
@@ -183,7 +183,7 @@ def test_info_says_why_an_episode_is_over(cart: str) -> None:
     *_, terminated, _, info = vector.step(speeds)
     endings = [hurcules.Ending(one).name for one in info["ending"]]
     place = vector.numbers["position/cart"][:, 0]
-    wanted = np.where(place >= 0.02, "Missed", np.where(place > 0.01, "Completed", "Running"))
+    wanted = np.where(place >= 0.018, "Missed", np.where(place > 0.01, "Completed", "Running"))
     assert endings == np.where(heavy, "Diverged", wanted).tolist()
     assert set(endings) == {"Running", "Diverged", "Completed", "Missed"}
     assert (terminated == (info["ending"] > 0)).all()

