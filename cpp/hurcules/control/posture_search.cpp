@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/control/level_diagnostics.hpp"
 
 namespace hurcules {
 
@@ -44,11 +45,15 @@ Stack copied(const Stack& stack, std::vector<const Task*>& originals,
   return Stack(std::move(levels));
 }
 
-// [m] or [rad] that a row lacks of its interval; one of weight 0 lacks nothing
-double lacking(const Task& task, Index row) {
-  if (!(task.weights()[row] > 0.0)) return 0.0;
-  const double error = task.error()[row];
-  return std::abs(std::clamp(error, task.lower()[row], task.upper()[row]) - error);
+// [m] or [rad] that the row lacks whose interval is farthest off; rows of weight 0 lack nothing
+double lacking(const Task& task) {
+  double most = 0.0;
+  for (Index i = 0; i < task.rows(); ++i) {
+    if (!(task.weights()[i] > 0.0)) continue;
+    const double error = task.error()[i];
+    most = std::max(most, std::abs(std::clamp(error, task.lower()[i], task.upper()[i]) - error));
+  }
+  return most;
 }
 
 double farthest(const Posture& posture, const Vector& from) {
@@ -132,11 +137,9 @@ void PostureSearch::measure() {
   for (std::size_t k = 0; k < lacks_.size(); ++k) {
     double squares = 0.0;
     for (const Task* const task : stack_.levels()[k].tasks) {
-      for (Index row = 0; row < task->rows(); ++row) {
-        const double lack = lacking(*task, row);
-        most_ = std::max(most_, lack);
-        squares += lack * lack;
-      }
+      most_ = std::max(most_, lacking(*task));
+      const double by = short_by(*task);
+      squares += by * by;
     }
     lacks_[k] = std::sqrt(squares);
   }
