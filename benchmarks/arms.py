@@ -10,7 +10,6 @@ import contextlib
 import importlib.util
 import sys
 import warnings
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -68,23 +67,6 @@ def places() -> Iterator[tuple[str, Path]]:
         yield from (("example_robot_data", path) for path in sorted(folder.glob(URDF)))
 
 
-def bare_urdf(path: Path) -> str:
-    """A URDF without shapes, which MuJoCo looks for elsewhere."""
-    root = ET.parse(path).getroot()
-    for link in root.iter("link"):
-        for shape in [*link.findall("visual"), *link.findall("collision")]:
-            link.remove(shape)
-    compiler = {
-        "balanceinertia": "true",
-        "boundmass": "0.01",
-        "boundinertia": "0.0001",
-        "fusestatic": "false",
-        "strippath": "false",
-    }
-    ET.SubElement(ET.SubElement(root, "mujoco"), "compiler", compiler)
-    return ET.tostring(root, encoding="unicode")
-
-
 def hand_of(robot: hurcules.Robot, model: mujoco.MjModel) -> str:
     """The body that most coordinates move, the last of them."""
     best, name = 0, ""
@@ -115,7 +97,7 @@ def name_of(package: str, path: Path) -> str:
 def load(name: str, path: Path) -> Arm:
     """Reads a model; its hand is '' where no frame is moved by two coordinates."""
     if path.suffix == ".urdf":
-        model = mujoco.MjModel.from_xml_string(bare_urdf(path))
+        model = hurcules.load_urdf(path, shapes=False)
     else:
         model = mujoco.MjModel.from_xml_path(str(path))
     return Arm(name, model, hand_of(hurcules.Robot(model), model))

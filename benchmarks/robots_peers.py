@@ -24,7 +24,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from arms import Arm, arms_and_files, bare_urdf
+from arms import Arm, arms_and_files
 from arrival import posture
 from robots import MISS, MOVES, SECONDS, TURN, angle
 
@@ -63,9 +63,10 @@ class Robot:
         """Without shapes and without joints that turn for ever."""
         if self.path.suffix != ".urdf":
             raise ValueError("no URDF")
-        root = ET.fromstring(bare_urdf(self.path))
-        for extra in root.findall("mujoco"):
-            root.remove(extra)
+        root = ET.parse(self.path).getroot()
+        for link in root.iter("link"):
+            for shape in [*link.findall("visual"), *link.findall("collision")]:
+                link.remove(shape)
         for joint in root.iter("joint"):
             if joint.get("type") == "continuous":
                 joint.set("type", "revolute")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import warnings
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
@@ -15,10 +14,10 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 from hurcules.motors import with_motors
+from hurcules.urdf_shapes import fit_shapes, place_meshes
 
 __all__ = ["load_urdf", "on_floor", "urdf_spec"]
 
-_MESHES = (".stl", ".obj", ".msh")  # that MuJoCo reads
 _MOVING = ("revolute", "continuous", "prismatic")
 _STIFF = (
     [0.004, 1.0],
@@ -32,6 +31,7 @@ _COMPILER = {
     "inertiafromgeom": "false",
     "fusestatic": "false",  # keeps the frames of fixed joints
     "strippath": "false",
+    "discardvisual": "false",
 }
 
 
@@ -39,6 +39,7 @@ def load_urdf(
     path: str | Path,
     *,
     shapes: bool = True,
+    visuals: bool = True,
     floating: bool = False,
     packages: Sequence[str | Path] = (),
 ) -> mujoco.MjModel:
@@ -47,13 +48,19 @@ def load_urdf(
     All links stay frames, fixed ones too. The limits of position and effort are MuJoCo's, those of
     speed stand as numerics `velocity_limit_JOINT`, where `Robot` finds them. Each joint has a motor
     (`with_motors`). The root is fixed to the world, as in the file. Links that touch each other in
-    the first posture never do: their hulls overlap by construction.
+    the first posture never do: their hulls overlap by construction. What is only seen is in group
+    1, and where a link has it, what touches is in group 3, which viewers hide at first.
+
+    MuJoCo reads meshes in OBJ, MSH and binary STL. COLLADA (.dae), text STL, PLY, glTF and what
+    else trimesh reads are taken where it is installed, `pip install 'hurcules[urdf]'`: a geom for
+    each colour, in metres; as RViz does, the axis that COLLADA calls up is not looked at.
 
     Args:
         path: of the file, or the URDF itself, a text that begins with `<`: what xacro gives, and
             ROS has as `robot_description`. Meshes are looked for as it names them,
             `package://NAME/...` in a folder NAME of `packages`, above the file, or of ROS.
         shapes: False leaves out everything to see and to touch.
+        visuals: False leaves out what is only seen.
         floating: the root moves freely (joint "root") above a plane "floor", on which the robot
             stands in its first posture: `on_floor` for any other.
         packages: folders that hold packages, beside those that ROS_PACKAGE_PATH and
@@ -64,15 +71,17 @@ def load_urdf(
 
     Warns:
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
-            MuJoCo does not read; joints whose range is empty, that mimic none, or move no mass.
+            is not read; inertia that no body has; joints whose range is empty, that mimic none, or
+            move no mass.
     """
-    return _read(path, shapes, floating, packages)[1]
+    return _read(path, shapes, visuals, floating, packages)[1]
 
 
 def urdf_spec(
     path: str | Path,
     *,
     shapes: bool = True,
+    visuals: bool = True,
     floating: bool = False,
     packages: Sequence[str | Path] = (),
 ) -> mujoco.MjSpec:
@@ -81,11 +90,15 @@ def urdf_spec(
     Arguments, errors and warnings are those of `load_urdf`. `spec.worldbody.add_geom(...)` adds a
     step, say, `spec.option.timestep` is the time step, and `spec.compile()` the model.
     """
-    return _read(path, shapes, floating, packages)[0]
+    return _read(path, shapes, visuals, floating, packages)[0]
 
 
 def _read(
-    path: str | Path, shapes: bool, floating: bool, packages: Sequence[str | Path]
+    path: str | Path,
+    shapes: bool,
+    visuals: bool,
+    floating: bool,
+    packages: Sequence[str | Path],
 ) -> tuple[mujoco.MjSpec, mujoco.MjModel]:
     text = path if isinstance(path, str) and path.lstrip().startswith("<") else None
     path = Path(path if text is None else "URDF")
@@ -99,7 +112,7 @@ def _read(
         raise Error(f"{path} wants to be a URDF, whose root is <robot>; <{root.tag}> came")
     if any("xacro}" in element.tag for element in root.iter()):
         raise Error(f"{path} wants xacro first, which makes a URDF of it")
-    _fit_shapes(root, path, shapes, packages)
+    meshes = fit_shapes(root, path, shapes, visuals, packages)
     _fit_inertias(root, path)
     _check_ranges(root, path)
     speeds = _speeds(root, path)
@@ -122,8 +135,7 @@ def _read(
                 spec.add_numeric(name=f"velocity_limit_{name}{part}", data=[speed], size=1)
     for mimic in spec.equalities:  # by MuJoCo's own stiffness a hand rested 3 mm off
         mimic.solref, mimic.solimp = _STIFF
-    for mesh in spec.meshes:  # thin ones have no volume
-        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    place_meshes(spec, meshes)
     try:
         plain = spec.compile()
         for text in _doubts(root, plain):
@@ -210,6 +222,7 @@ def _exclude_overlaps(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
 
 def _fit_inertias(root: ET.Element, path: Path) -> None:
     """Inertias with an axis that has none, which MuJoCo refuses, get the least there."""
+    changed = []
     for link in root.iter("link"):
         inertia = link.find("inertial/inertia")
         if inertia is None:
@@ -219,11 +232,24 @@ def _fit_inertias(root: ET.Element, path: Path) -> None:
         except ValueError as error:
             raise Error(f"{path}: inertia of link {link.get('name')!r}: {error}") from error
         values, axes = np.linalg.eigh(tensor)
-        if values[0] >= _LEAST_INERTIA:
-            continue
-        tensor = axes @ np.diag(values.clip(_LEAST_INERTIA)) @ axes.T
+        if not _possible(values):
+            changed.append(str(link.get("name")))
+        if values[0] < _LEAST_INERTIA:
+            tensor = axes @ np.diag(values.clip(_LEAST_INERTIA)) @ axes.T
         for key, (i, j) in _ENTRIES.items():
             inertia.set(key, repr(float(tensor[i, j])))
+    if changed:
+        warnings.warn(
+            f"{path.name}: no body has the inertia of {', '.join(changed)}: it is changed "
+            "(moments below 0 to the least; where one is above the sum of the others, to the mean)",
+            stacklevel=4,
+        )
+
+
+def _possible(moments: NDArray[np.float64]) -> bool:
+    """Whether a body may have these three, ascending, to what a file's digits are worth."""
+    slack = max(10 * _LEAST_INERTIA, 0.01 * moments[2])
+    return bool(moments[0] > -slack and moments[0] + moments[1] > moments[2] - slack)
 
 
 _ENTRIES = {
@@ -320,76 +346,3 @@ def _speeds(root: ET.Element, path: Path) -> dict[str, float]:
         if 0.0 < speed < math.inf:
             speeds[str(joint.get("name"))] = speed
     return speeds
-
-
-def _fit_shapes(root: ET.Element, path: Path, shapes: bool, packages: Sequence[str | Path]) -> None:
-    """Meshes by their places; takes out shapes that are not wanted or cannot be had."""
-    lost = []
-    if isinstance(packages, (str, Path)):
-        raise Error(f"packages wants a list of folders, {str(packages)!r} came")
-    folders = [*map(Path, packages), *path.resolve().parents, *_packages_of_ros()]
-    for link in root.iter("link"):
-        for shape in [*link.findall("visual"), *link.findall("collision")]:
-            mesh = shape.find("geometry/mesh")
-            if not shapes:
-                link.remove(shape)
-            elif mesh is not None:
-                name = mesh.get("filename", "")
-                file = _mesh_file(name, path, folders)
-                if file is None:
-                    lost.append(name)
-                    link.remove(shape)
-                else:
-                    mesh.set("filename", str(file))
-    if lost:
-        elsewhere = any(name.startswith("package://") and _is_mesh(name) for name in lost)
-        warnings.warn(
-            f"{path.name}: {len(lost)} shapes are left out, whose meshes are not there or not "
-            f"STL, OBJ or MSH: {lost[0]}"
-            + ", ..." * (len(lost) > 1)
-            + "; packages=[...] names folders that hold packages" * elsewhere,
-            stacklevel=4,
-        )
-
-
-def _packages_of_ros() -> list[Path]:
-    """Folders that hold packages, of ROS 1 and of ROS 2."""
-    sources = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-    installed = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-    folders = [Path(folder) for folder in sources if folder]
-    return folders + [Path(folder) / "share" for folder in installed if folder]
-
-
-def _mesh_file(name: str, path: Path, packages: list[Path]) -> Path | None:
-    file = _find_mesh(name, path, packages) if _is_mesh(name) else None
-    return file if file is not None and _is_readable(file) else None
-
-
-def _is_mesh(name: str) -> bool:
-    return name.lower().endswith(_MESHES)
-
-
-def _is_readable(file: Path) -> bool:
-    """Whether MuJoCo reads it: of STL, it takes binary files alone."""
-    if file.suffix.lower() != ".stl":
-        return True
-    with file.open("rb") as stream:
-        head = stream.read(84)
-    return len(head) == 84 and file.stat().st_size == 84 + 50 * int.from_bytes(head[80:], "little")
-
-
-def _find_mesh(name: str, path: Path, packages: list[Path]) -> Path | None:
-    name = name.removeprefix("file://")
-    package = name.startswith("package://")
-    relative = Path(name.removeprefix("package://"))
-    folders = packages if package else [path.resolve().parent]
-    for folder in folders:
-        file = folder / relative
-        if file.is_file():
-            return file
-        # beside the file of its own package: package://NAME/meshes -> .../NAME/meshes
-        if package and folder.name == relative.parts[0]:
-            file = folder.joinpath(*relative.parts[1:])
-            if file.is_file():
-                return file
-    return None

@@ -48,7 +48,7 @@ FLOORS: tuple[set[str], ...] = (
     {"hurcules." + name for name in (
         "_pickles", "_reprs", "_subclasses", "_version", "casualties", "detour", "mission_options",
         "mission_table", "motors", "postures", "rendering", "rhqp", "sensors",
-        "start_checks", "support",
+        "start_checks", "support", "urdf_shapes",
     )},
     {"hurcules." + name for name in (
         "cameras", "drawing", "mjcf", "urdf", "video",
