@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
@@ -10,34 +11,55 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules import mjcf, transfer_bed
 from hurcules.validation import require_known
 from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.drawing import add_arrow
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.rotations import quaternion
+from hurcules_envs.terrain import AHEAD, BESIDE, Heights
 
 __all__ = ["Drive"]
 
 DRAWN = ("rough_road", "step_field", "gravel", "sand")  # by a seed
-TERRAINS = ("flat", "ramps", "slope", *DRAWN)
+TERRAINS = ("flat", "ramps", "slope", "stairs", *DRAWN)
+CLIMBED = ("step_field", "stairs")  # tail first
+SCENES: dict[str, dict[str, Any]] = {"stairs": {"landing": 4.0}}  # by terrain, of its scene
+# [rad] of the joints where it climbs: lower legs turned over to the front, trunk and arms forward
+CLIMBING = {
+    "LKN": math.pi, "RKN": math.pi, "HIP": 1.0, "LSP": 1.9, "RSP": 1.9, "LEB": 0.6, "REB": 0.6,
+}  # fmt: skip
 SPEED, YAW_RATE, LEGS = 1.5, 1.0, 0.3  # [m/s], [rad/s], [rad/s] full scale
 FAR = (2.0, 6.0)  # [m] of the goal
-WIDE = 0.5  # [m] beside the lane on terrain
+LANDING = (4.0, 6.0)  # [m] of one on top of the stairs
+WIDE, NARROW = 0.5, 0.1  # [m] beside the lane on terrain; on the pallets of a step field
 NEAR, ALIGNED = 0.3, math.radians(15.0)  # [m], [rad] of success
 STILL = 0.1  # [m/s]
 EFFORT = 0.02
 NEARBY = 1.0  # [m] over which the heading begins to count
-CENTRE = -0.41  # [m] of the point that it turns about, its centre of mass, from the knee axis
+# [m] of the point that it turns about, its centre of mass, from the knee axis; where it climbs
+CENTRE, MIDDLE = -0.41, 0.07
 SEEN = ("x", "y", "cos", "sin")  # numbers of a goal
-TILT = 0.9  # [rad] of a robot that fell
+TILT, STEEP = 0.9, math.radians(60.0)  # [rad] of a robot that fell; that climbs
+RADIUS = 0.14  # [m] of the tracks
+# how it climbs, all but the first two fitted on step fields of the seeds 0 to 3
+TAIL, BATTERY = 0.6, 0.04  # [m] from the knees to the end of the upper legs; over their soles
+CLEAR, ASIDE, HELD = 0.03, 0.16, 1.5  # [m] over what is ahead; beside what holds it; [s] until then
+STRAIGHT, RAISED, HIGHER = -0.09, 0.75, 0.35  # [rad] of the knees: least, most, more where held
+HOLDS = ("nearest", "held", "edge", "tries", "aside")  # what it remembers of that
 
 
 class Drive(Environment):
     """The rescue robot drives on its tracks to a goal: place and heading.
 
     It starts folded as it drives, arms at rest. On flat ground the goal lies 2 to 6 m away
-    anywhere, with any heading; on terrain ahead, with the heading of the start. Poses are in the
-    world, of the point between the tracks that it turns about.
+    anywhere, with any heading; on terrain ahead, up to 0.5 m beside its lane, with the heading of
+    the start. Poses are in the world, of the point between the tracks that it turns about.
+
+    On a step field and on stairs it starts as it climbs, and looks back: its lower legs are turned
+    over to the front, its upper ones lead, trunk and arms lean forward. The goal lies 4 to 6 m away
+    on the landing of the stairs (35 degrees, 1 m high), or at most 0.1 m beside the middle of the
+    field, whose pallets are 1.2 m broad and its tracks 0.82 m.
 
     Action: Box(-1, 1, (3,), float32). Zero stands still.
 
@@ -46,6 +68,9 @@ class Drive(Environment):
     | 0     | drive_speed    | m/s   | 1.5   | speed along the heading                          |
     | 1     | drive_yaw_rate | rad/s | 1.0   | yaw rate, > 0 to the left                        |
     | 2     | legs           | rad/s | 0.3   | both knees: > 0 lifts the body on its lower legs |
+
+    Where it climbs, legs are straight at a knee of pi, and < 0 lifts the upper ones, which lead;
+    the trunk turns with the knees, so that it stays leant over the lower legs.
 
     With the action "joint" the velocity of each coordinate's reference comes first, in place of the
     legs alone, and the observation ends with the coordinates.
@@ -61,6 +86,11 @@ class Drive(Environment):
     | up       | 3    | 1     | 1     | the vertical, seen from the robot                 |
     | legs     | 1    | rad   | 4     | knee                                              |
     | margin   | 1    | m     | 2     | of the centre of mass within what it stands on    |
+
+    On terrain, unless `blind`, the group `ground` follows (225 numbers, m, bound 1): heights of the
+    ground about that point, without noise, at 25 places from 1.2 m behind to 1.2 m ahead, at each
+    of them 9 from 0.4 m left to 0.4 m right, all 0.1 m apart, over the soles at the knees. So a
+    policy of flat ground fits terrain with `blind=True` alone.
 
     Reward: `progress`, the way [m] that the goal came nearer; `heading`, what half of the heading's
     error [rad] times exp(-d / 1 m) became smaller, d the distance of the goal; `success`, 10 once;
@@ -83,16 +113,19 @@ class Drive(Environment):
         sparse: bool = False,
         rate: float = 10.0,
         action: str = "twist",
+        blind: bool = False,
     ) -> None:
         """Builds robot, ground and loop.
 
         Args:
             fidelity: "exact", "fast", or on flat ground "kinematic".
-            terrain: "flat", "ramps", "slope", "rough_road", "step_field", "gravel", "sand".
+            terrain: "flat", "ramps", "slope", "stairs", "rough_road", "step_field", "gravel",
+                "sand".
             terrain_seed: of one of the last four, which are drawn; the others are as they are.
             sparse: reward of success and fall only.
             rate: steps a second [Hz].
             action: "twist" (the table), or "joint": tracks, and the velocity of each coordinate.
+            blind: the observation is that of flat ground, without `ground`.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
@@ -108,14 +141,21 @@ class Drive(Environment):
             )
         self.terrain, self.terrain_seed = terrain, terrain_seed
         self.sparse, self.rate = sparse, rate
+        self._climbs = terrain in CLIMBED
+        self._centre = MIDDLE if self._climbs else CENTRE
+        self._heights = None if terrain == "flat" else Heights(self._spec(None))
+        self._sees = terrain != "flat" and not blind
         tick, physics = tick_of(fidelity, rate), fidelity != "kinematic"
         model = self._model(visuals=False)
         robot = hurcules.Robot(model)
         robot.set_keyframe("drive")
-        self._qpos = robot.qpos.copy()
+        self._qpos = self._climbing(model, robot.qpos) if self._climbs else robot.qpos.copy()
+        robot.set_qpos(self._qpos)
         self.goal = 4
         self.memory = {"goal": 4, "before": 4, "now": 4}  # the last two as they are seen
         self.memory |= dict.fromkeys(("way", "skew", "gained", "aligned", "speed", "done"), 1)
+        if self._climbs:
+            self.memory |= dict.fromkeys(HOLDS, 1)
         self.quantities = (
             "position/upper_legs",
             "matrix/upper_legs",
@@ -132,8 +172,12 @@ class Drive(Environment):
             Group("legs", 1, "rad", 4.0, "knee"),
             Group("margin", 1, "m", 2.0, "of the centre of mass within what it stands on"),
         )
+        if self._sees:
+            size, text = len(AHEAD) * len(BESIDE), "heights about the robot, not on flat ground"
+            self.observation += (Group("ground", size, "m", 1.0, text),)
         self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
+        self.components = {"legs": ("legs",)} if self._climbs else {}
         controller = self._controller(robot, model, action, tick, physics=physics)
         if physics:
             model = hurcules.models.with_timestep(model, tick)
@@ -142,7 +186,7 @@ class Drive(Environment):
             controller=controller,
             record=False,
             physics=physics,
-            fall=hurcules.FallOptions("upper_legs", max_tilt=TILT),
+            fall=hurcules.FallOptions("upper_legs", max_tilt=STEEP if self._climbs else TILT),
         )
 
     def _controller(
@@ -154,11 +198,11 @@ class Drive(Environment):
         *,
         physics: bool,
     ) -> hurcules.WholeBodyController:
-        legs = hurcules.PostureTask("legs", plan, ["KN"])
+        legs = hurcules.PostureTask("legs", plan, ["KN", "HIP"] if self._climbs else ["KN"])
         legs.max_lead = 0.2
         channels: dict[str, Any] = {
             "drive": hurcules.Drive(SPEED, YAW_RATE),
-            "legs": hurcules.Twist(legs, LEGS),
+            "climb" if self._climbs else "legs": hurcules.Twist(legs, LEGS),
         }
         first = legs
         if action == "joint":
@@ -175,23 +219,27 @@ class Drive(Environment):
         )
 
     def start(self, generator: np.random.Generator) -> Start:
-        """On flat ground anywhere, looking anywhere; on terrain where the scene has the robot."""
+        """On flat ground looking anywhere; on terrain where the scene has the robot."""
         qpos = self._qpos.copy()
-        far, heading = generator.uniform(*FAR), 0.0
+        heading = np.pi if self._climbs else 0.0
+        far = generator.uniform(*(LANDING if self.terrain == "stairs" else FAR))
         if self.terrain == "flat":
             heading = generator.uniform(-np.pi, np.pi)
             qpos[3:7] = quaternion(np.array([0.0, 0.0, heading]))
-        x = float(qpos[0]) + CENTRE * math.cos(heading)
-        y = float(qpos[1]) + CENTRE * math.sin(heading)
+        x = float(qpos[0]) + self._centre * math.cos(heading)
+        y = float(qpos[1]) + self._centre * math.sin(heading)
         if self.terrain == "flat":
             bearing, turn = generator.uniform(-np.pi, np.pi, 2)
             goal = (x + far * math.cos(bearing), y + far * math.sin(bearing), turn)
         else:
-            goal = (x + far, y + generator.uniform(-WIDE, WIDE), 0.0)
+            wide = NARROW if self.terrain == "step_field" else WIDE
+            goal = (x + far, y + generator.uniform(-wide, wide), heading)
         place = [*goal[:2], math.cos(goal[2]), math.sin(goal[2])]
         here = _seen(np.array([x, y, math.cos(heading), math.sin(heading)]))
         way, skew, _ = _errors(here, _seen(np.array(place)))
         memory = {"goal": place, "before": here, "now": here, "way": way, "skew": skew}
+        if self._climbs:
+            memory["nearest"] = way
         return Start(qpos, memory)
 
     def remember(self, numbers: Numbers) -> None:
@@ -204,6 +252,8 @@ class Drive(Environment):
         memory["gained"][:, 0] = memory["way"][:, 0] - way
         memory["aligned"][:, 0] = memory["skew"][:, 0] - skew
         memory["way"][:, 0], memory["skew"][:, 0] = way, skew
+        if self._climbs:
+            self._keep_on(way, memory, numbers.dt)
         memory["speed"][:, 0] = np.linalg.norm(numbers["velocity/upper_legs"], axis=1)
         memory["done"][:, 0] = (way < NEAR) & aligned & (memory["speed"][:, 0] < STILL)
 
@@ -213,7 +263,7 @@ class Drive(Environment):
         forward = achieved[:, 2:]
         velocity = numbers["velocity/upper_legs"]
         way = desired[:, :2] - achieved[:, :2]
-        return {
+        seen = {
             "goal": np.concatenate([_into(forward, way), _into(forward, desired[:, 2:])], axis=1),
             "velocity": np.concatenate([_into(forward, velocity[:, :2]), velocity[:, 2:]], axis=1),
             "spin": numbers["spin/upper_legs"],
@@ -221,13 +271,22 @@ class Drive(Environment):
             "legs": numbers["q/KN"],
             "margin": numbers["monitor/static_margin_m"],
         }
+        if self._sees:
+            seen["ground"] = self._ground(achieved, numbers)
+        return seen
+
+    def _ground(self, place: Array, numbers: Numbers) -> Array:
+        """Heights [m] about the robot over the soles of its tracks at the knees."""
+        assert self._heights is not None
+        sole = numbers["position/upper_legs"][:, 2:] - RADIUS
+        return self._heights.around(place) - sole
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Pose of the robot, pose that is wanted."""
         R = numbers["matrix/upper_legs"]
         forward = np.stack([R[:, 4], -R[:, 1]], axis=1)  # across the track axle
         forward = forward / np.maximum(np.linalg.norm(forward, axis=1, keepdims=True), 1e-9)
-        place = numbers["position/upper_legs"][:, :2] + CENTRE * forward
+        place = numbers["position/upper_legs"][:, :2] + self._centre * forward
         return np.concatenate([place, forward], axis=1), numbers["goal"]
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
@@ -275,8 +334,17 @@ class Drive(Environment):
         return self.succeeded(numbers)
 
     def expert(self, numbers: Numbers) -> Array:
-        """Actions (n, 3) of a smooth law for unicycles (Park and Kuipers, ICRA 2011)."""
+        """Actions (n, 3) of a smooth law for unicycles (Park and Kuipers, ICRA 2011).
+
+        On terrain it follows the goal's own line.
+        """
+        if self._climbs:
+            return np.clip(self._climb(numbers), -1.0, 1.0)
         seen = self.observe(numbers)["goal"]
+        if self.terrain != "flat":
+            speed, rate = _along(seen[:, :2], seen, 0.8)
+            action = np.stack([speed / SPEED, rate / YAW_RATE, np.zeros_like(rate)], axis=1)
+            return np.clip(action, -1.0, 1.0)
         way = np.linalg.norm(seen[:, :2], axis=1)
         sight = np.arctan2(seen[:, 1], seen[:, 0])  # of the goal, from the heading
         turn = np.arctan2(seen[:, 3], seen[:, 2])
@@ -292,6 +360,50 @@ class Drive(Environment):
         rate = np.where(near, 1.5 * turn, speed * bend)
         action = np.stack([speed / SPEED, rate / YAW_RATE, np.zeros_like(way)], axis=1)
         return np.clip(action, -1.0, 1.0)
+
+    def _climb(self, numbers: Numbers) -> Array:
+        """Tail first: the upper legs over what is ahead, the lower ones on what is behind.
+
+        What is held straightens, lifts its tail higher, and backs off to come again beside it.
+        """
+        seen, memory = self.observe(numbers), numbers.memory
+        roll = np.arcsin(np.clip(seen["up"][:, 1], -1.0, 1.0))
+        ground = self._ground(self.goals(numbers)[0], numbers)
+        scan = ground.reshape(-1, len(AHEAD), len(BESIDE))
+        scan = scan - np.tan(roll)[:, None, None] * BESIDE
+        ahead = -AHEAD - self._centre  # [m] of the knees
+        on, off = (ahead > 0.1) & (ahead < 1.0), (ahead < -0.15) & (ahead > -0.95)
+        tracks = np.maximum(scan[:, on, 2], scan[:, on, 6])
+        height = np.maximum(tracks, scan[:, on, 3:6].max(axis=2) - BATTERY) + CLEAR
+        over = np.arctan2(height, np.minimum(ahead[on], TAIL)).max(axis=1)
+        behind = scan[:, off][:, :, [0, 1, 7, 8]].max(axis=2)
+        lying = -np.arctan2(behind, -ahead[off]).max(axis=1) - 0.1  # where the lower legs meet it
+        knee, rise = seen["legs"][:, 0], np.arcsin(np.clip(-seen["up"][:, 0], -1.0, 1.0))
+        bend = over - np.maximum(rise - np.pi + knee, lying)
+        phase = np.minimum(memory["held"][:, 0] // HELD, 3)
+        bend = np.where(phase % 2 == 1, STRAIGHT, bend + np.where(phase == 2, HIGHER, 0.0))
+        missing = np.pi - np.clip(bend, STRAIGHT, RAISED) - knee
+        pace = np.clip(1.0 - np.abs(missing) / 0.15, np.where(phase > 0, 0.5, 0.0), 1.0)
+        speed, rate = _along(-seen["goal"][:, :2], seen["goal"], 0.4, memory["aside"][:, 0])
+        retreats = phase == 3
+        speed = np.where(retreats, -0.3, speed * pace)
+        rate = np.where(retreats, 1.5 * np.arctan2(seen["goal"][:, 3], seen["goal"][:, 2]), rate)
+        return np.stack([-speed / SPEED, rate / YAW_RATE, 6.0 * missing / LEGS], axis=1)
+
+    def _keep_on(self, way: Array, memory: Mapping[str, Array], dt: float) -> None:
+        """For how long what climbs is held, and how far beside its line it tries then."""
+        nearest, held, edge, tries, aside = (memory[name][:, 0] for name in HOLDS)
+        onward = way < nearest - 0.02
+        held[:] = np.where(onward, 0.0, held + dt)
+        nearest[:] = np.where(onward, way, nearest)
+        begins = (held > 3 * HELD) & (edge != nearest)
+        edge[begins] = nearest[begins]
+        tries[begins] += 1
+        aside[begins] = np.where(tries % 2 == 1, ASIDE, -ASIDE)[begins]
+        over = (held > 3 * HELD) & (way > nearest + 0.4) | (held > 3 * HELD + 3.5)
+        held[over], nearest[over] = 0.0, way[over]
+        free = way < edge - 0.55
+        aside[free], edge[free] = 0.0, 0.0
 
     def camera(self) -> mujoco.MjvCamera:
         """From above, with all places where the goal may lie."""
@@ -310,8 +422,30 @@ class Drive(Environment):
         add_arrow(scene, (x, y, 0.3), (x + 0.8 * cosine, y + 0.8 * sine, 0.3), 0.05, (0, 0.8, 0, 1))
 
     def _model(self, visuals: bool) -> mujoco.MjModel:
-        seed = self.terrain_seed
-        return hurcules.models.load("rescue", self.terrain, bed=False, visuals=visuals, seed=seed)
+        if self.terrain == "flat":
+            return hurcules.models.load("rescue", "flat", bed=False, visuals=visuals)
+        spec = self._spec("rescue")
+        transfer_bed.detach(spec)
+        return mjcf.compile(spec if visuals else mjcf.without_visuals(spec))
+
+    def _spec(self, robot: str | None) -> mujoco.MjSpec:
+        """The ground, with the robot on it or without."""
+        values = SCENES.get(self.terrain, {})
+        return hurcules.scenes.make(self.terrain, robot=robot, seed=self.terrain_seed, **values)
+
+    def _climbing(self, model: mujoco.MjModel, qpos: Array) -> Array:
+        """Where it starts to climb: looking back, its lower legs turned over to the front."""
+        there = qpos.copy()
+        there[3:7] = quaternion(np.array([0.0, 0.0, np.pi]))
+        for joint, angle in CLIMBING.items():
+            there[model.joint(joint).qposadr[0]] = angle
+        return there
+
+    def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
+        """Where it climbs, the trunk turns with the knees: it stays leant over the lower legs."""
+        if not self._climbs or "legs" not in action:
+            return action
+        return {"drive": action["drive"], "climb": np.repeat(action["legs"], 2, axis=1)}
 
 
 def _into(forward: Array, vector: Array) -> Array:
@@ -319,6 +453,23 @@ def _into(forward: Array, vector: Array) -> Array:
     along = np.einsum("ni,ni->n", forward, vector)
     left = forward[:, 0] * vector[:, 1] - forward[:, 1] * vector[:, 0]
     return np.stack([along, left], axis=1)
+
+
+def _along(way: Array, goal: Array, most: float, aside: Array | float = 0.0) -> tuple[Array, Array]:
+    """Speed [m/s] and yaw rate [rad/s] along the goal's own line.
+
+    Args:
+        way: (n, 2) [m] to the goal, ahead and to the left of where it drives to.
+        goal: (n, 4) as it is seen.
+        most: of the speed [m/s].
+        aside: [m] to the left of the line to keep to.
+    """
+    turn, x = np.arctan2(goal[:, 3], goal[:, 2]), way[:, 0]
+    there = np.abs(x) < 0.1
+    left = np.cos(turn) * way[:, 1] - np.sin(turn) * x + aside
+    turn = turn + np.where(x > 0.1, np.clip(1.5 * left, -0.4, 0.4), 0.0)
+    speed = np.where(there, 0.0, np.clip(x, -0.25, most))
+    return speed, np.where(there & (np.abs(turn) < 0.15), 0.0, 1.5 * turn)
 
 
 def _seen(goal: Array) -> Array:

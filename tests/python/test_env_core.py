@@ -41,6 +41,7 @@ IDS = [
     ("Hurcules/Drive-v0", FAST),
     ("Hurcules/DriveJoint-v0", FAST),
     ("Hurcules/StretchJoint-v1", FAST),
+    ("Hurcules/Drive-v0", {"fidelity": "fast", "terrain": "stairs"}),
     ("Hurcules/Drive-v0", {**FAST, "flat": True}),
     ("Hurcules/Drive-v0", {"fidelity": "fast", "terrain": "ramps"}),
 ]
@@ -442,7 +443,7 @@ def test_a_bad_option_says_what_was_wanted(options, text):
 
 
 def test_only_ground_that_is_drawn_has_a_seed():
-    for terrain in ("flat", "ramps", "slope"):
+    for terrain in ("flat", "ramps", "slope", "stairs"):
         with pytest.raises(hurcules.Error, match=f"terrain_seed: '{terrain}' is always the same"):
             gym.make("Hurcules/Drive-v0", fidelity="fast", terrain=terrain, terrain_seed=1)
 

@@ -1,0 +1,122 @@
+"""Drive on other ground than flat: what it sees of it, who may drive there, who comes across.
+
+Strategy: heights beside the numbers of the scene; experts in "fast", a few episodes each. Not
+tested: how often they succeed (docs/environments.md has it).
+"""
+
+import math
+
+import gymnasium as gym
+import numpy as np
+import pytest
+
+import hurcules
+import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.evaluation import evaluate
+from hurcules_envs.registry import make_episodes
+from hurcules_envs.terrain import AHEAD, BESIDE, Heights
+
+DRIVE = "Hurcules/Drive-v0"
+
+
+def drive(terrain, **options):
+    return gym.make(DRIVE, fidelity="fast", terrain=terrain, **options).unwrapped
+
+
+def ground(observation):
+    """(ahead, beside) of the group of that name, the last one."""
+    return observation["observation"][15:].reshape(len(AHEAD), len(BESIDE))
+
+
+def test_heights_are_those_of_the_scene():
+    stairs = hurcules.scenes.scene("stairs")
+    heights = Heights(hurcules.scenes.make("stairs"))
+    x = stairs.distance + stairs.run * np.array([-0.5, 0.5, 1.5, 2.5])
+    points = np.stack([x, np.zeros(4)], axis=1)
+    assert heights.at(points) == pytest.approx([0.0, 0.2, 0.4, 0.6], abs=1e-9)
+    slope = Heights(hurcules.scenes.make("slope"))
+    assert slope.at(np.array([3.0, 1.0])) == pytest.approx(3 * math.tan(math.pi / 6), abs=0.01)
+
+
+def test_the_grid_turns_with_the_robot():
+    heights = Heights(hurcules.scenes.make("step_field"))
+    seen = heights.around(np.array([[3.0, 0.0, 0.0, 1.0]])).reshape(len(AHEAD), len(BESIDE))
+    assert np.ptp(seen) >= 0.2  # posts of several heights
+    for i, j in ((0, 0), (14, 2), (17, 7)):  # it looks along y: to its left is -x
+        there = np.array([3.0 - BESIDE[j], AHEAD[i]])
+        assert seen[i, j] == heights.at(there)
+
+
+def test_what_is_seen_is_the_ground_under_it_and_ahead():
+    env = drive("slope")
+    seen = ground(env.reset(seed=0)[0])
+    # its soles lie on the slope, along its heading it rises by tan(30 degrees), across it does not
+    rises = np.diff(seen.mean(axis=1)) / np.diff(AHEAD)
+    middle = np.abs(AHEAD[1:]) < 0.9  # beyond it the numbers are cut off at 1 m
+    assert rises[middle] == pytest.approx(math.tan(math.pi / 6), abs=0.2)
+    assert np.ptp(seen, axis=1).max() < 0.03
+    assert drive("ramps").observation_space["observation"].shape == (240,)
+
+
+def test_on_flat_ground_nothing_is_added_and_blind_leaves_it_out():
+    flat, blind = drive("flat"), drive("ramps", blind=True)
+    assert [group.name for group in flat.environment.observation][-1] == "margin"
+    assert flat.observation_space == blind.observation_space
+    env = drive("ramps")
+    one, two = env.reset(seed=4)[0], blind.reset(seed=4)[0]
+    assert np.array_equal(one["observation"][:15], two["observation"])
+
+
+def test_a_policy_of_flat_ground_drives_blind_and_else_is_told_the_sizes():
+    given = {"fidelity": "fast", "terrain": "rough_road"}
+    with pytest.raises(hurcules.Error, match=r"does not fit .*wanted the inputs .*\(240\).*\(15\)"):
+        evaluate("Drive-v0", "Drive-v0", 1, **given)
+    assert evaluate("Drive-v0", "Drive-v0", 2, blind=True, **given).success == 1.0
+
+
+@pytest.mark.parametrize("terrain", ["slope", "ramps", "stairs"])
+def test_the_expert_comes_across_and_standing_still_does_not(terrain):
+    for act, wanted in ((lambda e: e.environment.expert(e.numbers), 1.0), (None, 0.0)):
+        episodes = make_episodes(DRIVE, 3, 900, 2, fidelity="fast", terrain=terrain)
+        running, done = np.ones(3, dtype=bool), np.zeros(3, dtype=bool)
+        episodes.look(remember=None)
+        for _ in range(300 if act else 30):
+            action = act(episodes) if act else np.zeros((3, 3))
+            episodes.step(episodes.checked(action, (3, 3)), running)
+            seen = episodes.look(remember=running)
+            done |= running & seen.info["is_success"]
+            running &= ~seen.terminated
+        assert done.mean() == wanted
+
+
+def test_the_trunk_turns_with_the_knees_where_it_climbs():
+    env = drive("stairs")
+    env.reset(seed=0)
+    for _ in range(15):
+        env.step(np.array([0.0, 0.0, -1.0], np.float32))
+    qpos = {name: float(env.data.joint(name).qpos[0]) for name in ("LKN", "RKN", "HIP")}
+    assert qpos["LKN"] == pytest.approx(math.pi - 0.45, abs=0.05)
+    assert qpos["RKN"] == pytest.approx(qpos["LKN"], abs=0.01)
+    assert qpos["HIP"] - 1.0 == pytest.approx(qpos["LKN"] - math.pi, abs=0.02)
+
+
+def test_an_expert_that_is_held_goes_on_with_the_same_bits_from_a_state():
+    one, two = drive("step_field", terrain_seed=2), drive("step_field", terrain_seed=2)
+    one.reset(seed=102)
+    two.reset(seed=0)
+    for _ in range(70):
+        one.step(one.environment.expert(one.numbers)[0].astype(np.float32))
+    two.set_state(one.get_state())
+    assert np.array_equal(one.observe()["observation"], two.observe()["observation"])
+    for _ in range(10):
+        a, b = (e.environment.expert(e.numbers)[0].astype(np.float32) for e in (one, two))
+        assert np.array_equal(a, b)
+        assert one.step(a)[1] == two.step(b)[1]
+
+
+def test_its_twin_of_joints_climbs_too():
+    env = gym.make("Hurcules/DriveJoint-v0", fidelity="fast", terrain="stairs").unwrapped
+    assert [group.name for group in env.environment.observation][-2:] == ["ground", "q"]
+    seen, _ = env.reset(seed=0)
+    assert env.observation_space.contains(seen)
+    assert env.observation_space.contains(env.step(env.action_space.sample())[0])
