@@ -6,10 +6,12 @@ Names and shapes are checked until the first step is done, NaN in each step.
 from __future__ import annotations
 
 import reprlib
+import warnings
 from collections.abc import Collection, Mapping
 from numbers import Integral, Real
 from typing import Any
 
+import mujoco
 import numpy as np
 from gymnasium.error import ClosedEnvironmentError
 from numpy.typing import NDArray
@@ -20,12 +22,15 @@ from hurcules_envs.environment import Array, Environment, Group, Numbers, Start
 
 __all__ = [
     "CheckedEnvironment",
+    "read_once",
     "require_attributes",
     "require_finite",
     "require_flag",
     "require_names",
     "require_numbers",
     "require_open",
+    "require_unchanged",
+    "warn_of_still_things",
 ]
 
 
@@ -123,6 +128,54 @@ class CheckedEnvironment:
         claim: NDArray[np.bool_] = getattr(self._environment, method)(numbers)
         require_numbers(f"{self._name}.{method}", claim, (self._n,), "bool", "b")
         return claim
+
+
+def warn_of_still_things(environment: Environment) -> None:
+    """Without physics nothing is gripped, pushed or dropped: a policy would learn that in vain."""
+    simulation = environment.simulation
+    if simulation.physics:
+        return
+    model, plan = simulation.model, simulation.controller.plan
+    own = {int(driven.dof) for one in plan.coordinates for driven in one.joints}
+    roots = {int(model.body_rootid[model.dof_bodyid[dof]]) for dof in own}
+    free = [
+        model.body(int(model.jnt_bodyid[joint])).name or "a body without a name"
+        for joint in np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)
+        if int(model.body_rootid[model.jnt_bodyid[joint]]) not in roots
+    ]
+    if free:
+        warnings.warn(
+            f"{type(environment).__name__}: without physics nothing moves {', '.join(free)}; where "
+            'it is to be touched, fidelities = ("exact", "fast") says that there is no "kinematic"',
+            stacklevel=2,
+        )
+
+
+def read_once(environment: Environment) -> dict[str, Any]:
+    """The attributes that episodes are made of, by name, as they are now."""
+    scales = {name: np.asarray(one).tolist() for name, one in environment.actions.items()}
+    names = ("rate", "observation", "quantities", "terms", "parameters")
+    return {"actions": scales} | {name: getattr(environment, name) for name in names}
+
+
+def require_unchanged(environment: Environment, made_of: Mapping[str, Any]) -> None:
+    """What is read once is as it was then: a change would be no change, in silence.
+
+    Args:
+        environment: which episodes were made of.
+        made_of: `read_once`, from when they were.
+
+    Raises:
+        hurcules.Error: an attribute differs.
+    """
+    for name, now in read_once(environment).items():
+        if now != made_of[name]:
+            was, wanted = reprlib.repr(made_of[name]), reprlib.repr(now)
+            raise hurcules.Error(
+                f"{type(environment).__name__}.{name} is read once, when the environment is made: "
+                f"it was {was} then, and a change to {wanted} does nothing; set it in __init__, "
+                "from a keyword say, and make another environment"
+            )
 
 
 def require_attributes(environment: Environment, read: Collection[str]) -> None:

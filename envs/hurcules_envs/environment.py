@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules.rendering import overview_camera, pose
+from hurcules.drawing import overview
+from hurcules.rendering import pose
 from hurcules.validation import require_known
 
 __all__ = ["Array", "Environment", "Group", "Numbers", "Start", "tick_of", "told"]
@@ -246,9 +247,11 @@ class Environment(ABC):
         """Of a goal environment: what is achieved and what is desired, (n, goal) each."""
         raise hurcules.Error("goals: this is no goal environment")
 
-    def camera(self) -> mujoco.MjvCamera:
-        """From where pictures are taken."""
-        return overview_camera()
+    def camera(self) -> mujoco.MjvCamera | str:
+        """From where pictures are taken: the model's camera "film", or one that looks at all."""
+        model = self.simulation.model
+        named = any(model.camera(i).name == "film" for i in range(model.ncam))
+        return "film" if named else overview(self.simulation)
 
     def pictured(self, episodes: Any, i: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """The model that is drawn, and data that stands as episode i does."""

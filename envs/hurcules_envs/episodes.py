@@ -17,11 +17,14 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.checks import (
     CheckedEnvironment,
+    read_once,
     require_attributes,
     require_finite,
     require_flag,
     require_names,
     require_numbers,
+    require_unchanged,
+    warn_of_still_things,
 )
 from hurcules_envs.copies import GENERATOR, generator_numbers, generator_state
 from hurcules_envs.environment import Array, Environment, Numbers, Start
@@ -101,6 +104,7 @@ class Episodes:
         self.n = n
         self._name = type(environment).__name__
         require_attributes(environment, [*_WATCHED, "finished"])
+        warn_of_still_things(environment)
         self._checked = CheckedEnvironment(environment, n)
         self._asked: Any = self._checked  # until the first step is done
         require_flag("flat", flat)
@@ -132,6 +136,7 @@ class Episodes:
         self._worst = np.zeros(n)
         self._ticks = round(1.0 / environment.rate / simulation.dt)
         self.period = self._ticks * simulation.dt
+        self._made_of = read_once(environment)
         self._make_spaces()
 
     def reset(self, mask: NDArray[np.bool_] | None = None) -> None:
@@ -139,7 +144,11 @@ class Episodes:
 
         Args:
             mask: (n,) which; None: all.
+
+        Raises:
+            hurcules.Error: an attribute was changed that is read once, when the episodes are made.
         """
+        require_unchanged(self.environment, self._made_of)
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
         starts = np.tile(self._initial, (self.n, 1))
         seeds = [0] * self.n

@@ -39,18 +39,23 @@ class UnknownOption(hurcules.Error, TypeError):
         super().__init__(text.partition(" was raised from the environment creator")[0])
 
 
-def register(name: str, environment: str, max_episode_steps: int, **options: Any) -> None:
+def register(
+    name: str, environment: str | type[Environment], max_episode_steps: int, **options: Any
+) -> None:
     """Makes an environment known to `gymnasium.make` and `gymnasium.make_vec`.
 
     Args:
         name: id, "Namespace/Name-v0".
-        environment: "module:Class" of an `Environment`.
+        environment: a class of `Environment`, of a module or a notebook, or "module:Class" of one.
         max_episode_steps: time limit [steps].
         options: of the environment, by keyword; who makes it may give others.
 
     Raises:
-        hurcules.Error: `environment` is no text "module:Class".
+        hurcules.Error: `environment` is neither, or a class within a function, which nothing finds
+            by its name.
     """
+    if isinstance(environment, type) and issubclass(environment, Environment):
+        environment = f"{environment.__module__}:{environment.__qualname__}"
     _parts_of(environment)
     gymnasium.register(
         id=name,
@@ -184,8 +189,10 @@ def spec_of(name: str) -> EnvSpec:
         known = sorted(
             one.split("/")[1] for one in gymnasium.registry if one.startswith(f"{space}/")
         )
+        own = not module and "/" in plain and not plain.startswith("Hurcules/")
         raise hurcules.Error(
             f"environment '{name}' does not exist; there are: {', '.join(known) or 'none'}"
+            + f"; one of your own is MODULE:{plain}, with the module that registers it" * own
         )
     return gymnasium.spec(plain)
 
@@ -255,6 +262,9 @@ def _class_of(path: str) -> type[Environment]:
 
 def _parts_of(path: str) -> list[str]:
     parts = path.split(":") if isinstance(path, str) else []
-    if len(parts) != 2 or not all(parts):
-        raise hurcules.Error(f"environment: wanted 'module:Class' of an Environment, got {path!r}")
+    if len(parts) != 2 or not all(parts) or "." in parts[1]:
+        raise hurcules.Error(
+            "environment: wanted a class of Environment at the top of a module, or 'module:Class' "
+            f"of one, got {path!r}"
+        )
     return parts

@@ -100,6 +100,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
             self.compute_reward = self.environment.compute_reward
         self._begun = self._closed = False
         self._steps = 0  # of the episode, none once it terminated
+        self._over = False  # it terminated, and nobody has reset it
         self._viewer: Any = None
         self._window = ExitStack()  # waits for the viewer's thread
         self._due = 0.0  # [s] when the next step may be shown
@@ -170,7 +171,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._episodes.randomisation.set_ranges(known_ranges(options or {}))
         self._episodes.generators[0] = self.np_random
         self._episodes.reset()
-        self._begun = True
+        self._begun, self._over = True, False
         step = self._episodes.look(remember=None)
         return self._seen(step.observation), _info(step)
 
@@ -192,9 +193,14 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         """
         self._require_begun("step")
         values = self._episodes.checked(action, self.action_space.shape or ())
+        if self._over:
+            gymnasium.logger.warn(
+                "step() after the episode terminated: reset() begins the next one, and what comes "
+                "until then is of none"
+            )
         self._episodes.step(values[None])
         step = self._episodes.look(remember=_ALL)
-        terminated = bool(step.terminated[0])
+        terminated = self._over = bool(step.terminated[0])
         self._steps = 0 if terminated else self._steps + 1
         if self.render_mode == "human":
             self.render()
@@ -222,6 +228,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         if not self._begun:
             self.reset()
         self._episodes.restore(state_of(state, self.get_state().shape)[None])
+        self._over = False
 
     def observe(self, *, noise: bool = True) -> Observation:
         """The observation now, after `set_state` say; without noise what a critic may know."""

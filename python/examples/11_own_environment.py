@@ -76,7 +76,7 @@ def main() -> None:
     if find_spec("gymnasium_robotics") is None:
         print("gymnasium_robotics is not installed: pip install gymnasium-robotics")
         return
-    hurcules_envs.register("Own/Circle-v0", f"{__name__}:Circle", max_episode_steps=200)
+    hurcules_envs.register("Own/Circle-v0", Circle, max_episode_steps=200)
     vector = gymnasium.make_vec("Own/Circle-v0", num_envs=4)
     observation, info = vector.reset(seed=0)
     for _ in range(100):

@@ -62,7 +62,9 @@ def load_urdf(
         shapes: False leaves out everything to see and to touch.
         visuals: False leaves out what is only seen.
         floating: the root moves freely (joint "root") above a plane "floor", on which the robot
-            stands in its first posture: `on_floor` for any other.
+            stands in its first posture: `on_floor` for any other. One without a shape that can
+            touch it, since its meshes are not read say, has its lowest link at that height, and
+            falls through until it is given feet: `urdf_spec`.
         packages: folders that hold packages, beside those that ROS_PACKAGE_PATH and
             AMENT_PREFIX_PATH name.
 
@@ -71,8 +73,9 @@ def load_urdf(
 
     Warns:
         UserWarning: shapes that were left out, since their meshes are not there or of a kind that
-            is not read; inertia that no body has; joints whose range is empty, that mimic none, or
-            move no mass.
+            is not read; joints whose range is empty, that mimic none, or move no mass;
+            links whose inertia no body has, and what it became (below 1 g and 1e-6 kg m^2, which
+            every link has at least, without a word); a floating robot that touches no floor.
     """
     return _read(path, shapes, visuals, floating, packages)[1]
 
@@ -89,6 +92,7 @@ def urdf_spec(
 
     Arguments, errors and warnings are those of `load_urdf`. `spec.worldbody.add_geom(...)` adds a
     step, say, `spec.option.timestep` is the time step, and `spec.compile()` the model.
+    `spec.body("sole").add_geom(...)` gives a foot to a robot whose meshes are not read.
     """
     return _read(path, shapes, visuals, floating, packages)[0]
 
@@ -113,7 +117,7 @@ def _read(
     if any("xacro}" in element.tag for element in root.iter()):
         raise Error(f"{path} wants xacro first, which makes a URDF of it")
     meshes = fit_shapes(root, path, shapes, visuals, packages)
-    _fit_inertias(root, path)
+    told = _fit_inertias(root, path)
     _check_ranges(root, path)
     speeds = _speeds(root, path)
     extension = root.find("mujoco")
@@ -138,7 +142,7 @@ def _read(
     place_meshes(spec, meshes)
     try:
         plain = spec.compile()
-        for text in _doubts(root, plain):
+        for text in [*_doubts(root, plain), *_changed(told, plain)]:
             warnings.warn(f"{path.name}: {text}", stacklevel=3)
         _exclude_overlaps(spec, plain)
         if not floating:
@@ -151,7 +155,16 @@ def _read(
         spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10, 10, 0.1])
         model = with_motors(spec)
         lying = model.qpos0.copy()
-        model.qpos0[:] = on_floor(model, model.qpos0)
+        if _touching(model, model.geom("floor").id):
+            model.qpos0[:] = on_floor(model, model.qpos0)
+        else:
+            model.qpos0[2] -= _lowest_link(model)
+            warnings.warn(
+                f"{path.name}: no shape of the robot can touch the floor: it falls through, and a "
+                "ContactTask finds no sole; remedy: spec = urdf_spec(..., floating=True), "
+                "spec.body('FOOT').add_geom(...) for each foot, spec.compile(), on_floor",
+                stacklevel=3,
+            )
         model.stat.center += (model.qpos0 - lying)[:3]  # where cameras look
         base.pos = model.qpos0[:3]
         return spec, model
@@ -191,14 +204,7 @@ def on_floor(
     data = mujoco.MjData(model)
     data.qpos[:] = qpos
     mujoco.mj_forward(model, data)
-    root = model.body_rootid[model.jnt_bodyid[0]]
-    own = np.flatnonzero(model.body_rootid[model.geom_bodyid] == root)
-    touch = [
-        geom
-        for geom in own
-        if model.geom_contype[geom] & model.geom_conaffinity[plane]
-        or model.geom_contype[plane] & model.geom_conaffinity[geom]
-    ]
+    touch = _touching(model, plane)
     if not touch:
         raise Error(f"no geom of the robot can touch {floor!r}")
     placed = np.array(qpos, dtype=float)
@@ -206,6 +212,24 @@ def on_floor(
     gap = min(mujoco.mj_geomDistance(model, data, geom, plane, far, None) for geom in touch)
     placed[:3] -= (gap + depth) * data.geom_xmat[plane].reshape(3, 3)[:, 2]
     return placed
+
+
+def _touching(model: mujoco.MjModel, plane: int) -> list[int]:
+    """The geoms of the robot that can touch a plane."""
+    root = model.body_rootid[model.jnt_bodyid[0]]
+    return [
+        geom
+        for geom in np.flatnonzero(model.body_rootid[model.geom_bodyid] == root).tolist()
+        if model.geom_contype[geom] & model.geom_conaffinity[plane]
+        or model.geom_contype[plane] & model.geom_conaffinity[geom]
+    ]
+
+
+def _lowest_link(model: mujoco.MjModel) -> float:
+    """[m] how high the lowest frame of the robot is in its first posture."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    return float(data.xpos[1:, 2].min())
 
 
 def _exclude_overlaps(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
@@ -220,9 +244,13 @@ def _exclude_overlaps(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
         spec.add_exclude(bodyname1=model.body(first).name, bodyname2=model.body(second).name)
 
 
-def _fit_inertias(root: ET.Element, path: Path) -> None:
-    """Inertias with an axis that has none, which MuJoCo refuses, get the least there."""
-    changed = []
+def _fit_inertias(root: ET.Element, path: Path) -> dict[str, NDArray[np.float64]]:
+    """Inertias that no body has, which MuJoCo refuses, become the nearest that one may have.
+
+    Returns:
+        By link (3,) [kg m^2] its principal moments as they stand in the file, ascending.
+    """
+    told = {}
     for link in root.iter("link"):
         inertia = link.find("inertial/inertia")
         if inertia is None:
@@ -232,26 +260,36 @@ def _fit_inertias(root: ET.Element, path: Path) -> None:
         except ValueError as error:
             raise Error(f"{path}: inertia of link {link.get('name')!r}: {error}") from error
         values, axes = np.linalg.eigh(tensor)
-        if not _possible(values):
-            changed.append(str(link.get("name")))
-        if values[0] < _LEAST_INERTIA:
-            tensor = axes @ np.diag(values.clip(_LEAST_INERTIA)) @ axes.T
+        told[str(link.get("name"))] = values.copy()
+        values = values.clip(_LEAST_INERTIA)
+        values[2] = min(values[2], _SUM * (values[0] + values[1]))
+        if not np.array_equal(values, told[str(link.get("name"))]):
+            tensor = axes @ np.diag(values) @ axes.T
         for key, (i, j) in _ENTRIES.items():
             inertia.set(key, repr(float(tensor[i, j])))
+    return told
+
+
+def _changed(told: dict[str, NDArray[np.float64]], model: mujoco.MjModel) -> Iterator[str]:
+    """Which links have another inertia than the file says, by more than the least."""
+    changed = []
+    for body in map(model.body, range(1, model.nbody)):
+        moments = np.sort(body.inertia)
+        file = told.get(body.name)
+        if file is not None and np.abs(moments - file).max() > 2.0 * _LEAST_INERTIA:
+            was, now = (" ".join(f"{moment:.3g}" for moment in three) for three in (file, moments))
+            changed.append(f"{body.name} ({was}: now {now})")
     if changed:
-        warnings.warn(
-            f"{path.name}: no body has the inertia of {', '.join(changed)}: it is changed "
-            "(moments below 0 to the least; where one is above the sum of the others, to the mean)",
-            stacklevel=4,
+        more = f" and {len(changed) - _NAMED} others" if len(changed) > _NAMED else ""
+        yield (
+            "no body has the principal moments of inertia [kg m^2] of "
+            f"{', '.join(changed[:_NAMED])}{more}: one of them is below 0 or above the sum of the "
+            "other two"
         )
 
 
-def _possible(moments: NDArray[np.float64]) -> bool:
-    """Whether a body may have these three, ascending, to what a file's digits are worth."""
-    slack = max(10 * _LEAST_INERTIA, 0.01 * moments[2])
-    return bool(moments[0] > -slack and moments[0] + moments[1] > moments[2] - slack)
-
-
+_NAMED = 6  # links in a warning
+_SUM = 1.0 - 1e-9  # the largest moment is at most that of the others, rounding apart
 _ENTRIES = {
     "ixx": (0, 0),
     "iyy": (1, 1),

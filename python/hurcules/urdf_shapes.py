@@ -45,7 +45,9 @@ def fit_shapes(
     if isinstance(packages, (str, Path)):
         raise Error(f"packages wants a list of folders, {str(packages)!r} came")
     folders = [*map(Path, packages), *path.resolve().parents, *_packages_of_ros()]
-    lost, converted = [], {}
+    lost: list[str] = []
+    touching = 0  # of them
+    converted = {}
     pieces_of = functools.cache(_pieces)
     for link in root.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
@@ -66,6 +68,7 @@ def fit_shapes(
             pieces = () if file is None else pieces_of(file, by_colour=seen)
             if not pieces:
                 lost.append(name)
+                touching += not seen
             for i, piece in enumerate(pieces):
                 stand_in = f"{file}.{'seen' if seen else 'touched'}.{i}.stl"
                 converted[stand_in] = piece
@@ -75,7 +78,7 @@ def fit_shapes(
                     _paint(one, piece.rgba)
                 link.append(one)
     if lost:
-        _tell(path, lost)
+        _tell(path, lost, touching)
     return converted
 
 
@@ -94,12 +97,12 @@ def place_meshes(spec: mujoco.MjSpec, converted: dict[str, Triangles]) -> None:
                 geom.group = geom.group or _TOUCHED
 
 
-def _tell(path: Path, lost: list[str]) -> None:
+def _tell(path: Path, lost: list[str], touching: int) -> None:
     elsewhere = any(name.startswith("package://") and _is_read(name) for name in lost)
     unread = any(not _is_read(name) for name in lost) and not _has_trimesh()
     warnings.warn(
-        f"{path.name}: {len(lost)} shapes are left out, whose meshes are not there or of a kind "
-        f"that is not read: {lost[0]}"
+        f"{path.name}: {len(lost)} shapes are left out ({touching or 'none'} of them for "
+        f"contacts), whose meshes are not there or of a kind that is not read: {lost[0]}"
         + ", ..." * (len(lost) > 1)
         + "; packages=[...] names folders that hold packages" * elsewhere
         + "; COLLADA and others are read with trimesh: pip install 'hurcules[urdf]'" * unread,

@@ -11,19 +11,22 @@ import re
 import subprocess
 import sys
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import gymnasium
 import mujoco
 import numpy as np
 import pytest
+from gymnasium.utils.env_checker import check_env
 
 import hurcules
 import hurcules_envs
 from hurcules_envs.drive import Drive
-from hurcules_envs.environment import Environment, Group, Start
+from hurcules_envs.environment import Environment, Group, Start, tick_of
 from hurcules_envs.episodes import Episodes
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, write
@@ -215,10 +218,156 @@ def test_what_goes_wrong_steps_later_is_told_too(text: str) -> None:
         run(**{method: answer})
 
 
-def test_an_environment_is_registered_by_a_text() -> None:
-    for wrong in (Cart, "no_class", "module:"):
-        with pytest.raises(hurcules.Error, match="wanted 'module:Class' of an Environment, got"):
+def test_what_no_name_leads_to_is_not_registered() -> None:
+    class Inner(Cart):
+        """Found by no name."""
+
+    for wrong in (Inner, int, "no_class", "module:"):
+        with pytest.raises(
+            hurcules.Error, match="wanted a class of Environment at the top of a mo"
+        ):
             hurcules_envs.register("Own/Cart-v0", wrong, max_episode_steps=10)  # type: ignore
+
+
+def test_a_class_is_registered_as_its_text_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gymnasium, "registry", registry := dict(gymnasium.registry))
+    monkeypatch.setattr("gymnasium.envs.registration.registry", registry)
+    hurcules_envs.register("Own/Class-v0", Cart, max_episode_steps=10)
+    assert gymnasium.spec("Own/Class-v0").kwargs == {"environment": f"{__name__}:Cart"}
+    with gymnasium.make("Own/Class-v0") as env:
+        assert isinstance(env.unwrapped.environment, Cart)  # type: ignore[attr-defined]
+
+
+CHANGES = {
+    "rate": 10.0,
+    "actions": {"hand": 0.5},
+    "observation": Cart.observation[:1],
+    "terms": ("distance", "effort"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_what_is_read_once_is_not_changed_in_silence(name: str) -> None:
+    env = SingleEnv(f"{__name__}:Cart")
+    env.reset(seed=0)
+    setattr(env.environment, name, CHANGES[name])
+    with pytest.raises(hurcules.Error, match=f"Cart.{name} is read once, when the environment is"):
+        env.reset()
+
+
+def test_an_action_that_is_changed_in_place_is_told_too() -> None:
+    env = SingleEnv(f"{__name__}:Cart")
+    env.reset(seed=0)
+    env.environment.actions["hand"] = 0.5  # type: ignore[index]
+    with pytest.raises(hurcules.Error, match=r"actions is read once.*\{'hand': 1.0\} then"):
+        env.reset()
+
+
+class Fast(Cart):
+    """With fidelities and rates, as docs/environments.md says."""
+
+    fidelities = ("exact", "fast", "kinematic")
+
+    def __init__(self, fidelity: str = "exact", rate: float = 20.0) -> None:
+        super().__init__()
+        self.rate = rate
+        model = mujoco.MjModel.from_xml_string(CART)
+        dt = model.opt.timestep = tick_of(fidelity, rate, self.fidelities)
+        robot = hurcules.Robot(model, ["rail"])
+        hand = hurcules.PositionTask("hand", robot, "cart", axes=[[1, 0, 0]])
+        channels = {"hand": hurcules.Twist(hand, 1.0)}
+        controller = hurcules.WholeBodyController(robot, [hand], channels, dt=dt)
+        physics = fidelity != "kinematic"
+        self.simulation = hurcules.Simulation(
+            model=model, controller=controller, record=False, physics=physics
+        )
+
+
+@pytest.mark.parametrize("rate", [20.0, 50.0])
+@pytest.mark.parametrize(
+    ("fidelity", "most"), [("exact", 1e-3), ("fast", 4e-3), ("kinematic", 25e-3)]
+)
+def test_an_environment_of_ones_own_has_fidelities_and_rates(
+    fidelity: str, most: float, rate: float
+) -> None:
+    env = SingleEnv(f"{__name__}:Fast", fidelity=fidelity, rate=rate)
+    env.reset(seed=0)
+    for _ in range(10):
+        env.step(np.ones(1, np.float32))
+    assert 0.7 * most < env.environment.simulation.dt <= most + 1e-12
+    assert env.simulation.time == pytest.approx(10 / rate)
+    assert env.data.body("cart").xpos[0] == pytest.approx(10 / rate, abs=0.03)  # 1 m/s
+    with pytest.raises(
+        hurcules.Error, match="fidelity 'slow' does not exist; there are: exact, fa"
+    ):
+        SingleEnv(f"{__name__}:Fast", fidelity="slow")
+
+
+@pytest.mark.parametrize(("fidelity", "told"), [("fast", False), ("kinematic", True)])
+def test_things_that_nothing_moves_without_physics_are_told(
+    monkeypatch: pytest.MonkeyPatch, fidelity: str, told: bool
+) -> None:
+    box = '<body name="box" pos="1 0 0"><freejoint/><geom size="0.1"/></body></worldbody>'
+    monkeypatch.setattr(f"{__name__}.CART", CART.replace("</worldbody>", box))
+    text = r'Fast: without physics nothing moves box; .* fidelities = \("exact", "fast"\)'
+    with pytest.warns(UserWarning, match=text) if told else nullcontext():
+        SingleEnv(f"{__name__}:Fast", fidelity=fidelity)
+
+
+class Told(Cart):
+    """What another episode takes over: a curriculum."""
+
+    far = 0.5
+
+    def start(self, generator: np.random.Generator) -> Start:
+        """As far as is told."""
+        return Start(memory={"place": self.far}, info={"place": self.far})
+
+
+def test_a_curriculum_changes_what_start_reads() -> None:
+    env = SingleEnv(f"{__name__}:Told")
+    assert env.reset()[1]["place"] == 0.5
+    env.environment.far = 0.9  # type: ignore[attr-defined]
+    assert env.reset()[1]["place"] == 0.9
+
+
+class Over(Cart):
+    """Ends where it begins."""
+
+    def failed(self, numbers: Any) -> Any:
+        """At once."""
+        return np.ones(len(numbers.action), dtype=bool)
+
+
+def test_a_step_after_the_end_is_told() -> None:
+    env, hold = SingleEnv(f"{__name__}:Over"), np.zeros(1, np.float32)
+    env.reset(seed=0)
+    assert env.step(hold)[2]  # in silence, warnings are errors here
+    with pytest.warns(UserWarning, match=r"step\(\) after the episode terminated: reset\(\)"):
+        env.step(hold)
+    env.reset()
+    env.step(hold)
+
+
+def test_check_env_of_gymnasium_has_nothing_to_say() -> None:
+    check_env(SingleEnv(f"{__name__}:Cart"), skip_render_check=True)
+
+
+def test_a_picture_looks_at_the_robot_that_is_there() -> None:
+    cart = Cart()
+    camera = cart.camera()
+    assert isinstance(camera, mujoco.MjvCamera)
+    model = cart.simulation.model
+    np.testing.assert_allclose(camera.lookat, model.stat.center)
+    assert camera.distance < 2.0 * model.stat.extent  # it was where Hurcules stands, 3.5 m off
+    filmed = CART.replace("<worldbody>", '<worldbody><camera name="film"/>')
+    cart.simulation = hurcules.Simulation(
+        model=(model := mujoco.MjModel.from_xml_string(filmed)),
+        controller=hurcules.WholeBodyController(
+            robot := hurcules.Robot(model), [hurcules.PostureTask("posture", robot)]
+        ),
+    )
+    assert cart.camera() == "film"
 
 
 class Loaded(Cart):
@@ -329,6 +478,7 @@ def test_commands_take_an_environment_of_ones_own(tmp_path: Path) -> None:
         ("own_rail:Own/Road-v0", "'own_rail:Own/Road-v0' does not exist; there are: Rail-v0"),
         ("own_road:Own/Rail-v0", "No module named 'own_road'; wanted module:Namespace/Name-v0"),
         ("Road-v0", "'Hurcules/Road-v0' does not exist; there are: Carry-v0, "),
+        ("Own/Rail-v0", "; one of your own is MODULE:Own/Rail-v0, with the module that registers"),
     ):
         assert told in command(tmp_path, "record", words).stderr
     told = command(tmp_path, "evaluate", "policy.onnx", "--fidelity", "fast").stderr

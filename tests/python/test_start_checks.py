@@ -372,3 +372,15 @@ def test_a_person_who_walks_and_counts_for_no_distance_is_told() -> None:
     assert warned(beside_a_person(contype=0), "c h", []) == []  # a mark of a viewer
     assert warned(beside_a_person(), "h", []) == []  # nobody asked for distances
     assert warned(beside_a_person(), "s h", []) == []
+
+
+def test_a_simulation_starts_where_the_robot_stood_when_its_controller_was_made() -> None:
+    robot = hurcules.Robot(chain := model())
+    robot.set_configuration(first := [0.1, 0.2, 0.3])
+    controller = hurcules.WholeBodyController(robot, [hurcules.PostureTask("posture", robot)])
+    robot.set_configuration(later := [0.4, 0.5, 0.6])  # too late
+    run = hurcules.Simulation(model=chain, controller=controller)
+    assert run.data.qpos == pytest.approx(first)
+    run.reset(start=later)
+    run.step(10)
+    assert run.data.qpos == pytest.approx(later, abs=1e-3)

@@ -87,8 +87,35 @@ def test_on_floor_says_what_it_wants(urdf: Path) -> None:
         hurcules.on_floor(model, model.qpos0[7:])
     with pytest.raises(hurcules.Error, match="name of a plane, 'floor' is none; there are: none"):
         hurcules.on_floor(hurcules.load_urdf(urdf), np.zeros(1))
+    with pytest.warns(UserWarning, match="no shape of the robot can touch the floor"):
+        model = hurcules.load_urdf(urdf, shapes=False, floating=True)
     with pytest.raises(hurcules.Error, match="no geom of the robot"):
-        hurcules.load_urdf(urdf, shapes=False, floating=True)
+        hurcules.on_floor(model, model.qpos0)
+
+
+def test_a_robot_whose_meshes_are_not_read_is_given_feet(urdf: Path) -> None:
+    # iCub and Romeo, whose meshes are COLLADA, could not float at all
+    whole = hurcules.load_urdf(urdf, floating=True)
+    told = "it falls through, and a ContactTask finds no sole; remedy: spec = urdf_spec"
+    with pytest.warns(UserWarning, match=told) as caught:
+        spec = hurcules.urdf_spec(urdf, shapes=False, floating=True)
+    assert caught[0].filename == __file__
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert data.xpos[1:, 2].min() == pytest.approx(0.0)  # its lowest link
+    sole = {"type": mujoco.mjtGeom.mjGEOM_BOX, "size": [0.1, 0.05, 0.02]}
+    spec.body("foot").add_geom(**sole)
+    model = spec.compile()
+    robot = hurcules.Robot(model, floating=True)
+    robot.set_qpos(hurcules.on_floor(model, model.qpos0))
+    np.testing.assert_allclose(robot.qpos, whole.qpos0)
+    foot = hurcules.ContactTask("foot", robot, "foot")
+    levels = [foot, hurcules.PostureTask("posture", robot)]
+    controller = hurcules.WholeBodyController(robot, levels, control="torque")
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    simulation.step(500)
+    assert controller.contact_force("foot")[2] == pytest.approx(4 * 9.81, abs=0.05)
 
 
 @pytest.mark.parametrize("way", [[0.25, 0.0, 0.0], [0.0, -0.2, 0.0], [-0.2, 0.2, 0.0]])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import mujoco
@@ -348,6 +349,53 @@ def test_what_is_read_otherwise_than_the_file_has_it_is_told(
         hurcules.load_urdf(file, shapes=False)
     assert len(caught) == 1
     assert caught[0].filename == __file__
+
+
+IZZ = ' iyy="0.03" izz="0.01"'  # of the upper arm, about x 0.03
+
+
+@pytest.mark.parametrize(
+    ("izz", "told", "now"),
+    [
+        ("0.12", r"upper \(0.03 0.03 0.12: now 0.03 0.03 0.06\)", [0.03, 0.03, 0.06]),
+        ("-0.01", r"upper \(-0.01 0.03 0.03: now 1e-06 0.03 0.03\)", [1e-6, 0.03, 0.03]),
+        ("0.06", "", [0.03, 0.03, 0.06]),  # a plate has it: the sum of the other two
+        ("0", "", [1e-6, 0.03, 0.03]),  # a rod
+    ],
+)
+def test_inertias_that_no_body_has_are_told(
+    file: Path, izz: str, told: str, now: list[float]
+) -> None:
+    # they became others in silence: 0.02 kg m^2 of a trunk of Romeo below 0
+    text = ARM.replace(IZZ, f' iyy="0.03" izz="{izz}"')
+    assert text != ARM
+    file.write_text(text)
+    if told:
+        with pytest.warns(UserWarning, match=f"no body has the principal moments.* {told}: one"):
+            model = hurcules.load_urdf(file, shapes=False)
+    else:
+        model = hurcules.load_urdf(file, shapes=False)  # warnings are errors here
+    np.testing.assert_allclose(np.sort(model.body("upper").inertia), now, rtol=1e-6)
+
+
+def test_of_many_such_links_some_are_named(file: Path) -> None:
+    bad = """<link name="bad{0}"><inertial><mass value="1"/>
+      <inertia ixx="1" iyy="1" izz="9" ixy="0" ixz="0" iyz="0"/></inertial></link>
+      <joint name="to{0}" type="fixed"><parent link="lower"/><child link="bad{0}"/></joint>"""
+    links = "".join(bad.format(i) for i in range(9))
+    file.write_text(ARM.replace("</robot>", links + "</robot>"))
+    with pytest.warns(UserWarning, match=r"bad5 \(1 1 9: now 1 1 2\) and 3 others: one"):
+        hurcules.load_urdf(file, shapes=False)
+
+
+def test_shapes_that_are_left_out_are_told_by_what_they_are_for(file: Path) -> None:
+    for text, told in (
+        (ARM, "1 shapes are left out (none of them for contacts)"),
+        (ARM.replace("visual>", "collision>"), "1 shapes are left out (1 of them for contacts)"),
+    ):
+        file.write_text(text)
+        with pytest.warns(UserWarning, match=re.escape(told)):
+            hurcules.load_urdf(file)
 
 
 def test_a_continuous_joint_has_no_range(file: Path) -> None:

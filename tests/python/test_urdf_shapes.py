@@ -113,15 +113,6 @@ def test_a_mesh_that_nothing_reads_is_told(tmp_path: Path) -> None:
         hurcules.load_urdf(LINK.format(shapes=shapes))
 
 
-@pytest.mark.parametrize("moments", [(0.1, 0.1, 0.3), (-0.01, 0.1, 0.1)])
-def test_inertia_that_no_body_has_is_told(moments: tuple[float, ...]) -> None:
-    own = 'ixx="{}" iyy="{}" izz="{}"'.format(*moments)
-    text = LINK.format(shapes="").replace('ixx="0.1" iyy="0.1" izz="0.1"', own)
-    with pytest.warns(UserWarning, match="no body has the inertia of base") as told:
-        hurcules.load_urdf(text)
-    assert [warning.filename for warning in told] == [__file__]
-
-
 def test_inertia_may_leave_products_out() -> None:
     text = LINK.format(shapes="").replace(' ixy="0" ixz="0" iyz="0"', "")
     np.testing.assert_allclose(hurcules.load_urdf(text).body_inertia[1], 0.1)
