@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from types import MappingProxyType
 
 import mujoco
@@ -203,7 +203,10 @@ class MissionEnvironment(ContactEnvironment):
 
 
 def kept(
-    mission: Mission, last: str, judged: Callable[[hurcules.Measure], bool] = lambda _: True
+    mission: Mission,
+    last: str,
+    judged: Callable[[hurcules.Measure], bool] = lambda _: True,
+    without: Collection[str] = (),
 ) -> Mission:
     """The mission that is over after the phase `last`, or where reactions lead.
 
@@ -211,11 +214,14 @@ def kept(
         mission: the table as it is.
         last: the phase.
         judged: which measures stay, of those that need no later phase.
+        without: phases that are left out, with the troubles that lead there.
     """
-    phases = []
-    for phase in mission.rows.phases:
+    phases = [phase for phase in mission.rows.phases if phase.name not in without]
+    for phase in phases:
         phase.last = phase.name == last
-        phases.append(phase)
+        phase.troubles = [
+            one for one in phase.troubles if not any(to.phase in without for to in one.reactions)
+        ]
     after = {phase.name for phase in phases[[p.name for p in phases].index(last) + 1 :]}
     measures = [one for one in mission.rows.measures if not after & set(one.phases) and judged(one)]
     return Mission(

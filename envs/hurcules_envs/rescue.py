@@ -123,7 +123,7 @@ class Rescue(MissionEnvironment):
             "tracks": np.array(TRACKS), "hands": HANDS, "pitch": PITCH, "press": PRESS,
             "lean": JOINTS, "shoulders": JOINTS, "elbows": JOINTS, "phase": 1.0,
         }  # fmt: skip
-        phases = kept(lift.mission(self.mission), self.last)
+        phases = kept(lift.mission(self.mission), self.last, without=lift.ON_THE_FRONT)
         self.adopt(phases, model, lift.controller, self.last, LED)
         self.fetched = limp_person(model, self.simulation.data.qpos)
         self.observation = (

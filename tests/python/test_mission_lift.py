@@ -64,7 +64,7 @@ def test_the_report_has_the_limits_of_contacts_that_the_mission_judges_by(run) -
 def test_no_commanded_velocity_jumps_between_phases(run) -> None:
     simulation, _ = run
     log = simulation.log()
-    assert log["phase"][-1] == len(simulation.phases) - 1
+    assert log["phase"][-1] == simulation.phases.index("rest")
     most = 20.0 * simulation.dt  # [rad/s] one tick of the acceleration limit
     for channel, values in log.items():
         if channel.startswith("qd_des/"):
@@ -188,6 +188,33 @@ def test_arms_over_the_belly_or_at_the_sides_are_in_nobodys_way() -> None:
         )
         simulation.step(1600)
         assert simulation.phase not in ("settle", "step back", "see him")
+
+
+@pytest.mark.parametrize("pose, after", [("front", "let down"), ("back", "lower")])
+def test_who_lies_on_the_front_is_laid_down_in_a_way_of_his_own(pose: str, after: str) -> None:
+    simulation = hurcules.Simulation("lift", variation=0.0, parameters={"pose": pose}, record=False)
+    simulation.step(1)
+    simulation.go("lower")
+    simulation.step(2)
+    assert simulation.phase == after
+    names = simulation.phases
+    assert tuple(names[names.index("rest") + 1 :]) == lift.ON_THE_FRONT
+    assert next(row for row in lift.mission().rows.phases if row.name == "rest").last
+
+
+@pytest.mark.slow
+def test_the_face_of_who_lay_on_the_right_side_is_not_pressed_as_he_is_laid_down() -> None:
+    simulation = hurcules.Simulation("lift", variation=0.0, parameters={"pose": "right"})
+    while not simulation.finished:
+        simulation.step(20)
+        if simulation.question and simulation.phase == "settle":
+            simulation.answer(True)
+    assert simulation.success, simulation.reason
+    log = simulation.log()
+    down = log["phase"] >= simulation.phases.index("let down")
+    assert down.sum() * simulation.dt > 50.0
+    assert log["casualty/force/face"][down].max() <= contact_limit("face")
+    assert log["casualty/face_up"][down].max() < -0.5  # on his front still
 
 
 def test_a_stand_off_below_zero_is_told() -> None:
