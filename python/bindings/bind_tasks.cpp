@@ -99,6 +99,7 @@ Args:
 constexpr const char* kCustomTask = R"(A task whose value a Python function measures.
 
 Slower than the others by what Python takes. A copy of a controller shares the function.
+`check_jacobian(task, robot)` compares the Jacobian with differences of the value.
 
 Args:
   name, robot: see PositionTask.

@@ -131,6 +131,7 @@ from hurcules._core import (  # noqa: E402
     step,
 )
 from hurcules.detour import Detour  # noqa: E402
+from hurcules.jacobian_check import check_jacobian  # noqa: E402
 from hurcules.mission_table import Mission  # noqa: E402
 from hurcules.motors import with_motors  # noqa: E402
 from hurcules.simulation import Simulation, SimulationBatch, missions  # noqa: E402
@@ -265,6 +266,7 @@ __all__ = [
     "__version__",
     "cameras",
     "casualties",
+    "check_jacobian",
     "disposal",
     "driving",
     "film",

@@ -836,6 +836,7 @@ class CustomTask(ValueTask):
     """A task whose value a Python function measures.
 
     Slower than the others by what Python takes. A copy of a controller shares the function.
+    `check_jacobian(task, robot)` compares the Jacobian with differences of the value.
 
     Args:
       name, robot: see PositionTask.

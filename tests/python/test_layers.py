@@ -43,7 +43,7 @@ FLOORS: tuple[set[str], ...] = (
         "opengl", "outlet", "plugins", "running_gear", "shares", "workers",
     )},
     {"hurcules." + name for name in (
-        "interrupts", "mission_drawing", "output", "toml_rows", "validation",
+        "interrupts", "jacobian_check", "mission_drawing", "output", "toml_rows", "validation",
     )},
     {"hurcules." + name for name in (
         "_pickles", "_reprs", "_subclasses", "_version", "casualties", "detour", "mission_options",

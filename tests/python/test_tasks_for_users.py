@@ -216,6 +216,30 @@ def test_a_task_in_python_is_a_task(model: mujoco.MjModel) -> None:
         hurcules.CustomTask("wrong", robot, 1, lambda robot: 1 / 0)
 
 
+def test_a_jacobian_of_the_wrong_sign_is_told(model: mujoco.MjModel) -> None:
+    robot = hurcules.Robot(model)
+
+    def height(sign: float) -> hurcules.CustomTask:
+        rows = slice(2, 3)
+        return hurcules.CustomTask(
+            "height",
+            robot,
+            1,
+            lambda robot: (
+                robot.position("l_hand")[rows],
+                sign * robot.position_jacobian("l_hand")[rows],
+            ),
+        )
+
+    before = robot.qpos.copy()
+    hurcules.check_jacobian(height(1.0), robot)
+    words = r"task 'height': row 0 of its Jacobian has (-?[\d.]+) at coordinate '\w+', where its"
+    with pytest.raises(hurcules.Error, match=words):
+        hurcules.check_jacobian(wrong := height(-1.0), robot)
+    np.testing.assert_array_equal(robot.qpos, before)
+    np.testing.assert_array_equal(wrong.value, robot.position("l_hand")[2:])
+
+
 def test_a_class_of_tasks_whose_measuring_nobody_would_ask_is_refused(
     model: mujoco.MjModel,
 ) -> None:
