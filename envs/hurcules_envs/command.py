@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import asdict
 from hashlib import sha256
 from itertools import chain, count
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any
 
 import typer
@@ -26,7 +28,7 @@ from hurcules_envs.imitation import ask_expert
 from hurcules_envs.policy import Policy
 from hurcules_envs.randomisation import NAMES
 from hurcules_envs.registry import fidelities_of, full_id, spec_of
-from hurcules_envs.running import environment_of, run_policy
+from hurcules_envs.running import environment_of, run_policy, settings_of
 
 __all__ = ["evaluate", "record", "train"]
 
@@ -49,6 +51,10 @@ Vary = Annotated[
     list[str] | None,
     typer.Option(help="What differs between episodes: friction=0.6,1.2; several times."),
 ]
+Set = Annotated[
+    list[str] | None,
+    typer.Option("--set", help="Another option of it: terrain=stairs; several times."),
+]
 
 
 def train(
@@ -64,6 +70,7 @@ def train(
     sparse: Annotated[bool, typer.Option("--sparse", help="No shaped reward.")] = False,
     rate: Rate = None,
     vary: Vary = None,
+    settings: Set = None,
     demonstrations: Annotated[
         int, typer.Option(help="Episodes of the scripted expert; PPO starts as its clone.", min=0)
     ] = 0,
@@ -90,7 +97,7 @@ def train(
     options = _given(
         fidelity=fidelity or fastest, robot=robot, frames=frame or None, action=action,
         sparse=sparse or None, rate=rate, **_ranges(vary),
-    )  # fmt: skip
+    ) | settings_of(settings)  # fmt: skip
     folder = out or Path("out", "train", name.split("/")[-1])
     if ray is not None:
         if demonstrations:
@@ -171,6 +178,7 @@ def evaluate(
     ] = None,
     rate: Rate = None,
     vary: Vary = None,
+    settings: Set = None,
     episodes: Annotated[int, typer.Option(help="How many.", min=1)] = 100,
     out: Annotated[Path | None, results_in("the folder of the policy, or out/ENVIRONMENT")] = None,
 ) -> None:
@@ -184,7 +192,7 @@ def evaluate(
     chosen = _given(
         fidelity=fidelity, robot=robot, frames=frame, cameras=camera, rate=rate, **_ranges(vary)
     )  # fmt: skip
-    _judge(policy, environment, episodes, chosen, out, Console())
+    _judge(policy, environment, episodes, chosen, out, Console(), settings_of(settings))
 
 
 def record(
@@ -204,6 +212,7 @@ def record(
     ] = None,
     rate: Rate = None,
     vary: Vary = None,
+    settings: Set = None,
     form: Annotated[str, typer.Option("--format", help="minari, robomimic or lerobot.")] = "minari",
     author: Annotated[
         str | None, typer.Option(help="In the data set's name.", show_default="expert or policy")
@@ -222,7 +231,7 @@ def record(
     options = _given(
         fidelity=fidelity or ("exact" if fidelities_of(name) else None), cameras=camera or None,
         robot=robot, frames=frame or None, rate=rate, **_ranges(vary),
-    )  # fmt: skip
+    ) | settings_of(settings)  # fmt: skip
     act: Any = _expert
     if policy == "operator":
         raise hurcules.Error(
@@ -283,9 +292,11 @@ def _judge(
     chosen: dict[str, Any],
     out: Path | None,
     console: Console,
+    settings: Mapping[str, Any] = MappingProxyType({}),
 ) -> None:
     policy = Policy(source)
     name, options = environment_of(policy, environment, **chosen)
+    options |= settings
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
     try:

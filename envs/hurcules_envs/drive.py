@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import mujoco
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules import mjcf, transfer_bed
 from hurcules.validation import require_known
+from hurcules_envs.checks import require_flag
 from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.drawing import add_arrow
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
@@ -58,8 +60,8 @@ class Drive(Environment):
 
     On a step field and on stairs it starts as it climbs, and looks back: its lower legs are turned
     over to the front, its upper ones lead, trunk and arms lean forward. The goal lies 4 to 6 m away
-    on the landing of the stairs (35 degrees, 1 m high), or at most 0.1 m beside the middle of the
-    field, whose pallets are 1.2 m broad and its tracks 0.82 m.
+    on the landing of the stairs (35 degrees, 1 m high), or 2 to 6 m away and at most 0.1 m beside
+    the middle of the field, whose pallets are 1.2 m broad and its tracks 0.82 m.
 
     Action: Box(-1, 1, (3,), float32). Zero stands still.
 
@@ -88,9 +90,10 @@ class Drive(Environment):
     | margin   | 1    | m     | 2     | of the centre of mass within what it stands on    |
 
     On terrain, unless `blind`, the group `ground` follows (225 numbers, m, bound 1): heights of the
-    ground about that point, without noise, at 25 places from 1.2 m behind to 1.2 m ahead, at each
-    of them 9 from 0.4 m left to 0.4 m right, all 0.1 m apart, over the soles at the knees. So a
-    policy of flat ground fits terrain with `blind=True` alone.
+    ground about the point that the robot turns about, without noise, at 25 places from 1.2 m behind
+    it to 1.2 m ahead, at each of them 9 from 0.4 m left to 0.4 m right, all 0.1 m apart, over the
+    soles at the knees. Where it climbs it drives towards "behind". Outside of the map (x from -4 to
+    9 m, y from -3 to 3 m) they are 0. A policy of flat ground fits terrain with `blind=True` alone.
 
     Reward: `progress`, the way [m] that the goal came nearer; `heading`, what half of the heading's
     error [rad] times exp(-d / 1 m) became smaller, d the distance of the goal; `success`, 10 once;
@@ -131,6 +134,7 @@ class Drive(Environment):
             hurcules.Error: a value that does not exist or is out of range.
         """
         require_known("action", action, TWINS)
+        require_flag("blind", blind)
         require_known("terrain", terrain, TERRAINS)
         if fidelity == "kinematic" and terrain != "flat":
             raise hurcules.Error(f"fidelity: without physics the ground is flat, not {terrain}")
@@ -143,13 +147,12 @@ class Drive(Environment):
         self.sparse, self.rate = sparse, rate
         self._climbs = terrain in CLIMBED
         self._centre = MIDDLE if self._climbs else CENTRE
-        self._heights = None if terrain == "flat" else Heights(self._spec(None))
         self._sees = terrain != "flat" and not blind
         tick, physics = tick_of(fidelity, rate), fidelity != "kinematic"
         model = self._model(visuals=False)
         robot = hurcules.Robot(model)
         robot.set_keyframe("drive")
-        self._qpos = self._climbing(model, robot.qpos) if self._climbs else robot.qpos.copy()
+        self._qpos = _climbing(model, robot.qpos) if self._climbs else robot.qpos.copy()
         robot.set_qpos(self._qpos)
         self.goal = 4
         self.memory = {"goal": 4, "before": 4, "now": 4}  # the last two as they are seen
@@ -173,7 +176,7 @@ class Drive(Environment):
             Group("margin", 1, "m", 2.0, "of the centre of mass within what it stands on"),
         )
         if self._sees:
-            size, text = len(AHEAD) * len(BESIDE), "heights about the robot, not on flat ground"
+            size, text = len(AHEAD) * len(BESIDE), "heights of the ground about the robot"
             self.observation += (Group("ground", size, "m", 1.0, text),)
         self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
@@ -277,9 +280,11 @@ class Drive(Environment):
 
     def _ground(self, place: Array, numbers: Numbers) -> Array:
         """Heights [m] about the robot over the soles of its tracks at the knees."""
-        assert self._heights is not None
-        sole = numbers["position/upper_legs"][:, 2:] - RADIUS
-        return self._heights.around(place) - sole
+        return self._heights.around(place, numbers["position/upper_legs"][:, 2:] - RADIUS)
+
+    @cached_property
+    def _heights(self) -> Heights:
+        return Heights(self._spec(None))
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Pose of the robot, pose that is wanted."""
@@ -336,7 +341,7 @@ class Drive(Environment):
     def expert(self, numbers: Numbers) -> Array:
         """Actions (n, 3) of a smooth law for unicycles (Park and Kuipers, ICRA 2011).
 
-        On terrain it follows the goal's own line.
+        On terrain it follows the goal's own line, where it climbs tail first (`_climb`).
         """
         if self._climbs:
             return np.clip(self._climb(numbers), -1.0, 1.0)
@@ -419,7 +424,9 @@ class Drive(Environment):
     def draw(self, episodes: Any, i: int, scene: mujoco.MjvScene) -> None:
         """The goal, as an arrow."""
         x, y, cosine, sine = episodes.memory["goal"][i]
-        add_arrow(scene, (x, y, 0.3), (x + 0.8 * cosine, y + 0.8 * sine, 0.3), 0.05, (0, 0.8, 0, 1))
+        ground = 0.0 if self.terrain == "flat" else self._heights.at(np.array([x, y]))
+        z = 0.3 + float(np.nan_to_num(ground))
+        add_arrow(scene, (x, y, z), (x + 0.8 * cosine, y + 0.8 * sine, z), 0.05, (0, 0.8, 0, 1))
 
     def _model(self, visuals: bool) -> mujoco.MjModel:
         if self.terrain == "flat":
@@ -433,19 +440,20 @@ class Drive(Environment):
         values = SCENES.get(self.terrain, {})
         return hurcules.scenes.make(self.terrain, robot=robot, seed=self.terrain_seed, **values)
 
-    def _climbing(self, model: mujoco.MjModel, qpos: Array) -> Array:
-        """Where it starts to climb: looking back, its lower legs turned over to the front."""
-        there = qpos.copy()
-        there[3:7] = quaternion(np.array([0.0, 0.0, np.pi]))
-        for joint, angle in CLIMBING.items():
-            there[model.joint(joint).qposadr[0]] = angle
-        return there
-
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """Where it climbs, the trunk turns with the knees: it stays leant over the lower legs."""
         if not self._climbs or "legs" not in action:
             return action
         return {"drive": action["drive"], "climb": np.repeat(action["legs"], 2, axis=1)}
+
+
+def _climbing(model: mujoco.MjModel, qpos: Array) -> Array:
+    """Where it starts to climb: looking back, its lower legs turned over to the front."""
+    there = qpos.copy()
+    there[3:7] = quaternion(np.array([0.0, 0.0, np.pi]))
+    for joint, angle in CLIMBING.items():
+        there[model.joint(joint).qposadr[0]] = angle
+    return there
 
 
 def _into(forward: Array, vector: Array) -> Array:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +25,7 @@ from hurcules_envs.endings import Ending
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import fidelities_of, full_id, native_options, steps_of_episode
 
-__all__ = ["environment_of", "run_policy"]
+__all__ = ["environment_of", "run_policy", "settings_of"]
 
 FILES = ("summary.json", "episode.npz", "video.mp4")
 # of info: what the table shows, its unit, what it is multiplied by, the worst of an episode
@@ -58,7 +60,7 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
         raise hurcules.Error(
             f"{policy.path}: wanted a policy of {name}, got one of {policy.environment}"
         )
-    chosen = {option: value for option, value in others.items() if value}
+    chosen = {name: value for name, value in others.items() if value not in (None, (), [])}
     if not known and chosen.get("fidelity") == "exact":  # there is no other
         del chosen["fidelity"]
     own = {
@@ -67,6 +69,24 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
         if "robot" not in chosen or option not in ("frames", "joints")
     }
     return name, own | chosen
+
+
+def settings_of(given: Sequence[str] | None) -> dict[str, Any]:
+    """Options of an environment by name, of NAME=VALUE: a value is JSON, or else a text.
+
+    Raises:
+        hurcules.Error: one has no name or no value; the environment judges the rest.
+    """
+    settings: dict[str, Any] = {}
+    for one in given or ():
+        name, is_set, value = one.partition("=")
+        if not (name.isidentifier() and is_set):
+            raise hurcules.Error(f"--set: wanted NAME=VALUE, terrain=stairs say, got {one!r}")
+        try:
+            settings[name] = json.loads(value)
+        except ValueError:
+            settings[name] = value
+    return settings
 
 
 def run_policy(options: PolicyOptions, console: Console) -> int:
@@ -91,6 +111,7 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
         policy, options.environment, fidelity=options.fidelity, robot=options.robot,
         frames=options.frames,
     )  # fmt: skip
+    settings |= settings_of(options.settings)
     native_options(name, settings)
     lost = extras.without() if options.video else "not asked for (--no-video)"
     steps = steps_of_episode(name, settings)
@@ -135,6 +156,8 @@ def _judging(options: PolicyOptions) -> str:
     words += ["--robot", options.robot] if options.robot else []
     for frame in options.frames:
         words += ["--frame", frame]
+    for setting in options.settings:
+        words += ["--set", setting]
     return shlex.join(words)
 
 

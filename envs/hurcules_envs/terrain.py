@@ -39,18 +39,21 @@ class Heights:
         self._map = np.array([[height(x, y) for y in middles[1]] for x in middles[0]])
 
     def at(self, points: Array) -> Array:
-        """Heights [m] of the ground at points (..., 2) [m]; outside of the map as at its edge."""
+        """Heights [m] of the ground at points (..., 2) [m]; NaN outside of the map."""
         cells = np.floor((points - LOW) / CELL).astype(int)
-        cells = np.minimum(np.maximum(cells, 0), np.array(self._map.shape) - 1)
-        return self._map[cells[..., 0], cells[..., 1]]
+        inside = ((cells >= 0) & (cells < self._map.shape)).all(axis=-1)
+        cells = np.where(inside[..., None], cells, 0)
+        return np.where(inside, self._map[cells[..., 0], cells[..., 1]], np.nan)
 
-    def around(self, place: Array) -> Array:
+    def around(self, place: Array, sole: Array) -> Array:
         """Heights [m] on the grid about robots, (n, 25 * 9): ahead runs slower, beside faster.
 
         Args:
             place: (n, 4) x, y [m], cosine and sine of the heading.
+            sole: (n, 1) height [m] that they are counted from; outside of the map they are 0.
         """
         forward = place[:, None, None, 2:]
         left = np.stack([-forward[..., 1], forward[..., 0]], axis=-1)
         points = place[:, None, None, :2] + AHEAD[:, None, None] * forward
-        return self.at(points + BESIDE[:, None] * left).reshape(len(place), -1)
+        heights = self.at(points + BESIDE[:, None] * left).reshape(len(place), -1) - sole
+        return np.where(np.isnan(heights), 0.0, heights)

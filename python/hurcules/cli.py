@@ -134,6 +134,14 @@ def run_mission(
             help="Of a hand, where --robot is a file; twice for two.", rich_help_panel=_POLICIES
         ),
     ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            help="Another option of the policy's environment: terrain=stairs; several times.",
+            rich_help_panel=_POLICIES,
+        ),
+    ] = None,
 ) -> None:
     """Simulate a mission; write `summary.json`, `report.html`, `video.mp4` and `log.npz`.
 
@@ -180,13 +188,11 @@ def run_mission(
             raise Error(f"--seed: wanted 0 or more, got {seed}")
         environment = mission if _was_given(context, "mission") else None
         other = robot if _was_given(context, "robot") else None
-        raise typer.Exit(
-            _policy_runner()(
-                PolicyOptions(policy, environment, fidelity, other, frame or (), seed, out, video),
-                Console(),
-            )
+        wanted = PolicyOptions(
+            policy, environment, fidelity, other, frame or (), seed, out, video, settings or ()
         )
-    _refuse(context, ("fidelity", "frame"), "for policies")
+        raise typer.Exit(_policy_runner()(wanted, Console()))
+    _refuse(context, ("fidelity", "frame", "settings"), "for policies")
     folder = out or Path("out", Path(mission).stem)
     if methods := _methods(mission):
         _refuse(context, _MISSION_OPTIONS, f"for missions; '{mission}' is a test method")
@@ -250,7 +256,8 @@ def _methods(name: str) -> Methods | None:
 def _refuse(context: typer.Context, names: Sequence[str], why: str) -> None:
     for name in names:
         if _was_given(context, name):
-            raise Error(f"--{name}: {why}")
+            option = next(one for one in context.command.params if one.name == name)
+            raise Error(f"{max(option.opts, key=len)}: {why}")
 
 
 def _was_given(context: typer.Context, name: str) -> bool:

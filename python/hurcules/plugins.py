@@ -52,6 +52,7 @@ class PolicyOptions:
     seed: int = 0
     out: Path | None = None
     video: bool = True
+    settings: Sequence[str] = ()  # NAME=VALUE, other options of the environment
 
 
 class Methods(Protocol):

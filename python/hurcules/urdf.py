@@ -53,7 +53,9 @@ def load_urdf(
 
     MuJoCo reads meshes in OBJ, MSH and binary STL. COLLADA (.dae), text STL, PLY, glTF and what
     else trimesh reads are taken where it is installed, `pip install 'hurcules[urdf]'`: a geom for
-    each colour, in metres; as RViz does, the axis that COLLADA calls up is not looked at.
+    each colour, in metres; as RViz does, the axis that COLLADA calls up is not looked at, and
+    colours of a mesh come before those of the file. Reading them takes seconds for large robots:
+    `visuals=False` where nobody looks.
 
     Args:
         path: of the file, or the URDF itself, a text that begins with `<`: what xacro gives, and

@@ -40,11 +40,13 @@ def test_heights_are_those_of_the_scene():
 
 def test_the_grid_turns_with_the_robot():
     heights = Heights(hurcules.scenes.make("step_field"))
-    seen = heights.around(np.array([[3.0, 0.0, 0.0, 1.0]])).reshape(len(AHEAD), len(BESIDE))
+    place, sole = np.array([[3.0, 0.0, 0.0, 1.0]]), np.array([[0.1]])
+    seen = heights.around(place, sole).reshape(len(AHEAD), len(BESIDE))
     assert np.ptp(seen) >= 0.2  # posts of several heights
     for i, j in ((0, 0), (14, 2), (17, 7)):  # it looks along y: to its left is -x
         there = np.array([3.0 - BESIDE[j], AHEAD[i]])
-        assert seen[i, j] == heights.at(there)
+        assert seen[i, j] == heights.at(there) - 0.1
+    assert not heights.around(place - [[50.0, 0.0, 0.0, 0.0]], sole).any()  # beyond the map
 
 
 def test_what_is_seen_is_the_ground_under_it_and_ahead():

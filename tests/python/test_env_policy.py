@@ -162,11 +162,13 @@ def test_the_command_line_judges_with_what_differs_between_episodes(tmp_path: Pa
     words = ["evaluate", str(linear(tmp_path / "a.onnx", 8.0)), "--fidelity", "kinematic"]
     words += ["--episodes", "4", "--out", str(tmp_path)]
     given = ["--vary", "action_delay=2,5", "--vary", "observation_noise=0.01"]
+    given += ["--set", "safe=false"]
     assert main([*words, *given]) == 0
     figures = json.loads((tmp_path / "evaluation.json").read_text())
     ranges = {"action_delay": [2.0, 5.0], "observation_noise": [0.01, 0.01]}
-    assert figures["options"] == {"fidelity": "kinematic"} | ranges
+    assert figures["options"] == {"fidelity": "kinematic", "safe": False} | ranges
     options = {"fidelity": "kinematic", "action_delay": (2, 5), "observation_noise": 0.01}
+    options["safe"] = False
     same = evaluate(tmp_path / "a.onnx", "Reach-v0", 4, **options)
     assert figures["mean_return"] == same.mean_return
 

@@ -267,7 +267,7 @@ def test_packages_are_found_where_they_are_said_to_be(
     text = ARM.replace("base.dae", "base.obj").replace("visual>", "collision>")
     for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
         monkeypatch.delenv(variable, raising=False)
-    with pytest.warns(UserWarning, match=r"base\.obj; packages=\[\.\.\.\] names folders") as told:
+    with pytest.warns(UserWarning, match=r"base\.obj: is not there; packages=\[\.\.\.\] ") as told:
         assert hurcules.load_urdf(text).nmesh == 0
     assert [warning.filename for warning in told] == [__file__]
     for where in (tmp_path / "share", meshes.parent):

@@ -109,7 +109,59 @@ def test_without_trimesh_it_says_what_reads_them(
 def test_a_mesh_that_nothing_reads_is_told(tmp_path: Path) -> None:
     (tmp_path / "part.dae").write_text("no mesh")
     shapes = f"<visual>{MESH.format(tmp_path / 'part.dae', '1 1 1')}</visual>"
-    with pytest.warns(UserWarning, match=r"1 shapes are left out.*part\.dae$"):
+    with pytest.warns(UserWarning, match=r"1 shapes are left out.*part\.dae: trimesh: \w"):
+        hurcules.load_urdf(LINK.format(shapes=shapes))
+
+
+def test_files_of_one_name_in_two_folders_are_two_meshes(tmp_path: Path) -> None:
+    for folder, size in (("seen", 0.1), ("touched", 0.3)):
+        (tmp_path / folder).mkdir()
+        mesh = trimesh.creation.box(extents=(size, size, size))
+        (tmp_path / folder / "part.stl").write_bytes(mesh.export(file_type="stl"))
+    seen = f"<visual>{MESH.format(tmp_path / 'seen/part.stl', '1 1 1')}</visual>"
+    touched = f"<collision>{MESH.format(tmp_path / 'touched/part.stl', '1 1 1')}</collision>"
+    scaled = f"<collision>{MESH.format(tmp_path / 'touched/part.stl', '2 2 2')}</collision>"
+    model = hurcules.load_urdf(LINK.format(shapes=seen + touched + scaled))
+    np.testing.assert_allclose(np.sort(model.geom_size[:, 0]), [0.05, 0.15, 0.3], rtol=1e-5)
+    assert model.geom_group[np.argmin(model.geom_size[:, 0])] == 1
+
+
+def test_a_large_stl_and_a_coloured_ply_are_read(tmp_path: Path) -> None:
+    large = trimesh.creation.icosphere(subdivisions=7, radius=0.1)
+    assert len(large.faces) > 200_000  # that MuJoCo takes of STL
+    (tmp_path / "large.stl").write_bytes(large.export(file_type="stl"))
+    (tmp_path / "red.ply").write_bytes(box(0, RED).export(file_type="ply"))
+    shapes = [MESH.format(tmp_path / name, "1 1 1") for name in ("large.stl", "red.ply")]
+    model = hurcules.load_urdf(
+        LINK.format(shapes="".join(f"<visual>{shape}</visual>" for shape in shapes))
+    )
+    np.testing.assert_allclose(model.geom_rgba, [[0.7, 0.7, 0.7, 1], [1, 0, 0, 1]], atol=1e-6)
+
+
+def test_what_is_flat_touches_nothing_and_is_told(tmp_path: Path) -> None:
+    flat = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 3, 2]])
+    (tmp_path / "flat.ply").write_bytes(flat.export(file_type="ply"))
+    geometry = MESH.format(tmp_path / "flat.ply", "1 1 1")
+    assert hurcules.load_urdf(LINK.format(shapes=f"<visual>{geometry}</visual>")).ngeom == 1
+    with pytest.warns(UserWarning, match="flat, and touches nothing"):
+        model = hurcules.load_urdf(LINK.format(shapes=f"<collision>{geometry}</collision>"))
+    assert model.ngeom == 0
+
+
+def test_a_colour_that_a_mesh_overrides_is_still_that_of_others(collada: Path) -> None:
+    green = '<material name="m"><color rgba="0 1 0 1"/></material>'
+    overridden = f'<visual name="v">{MESH.format(collada, "1 1 1")}{green}</visual>'
+    other = '<visual><geometry><sphere radius="0.1"/></geometry><material name="m"/></visual>'
+    model = hurcules.load_urdf(LINK.format(shapes=overridden + other))
+    sphere = int(np.flatnonzero(model.geom_type == mujoco.mjtGeom.mjGEOM_SPHERE)[0])
+    np.testing.assert_allclose(model.geom_rgba[sphere], [0, 1, 0, 1])
+    assert sphere == model.ngeom - 1  # in the order of the file
+
+
+@pytest.mark.parametrize("name", ["package://", "package:///", "file:///none/a%20b.stl", ""])
+def test_a_name_that_leads_nowhere_is_told(name: str) -> None:
+    shapes = f"<visual>{MESH.format(name, '1 1 1')}</visual>"
+    with pytest.warns(UserWarning, match="1 shapes are left out.*is not there"):
         hurcules.load_urdf(LINK.format(shapes=shapes))
 
 
