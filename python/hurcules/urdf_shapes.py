@@ -183,8 +183,8 @@ def _paint(shape: ET.Element, own: Sequence[float] | None) -> None:
         ET.SubElement(material, "color", {"rgba": text})
 
 
-def _read(file: Path) -> list[Any]:
-    """What trimesh reads of a file, in metres.
+def _read(file: Path) -> list[tuple[Any, tuple[float, ...] | None]]:
+    """What trimesh reads of a file, in metres, with the colour of each part.
 
     Raises:
         _NotReadError: it reads nothing, or is not there.
@@ -195,7 +195,8 @@ def _read(file: Path) -> list[Any]:
         scene = trimesh.load_scene(file)
         if scene.units:
             scene = scene.convert_units("meters")
-        parts = [part for part in scene.dump() if isinstance(part, trimesh.Trimesh)]
+        meshes = [part for part in scene.dump() if isinstance(part, trimesh.Trimesh)]
+        parts = [(mesh, _colour(mesh.visual)) for mesh in meshes]
     except ImportError as error:
         raise _NotReadError(f"{_REMEDY} ({error})") from error
     except Exception as error:  # of many readers, each with errors of its own
@@ -205,7 +206,7 @@ def _read(file: Path) -> list[Any]:
     return parts
 
 
-def _pieces(parts: list[Any], seen: bool) -> list[Triangles]:
+def _pieces(parts: list[tuple[Any, tuple[float, ...] | None]], seen: bool) -> list[Triangles]:
     """Together for contacts, colour by colour to look at.
 
     Raises:
@@ -214,8 +215,8 @@ def _pieces(parts: list[Any], seen: bool) -> list[Triangles]:
     import trimesh
 
     groups: dict[tuple[float, ...] | None, list[Any]] = {}
-    for part in parts:
-        groups.setdefault(_colour(part.visual) if seen else None, []).append(part)
+    for part, colour in parts:
+        groups.setdefault(colour if seen else None, []).append(part)
     merged: list[tuple[Any, tuple[float, ...] | None]] = [
         (trimesh.util.concatenate(same), rgba) for rgba, same in groups.items()
     ]
