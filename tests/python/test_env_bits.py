@@ -75,6 +75,7 @@ def test_after_a_state_the_observation_is_the_one_that_was(name: str) -> None:
         if over:
             break
     state = env.get_state()
+    env.reset(seed=4)
     for action in random[:5]:
         env.step(action)
     env.set_state(state)

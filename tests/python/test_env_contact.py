@@ -107,6 +107,8 @@ def test_a_state_goes_on_with_the_same_bits_in_another_environment(name: str) ->
         assert np.array_equal(first[0], second[0])
         assert first[1:4] == second[1:4]
         assert first[4] == second[4]
+        if first[2]:
+            break
 
 
 @pytest.mark.parametrize("name", IDS)

@@ -212,7 +212,7 @@ def test_the_face_of_who_lay_on_the_right_side_is_not_pressed_as_he_is_laid_down
     assert simulation.success, simulation.reason
     log = simulation.log()
     down = log["phase"] >= simulation.phases.index("let down")
-    assert down.sum() * simulation.dt > 50.0
+    assert down.sum() * simulation.dt > 45.0  # all of it
     assert log["casualty/force/face"][down].max() <= contact_limit("face")
     assert log["casualty/face_up"][down].max() < -0.5  # on his front still
 
