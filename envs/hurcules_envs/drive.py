@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules import mjcf, transfer_bed
 from hurcules.validation import require_known
 from hurcules_envs.checks import require_flag
 from hurcules_envs.commands import TWINS, by_joints
@@ -144,6 +143,7 @@ class Drive(Environment):
                 f"or one of the terrains that are drawn: {', '.join(DRAWN)}"
             )
         self.terrain, self.terrain_seed = terrain, terrain_seed
+        self._scene = {"seed": terrain_seed} | SCENES.get(terrain, {})
         self.sparse, self.rate = sparse, rate
         self._climbs = terrain in CLIMBED
         self._centre = MIDDLE if self._climbs else CENTRE
@@ -284,7 +284,7 @@ class Drive(Environment):
 
     @cached_property
     def _heights(self) -> Heights:
-        return Heights(self._spec(None))
+        return Heights(hurcules.scenes.make(self.terrain, **self._scene))
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Pose of the robot, pose that is wanted."""
@@ -429,16 +429,9 @@ class Drive(Environment):
         add_arrow(scene, (x, y, z), (x + 0.8 * cosine, y + 0.8 * sine, z), 0.05, (0, 0.8, 0, 1))
 
     def _model(self, visuals: bool) -> mujoco.MjModel:
-        if self.terrain == "flat":
-            return hurcules.models.load("rescue", "flat", bed=False, visuals=visuals)
-        spec = self._spec("rescue")
-        transfer_bed.detach(spec)
-        return mjcf.compile(spec if visuals else mjcf.without_visuals(spec))
-
-    def _spec(self, robot: str | None) -> mujoco.MjSpec:
-        """The ground, with the robot on it or without."""
-        values = SCENES.get(self.terrain, {})
-        return hurcules.scenes.make(self.terrain, robot=robot, seed=self.terrain_seed, **values)
+        return hurcules.models.load(
+            "rescue", self.terrain, bed=False, visuals=visuals, **self._scene
+        )
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """Where it climbs, the trunk turns with the knees: it stays leant over the lower legs."""

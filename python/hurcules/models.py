@@ -8,6 +8,7 @@ scene of a mission names the robot that it is made for.
 import copy
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import Any
 
 import mujoco
 
@@ -49,26 +50,27 @@ def load(
     bed: bool = True,
     visuals: bool = True,
     seed: int = 0,
+    **values: Any,
 ) -> mujoco.MjModel:
     """Compiles a robot in its surroundings.
 
     Args:
         name: one of `names()`; by default the robot that the scene is made for, else "rescue".
-        scene: one of `scenes()`; by default that of the mission, without a mission "flat". A scene
-            that is made has its default parameters here; see `hurcules.scenes.load`.
+        scene: one of `scenes()`; by default that of the mission, without a mission "flat".
         mission: one of `hurcules.missions()`.
         bed: False takes the transfer bed off the rescue robot.
         visuals: False leaves out what is only seen; the physics is the same to the bit, the model
             a fraction of the size.
         seed: of a scene that is drawn.
+        values: parameters of a scene that is made, as for `hurcules.scenes.load`.
 
     Raises:
-        Error: an unknown name, no bed to take off, a scene made for another robot, or MuJoCo's text
-            about broken MJCF.
+        Error: an unknown name, no bed to take off, a scene made for another robot, parameters for
+            one that has none, or MuJoCo's text about broken MJCF.
     """
-    if scene in _made() and scene not in mjcf.stems("scenes") and bed and visuals:
-        return made.load(scene, name or "rescue", seed=seed)
-    spec = make(name, scene, mission, seed)
+    if _is_made(scene) and bed and visuals:
+        return made.load(str(scene), name or "rescue", seed=seed, **values)
+    spec = make(name, scene, mission, seed, **values)
     if not bed:
         transfer_bed.detach(spec)
     return mjcf.compile(spec if visuals else mjcf.without_visuals(spec))
@@ -86,14 +88,18 @@ def make(
     scene: str | None = None,
     mission: str | None = None,
     seed: int = 0,
+    **values: Any,
 ) -> mujoco.MjSpec:
     """A robot in its surroundings, not compiled yet; arguments and errors as those of `load`."""
+    if values and not _is_made(scene):
+        kinds = ", ".join(_made())
+        raise Error(f"{', '.join(values)}: wanted with a scene that has parameters, of {kinds}")
     if scene is None and mission == "lift" and name in (None, "rescue"):
         return lift.spec(lift.Person())
     if scene is None:
         scene = Path(_core.mission_scene(mission)).stem if mission else "flat"
-    if scene in _made() and scene not in mjcf.stems("scenes"):
-        return made.make(scene, robot=name or "rescue", seed=seed)
+    if _is_made(scene):
+        return made.make(scene, robot=name or "rescue", seed=seed, **values)
     surroundings = mjcf.existing("scenes", scene, "scene", scenes())
     inhabitant = _robot_in(surroundings)
     name = name or inhabitant or "rescue"
@@ -108,6 +114,10 @@ def make(
 def _made() -> list[str]:
     """Scenes that need no file."""
     return [*made.names(), *made.PRESETS]
+
+
+def _is_made(scene: str | None) -> bool:
+    return scene in _made() and scene not in mjcf.stems("scenes")
 
 
 def _robot_in(scene: Path) -> str | None:

@@ -261,11 +261,11 @@ def _fit_inertias(root: ET.Element, path: Path) -> dict[str, NDArray[np.float64]
             tensor = _tensor(inertia)
         except ValueError as error:
             raise Error(f"{path}: inertia of link {link.get('name')!r}: {error}") from error
-        values, axes = np.linalg.eigh(tensor)
-        told[str(link.get("name"))] = values.copy()
-        values = values.clip(_LEAST_INERTIA)
+        file, axes = np.linalg.eigh(tensor)
+        told[str(link.get("name"))] = file
+        values = file.clip(_LEAST_INERTIA)
         values[2] = min(values[2], _SUM * (values[0] + values[1]))
-        if not np.array_equal(values, told[str(link.get("name"))]):
+        if not np.array_equal(values, file):
             tensor = axes @ np.diag(values) @ axes.T
         for key, (i, j) in _ENTRIES.items():
             inertia.set(key, repr(float(tensor[i, j])))

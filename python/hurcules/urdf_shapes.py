@@ -110,7 +110,7 @@ class _Meshes:
 
     def __init__(self) -> None:
         self.by_name: dict[str, Path | Triangles] = {}
-        self._names: dict[tuple[Path, str, bool], list[str]] = {}
+        self._pieces: dict[tuple[Path, str, bool], list[tuple[str, Triangles | None]]] = {}
         self._read = functools.cache(_read)  # a file is read once, however often it is used
 
     def of(self, file: Path, scale: str, seen: bool) -> list[tuple[str, Triangles | None]]:
@@ -120,11 +120,11 @@ class _Meshes:
             _NotReadError: it cannot be had.
         """
         plain = _is_readable(file)
-        pieces = [None] if plain else _pieces(self._read(file), seen)
         key = (file, scale, seen and not plain)
-        if key not in self._names:
-            self._names[key] = [self._name(file, piece) for piece in pieces]
-        return list(zip(self._names[key], pieces, strict=True))
+        if key not in self._pieces:
+            pieces = [None] if plain else _pieces(self._read(file), seen)
+            self._pieces[key] = [(self._name(file, piece), piece) for piece in pieces]
+        return self._pieces[key]
 
     def _name(self, file: Path, piece: Triangles | None) -> str:
         ending = file.suffix if piece is None else ".stl"

@@ -88,3 +88,16 @@ def test_no_keyframe_begins_in_an_overlap(robot):
         # the tracks sink in by 0.1 mm, about what the weight gives
         assert data.ncon and data.contact.dist.min() > -2e-4, model.key(key).name
         assert np.isfinite(data.qpos).all()
+
+
+def test_parameters_are_those_of_a_scene_that_is_made():
+    steep, plain = (
+        models.load("rescue", "stairs", bed=False, visuals=False, **values)
+        for values in ({"pitch": 0.7}, {})
+    )
+    assert steep.nq == plain.nq
+    assert not np.array_equal(steep.geom_pos, plain.geom_pos)
+    with pytest.raises(hurcules.Error, match="stairs: no parameter 'pich'; there are: "):
+        models.load("rescue", "stairs", pich=0.6)
+    with pytest.raises(hurcules.Error, match="pitch: wanted with a scene that has parameters"):
+        models.load("rescue", "flat", pitch=0.6)
