@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
 from dataclasses import asdict
 from hashlib import sha256
 from itertools import chain, count
 from pathlib import Path
-from types import MappingProxyType
 from typing import Annotated, Any
 
 import typer
@@ -190,9 +188,10 @@ def evaluate(
     `hurcules evaluate Drive-v0`
     """
     chosen = _given(
-        fidelity=fidelity, robot=robot, frames=frame, cameras=camera, rate=rate, **_ranges(vary)
-    )  # fmt: skip
-    _judge(policy, environment, episodes, chosen, out, Console(), settings_of(settings))
+        fidelity=fidelity, robot=robot, frames=frame or None, cameras=camera or None, rate=rate,
+        **_ranges(vary),
+    ) | settings_of(settings)  # fmt: skip
+    _judge(policy, environment, episodes, chosen, out, Console())
 
 
 def record(
@@ -292,11 +291,9 @@ def _judge(
     chosen: dict[str, Any],
     out: Path | None,
     console: Console,
-    settings: Mapping[str, Any] = MappingProxyType({}),
 ) -> None:
     policy = Policy(source)
     name, options = environment_of(policy, environment, **chosen)
-    options |= settings
     beside = Path(source) if Path(source).is_dir() else Path("out", name.split("/")[-1])
     output = Output(out or beside, ())
     try:

@@ -27,6 +27,11 @@ from hurcules_envs.registry import fidelities_of, full_id, native_options, steps
 
 __all__ = ["environment_of", "run_policy", "settings_of"]
 
+# what `evaluate` and `record` take beside the options of an environment
+TOLD = (
+    "act", "author", "environment", "episodes", "form", "out", "progress", "seed", "source",
+    "threads",
+)  # fmt: skip
 FILES = ("summary.json", "episode.npz", "video.mp4")
 # of info: what the table shows, its unit, what it is multiplied by, the worst of an episode
 FIGURES = (
@@ -40,14 +45,15 @@ FIGURES = (
 PHYSICAL = ("limit_excess", "support_margin")
 
 
-def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[str, dict[str, Any]]:
+def environment_of(
+    policy: Policy, given: str | None, /, **others: Any
+) -> tuple[str, dict[str, Any]]:
     """Id and options of the environment that a policy acts in.
 
     Args:
         policy: what acts.
         given: id that was asked for; None: that of the policy.
-        others: options in place of the policy's, none where nothing was given; with another robot
-            go the frames of the policy's.
+        others: options in place of the policy's; with another robot go the frames of the policy's.
 
     Raises:
         hurcules.Error: neither says which, the two differ, or there is no such environment.
@@ -60,28 +66,30 @@ def environment_of(policy: Policy, given: str | None, **others: Any) -> tuple[st
         raise hurcules.Error(
             f"{policy.path}: wanted a policy of {name}, got one of {policy.environment}"
         )
-    chosen = {name: value for name, value in others.items() if value not in (None, (), [])}
-    if not known and chosen.get("fidelity") == "exact":  # there is no other
-        del chosen["fidelity"]
+    if not known and others.get("fidelity") == "exact":  # there is no other
+        del others["fidelity"]
     own = {
         option: value
         for option, value in policy.options.items()
-        if "robot" not in chosen or option not in ("frames", "joints")
+        if "robot" not in others or option not in ("frames", "joints")
     }
-    return name, own | chosen
+    return name, own | others
 
 
 def settings_of(given: Sequence[str] | None) -> dict[str, Any]:
     """Options of an environment by name, of NAME=VALUE: a value is JSON, or else a text.
 
     Raises:
-        hurcules.Error: one has no name or no value; the environment judges the rest.
+        hurcules.Error: one has no name or no value, or names what is told to a command, not to an
+            environment, which judges the rest.
     """
     settings: dict[str, Any] = {}
     for one in given or ():
         name, is_set, value = one.partition("=")
         if not (name.isidentifier() and is_set):
             raise hurcules.Error(f"--set: wanted NAME=VALUE, terrain=stairs say, got {one!r}")
+        if name in TOLD:
+            raise hurcules.Error(f"--set: '{name}' is no option of an environment")
         try:
             settings[name] = json.loads(value)
         except ValueError:
@@ -107,11 +115,11 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
         hurcules.output.WriteError: a file could not be written.
     """
     policy = Policy(options.policy)
-    name, settings = environment_of(
-        policy, options.environment, fidelity=options.fidelity, robot=options.robot,
-        frames=options.frames,
-    )  # fmt: skip
-    settings |= settings_of(options.settings)
+    given: dict[str, Any] = {"fidelity": options.fidelity}
+    given |= {"robot": options.robot} if options.robot else {}
+    given |= {"frames": options.frames} if options.frames else {}
+    given |= settings_of(options.settings)
+    name, settings = environment_of(policy, options.environment, **given)
     native_options(name, settings)
     lost = extras.without() if options.video else "not asked for (--no-video)"
     steps = steps_of_episode(name, settings)
