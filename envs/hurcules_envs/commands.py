@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import mujoco
 import numpy as np
 
 import hurcules
@@ -50,24 +49,19 @@ def channel_of(action: str, task: hurcules.Task, *, turns: bool = False) -> tupl
     return hurcules.Target(task, scale), scale, unit
 
 
-def joint_channel(
-    posture: hurcules.PostureTask, robot: hurcules.Robot, model: mujoco.MjModel
-) -> tuple[Any, Any, Any]:
+def joint_channel(posture: hurcules.PostureTask, robot: hurcules.Robot) -> tuple[Any, Any, Any]:
     """A channel that moves all coordinates by velocities, its scales (n,) and units (n).
 
     The scales are the coordinates' limits of velocity, at most 1.
     """
     scale = np.array([min(one.max_velocity, 1.0) for one in robot.coordinates])
-    slide = mujoco.mjtJoint.mjJNT_SLIDE
-    kinds = [model.jnt_type[one.joints[0].joint] for one in robot.coordinates]
-    units = ["m/s" if kind == slide else "rad/s" for kind in kinds]
+    units = [f"{one.unit}/s" for one in robot.coordinates]
     return hurcules.Twist(posture, scale), scale, units
 
 
 def by_joints(
     environment: Environment,
     plan: hurcules.Robot,
-    model: mujoco.MjModel,
     channels: Mapping[str, Any],
     beside: Mapping[str, float | Array],
 ) -> tuple[hurcules.PostureTask, dict[str, Any]]:
@@ -78,7 +72,6 @@ def by_joints(
     Args:
         environment: whose actions, units, observation and quantities are set.
         plan: the robot.
-        model: of the physics.
         channels: by name, those of the environment's own action.
         beside: by channel the scale of what is commanded with the joints as before.
 
@@ -87,7 +80,7 @@ def by_joints(
         channels of the controller.
     """
     joints = hurcules.PostureTask("joints", plan)
-    channel, scale, units = joint_channel(joints, plan, model)
+    channel, scale, units = joint_channel(joints, plan)
     kept = {name: unit for name, unit in environment.units.items() if name in beside}
     environment.units = {"joints": units, **kept}
     environment.actions, environment.components = {"joints": scale, **beside}, {}

@@ -137,7 +137,7 @@ class ContactEnvironment(Environment):
         rest = [level for level in levels if level not in limits]
         first = [*limits, *(self.guards(plan) if safe else [])]
         if self.action == "joint":
-            joints, channels = by_joints(self, plan, self._model, channels, self.beside)
+            joints, channels = by_joints(self, plan, channels, self.beside)
             first = [*first, joints]
         return hurcules.WholeBodyController(plan, [*first, *rest], dict(channels), **options)
 

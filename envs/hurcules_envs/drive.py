@@ -210,7 +210,7 @@ class Drive(Environment):
         first = legs
         if action == "joint":
             drive = {"drive": self.actions["drive"]}
-            first, channels = by_joints(self, plan, model, channels, drive)
+            first, channels = by_joints(self, plan, channels, drive)
         return hurcules.WholeBodyController(
             plan,
             [first, hurcules.PostureTask("posture", plan)],

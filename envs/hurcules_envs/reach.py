@@ -246,7 +246,7 @@ class Reach(Environment):
         ]
         posture = hurcules.PostureTask("posture", plan)
         if action == "joint":
-            channels = {"joints": joint_channel(posture, plan, setup.model)}
+            channels = {"joints": joint_channel(posture, plan)}
             levels = [*first, posture, hands]
         else:
             channels = {hand.name: channel_of(action, hand) for hand in hands}

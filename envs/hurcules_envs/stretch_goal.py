@@ -194,7 +194,7 @@ class Stretch(Environment):
         levels: list[Any] = [limits, apart, hands, pitch, pelvis, gaze]
         channels: Any = {t.name: hurcules.Twist(t, self.actions[t.name]) for t in tasks}
         if self._action == "joint":
-            joints, channels = by_joints(self, plan, model, channels, {})
+            joints, channels = by_joints(self, plan, channels, {})
             levels.insert(2, joints)
         return hurcules.WholeBodyController(
             plan,

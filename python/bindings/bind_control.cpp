@@ -125,7 +125,9 @@ void bind_diagnostics(py::module_& module) {
   py::class_<Shortfall>(module, "Shortfall", kShortfall)
       .def_readonly("task", &Shortfall::task)
       .def_readonly("short_by", &Shortfall::short_by, "[unit]")
-      .def_readonly("unit", &Shortfall::unit, "'m' or 'rad', '' where none is known")
+      .def_readonly("unit", &Shortfall::unit,
+                    "of the task, or of what it lacks: 'm', 'rad', 'm and rad', 'N' ...; '' where "
+                    "none is known")
       .def_readonly("held_by", &Shortfall::held_by, "list of str")
       .def("__str__", &Shortfall::text);
   py::class_<LevelDiagnostics>(module, "LevelDiagnostics", kLevelDiagnostics)

@@ -222,6 +222,7 @@ void bind_coordinate(py::module_& module) {
                     "0 to 5 of a free joint, 3 to 5 of a ball joint, else -1");
   py::class_<Coordinate>(module, "Coordinate", kCoordinate)
       .def_readonly("name", &Coordinate::name)
+      .def_readonly("unit", &Coordinate::unit, "'rad' or 'm'")
       .def_readonly("joints", &Coordinate::joints, "list of DrivenJoint; the first one is read")
       .def_readonly("lower", &Coordinate::lower, kLower)
       .def_readonly("upper", &Coordinate::upper, kUpper)

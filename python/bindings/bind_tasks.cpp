@@ -96,6 +96,8 @@ Args:
   name, robot: see PositionTask.
   coordinates: their names; none means all.
 )";
+constexpr const char* kUnit =
+    "Of the error: 'm', 'rad', 'm and rad' where rows differ, '' where nobody said.";
 constexpr const char* kCustomTask = R"(A task whose value a Python function measures.
 
 Slower than the others by what Python takes. A copy of a controller shares the function.
@@ -106,6 +108,7 @@ Args:
   rows: m.
   measure: called with the robot; returns value (m,) and Jacobian (m, n), or these and drift (m,),
     which is Jdot qdot.
+  unit: of the value, told in diagnostics: "m", say.
 
 Raises:
   Error: rows below 1, or what came back has another shape.
@@ -281,9 +284,9 @@ struct PythonMeasure {
 };
 
 std::unique_ptr<CustomTask> custom_task(Name name, const Robot& robot, Index rows,
-                                        py::function measure) {
+                                        py::function measure, std::string unit) {
   return std::make_unique<CustomTask>(std::move(name), robot, rows,
-                                      PythonMeasure(std::move(measure)));
+                                      PythonMeasure(std::move(measure)), std::move(unit));
 }
 
 void bind_task(py::module_& module) {
@@ -315,6 +318,7 @@ void bind_task(py::module_& module) {
       .def("restore", &restore<Task>, py::arg("state"), kRestore)
       .def_property_readonly("name", &Task::name)
       .def_property_readonly("rows", &Task::rows, "m")
+      .def_property_readonly("unit", &Task::unit, kUnit)
       .def_property_readonly("error", &Task::error, copy, "e (m,)")
       .def_property_readonly("jacobian", &Task::jacobian, copy, "J (m, n)")
       .def_property_readonly("drift", &Task::drift, copy, "(m,): Jdot qdot")
@@ -358,7 +362,8 @@ void bind_coordinate_tasks(py::module_& module) {
       .def(py::init<Name, const Robot&, const std::vector<Name>&>(), name, robot,
            py::arg("coordinates") = std::vector<Name>{});
   py::class_<CustomTask, ValueTask>(module, "CustomTask", kCustomTask)
-      .def(py::init(&custom_task), name, robot, py::arg("rows"), py::arg("measure"));
+      .def(py::init(&custom_task), name, robot, py::arg("rows"), py::arg("measure"),
+           py::arg("unit") = "");
   py::class_<ManipulabilityTask, ValueTask>(module, "ManipulabilityTask", kManipulabilityTask)
       .def(py::init([](Name n, const Robot& r, const Name& frame, Matrix rows, bool turns) {
              return std::make_unique<ManipulabilityTask>(

@@ -417,6 +417,10 @@ class Coordinate:
     @property
     def name(self) -> str: ...
     @property
+    def unit(self) -> str:
+        """'rad' or 'm'"""
+
+    @property
     def upper(self) -> float:
         """[rad] or [m], inf when unlimited"""
 
@@ -765,6 +769,10 @@ class Task:
         """m"""
 
     @property
+    def unit(self) -> str:
+        """Of the error: 'm', 'rad', 'm and rad' where rows differ, '' where nobody said."""
+
+    @property
     def upper(self) -> NDArray[np.float64]:
         """(m,), of the error"""
 
@@ -843,12 +851,18 @@ class CustomTask(ValueTask):
       rows: m.
       measure: called with the robot; returns value (m,) and Jacobian (m, n), or these and drift (m,),
         which is Jdot qdot.
+      unit: of the value, told in diagnostics: "m", say.
 
     Raises:
       Error: rows below 1, or what came back has another shape."""
 
     def __init__(
-        self, name: str, robot: Robot, rows: int, measure: collections.abc.Callable[..., Any]
+        self,
+        name: str,
+        robot: Robot,
+        rows: int,
+        measure: collections.abc.Callable[..., Any],
+        unit: str = "",
     ) -> None: ...
 
 class ManipulabilityTask(ValueTask):
@@ -1728,7 +1742,7 @@ class Shortfall:
     def task(self) -> str: ...
     @property
     def unit(self) -> str:
-        """'m' or 'rad', '' where none is known"""
+        """of the task, or of what it lacks: 'm', 'rad', 'm and rad', 'N' ...; '' where none is known"""
 
     def __init__(self, *args: object, **kwargs: object) -> None: ...
 

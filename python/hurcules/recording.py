@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import perf_counter
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -160,12 +159,7 @@ def record(
 
 
 def _sliding(simulation: Simulation) -> tuple[str, ...]:
-    model = simulation.model
-    return tuple(
-        one.name
-        for one in simulation.controller.plan.coordinates
-        if model.jnt_type[model.dof_jntid[one.joints[0].dof]] == mujoco.mjtJoint.mjJNT_SLIDE
-    )
+    return tuple(one.name for one in simulation.controller.plan.coordinates if one.unit == "m")
 
 
 def active_limits(log: dict[str, Array], time: float) -> tuple[str, ...]:

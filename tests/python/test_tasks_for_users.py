@@ -216,6 +216,37 @@ def test_a_task_in_python_is_a_task(model: mujoco.MjModel) -> None:
         hurcules.CustomTask("wrong", robot, 1, lambda robot: 1 / 0)
 
 
+def test_tasks_and_coordinates_say_their_unit() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        """<mujoco><worldbody><body name="cart"><joint name="rail" type="slide" axis="1 0 0"/>
+        <geom size="0.1"/><body name="arm"><joint name="turn" axis="0 1 0"/>
+        <geom size="0.1" pos="0 0 0.5"/></body></body></worldbody></mujoco>"""
+    )
+    robot = hurcules.Robot(model)
+    floating = hurcules.Robot(mujoco.MjModel.from_xml_string(FREE), floating=True)
+    assert [one.unit for one in robot.coordinates] == ["m", "rad"]
+    assert [one.unit for one in floating.coordinates] == ["m"] * 3 + ["rad"] * 4
+
+    def unit(*coordinates: str) -> str:
+        return hurcules.PostureTask("posture", robot, coordinates).unit
+
+    assert (unit("rail"), unit("turn"), unit()) == ("m", "rad", "m and rad")
+    assert hurcules.PositionTask("arm", robot, "arm").unit == "m"
+    assert hurcules.OrientationTask("arm", robot, "arm").unit == "rad"
+    area = hurcules.CustomTask(
+        "area", robot, 1, lambda robot: (robot.configuration[:1], np.eye(1, 2)), unit="m^2"
+    )
+    assert area.unit == "m^2"
+    posture = hurcules.PostureTask("base", robot, ["rail"])
+    controller = hurcules.VelocityController(robot)
+    controller.set_stack(hurcules.Stack([hurcules.DampingTask("held", robot), posture]))
+    posture.set_target([2.0])
+    controller.step(robot)
+    assert "base: 2 m short" in "\n".join(
+        str(one) for level in controller.diagnostics(robot) for one in level.shortfalls
+    )
+
+
 def test_a_jacobian_of_the_wrong_sign_is_told(model: mujoco.MjModel) -> None:
     robot = hurcules.Robot(model)
 

@@ -30,8 +30,8 @@ void check(const AccelerationControllerOptions& options) {
           "stiffness and damping are too high for a control period of " + number_text(dt) +
               " s: damping * dt < 0.66 and stiffness * dt^2 < 0.1 are wanted");
   require(std::isfinite(options.horizon) && options.horizon >= dt,
-          "horizon wants a time of at least one control period, else a limit is passed; got " +
-              std::to_string(options.horizon) + " s");
+          "horizon wants a time of at least one control period dt, else a limit is passed; got " +
+              number_text(options.horizon) + " s at dt = " + number_text(dt) + " s");
   require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
   require(options.rest >= 0.0 && options.rest * dt < 0.66,
           "rest wants a rate >= 0 [1/s], below 0.66 / dt");

@@ -5,16 +5,10 @@
 #include <cmath>
 
 #include "hurcules/base/number_text.hpp"
-#include "hurcules/tasks/balance_task.hpp"
 #include "hurcules/tasks/contact_task.hpp"
-#include "hurcules/tasks/custom_task.hpp"
-#include "hurcules/tasks/distance_task.hpp"
 #include "hurcules/tasks/force_task.hpp"
-#include "hurcules/tasks/manipulability_task.hpp"
-#include "hurcules/tasks/point_task.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
-#include "hurcules/tasks/zero_moment_task.hpp"
 
 namespace hurcules {
 
@@ -23,19 +17,6 @@ namespace {
 constexpr double kSmall = 1e-3;  // [m] or [rad] errors below it are nobody's concern
 constexpr double kUnkept = 0.1;  // [N m] or [m/s^2] the same
 constexpr double kShare = 0.1;   // of what a task asks for; regularisation leaves less than that
-
-const char* unit_of(const Task& task) {
-  if (dynamic_cast<const PoseTask*>(&task)) return "m and rad";
-  if (dynamic_cast<const ZeroMomentTask*>(&task)) return "m^2/s^2";
-  if (dynamic_cast<const TorqueLimits*>(&task)) return "N m";
-  if (dynamic_cast<const ContactTask*>(&task)) return "m/s^2";
-  if (dynamic_cast<const ManipulabilityTask*>(&task) || dynamic_cast<const CustomTask*>(&task))
-    return "";
-  const bool length = dynamic_cast<const PointTask*>(&task) ||
-                      dynamic_cast<const DistanceTask*>(&task) ||
-                      dynamic_cast<const BalanceTask*>(&task);
-  return length ? "m" : "rad";
-}
 
 // equality rows that ask for something
 Index equalities(const StackLevel& source, const Level& level) {
@@ -202,7 +183,7 @@ LevelDiagnostics diagnose(const SolvedStack& solved, std::size_t k) {
     if (has_no_target(*task)) {
       const double left = unkept(*task, solved.solution.violations[k], first);
       if (left > kUnkept)
-        made.shortfalls.push_back({task->name(), left, unit_of(*task),
+        made.shortfalls.push_back({task->name(), left, task->unit(),
                                    holders(solved, static_cast<int>(k), report), false});
       continue;
     }
@@ -254,12 +235,12 @@ double short_by(const Task& task) {
 }
 
 Shortfall shortfall_of(const Task& task, std::vector<std::string> held_by) {
-  return {task.name(), short_by(task), unit_of(task), std::move(held_by)};
+  return {task.name(), short_by(task), task.unit(), std::move(held_by)};
 }
 
 Shortfall gave_way(const Task& task, double by, std::vector<std::string> held_by) {
   const bool pose = dynamic_cast<const PoseTask*>(&task) != nullptr;  // its position alone
-  return {task.name(), by, pose ? "m" : unit_of(task), std::move(held_by)};
+  return {task.name(), by, pose ? "m" : task.unit(), std::move(held_by)};
 }
 
 std::vector<LevelReport> reports_of(const Solver& solver) {

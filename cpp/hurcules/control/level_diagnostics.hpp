@@ -17,8 +17,8 @@ namespace hurcules {
 // A task that is off its interval and is not being brought back as it asks.
 struct Shortfall {
   std::string task;
-  double short_by = 0.0;  // [unit] length of the error outside its interval
-  std::string unit;  // "m", "rad", "N" of forces, "N m" of torque limits, "m/s^2" of contacts; ""
+  double short_by = 0.0;             // [unit] length of the error outside its interval
+  std::string unit;                  // Task::unit, "N" of what a force lacks
   std::vector<std::string> held_by;  // limits, other tasks, or a direction that is missing
   bool invalid = false;              // its numbers are not finite: nothing was solved
   bool too_much = false;             // of a force: more than is wanted

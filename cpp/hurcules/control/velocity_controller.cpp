@@ -26,8 +26,8 @@ void check(const VelocityControllerOptions& options) {
                                                 number_text(options.gain) + " 1/s at " +
                                                 std::to_string(options.dt) + " s");
   require(std::isfinite(options.horizon) && options.horizon >= options.dt,
-          "horizon wants a time of at least one control period, else a limit is passed; got " +
-              std::to_string(options.horizon) + " s");
+          "horizon wants a time of at least one control period dt, else a limit is passed; got " +
+              number_text(options.horizon) + " s at dt = " + number_text(options.dt) + " s");
   require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
   require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
   require(std::isfinite(options.transition) && options.transition >= 0.0,

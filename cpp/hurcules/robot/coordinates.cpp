@@ -92,6 +92,7 @@ std::vector<Coordinate> from_parts(const mjModel& m, int joint) {
     if (is_ball(m, joint)) driven_joint.actuator = first_actuator(m, joint, part);
     Coordinate coordinate;
     coordinate.name = part_name(m, joint, part);
+    if (part < kTurns) coordinate.unit = "m";
     coordinate.joints = {driven_joint};
     coordinate.lower = -kInfinity;
     coordinate.upper = coordinate.max_velocity = kInfinity;
@@ -299,6 +300,7 @@ void set_limits(const mjModel& m, Coordinate& coordinate) {
   coordinate.lower = -kInfinity;
   coordinate.upper = coordinate.max_velocity = kInfinity;
   coordinate.max_effort = 0;
+  if (m.jnt_type[coordinate.joints.front().joint] == mjJNT_SLIDE) coordinate.unit = "m";
   for (const DrivenJoint& driven_joint : coordinate.joints) {
     const int joint = driven_joint.joint;
     const double factor = driven_joint.factor;

@@ -59,6 +59,7 @@ struct DrivenJoint {
 
 struct Coordinate {
   std::string name;
+  std::string unit = "rad";         // or "m": of the first joint, a slide
   std::vector<DrivenJoint> joints;  // at least one; the first is the one whose position is read
   double lower = 0.0;  // [rad] or [m], -inf when unlimited; of a ball joint the range of all of it
   double upper = 0.0;  // [rad] or [m]

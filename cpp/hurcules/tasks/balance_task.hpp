@@ -26,6 +26,7 @@ class BalanceTask : public Task {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<BalanceTask>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return "m"; }
 
   void update(const Robot& robot) override;
   [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }

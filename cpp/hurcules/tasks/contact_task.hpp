@@ -34,6 +34,7 @@ class ContactTask : public Task {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<ContactTask>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return "m/s^2"; }
 
   void update(const Robot& robot) override;
   void hold(const Robot& robot) override { update(robot); }

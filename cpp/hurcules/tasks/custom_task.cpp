@@ -7,8 +7,11 @@
 
 namespace hurcules {
 
-CustomTask::CustomTask(std::string name, const Robot& robot, Index rows, Measure measure)
-    : ValueTask(std::move(name), std::max(rows, Index{0}), robot), measure_(std::move(measure)) {
+CustomTask::CustomTask(std::string name, const Robot& robot, Index rows, Measure measure,
+                       std::string unit)
+    : ValueTask(std::move(name), std::max(rows, Index{0}), robot),
+      measure_(std::move(measure)),
+      unit_(std::move(unit)) {
   require(rows > 0, "rows of task '" + name_ + "' wants a number >= 1");
   require(static_cast<bool>(measure_), "task '" + name_ + "' wants a function that measures");
   CustomTask::hold(robot);

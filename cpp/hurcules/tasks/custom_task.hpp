@@ -16,16 +16,19 @@ class CustomTask : public ValueTask {
   // captures by reference they share.
   using Measure =
       std::function<void(const Robot& robot, VectorRef value, MatrixRef jacobian, VectorRef drift)>;
-  // throws Error without rows or without a function
-  CustomTask(std::string name, const Robot& robot, Index rows, Measure measure);
+  // unit: of the value, told in diagnostics; throws Error without rows or without a function
+  CustomTask(std::string name, const Robot& robot, Index rows, Measure measure,
+             std::string unit = "");
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<CustomTask>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return unit_; }
 
  private:
   void measure(const Robot& robot) override;
 
   Measure measure_;
+  std::string unit_;
 };
 
 }  // namespace hurcules

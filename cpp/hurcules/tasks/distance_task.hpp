@@ -48,6 +48,7 @@ class DistanceTask : public Task {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<DistanceTask>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return "m"; }
 
   void update(const Robot& robot) override;
   // as it was made: nothing is near yet, no obstacle has moved

@@ -27,6 +27,7 @@ class ManipulabilityTask : public ValueTask {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<ManipulabilityTask>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return {}; }
 
  private:
   void measure(const Robot& robot) override;

@@ -23,6 +23,7 @@ class PointTask : public ValueTask {
   // [m] in W where the point was at the last update, and the nearest one that meets the target
   [[nodiscard]] Vector3 world_position() const;
   [[nodiscard]] Vector3 world_target() const;
+  [[nodiscard]] std::string unit() const override { return "m"; }
   [[nodiscard]] double lever() const final;
   [[nodiscard]] std::optional<Frame> reference_frame() const override { return reference_.frame(); }
 

@@ -1,8 +1,23 @@
 #include "hurcules/tasks/posture_task.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "hurcules/base/pose.hpp"
 
 namespace hurcules {
+
+namespace {
+
+std::string unit_of(const Robot& robot, const std::vector<Index>& selected) {
+  const auto slides = std::count_if(selected.begin(), selected.end(), [&](Index i) {
+    return robot.coordinates()[static_cast<std::size_t>(i)].unit == "m";
+  });
+  if (slides == 0) return "rad";
+  return slides == std::ssize(selected) ? "m" : "m and rad";
+}
+
+}  // namespace
 
 PostureTask::PostureTask(std::string name, const Robot& robot,
                          const std::vector<std::string>& coordinates)
@@ -15,6 +30,7 @@ PostureTask::PostureTask(std::string name, const Robot& robot,
   for (Index i = robot.root_size(); coordinates.empty() && i < robot.size(); ++i)
     selected_.push_back(i);
   for (Index row = 0; row < rows(); ++row) jacobian_(row, selected_[row]) = 1;
+  unit_ = unit_of(robot, selected_);
   max_speed_ = 1.0;
   PostureTask::hold(robot);
 }

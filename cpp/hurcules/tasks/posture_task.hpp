@@ -21,11 +21,13 @@ class PostureTask : public ValueTask {
   }
 
   [[nodiscard]] bool rows_apart() const override { return true; }
+  [[nodiscard]] std::string unit() const override { return unit_; }
 
  private:
   void measure(const Robot& robot) override;
 
   std::vector<Index> selected_;
+  std::string unit_;
 };
 
 }  // namespace hurcules

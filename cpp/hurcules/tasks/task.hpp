@@ -108,6 +108,8 @@ class Task {
   [[nodiscard]] virtual bool is_limit() const { return false; }
   // the frame in whose axes it is measured; none: the world
   [[nodiscard]] virtual std::optional<Frame> reference_frame() const { return {}; }
+  // of the error: "m", "rad", "m and rad" where rows differ; "": nobody knows
+  [[nodiscard]] virtual std::string unit() const { return "rad"; }
   // what a row is about, for diagnostics
   [[nodiscard]] virtual std::string row_name(const Robot& /*robot*/, Index /*row*/) const {
     return name_;

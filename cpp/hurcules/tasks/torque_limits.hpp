@@ -15,6 +15,7 @@ class TorqueLimits : public Task {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<TorqueLimits>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return "N m"; }
 
   // at the robot's configuration and velocity; error() is the torque at constant velocity, h
   void update(const Robot& robot) override;

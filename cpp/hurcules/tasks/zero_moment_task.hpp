@@ -33,6 +33,7 @@ class ZeroMomentTask : public Task {
   [[nodiscard]] std::unique_ptr<Task> clone() const override {
     return std::make_unique<ZeroMomentTask>(*this);
   }
+  [[nodiscard]] std::string unit() const override { return "m^2/s^2"; }
 
   // at the robot's configuration and velocity; error() is tau at constant velocity
   void update(const Robot& robot) override;
