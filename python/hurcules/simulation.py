@@ -56,7 +56,7 @@ class Simulation(_core.Simulation):
 
     def __init__(
         self,
-        mission: str | Mission | None = None,
+        mission: str | Path | Mission | None = None,
         seed: int = 0,
         *,
         model: mujoco.MjModel | str | Path | None = None,
@@ -124,6 +124,13 @@ class Simulation(_core.Simulation):
             loaded_springs=loaded_springs,
         )
         self._seed = options.seed
+        if isinstance(mission, Path):
+            mission = str(mission)
+        if not isinstance(mission, str | Mission | None):
+            raise Error(
+                "mission: wanted its name, a path or a hurcules.Mission; a model of your own goes by "
+                f"keyword, Simulation(model=..., controller=...); got {mission!r}"
+            )
         if isinstance(mission, str) and (model is not None or controller is not None):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
         if (model is None) != (controller is None):

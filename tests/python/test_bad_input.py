@@ -56,6 +56,20 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "method of the solver": (lambda: controller("magic"), "magic"),
     "mission": (lambda: hurcules.Simulation("nowhere"), "'nowhere' does not exist; .* stretch"),
+    "model in place of a mission": (
+        lambda: hurcules.Simulation(arm_model()),  # type: ignore[arg-type]
+        r"by keyword, Simulation\(model=\.\.\., controller=\.\.\.\)",
+    ),
+    "period above the horizon": (
+        lambda: hurcules.VelocityController(
+            robot(), hurcules.VelocityControllerOptions(dt=0.1, gain=1.0)
+        ),
+        r"one control period dt.* got 0\.05 s at dt = 0\.1 s",
+    ),
+    "obstacle": (
+        lambda: hurcules.obstacles(robot(), bodies=["crate"]),
+        "body 'crate' does not exist; there are: .*hand",
+    ),
     "method of a mission": (
         lambda: hurcules.Simulation("lift", method="magic"),
         "method 'magic' does not exist; .* lexicographic",

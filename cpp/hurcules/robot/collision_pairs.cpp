@@ -315,8 +315,7 @@ std::vector<CollisionPair> obstacle_pairs(const Robot& robot,
   const mjModel& m = *robot.model();
   std::vector<int> named;
   for (const std::string& name : bodies) {
-    const int id = mj_name2id(&m, mjOBJ_BODY, name.c_str());
-    require(id >= 0, "an obstacle wants the name of a body; '" + name + "' is none");
+    const int id = find_object(m, mjOBJ_BODY, name);
     require(!shapes.is_own(id), "body '" + name + "' is part of the robot, not around it");
     named.push_back(id);
   }
