@@ -67,8 +67,8 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
         r"one control period dt.* got 0\.05 s at dt = 0\.1 s",
     ),
     "obstacle": (
-        lambda: hurcules.obstacles(hurcules.Robot(arm_model()), bodies=["crate"]),
-        "body 'crate' does not exist; there are: .*hand",
+        lambda: hurcules.obstacles(robot(), bodies=["crate"]),
+        "body 'crate' does not exist; there are: world",
     ),
     "method of a mission": (
         lambda: hurcules.Simulation("lift", method="magic"),
