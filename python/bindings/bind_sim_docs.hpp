@@ -158,8 +158,9 @@ inline constexpr const char* kObservation = "What a policy sees now (m,), see ob
 inline constexpr const char* kOperatorCommand =
     "What the mission's own operator commands next (k,).";
 inline constexpr const char* kLevelErrors =
-    "Norm of the errors of each level in the physics now, in the unit of its tasks; rows of weight "
-    "0, or without a side, are left out.";
+    "Norm of what each level is outside its intervals in the physics now, in the unit of its "
+    "tasks; "
+    "rows of weight 0, or without a side, are left out.";
 inline constexpr const char* kCommandedErrors =
     "The same of the commanded motion, at the last tick.";
 inline constexpr const char* kSolver =

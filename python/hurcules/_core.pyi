@@ -4104,7 +4104,7 @@ class Simulation:
         Before the first heartbeat of a run it is 0: who has no link cannot lose it. It is part of `state`."""
 
     def level_errors(self) -> NDArray[np.float64]:
-        """Norm of the errors of each level in the physics now, in the unit of its tasks; rows of weight 0, or without a side, are left out."""
+        """Norm of what each level is outside its intervals in the physics now, in the unit of its tasks; rows of weight 0, or without a side, are left out."""
 
     def limit_violation(self) -> dict[str, Any]:
         """Worst excess over any limit of the model (not of a stack's JointLimits): position_rad, velocity, torque in the physics, 0 for none; commanded: the same of the commanded motion."""

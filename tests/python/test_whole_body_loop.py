@@ -187,6 +187,26 @@ def test_the_point_that_a_gaze_looks_at_is_set() -> None:
         looks(lambda gaze: hurcules.Target(hurcules.DampingTask("still", still)))
 
 
+def test_a_level_within_its_interval_has_no_error() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    robot = hurcules.Robot(model, joints=["j1", "j2", "j3"])
+    robot.set_configuration(START)
+    tip = hurcules.PositionTask("tip", robot, "tip", axes=[[0.0, 0.0, 1.0]])
+    controller = hurcules.WholeBodyController(robot, [tip, hurcules.PostureTask("rest", robot)])
+    simulation = hurcules.Simulation(model=model, controller=controller)
+    tip.set_target(tip.target - 0.05)  # the tip is 50 mm above
+    tip.set_interval([-0.1], [0.1])
+    simulation.step(1)
+    assert tip.error[0] == pytest.approx(0.05, abs=0.005)
+    level = simulation.levels.index("tip")
+    assert simulation.commanded_level_errors()[level] == 0.0
+    assert simulation.level_errors()[level] == 0.0
+    tip.set_interval([-0.1], [0.02])
+    simulation.step(1)
+    assert simulation.commanded_level_errors()[level] == pytest.approx(tip.error[0] - 0.02)
+    assert simulation.level_errors()[level] == pytest.approx(0.03, abs=1e-3)
+
+
 @pytest.mark.parametrize("channels", [twist, lambda tip: {}], ids=["twist", "no channel"])
 def test_a_twist_that_rests_leaves_a_target_that_is_led_alone(channels: Channels) -> None:
     # it took the feed-forward away: 41 mm behind at 0.2 m/s

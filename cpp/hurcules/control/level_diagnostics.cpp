@@ -226,10 +226,7 @@ std::string Shortfall::text() const {
 double short_by(const Task& task) {
   double squares = 0.0;
   for (Index i = 0; i < task.rows(); ++i) {
-    if (!(task.weights()[i] > 0.0)) continue;
-    const double e = task.error()[i];
-    const double beyond = e - std::min(std::max(e, task.lower()[i]), task.upper()[i]);
-    squares += beyond * beyond;
+    if (task.weights()[i] > 0.0) squares += std::pow(task.beyond(i), 2);
   }
   return std::sqrt(squares);
 }

@@ -185,7 +185,8 @@ void RunRecord::note_measured(const WholeBodyController& controller,
               telemetry.task_error_measured);
 }
 
-// the errors as the tasks were measured last; limits have none, and rows that ask for nothing
+// the errors as the tasks were measured last, of levels what is outside the intervals; limits of
+// coordinates have none, nor rows that ask for nothing
 void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const Task*>& tasks,
                             Vector& levels, Vector& rows) const {
   for (std::size_t k = 0; k < places.level.size(); ++k) {
@@ -193,7 +194,7 @@ void RunRecord::copy_errors(const StackPlaces& places, const std::vector<const T
     for (const TaskPlace& place : places.tasks[k]) {
       const Task& task = *tasks[place.task];
       for (Index i = 0; i < task.rows(); ++i)
-        if (task.asks(i)) square += task.error()[i] * task.error()[i];
+        if (task.asks(i)) square += std::pow(task.beyond(i), 2);
       rows.segment(place.first_row, task.rows()) = task.error();
     }
     levels[places.level[k]] = std::sqrt(square);

@@ -8,6 +8,7 @@
 // task's Jacobian fades instead of growing, each task says where.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -83,6 +84,10 @@ class Task {
   // a row that has a weight and a side
   [[nodiscard]] bool asks(Index row) const {
     return weights_[row] > 0.0 && (std::isfinite(lower_[row]) || std::isfinite(upper_[row]));
+  }
+  // [unit] how far the error of a row is outside its interval, signed; 0 inside
+  [[nodiscard]] double beyond(Index row) const {
+    return error_[row] - std::min(std::max(error_[row], lower_[row]), upper_[row]);
   }
   // max_speed of a row is this share of the task's: 1 but for tasks of several units
   [[nodiscard]] double speed_share(Index row) const { return speed_shares_[row]; }
