@@ -54,8 +54,8 @@ def robot_geoms(model: mujoco.MjModel) -> np.ndarray:
 
 def overlap(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     """Deepest contact of the robot [m], 0 for none."""
-    mine = robot_geoms(model)
-    return max((-c.dist for c in data.contact[: data.ncon] if mine[c.geom].any()), default=0.0)
+    touches = robot_geoms(model)[data.contact.geom].any(axis=1)
+    return float(-data.contact.dist[touches].min(initial=0.0))
 
 
 def stand(model: mujoco.MjModel, key: str, seconds: float = 0.5) -> Stay:
@@ -69,5 +69,5 @@ def stand(model: mujoco.MjModel, key: str, seconds: float = 0.5) -> Stay:
         hurcules.step(model, data, 10)
         deepest = max(deepest, overlap(model, data))
     moved = float(np.linalg.norm(data.body("upper_legs").xpos - start))
-    warnings = sum(int(warning.number) for warning in data.warning)
+    warnings = int(data.warning.number.sum())
     return Stay(moved, deepest, warnings, bool(np.isfinite(data.qpos).all()))

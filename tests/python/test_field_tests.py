@@ -162,10 +162,19 @@ def test_a_stop_keeps_what_was_done_and_passes_nothing_that_lacks_repetitions():
     assert result.interrupted and not result.passed and result.settings[0].repetitions == 2
 
 
+def push_over(model, data, speed):
+    """A driver whose repetitions last a second."""
+    data.body("torso").xfrc_applied[0] = 2e4
+    return 0.0, 0.0
+
+
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_setting_that_fails_three_times_from_the_start_is_not_repeated(workers):
-    result = field_tests.run(SHORT, repetitions=5, settings=(2000.0,), workers=workers)
+    result = field_tests.run(
+        SHORT, repetitions=5, settings=(75.0,), workers=workers, driver=push_over
+    )
     assert not result.passed and not result.interrupted
+    assert {one.fault for one in result.settings[0].faults} == {"tip-over"}
     assert result.settings[0].repetitions == result.settings[0].failures == 3
 
 

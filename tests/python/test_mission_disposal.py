@@ -1,8 +1,8 @@
 """The mission `disposal` in the physics: a case of 20 kg, taken with both hands, friction alone.
 
 Strategy: one run to where the case hangs in both hands, with the errors of the cameras, judged by
-what MuJoCo's data say beside what the mission says of itself; from there faults go on. One whole
-run into the container. What must be refused is refused. Other cases, places and frictions:
+what MuJoCo's data say beside what the mission says of itself; from there faults go on, and the run
+itself into the container. What must be refused is refused. Other cases, places and frictions:
 docs/disposal.md (benchmarks/disposal_sweep.py, disposal_faults.py).
 """
 
@@ -122,8 +122,9 @@ def test_seen_from_near_the_hands_meet_the_bars(grasped) -> None:
 
 
 @pytest.mark.slow
-def test_a_motor_of_a_finger_that_lets_go_lowers_the_case(grasped) -> None:
-    simulation, states = grasped
+def test_a_motor_of_a_finger_that_lets_go_lowers_the_case(grasped, faults) -> None:
+    _, states = grasped
+    simulation = faults.simulate(disposal.model(disposal.Job(**TURNED)))
     simulation.restore(states["look"])
     simulation.model.actuator_forcerange[simulation.model.actuator("L_grip").id] = (-60.0, 60.0)
     while simulation.phase in ("look", "raise") and not simulation.finished:
@@ -215,8 +216,10 @@ def test_what_a_job_has_not_is_told() -> None:
 
 
 @pytest.mark.slow
-def test_the_case_is_put_into_the_container() -> None:
-    simulation = hurcules.Simulation("disposal", variation=0.0, record=False)
+def test_the_case_is_put_into_the_container(grasped) -> None:
+    """From where `grasped` looked at it: turned, off its place, and seen with errors."""
+    simulation, states = grasped
+    simulation.restore(states["look"])
     while not simulation.finished:
         simulation.step(1000)
     assert simulation.success, simulation.reason

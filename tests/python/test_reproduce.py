@@ -298,7 +298,7 @@ def test_wrong_use_gives_one_line_and_exit_code_2(
 
 def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) -> None:
     # in one worker: whichever comes first, the others take two seconds more
-    arguments = ["M04-M06", "--out", str(tmp_path), "--workers", "1"]
+    arguments = ["H14-H16", "--out", str(tmp_path), "--workers", "1"]
     process = subprocess.Popen(
         [*COMMAND, "reproduce", *arguments],
         stdout=subprocess.PIPE,

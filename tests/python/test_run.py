@@ -21,7 +21,7 @@ import pytest
 from rich.console import Console
 
 import hurcules
-from hurcules import report
+from hurcules import extras, report
 from hurcules import run as runs
 from hurcules.figures import readable, wanted
 from hurcules.recording import CHANNELS, STAGES
@@ -32,6 +32,12 @@ from hurcules.video import NOTE, STRIP
 
 COMMAND = [sys.executable, "-c", "import sys; from hurcules.cli import main; sys.exit(main())"]
 SECONDS = 2.4  # the stretch begins at 2 s
+
+
+@pytest.fixture
+def without_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs whose logs are compared leave the report out: it takes longer than they do."""
+    monkeypatch.setattr(extras, "missing", lambda: ["jinja2"])
 
 
 def quiet() -> Console:
@@ -233,6 +239,7 @@ def test_the_report_has_each_force_on_the_person_beside_its_limit() -> None:
     assert "skull" not in page  # nothing touched it
 
 
+@pytest.mark.usefixtures("without_report")
 def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Path) -> None:
     logs = []
     for name, seed in (("a", 3), ("b", 3), ("c", 4)):
@@ -243,6 +250,7 @@ def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Pa
     assert logs[0] != logs[2]
 
 
+@pytest.mark.usefixtures("without_report")
 def test_sensors_with_noise_change_the_run_and_the_summary_names_them(tmp_path: Path) -> None:
     logs, named = {}, {}
     for sensors in (False, True):

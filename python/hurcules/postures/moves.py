@@ -6,6 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from hurcules._core import Error
 
 __all__ = ["Move", "bend", "move", "standing"]
@@ -58,24 +61,38 @@ class Move:
         Returns:
             Angle [rad] and speed [rad/s].
         """
-        u = min(max(time / self.seconds, 0.0), 1.0)
-        way = u - math.sin(2 * math.pi * u) / (2 * math.pi)
-        rate = (1 - math.cos(2 * math.pi * u)) / self.seconds
-        at, angle = [0.0], [start]
-        for share, angles in self.keys:
-            if joint in angles:
-                at.append(share)
-                angle.append(angles[joint])
-        if len(at) == 1:
-            return start, 0.0
-        i = min(sum(share < way for share in at[1:]), len(at) - 2)
-        line = [(b - a) / (t - s) for s, t, a, b in zip(at, at[1:], angle, angle[1:], strict=False)]
-        span, x = at[i + 1] - at[i], (way - at[i]) / (at[i + 1] - at[i])
-        into, out = _slope(line, i), _slope(line, i + 1)
+        place, speed = self.targets(joint, start, [time])
+        return float(place[0]), float(speed[0])
+
+    def targets(
+        self, joint: str, start: float, times: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The same at many times at once.
+
+        Args:
+            joint: its name.
+            start: its angle before the move [rad].
+            times: (n,) since the start of the move [s].
+
+        Returns:
+            (n,) angles [rad] and (n,) speeds [rad/s].
+        """
+        u = np.clip(np.asarray(times, np.float64) / self.seconds, 0.0, 1.0)
+        way = u - np.sin(2 * np.pi * u) / (2 * np.pi)
+        rate = (1 - np.cos(2 * np.pi * u)) / self.seconds
+        keys = [(share, angles[joint]) for share, angles in self.keys if joint in angles]
+        if not keys:
+            return np.full(u.shape, start), np.zeros(u.shape)
+        at, angle = np.array([(0.0, start), *keys]).T
+        lines = np.diff(angle) / np.diff(at)
+        slopes = np.array([_slope(lines.tolist(), key) for key in range(len(at))])
+        i = np.minimum(np.searchsorted(at[1:], way), len(lines) - 1)
+        line, span = lines[i], np.diff(at)[i]
+        x = (way - at[i]) / span
         # cubic of Hermite in x, and its derivative by the way
-        bend0, bend1 = into - line[i], line[i] - out
-        place = angle[i] + span * x * (line[i] + (1 - x) * ((1 - x) * bend0 + x * bend1))
-        slope = line[i] + (1 - x) * (1 - 3 * x) * bend0 + x * (2 - 3 * x) * bend1
+        bend0, bend1 = slopes[i] - line, line - slopes[i + 1]
+        place = angle[i] + span * x * (line + (1 - x) * ((1 - x) * bend0 + x * bend1))
+        slope = line + (1 - x) * (1 - 3 * x) * bend0 + x * (2 - 3 * x) * bend1
         return place, slope * rate
 
 

@@ -140,15 +140,17 @@ class Player:
         return result
 
     def _play(self, each: Move) -> Result:
-        moving = self._motors(each.name, each.joints())
-        start, speed = self.reference.copy(), np.zeros(len(self.joints))
+        moving = each.joints()
+        columns = self._motors(each.name, moving)
         dt = self.model.opt.timestep
-
-        def lead(i: int) -> None:
-            for j in moving:
-                self.reference[j], speed[j] = each.target(self.joints[j], start[j], (i + 1) * dt)
-
-        return self._lead(each.name, round((each.seconds + each.hold) / dt), lead, speed)
+        ticks = round((each.seconds + each.hold) / dt)
+        times = dt * np.arange(1, ticks + 1)
+        ways = [
+            each.targets(joint, self.reference[column], times)
+            for joint, column in zip(moving, columns, strict=True)
+        ]
+        q, qd = np.array(ways).reshape(len(moving), 2, ticks).transpose(1, 2, 0)
+        return self._lead(each.name, columns, q, qd)
 
     def follow(
         self, name: str, joints: Sequence[str], q: NDArray[np.float64], qd: NDArray[np.float64]
@@ -168,12 +170,7 @@ class Player:
         if q.shape != qd.shape or q.shape[1:] != (len(moving),):
             wanted = f"q and qd (ticks, {len(moving)}) are wanted"
             raise Error(f"motion '{name}': {wanted}, {q.shape} and {qd.shape} came")
-        speed = np.zeros(len(self.joints))
-
-        def lead(i: int) -> None:
-            self.reference[moving], speed[moving] = q[i], qd[i]
-
-        return self._lead(name, len(q), lead, speed)
+        return self._lead(name, moving, q, qd)
 
     def _motors(self, name: str, joints: Sequence[str]) -> list[int]:
         unknown = [joint for joint in joints if joint not in self.joints]
@@ -182,33 +179,47 @@ class Player:
         return [self.joints.index(joint) for joint in joints]
 
     def _lead(
-        self, name: str, ticks: int, lead: Callable[[int], None], speed: NDArray[np.float64]
+        self, name: str, moving: list[int], q: NDArray[np.float64], qd: NDArray[np.float64]
     ) -> Result:
-        """Ticks, each after `lead` has set the reference and the speed of it."""
+        """Ticks, a row of places and speeds of the moving motors each; the others stay."""
+        places = np.tile(self.reference, (len(q), 1))
+        speeds = np.zeros_like(places)
+        places[:, moving], speeds[:, moving] = q, qd
 
         def step(i: int) -> int:
-            lead(i)
-            self.controller.move_all(self.reference, speed)
+            self.reference = places[i]
+            self.controller.move_all(self.reference, speeds[i])
             return self.simulation.step(1)
 
-        return self._run(name, ticks, step)
+        try:
+            return self._run(name, len(q), step)
+        finally:
+            self.reference = self.reference.copy()  # not a row that keeps them all
 
     def _run(self, name: str, ticks: int, step: Callable[[int], int]) -> Result:
         """Ticks, watched."""
         result = Result(name)
-        share, error = np.zeros((2, len(self.joints)))
+        peaks = np.zeros((4, len(self.joints)))  # torque, error, speed, power
+        seen = np.zeros((3, _LOOK, len(self.joints)))
+        qvel = self.data.qvel
         for i in range(ticks):
-            velocity = self.data.qvel[self._dof]
+            k = i % _LOOK
+            torque, error, velocity = seen[:, k]
+            velocity[:] = qvel[self._dof]
             self._checked(step(i))
-            torque = self.controller.torque
-            np.maximum(share, np.abs(torque) / self.peak, out=share)
-            np.maximum(error, np.abs(self.controller.joint_error), out=error)
-            result.speed = max(result.speed, float((np.abs(velocity) / self._speed).max()))
-            result.power = max(result.power, float((torque * velocity / self._power).max()))
-            if i % _LOOK == 0:
+            torque[:], error[:] = self.controller.torque, self.controller.joint_error
+            if k == 0:
                 look(self.model, self.data, result, self.carried)
+            if k == _LOOK - 1 or i == ticks - 1:
+                torque, error, velocity = seen[:, : k + 1]
+                taken = np.abs([torque, error, velocity]).max(axis=1)
+                power = (torque * velocity).max(axis=0)
+                peaks = np.maximum(peaks, [*taken, power])
+        share = peaks[0] / self.peak
         result.torque = dict(zip(self.joints, share.tolist(), strict=True))
-        result.error = dict(zip(self.joints, error.tolist(), strict=True))
+        result.error = dict(zip(self.joints, peaks[1].tolist(), strict=True))
+        result.speed = float((peaks[2] / self._speed).max(initial=0.0))
+        result.power = float((peaks[3] / self._power).max(initial=0.0))
         return result
 
     def _checked(self, ticks: int) -> None:

@@ -154,6 +154,7 @@ class _Attempt:
         self.model, self.data = simulation.model, simulation.data
         self.driver, self.plan, self.watch, self.grasp = driver, plan, watch, grasp
         self.metres = self.energy = 0.0
+        self._warnings = self.data.warning.number  # a view: going through the list takes 0.1 ms
         self._posture = plan(0.0)
         self.mover = PostureMover(simulation, self._posture)
         self._motors = [self.model.actuator(f"{side}_drive").id for side in "LR"]
@@ -246,7 +247,7 @@ class _Attempt:
         self.energy += float(np.maximum(power, 0.0).sum()) * self.simulation.dt
         if self.watch:
             self.watch(self.model, data.qpos, data.time)
-        if any(warning.number for warning in data.warning):
+        if self._warnings.any():
             return "simulation"
         if self.simulation.finished:
             return "tip-over" if "fell" in self.simulation.reason else "simulation"
