@@ -128,8 +128,8 @@ class Simulation(_core.Simulation):
             mission = str(mission)
         if not isinstance(mission, str | Mission | None):
             raise Error(
-                "mission: wanted its name, a path or a hurcules.Mission; a model of your own goes by "
-                f"keyword, Simulation(model=..., controller=...); got {mission!r}"
+                "mission: wanted its name, a path or a hurcules.Mission; a model of your own goes "
+                f"by keyword, Simulation(model=..., controller=...); got {mission!r}"
             )
         if isinstance(mission, str) and (model is not None or controller is not None):
             raise Error("a simulation wants a mission, or a model and a controller, not all three")
