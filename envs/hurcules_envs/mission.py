@@ -219,6 +219,7 @@ def kept(
     phases = [phase for phase in mission.rows.phases if phase.name not in without]
     for phase in phases:
         phase.last = phase.name == last
+        phase.next = "" if phase.last else phase.next
         phase.troubles = [
             one for one in phase.troubles if not any(to.phase in without for to in one.reactions)
         ]

@@ -101,7 +101,8 @@ Args:
   late: list of Reaction, when it takes longer.
   troubles: list of Trouble.
   note: what it is for, in words: for the printed table and the film.
-  last: the run is over after it; what follows is only reached by reactions.
+  next: name of the phase that it goes on to; "": the one below.
+  last: the run is over after it; what follows is only reached from elsewhere.
 )";
 constexpr const char* kMeasure = R"(A figure of a run: a quantity over some phases.
 
@@ -306,7 +307,7 @@ void bind_rows(py::module_& module) {
        field("within", &Phase::within), field("late", &Phase::late),
        field("troubles", &Phase::troubles), field("support", &Phase::support),
        field("brakes", &Phase::brakes), field("park", &Phase::park), field("note", &Phase::note),
-       field("last", &Phase::last)});
+       field("next", &Phase::next), field("last", &Phase::last)});
 }
 
 }  // namespace

@@ -3458,11 +3458,13 @@ class Phase:
       late: list of Reaction, when it takes longer.
       troubles: list of Trouble.
       note: what it is for, in words: for the printed table and the film.
-      last: the run is over after it; what follows is only reached by reactions."""
+      next: name of the phase that it goes on to; "": the one below.
+      last: the run is over after it; what follows is only reached from elsewhere."""
 
     __hash__: ClassVar[None]  # type: ignore[assignment]
     last: bool
     name: str
+    next: str
     note: str
     park: Park | None
     posture: str
@@ -3489,6 +3491,7 @@ class Phase:
         brakes: collections.abc.Sequence[str] = [],
         park: Park | None = None,
         note: str = "",
+        next: str = "",
         last: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...

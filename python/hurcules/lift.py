@@ -44,7 +44,7 @@ SUPPORT = "lower_leg_L"
 START = _core.lift_start()
 DISTANCE = 3.30  # [m] of the person's middle from the knee axis: 1 m for the approach
 # phases that only who lies on his front comes to, as he is laid down
-ON_THE_FRONT = ("let down", "draw back", "set flat", "draw out", "rest on the front")
+ON_THE_FRONT = ("let down", "draw back", "set flat")
 NEAR, BEYOND = 1.5, 0.5  # [m] of the knee axis: before the terrain, and behind it
 
 

@@ -2,8 +2,8 @@
 
 From left to right there are boxes, lanes, bars and texts. A box is a phase: its stack and time,
 what it is for, what it waits for. A lane is a way to another phase, from every trouble that takes
-it. A bar joins phases that watch the same condition, and its text says that condition and the
-reactions to it, one after the other.
+it, and from a phase that goes on there when it is done. A bar joins phases that watch the same
+condition, and its text says that condition and the reactions to it, one after the other.
 """
 
 from __future__ import annotations
@@ -74,7 +74,9 @@ class _Sheet:
         self.place = {phase.name: k for k, phase in enumerate(self.phases)}
         self.safety = table.safety
         self.watches = list(_watches(self.phases))
-        self.targets = sorted({to for one in self.watches for to in self._targets(one)})
+        self.ahead = {k: self.place[one.next] for k, one in enumerate(self.phases) if one.next}
+        jumps = {to for one in self.watches for to in self._targets(one)}
+        self.targets = sorted(jumps | set(self.ahead.values()))
         self.top, self.bottom = self._rows()
         self.bars = _columns(self.watches)
         self.lane_x = LEFT + BOX + 22
@@ -126,7 +128,7 @@ class _Sheet:
             top.append(y)
             y += 2 * PAD + LINE * max(1 + len(_note(phase)) + len(phase.done), labels)
             bottom.append(y)
-            y += GAP + (2 * LINE if phase.last else 0)
+            y += GAP + (2 * LINE if phase.last or phase.next else 0)
         return top, bottom
 
     def _heights(self) -> list[int]:
@@ -157,7 +159,9 @@ class _Sheet:
             yield _text(LEFT + 22, head + LINE * row, text, "soft")
         for row, one in enumerate(phase.done, 1 + len(note)):
             yield _text(LEFT + 22, head + LINE * row, _condition(one))
-        if phase.last or k + 1 == len(self.phases):
+        if phase.next:
+            yield _text(x + 10, y + GAP + LINE, f"on to {phase.next}", "soft")
+        elif phase.last or k + 1 == len(self.phases):
             yield _line([(x, y), (x, y + GAP - 4)], "#555", 1.5)
             yield f'<circle cx="{x}" cy="{y + GAP}" r="4" fill="#555"/>'
             yield _text(x + 10, y + GAP + 4, "the end", "soft")
@@ -169,6 +173,13 @@ class _Sheet:
         x, colour = self.lane_x + PITCH * k, LANES[k % len(LANES)]
         to, right = self.top[target] + PAD + LINE // 2, LEFT + BOX
         heights = [to]
+        for row, ahead in self.ahead.items():
+            if ahead == target:
+                middle, y = LEFT + BOX // 2, self.bottom[row] + GAP
+                heights.append(y)
+                yield _line([(middle, self.bottom[row]), (middle, y)], colour, 1.5)
+                yield _line([(middle, y), (x, y)], colour, 1.5)
+                yield f'<circle cx="{x}" cy="{y}" r="2.5" fill="{colour}"/>'
         for column, watch, y in zip(self.bars, self.watches, self._heights(), strict=True):
             if target in self._targets(watch):
                 heights.append(y)

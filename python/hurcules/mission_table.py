@@ -16,6 +16,7 @@
     within = 10.0
     late = ["hold 2 s", "back to reach, 2 times", "abort"]
     trouble = [{ when = "monitor/static_margin_m <= 0.03", do = ["lower"] }]
+    next = "rest"               # goes on there when it is done, not to the row below
 
 Rows of another table are taken by `[[phase]]` with `include = "lift.toml"` and `rows = ["settle",
 "raise"]`: from the first to the second of these, with what watches them there. The same trouble in
@@ -240,6 +241,7 @@ _PHASE: Mapping[str, Kind] = {
     "brakes": [str],
     "posture": str,
     "within": float,
+    "next": str,
     "last": bool,
 }
 _ROW = {
@@ -420,7 +422,8 @@ def _warn_of_unreached(table: MissionTable) -> None:
             continue
         phase = phases[k]
         reached.add(names[k])
-        ahead += [k + 1] * (not phase.last)
+        if not phase.last:
+            ahead.append(names.index(phase.next) if phase.next else k + 1)
         reactions = [*phase.late, *(one for each in phase.troubles for one in each.reactions)]
         ahead += [names.index(one.phase) for one in reactions if one.phase]
     if left := [name for name in names if name not in reached]:

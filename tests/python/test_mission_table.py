@@ -221,6 +221,25 @@ def test_the_table_is_printed() -> None:
     assert "lower goes to 'back'" in text
 
 
+# up, aside, back: the rows stand in another order
+AROUND = ROWS.replace("seconds = 1.0", 'seconds = 1.0\nnext = "aside"', 1).replace(
+    "[[figure]]",
+    '[[phase]]\nname = "aside"\nstack = "posture"\nseconds = 0.1\nnext = "back"\n\n[[figure]]',
+    1,
+)
+
+
+def test_a_phase_goes_on_to_the_row_that_it_names(tmp_path: Path) -> None:
+    with pytest.raises(Error, match="phase 'up', next: the rows behind it go round for ever"):
+        read(AROUND)
+    mission = read(AROUND.replace('name = "back"', 'name = "back"\nlast = true'))
+    mission.save(tmp_path / "around.toml")
+    assert Mission.load(tmp_path / "around.toml") == mission
+    assert "1  up  [posture]  1 s  (then 'aside')\n" in mission.table()
+    texts = [text.text or "" for text in drawn(mission, "text")]
+    assert {"on to aside", "on to back"} <= set(texts)
+
+
 def drawn(mission: Mission, element: str) -> list[ElementTree.Element]:
     """What its drawing has of this element of SVG."""
     return list(ElementTree.fromstring(mission.drawing()).iter(f"{{{SVG}}}{element}"))

@@ -66,12 +66,13 @@ Mission::Mission(MissionSetup setup, MissionTable table, const WholeBodyControll
     row += channel.size();
   }
   forces_ = Vector::Zero(static_cast<Index>(force_names_.size()));
-  std::string support = setup_.support.empty() ? controller.options().support : setup_.support;
+  const std::vector<std::string> supports = supports_of(
+      table_.phases, setup_.support.empty() ? controller.options().support : setup_.support);
   rows_.reserve(table_.phases.size());
   const bool stands = controller.plan().root_qpos() >= 0 && !controller.plan().floating();
-  for (const Phase& phase : table_.phases) {
-    if (!phase.support.empty()) support = phase.support;
-    rows_.emplace_back(phase, support, controller);
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const std::string& support = supports[i];
+    rows_.emplace_back(table_.phases[i], support, controller);
     if (stands && !support.empty()) parts_.try_emplace(support, controller.plan(), support);
   }
 }
@@ -234,12 +235,13 @@ bool Mission::advance(WholeBodyController& controller, double time) {
     return react(trouble, controller, time);
   }
   while (over(time)) {
-    if (phase_ + 1 == rows_.size() || table_.phases[phase_].last) {
+    const std::optional<std::size_t> after = phase_after(table_.phases, phase_);
+    if (!after) {
       ended_ = true;
       tell();
       return false;
     }
-    enter(phase_ + 1, controller, time);
+    enter(*after, controller, time);
   }
   return true;
 }

@@ -97,7 +97,8 @@ struct Phase {
   std::vector<Reaction> late = {};                          // when it takes longer
   std::vector<Trouble> troubles = {};
   std::string note = "";  // what it is for, in words: for the printed table and the film
-  bool last = false;      // the run is over after it: what follows is only reached by reactions
+  std::string next = "";  // the phase that it goes on to; "": the one below
+  bool last = false;      // the run is over after it: what follows is only reached from elsewhere
 };
 
 }  // namespace hurcules

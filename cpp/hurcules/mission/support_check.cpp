@@ -151,13 +151,15 @@ void check_supports(const MissionTable& table, const WholeBodyController& contro
     return SupportPart(plan, support).bears(start.plant.model(), start.plant.data());
   };
   if (!support.empty() && !bears()) posture.check(support, "", "[mission]");
-  for (const Phase& phase : table.phases) {
-    if (!phase.support.empty() && phase.support != support) {
-      support = phase.support;
+  const std::vector<std::string> supports = supports_of(table.phases, support);
+  // what is only reached by reactions comes from anywhere
+  for (std::optional<std::size_t> at = 0; at; at = phase_after(table.phases, *at)) {
+    const Phase& phase = table.phases[*at];
+    if (supports[*at] != support) {
+      support = supports[*at];
       if (!posture.stand_on(support, "phase '" + phase.name + "'")) return;
     }
     posture.lead(phase);
-    if (phase.last) return;  // what follows is reached by reactions, from anywhere
   }
 }
 

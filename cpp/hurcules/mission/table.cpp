@@ -161,6 +161,22 @@ void check_row(const Phase& phase, const MissionTable& table) {
   }
 }
 
+// whoever goes on from row to row comes to an end: going round wants the count of a reaction
+void check_order(const std::vector<Phase>& phases) {
+  for (const Phase& phase : phases) {
+    if (phase.next.empty()) continue;
+    const std::string where = where_of(phase) + ", next";
+    require(!phase.last, where + ": the run is over after it, it does not go on");
+    (void)find_phase(phases, phase.next, where);
+  }
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    std::optional<std::size_t> at = i;
+    for (std::size_t steps = 0; at && steps < phases.size(); ++steps) at = phase_after(phases, *at);
+    require(!at, where_of(phases[i]) + ", next: the rows behind it go round for ever; a way back " +
+                     "wants a reaction with a count, 'back to PHASE, 3 times'");
+  }
+}
+
 void check_lead(const Lead& lead, const Phase& phase, const WholeBodyController& controller,
                 const std::string& phase_name) {
   const Channel& channel = *find_channel(controller, lead.channel, phase_name).channel;
@@ -332,6 +348,21 @@ std::size_t find_phase(const std::vector<Phase>& phases, const std::string& name
   throw Error(where + ": " + unknown_name("phase", name, names_of(phases)));
 }
 
+std::optional<std::size_t> phase_after(const std::vector<Phase>& phases, std::size_t phase) {
+  const Phase& row = phases[phase];
+  if (!row.next.empty()) return find_phase(phases, row.next, "");
+  return row.last || phase + 1 == phases.size() ? std::nullopt : std::optional(phase + 1);
+}
+
+std::vector<std::string> supports_of(const std::vector<Phase>& phases, std::string first) {
+  std::vector<std::string> supports;
+  for (const Phase& phase : phases) {
+    if (!phase.support.empty()) first = phase.support;
+    supports.push_back(first);
+  }
+  return supports;
+}
+
 ChannelPlace find_channel(const WholeBodyController& controller, const std::string& name,
                           const std::string& where) {
   ChannelPlace place;
@@ -372,6 +403,7 @@ void check_rows(const MissionTable& table) {
     require(find_phase(table.phases, name, "") == i, "two phases are called '" + name + "'");
   }
   for (const Phase& phase : table.phases) check_row(phase, table);
+  check_order(table.phases);
   if (!table.safety.empty()) (void)find_phase(table.phases, table.safety, "safety");
   for (const Measure& measure : table.measures) {
     const std::string where = "figure '" + measure.name + "'";
@@ -403,6 +435,7 @@ std::string table_text(const MissionTable& table) {
     add(text, {std::to_string(i + 1), "  ", phase.name, "  [", phase.stack, "]"});
     if (phase.seconds > 0.0) add(text, {"  ", to_text(phase.seconds), " s"});
     if (!phase.support.empty()) add(text, {"  on ", phase.support});
+    if (!phase.next.empty()) add(text, {"  (then '", phase.next, "')"});
     if (phase.last) text += "  (the last)";
     text += "\n";
     if (!phase.note.empty()) add(text, {"     ", phase.note, "\n"});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ struct MissionTable {
 // that exist; two of a name; two leads of a channel, one without a way or a rate or one that never
 // ends while nothing else ends the phase; a time-out that is not above 0, shorter than the phase or
 // without a reaction, reactions without a time-out; parking without a time-out; reactions that do not
-// end in safety (Lower or Abort); a jump without a count; shares of a posture that do not rise to 1.
+// end in safety (Lower or Abort); a jump without a count, or rows that go on to each other for ever;
+// a row that goes on, but is the last; shares of a posture that do not rise to 1.
 void check_rows(const MissionTable& table);
 // All of it, and what depends on the controller: an unknown stack, channel, coordinate or support
 // with those that exist; a lead of the wrong size, of a task where no stack rules, or by a way that
@@ -57,6 +59,12 @@ void check_support(const std::string& support, const Robot& plan, const std::str
 // place of a phase; throws Error with the names that exist; `where` for the text
 [[nodiscard]] std::size_t find_phase(const std::vector<Phase>& phases, const std::string& name,
                                      const std::string& where);
+// place of the phase that one goes on to where it is done, none: the run is over
+[[nodiscard]] std::optional<std::size_t> phase_after(const std::vector<Phase>& phases,
+                                                     std::size_t phase);
+// what the robot stands on in each phase: its own, else that of the row above; `first` before them
+[[nodiscard]] std::vector<std::string> supports_of(const std::vector<Phase>& phases,
+                                                   std::string first);
 // first command and channel of this name; throws Error with the names that exist
 struct ChannelPlace {
   const Channel* channel = nullptr;

@@ -52,6 +52,7 @@ Words<Phase> phase_words() {
           one("seconds", &Phase::seconds),
           one("support", &Phase::support),
           each("brake", &Phase::brakes),
+          one("next", &Phase::next),
           one("last", &Phase::last),
           rows("lead", &Phase::leads, &Lead::channel, lead_words()),
           one("posture", &Phase::posture),

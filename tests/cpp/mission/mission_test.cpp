@@ -327,6 +327,53 @@ TEST_F(MissionTest, FiguresMeasureTheirPhasesAndJudgeTheRun) {
 }
 
 // each with one thing wrong
+// up, over, back: the rows above each other are up, back, over
+MissionTable around() {
+  const auto row = [](const char* name) {
+    return Phase{.name = name, .stack = "reach", .seconds = 0.2};
+  };
+  MissionTable table{{row("up"), row("back"), row("over")}, "back"};
+  table.phases[0].next = "over";
+  table.phases[1].last = true;
+  table.phases[2].next = "back";
+  return table;
+}
+
+TEST_F(MissionTest, APhaseGoesOnToTheRowThatItNames) {
+  const auto mission = make(around());
+  std::vector<std::size_t> seen{mission->phase()};
+  std::vector<double> state;
+  while (tick(*mission)) {
+    if (mission->phase() != seen.back()) seen.push_back(mission->phase());
+    if (mission->phase() != 2 || !state.empty()) continue;
+    StateWriter writer(state);
+    mission->save(writer);
+  }
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 2, 1}));
+  StateReader reader(state);
+  mission->restore(reader);
+  while (mission->phase() == 2 && tick(*mission)) continue;
+  EXPECT_EQ(mission->phase(), 1u);
+  const std::string text = table_text(mission->table());
+  EXPECT_TRUE(contains(text, "1  up  [reach]  0.2 s  (then 'over')")) << text;
+}
+
+TEST_F(MissionTest, RowsThatGoOnForEverAreRefused) {
+  const auto told = [&](std::size_t phase, const char* next, const char* wanted) {
+    MissionTable table = around();
+    table.phases[phase].next = next;
+    const std::string text = error_text([&] { (void)make(table); });
+    EXPECT_TRUE(contains(text, "phase '" + table.phases[phase].name + "', next: ")) << text;
+    EXPECT_TRUE(contains(text, wanted)) << text;
+  };
+  told(0, "oevr", "phase 'oevr' does not exist; there are: up, back, over");
+  told(0, "up", "the rows behind it go round for ever");
+  told(1, "over", "the run is over after it, it does not go on");
+  MissionTable table = around();
+  table.phases[1].last = false;  // and so on to the one below, which goes back
+  EXPECT_TRUE(contains(error_text([&] { (void)make(table); }), "go round for ever"));
+}
+
 TEST_F(MissionTest, ATableIsCheckedWhenItIsLoaded) {
   const Phase good{.name = "good", .stack = "reach", .seconds = 1.0};
   const auto text = [&](const Phase& phase) {

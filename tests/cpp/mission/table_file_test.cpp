@@ -62,7 +62,7 @@ TableFile made_up() {
       {{"q/j2", true, 2.0, 0.0}, {{ReactionKind::Ask, "", 5.0, 1}, {ReactionKind::Lower}}}};
   up.note = "# waves: 30 degrees, twice";
   up.last = true;
-  file.table.phases = {up, {.name = "way back", .stack = "joints"}};
+  file.table.phases = {up, {.name = "way back", .stack = "joints", .next = "up there"}};
   file.table.measures = {
       {"reached_rad", "q/j1", Measure::Take::Smallest, {"up there", "way back"}, -1.0, kThird}};
   return file;
@@ -97,6 +97,7 @@ TEST(TableFile, HoldsAllThatATableSays) {
   EXPECT_EQ(up.note, wanted.note);
   EXPECT_EQ(up.seconds, kThird);
   EXPECT_TRUE(up.last);
+  EXPECT_EQ(file.table.phases[1].next, "up there");
   EXPECT_EQ(up.brakes, wanted.brakes);
   ASSERT_EQ(up.leads.size(), 3u);
   EXPECT_EQ(up.leads[0].rate, wanted.leads[0].rate);
