@@ -231,8 +231,6 @@ std::string name_of(const std::vector<std::pair<std::string, Value>>& all, Value
 }
 
 void bind_files(py::module_& module) {
-  module.def("condition", &read_condition, "text"_a, kReadCondition)
-      .def("reaction", &read_reaction, "text"_a, kReadReaction);
   module.def(
       "table_controller",
       [](const std::string& name, const ModelObject& model, const std::string& method) {
@@ -272,7 +270,9 @@ void bind_rows(py::module_& module) {
       module, "Condition", kCondition,
       {required("quantity", &Condition::quantity), field("above", &Condition::above),
        field("value", &Condition::value), field("seconds", &Condition::seconds)})
-      .def("words", [](const Condition& self) { return exact_text(self); }, kWords);
+      .def(
+          "words", [](const Condition& self) { return exact_text(self); }, kWords)
+      .def_static("read", &read_condition, "text"_a, kReadCondition);
   bind_options<Reaction>(
       module, "Reaction", kReaction,
       {text_field<Reaction>(
@@ -282,7 +282,9 @@ void bind_rows(py::module_& module) {
            }),
        field("phase", &Reaction::phase), field("seconds", &Reaction::seconds),
        field("times", &Reaction::times)})
-      .def("words", [](const Reaction& self) { return exact_text(self); }, kWords);
+      .def(
+          "words", [](const Reaction& self) { return exact_text(self); }, kWords)
+      .def_static("read", &read_reaction, "text"_a, kReadReaction);
   bind_options<Trouble>(
       module, "Trouble", kTrouble,
       {required("when", &Trouble::when), required("reactions", &Trouble::reactions)});

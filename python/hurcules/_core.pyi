@@ -3219,6 +3219,13 @@ class Condition:
     above: bool
     quantity: str
 
+    @staticmethod
+    def read(text: str) -> Condition:
+        """Reads "QUANTITY >= 0.3 for 2 s".
+
+        Raises:
+          Error: it is none."""
+
     def __copy__(self) -> Condition: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> Condition: ...
     def __eq__(self, other: object) -> bool: ...
@@ -3250,6 +3257,13 @@ class Reaction:
     __hash__: ClassVar[None]  # type: ignore[assignment]
     kind: str
     phase: str
+
+    @staticmethod
+    def read(text: str) -> Reaction:
+        """Reads "back to PHASE", "hold 2 s", "ask 30 s", "lower" or "abort", maybe with ", 3 times".
+
+        Raises:
+          Error: it is none."""
 
     def __copy__(self) -> Reaction: ...
     def __deepcopy__(self, memo: dict[str, Any]) -> Reaction: ...
@@ -4575,12 +4589,6 @@ def check_rows(table: MissionTable) -> None:
     Raises:
       Error: naming the row, with what was wanted and what came."""
 
-def condition(text: str) -> Condition:
-    """Reads "QUANTITY >= 0.3 for 2 s".
-
-    Raises:
-      Error: it is none."""
-
 def inverse_kinematics(
     robot: Robot,
     tasks: Stack
@@ -4686,12 +4694,6 @@ def obstacles(
 
     Raises:
       Error: a name that is no body or a body of the robot, or see self_collision."""
-
-def reaction(text: str) -> Reaction:
-    """Reads "back to PHASE", "hold 2 s", "ask 30 s", "lower" or "abort", maybe with ", 3 times".
-
-    Raises:
-      Error: it is none."""
 
 def read_table(path: str) -> tuple[MissionSetup, MissionTable]:
     """What stands in a table file: MissionSetup and MissionTable.

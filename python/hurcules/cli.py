@@ -407,7 +407,7 @@ def export_model(
     print(export(out or Path("out", f"{name}.xml"), name, scene, actuators=actuators, mjx=mjx))
 
 
-@app.command()
+@app.command("doctor")
 def doctor() -> None:
     """Say what this machine has and lacks, with the remedy.
 

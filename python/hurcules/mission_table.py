@@ -54,6 +54,7 @@ from typing import Any
 import mujoco
 
 from hurcules._core import (
+    Condition,
     Error,
     Lead,
     Measure,
@@ -62,10 +63,9 @@ from hurcules._core import (
     Park,
     Phase,
     PostureKey,
+    Reaction,
     Trouble,
     check_rows,
-    condition,
-    reaction,
     table_lines,
 )
 from hurcules.mission_drawing import drawing
@@ -92,6 +92,13 @@ class Mission:
     setup: MissionSetup
     rows: MissionTable
     scene: str = ""
+
+    def __post_init__(self) -> None:
+        """Checks the types."""
+        for name, kind in (("setup", MissionSetup), ("rows", MissionTable)):
+            if not isinstance(value := getattr(self, name), kind):
+                came = type(value).__name__
+                raise Error(f"Mission: {name} wants a {kind.__name__}, got a {came}")
 
     @classmethod
     def load(cls, path: str | Path) -> Mission:
@@ -372,13 +379,13 @@ def _phase(row: Row, where: str) -> Phase:
         place = f"{where}, trouble"
         one = take(trouble, _TROUBLE, place, ["when", "do"])
         with told_at(place):
-            reactions = [reaction(text) for text in one["do"]]
-            troubles.append(Trouble(when=condition(one["when"]), reactions=reactions))
+            reactions = [Reaction.read(text) for text in one["do"]]
+            troubles.append(Trouble(when=Condition.read(one["when"]), reactions=reactions))
     park = Park(**take(given.pop("park"), _PARK, f"{where}, park")) if "park" in given else None
     with told_at(f"{where}, done"):
-        done = [condition(text) for text in given.pop("done", [])]
+        done = [Condition.read(text) for text in given.pop("done", [])]
     with told_at(f"{where}, late"):
-        late = [reaction(text) for text in given.pop("late", [])]
+        late = [Reaction.read(text) for text in given.pop("late", [])]
     return Phase(
         **given, leads=leads, keys=keys, park=park, done=done, late=late, troubles=troubles
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import inspect
 import sys
+import traceback
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
@@ -36,7 +37,13 @@ def make(path: str, seed: int = 0, parameters: Mapping[str, Any] | None = None) 
     Raises:
         Error: no file, no such function, a parameter that it has not, or another result.
     """
-    made = bound(path, seed, parameters)()
+    function = bound(path, seed, parameters)
+    try:
+        made = function()
+    except Error:
+        raise
+    except Exception as error:
+        raise _its_own(Path(path), error) from error
     if not isinstance(made, Simulation):
         raise Error(f"{path}: {FUNCTION}() wants to return a hurcules.Simulation, got {made!r}")
     return made
@@ -93,7 +100,21 @@ def _module(file: Path, changed: int) -> ModuleType:
         spec.loader.exec_module(module)
     except SystemExit as end:
         raise Error(f"{file}: it ends by itself (exit {end.code}) where it is imported") from end
+    except Error:
+        raise
+    except Exception as error:
+        raise _its_own(file, error) from error
     return module
+
+
+def _its_own(file: Path, error: Exception) -> Error:
+    """What went wrong in a file, and in which of its lines."""
+    if isinstance(error, SyntaxError):
+        return Error(f"{file}, line {error.lineno}: {error.msg}")
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [one.lineno for one in frames if Path(one.filename) == file.resolve()]
+    line = f", line {lines[-1]}" if lines else ""
+    return Error(f"{file}{line}: {type(error).__name__}: {error}")
 
 
 def _function(path: str) -> Callable[..., Any]:

@@ -156,7 +156,8 @@ def _told(
     options: RunOptions, mission: TableMission | None, simulation: Simulation
 ) -> dict[str, Any]:
     name = simulation.mission or Path(options.mission).stem
-    return {"mission": name, "seed": options.seed, **made_of(options, mission)}
+    file = {"file": options.mission} if Path(options.mission).suffix else {}
+    return {"mission": name, **file, "seed": options.seed, **made_of(options, mission)}
 
 
 def made_of(options: RunOptions, mission: TableMission | None) -> dict[str, Any]:

@@ -50,6 +50,7 @@ class Simulation(_core.Simulation):
 
     Attributes:
         mission: name of the mission, None without one.
+        table: hurcules.Mission of its phases, None where it has none.
         model: mujoco.MjModel of the scene.
         data: mujoco.MjData, the physics. Read it freely; who writes to it changes the run.
     """
@@ -132,7 +133,10 @@ class Simulation(_core.Simulation):
                 f"by keyword, Simulation(model=..., controller=...); got {mission!r}"
             )
         if isinstance(mission, str) and (model is not None or controller is not None):
-            raise Error("a simulation wants a mission, or a model and a controller, not all three")
+            raise Error(
+                f"mission {mission!r} has a model and a controller of its own: wanted neither "
+                "beside its name"
+            )
         if (model is None) != (controller is None):
             raise Error("a simulation without a mission wants both a model and a controller")
         if not isinstance(parameters, Mapping | None):
@@ -144,10 +148,14 @@ class Simulation(_core.Simulation):
             raise Error(f"mission {mission!r} takes no parameters: {', '.join(parameters)}")
         table = mission if isinstance(mission, Mission) else None
         if table is not None and controller is None:
-            raise Error("a table of phases wants a model and a controller")
+            raise Error(
+                f"mission: the table '{table.setup.name}' wants a model and a controller beside "
+                "it; one that ships, or a file, has them by its name, Simulation('lift')"
+            )
         if rows is not None:
             table, model = rows.table(), rows.spec(parameters or {}).compile()
             controller = _core.table_controller(rows.controller, model, method)
+        self.table = table
         self._may_be_blind = False
         self.mission: str | None  # last: nothing asks a simulation that is not made
         if controller is not None:
@@ -227,6 +235,12 @@ class Simulation(_core.Simulation):
         names = [f"command/{name}" for name in self.command_names]
         if missing := [name for name in names if name not in log]:
             raise Error(f"the log has no '{missing[0]}': it is of other channels")
+        for name in names:
+            if np.shape(log[name]) != np.shape(log["time"]):
+                raise Error(
+                    f"the log has {np.shape(log[name])} of '{name}', {np.shape(log['time'])} of "
+                    "'time': its columns want one length"
+                )
         rows = np.reshape([log[name] for name in names], (len(names), len(log["time"]))).T
         channels = dict(self.controller.channels)
         ends = np.cumsum(list(channels.values()))[:-1]

@@ -33,7 +33,7 @@ def summarize(
     Returns:
         Plain data for JSON: numbers are finite or None.
     """
-    wall = recording.wall_seconds
+    wall, table = recording.wall_seconds, simulation.table
     return plain(
         {
             **told,
@@ -59,6 +59,7 @@ def summarize(
                 "mujoco": mujoco.__version__,
                 "numpy": np.__version__,
             },
+            "table_sha256": table and hashlib.sha256(table.toml().encode()).hexdigest(),
             "model_sha256": hashlib.sha256(compiled(simulation.model)).hexdigest(),
         }
     )

@@ -56,6 +56,20 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "method of the solver": (lambda: controller("magic"), "magic"),
     "mission": (lambda: hurcules.Simulation("nowhere"), "'nowhere' does not exist; .* stretch"),
+    "model beside a mission": (
+        lambda: hurcules.Simulation("stretch", model=arm_model()),
+        "'stretch' has a model and a controller of its own: wanted neither",
+    ),
+    "setup and rows of a mission": (
+        lambda: hurcules.Mission(hurcules.lift.mission().rows, hurcules.lift.mission().setup),  # type: ignore[arg-type]
+        "Mission: setup wants a MissionSetup",
+    ),
+    "log of unequal columns": (
+        lambda: simulation().replay(
+            {f"command/{name}": ONE for name in simulation().command_names} | {"time": np.zeros(2)}
+        ),
+        r"\(1,\) of 'command/.*, \(2,\) of 'time': its columns want one length",
+    ),
     "model in place of a mission": (
         lambda: hurcules.Simulation(arm_model()),  # type: ignore[arg-type]
         r"by keyword, Simulation\(model=\.\.\., controller=\.\.\.\)",

@@ -17,7 +17,6 @@ import pytest
 
 import hurcules
 from hurcules import Mission, lift
-from hurcules._core import condition
 from test_mission_table import ARM, ROWS, loop
 
 TABLES = [row for name in ("lift", "casualty") for row in lift.mission(name).rows.phases]
@@ -180,7 +179,7 @@ def test_the_tracking_error_is_the_largest_of_the_joints_and_fires_when_the_arm_
     log = simulation.log()
     joints = np.abs([log["joint_error/j1"], log["joint_error/j2"]]).max(axis=0)
     np.testing.assert_array_equal(log["tracking_error"], joints)
-    assert log["tracking_error"][:300].max() < 0.5 * condition(when).value
+    assert log["tracking_error"][:300].max() < 0.5 * hurcules.Condition.read(when).value
 
 
 def test_a_solver_that_does_not_end_fires_and_is_forgotten_where_no_stack_rules() -> None:
@@ -230,7 +229,7 @@ def test_a_heartbeat_of_another_thread_waits_for_its_turn() -> None:
 
 def test_a_lost_link_fires_and_who_never_had_one_loses_none() -> None:
     (when,) = thresholds("link_age", "approach")
-    limit = condition(when).value
+    limit = hurcules.Condition.read(when).value
     simulation = watching(f"link_age >= {limit}")
     alone = simulation.state()
     simulation.step(100)

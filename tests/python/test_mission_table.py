@@ -17,7 +17,6 @@ import pytest
 
 import hurcules
 from hurcules import Error, Mission, mjcf
-from hurcules._core import condition, reaction
 
 ARM = """
 <mujoco>
@@ -368,17 +367,17 @@ phases = ["before", "up"]
 
 
 def test_conditions_and_reactions_are_read_from_text() -> None:
-    one = condition("monitor/static_margin_m <= 0.05 for 0.3 s")
+    one = hurcules.Condition.read("monitor/static_margin_m <= 0.05 for 0.3 s")
     assert (one.quantity, one.above, one.value) == ("monitor/static_margin_m", False, 0.05)
     assert one.seconds == 0.3
-    two = reaction("back to set down, 3 times")
+    two = hurcules.Reaction.read("back to set down, 3 times")
     assert (two.kind, two.phase, two.times) == ("back", "set down", 3)
     for text in ("", "q/j1 > 3", "q/j1 >= much"):
         with pytest.raises(Error, match="wanted 'QUANTITY >= NUMBER'"):
-            condition(text)
+            hurcules.Condition.read(text)
     for text in ("", "retreat", "hold", "lower, many times"):
         with pytest.raises(Error, match="wanted 'back to PHASE'"):
-            reaction(text)
+            hurcules.Reaction.read(text)
 
 
 @pytest.mark.parametrize(

@@ -171,7 +171,7 @@ def test_what_does_not_belong_together_is_told() -> None:
     person = hurcules.lift.Person(mass=90)
     with pytest.raises(hurcules.Error, match=r"parameters: wanted a mapping.* got Person\(mass=90"):
         hurcules.Simulation("lift", parameters=person)  # type: ignore[arg-type]
-    with pytest.raises(hurcules.Error, match="a mission, or a model and a controller, not all"):
+    with pytest.raises(hurcules.Error, match="'lift' has a model and a controller of its own"):
         hurcules.Simulation("lift", model=hurcules.lift.model(person))
 
 

@@ -77,9 +77,11 @@ std::string out_of_bounds(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures) {
     if (std::isinf(figure.least) && std::isinf(figure.most)) continue;
     if (figure.value >= figure.least && figure.value <= figure.most) continue;
-    const bool high = figure.value > figure.most;
-    return figure.name + " is " + to_text(figure.value) + ", wanted at " +
-           (high ? "most " : "least ") + to_text(high ? figure.most : figure.least);
+    const bool none = std::isnan(figure.value);  // none of its phases ran
+    const bool high = none ? std::isinf(figure.least) : figure.value > figure.most;
+    return figure.name + (none ? " has no value" : " is " + to_text(figure.value)) +
+           ", wanted at " + (high ? "most " : "least ") +
+           to_text(high ? figure.most : figure.least);
   }
   return "";
 }
