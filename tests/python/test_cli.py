@@ -157,7 +157,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
             ["run", "lift", "--offset", "near"],
             "--offset: wanted numbers between commas, got 'near'",
         ),
-        (["RUN"], "No such command 'RUN'; there are: run, list"),
+        (["RUN"], "No such command 'RUN'; there are: run, list, mission, view, export, doctor"),
         (["run", "stretch", "--robot", "nonsense"], "--robot: for test methods; 'stretch' is a"),
         (["run", "stretch", "--pace", "-7"], "--pace: for test methods"),
         (["run", "stretch", "--repetitions", "0"], "--repetitions: for test methods"),

@@ -6,6 +6,7 @@ of such files are tests/cpp/mission/table_file_test.cpp's matter.
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import signal
@@ -125,7 +126,9 @@ def test_a_table_of_ones_own_runs_in_the_scene_that_it_names(file: Path, tmp_pat
     asked = ["--seconds", "0.4", "--no-video", "--mass", "90", "--out", str(tmp_path / "run")]
     assert cli.main(["run", str(own), *asked]) == 0
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
-    assert summary["mission"] == "own"
+    assert (summary["mission"], summary["file"]) == ("own", str(own))
+    text = Mission.load(own).toml()
+    assert summary["table_sha256"] == hashlib.sha256(text.encode()).hexdigest()
     assert Simulation(str(own), parameters={"mass": 90}).mission == "own"
     assert summary["events"][1]["time_s"] == 0.2
 

@@ -93,6 +93,9 @@ def test_parameters_come_from_the_command_line(file: Path) -> None:
         ("return hurcules.Simulation", "hurcules.Simulation", [], "got None"),
         ("mass=0.5, heavy", "mass, heavy", [], "missing a required argument: 'mass'"),
         ("import hurcules, mujoco", "raise SystemExit(3)", [], "it ends by itself (exit 3)"),
+        ("import hurcules, mujoco", "import hurkules", [], "line 2: ModuleNotFoundError: No mod"),
+        ("import hurcules, mujoco", "import (", [], "line 2: "),
+        ("return hurcules", "1 / 0; return hurcules", [], "line 15: ZeroDivisionError: division"),
     ],
 )
 def test_a_mistake_is_told(

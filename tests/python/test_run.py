@@ -138,6 +138,16 @@ def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path)
     assert "at most 0.01, missed" in said(console)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["wanted"] == {"speed [m]": {"least": None, "most": 0.01}}
+    own.write_text(
+        '[mission]\nname = "own"\nscene = "lift"\n'
+        '[[phase]]\nname = "wait"\nstack = "arms"\nseconds = 0.1\nlast = true\n'
+        '[[phase]]\nname = "never"\nstack = "arms"\nseconds = 0.1\n'
+        '[[figure]]\nname = "speed"\nquantity = "time"\nphases = ["never"]\nmost = 0.01\n'
+    )
+    console = quiet()
+    with pytest.warns(UserWarning, match="never"):
+        assert run(options, console) == FAILED
+    assert "failed: speed has no value, wanted at most 0.01" in said(console)
 
 
 def test_a_posture_that_is_blocked_is_told(tmp_path: Path) -> None:
