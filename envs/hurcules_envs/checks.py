@@ -30,6 +30,7 @@ __all__ = [
     "require_numbers",
     "require_open",
     "require_unchanged",
+    "require_whole",
     "warn_of_still_things",
 ]
 
@@ -266,6 +267,16 @@ def require_flag(name: str, value: object) -> None:
     """
     if not isinstance(value, bool | np.bool_):
         raise hurcules.Error(f"{name}: wanted True or False, got {value!r}")
+
+
+def require_whole(name: str, value: object, least: int) -> None:
+    """A whole number.
+
+    Raises:
+        hurcules.Error: it is none, or below the least.
+    """
+    if not isinstance(value, Integral) or int(value) < least:
+        raise hurcules.Error(f"{name}: wanted a whole number >= {least}, got {value!r}")
 
 
 def require_numbers(

@@ -13,41 +13,30 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules.validation import require_known
-from hurcules_envs.checks import require_flag
+from hurcules_envs.checks import require_flag, require_whole
+from hurcules_envs.climbing import HOLDS, MIDDLE, climb, keep_on, ready_to_climb
 from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.drawing import add_arrow
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.rotations import quaternion
-from hurcules_envs.terrain import AHEAD, BESIDE, Heights
+from hurcules_envs.steering import along, to_pose
+from hurcules_envs.terrain import AHEAD, BESIDE, TERRAINS, Heights, scene_of
 
 __all__ = ["Drive"]
 
-DRAWN = ("rough_road", "step_field", "gravel", "sand")  # by a seed
-TERRAINS = ("flat", "ramps", "slope", "stairs", *DRAWN)
 CLIMBED = ("step_field", "stairs")  # tail first
-SCENES: dict[str, dict[str, Any]] = {"stairs": {"landing": 4.0}}  # by terrain, of its scene
-# [rad] of the joints where it climbs: lower legs turned over to the front, trunk and arms forward
-CLIMBING = {
-    "LKN": math.pi, "RKN": math.pi, "HIP": 1.0, "LSP": 1.9, "RSP": 1.9, "LEB": 0.6, "REB": 0.6,
-}  # fmt: skip
 SPEED, YAW_RATE, LEGS = 1.5, 1.0, 0.3  # [m/s], [rad/s], [rad/s] full scale
 FAR = (2.0, 6.0)  # [m] of the goal
-LANDING = (4.0, 6.0)  # [m] of one on top of the stairs
+LANDING = (0.9, 2.9)  # [m] of one on top of the stairs, from their edge
 WIDE, NARROW = 0.5, 0.1  # [m] beside the lane on terrain; on the pallets of a step field
 NEAR, ALIGNED = 0.3, math.radians(15.0)  # [m], [rad] of success
 STILL = 0.1  # [m/s]
 EFFORT = 0.02
 NEARBY = 1.0  # [m] over which the heading begins to count
-# [m] of the point that it turns about, its centre of mass, from the knee axis; where it climbs
-CENTRE, MIDDLE = -0.41, 0.07
+CENTRE = -0.41  # [m] of the point that it turns about, from the knee axis; MIDDLE where it climbs
 SEEN = ("x", "y", "cos", "sin")  # numbers of a goal
 TILT, STEEP = 0.9, math.radians(60.0)  # [rad] of a robot that fell; that climbs
 RADIUS = 0.14  # [m] of the tracks
-# how it climbs, all but the first two fitted on step fields of the seeds 0 to 3
-TAIL, BATTERY = 0.6, 0.04  # [m] from the knees to the end of the upper legs; over their soles
-CLEAR, ASIDE, HELD = 0.03, 0.16, 1.5  # [m] over what is ahead; beside what holds it; [s] until then
-STRAIGHT, RAISED, HIGHER = -0.09, 0.75, 0.35  # [rad] of the knees: least, most, more where held
-HOLDS = ("nearest", "held", "edge", "tries", "aside")  # what it remembers of that
 
 
 class Drive(Environment):
@@ -58,9 +47,9 @@ class Drive(Environment):
     the start. Poses are in the world, of the point between the tracks that it turns about.
 
     On a step field and on stairs it starts as it climbs, and looks back: its lower legs are turned
-    over to the front, its upper ones lead, trunk and arms lean forward. The goal lies 4 to 6 m away
-    on the landing of the stairs (35 degrees, 1 m high), or 2 to 6 m away and at most 0.1 m beside
-    the middle of the field, whose pallets are 1.2 m broad and its tracks 0.82 m.
+    over to the front, its upper ones lead, trunk and arms lean forward. The goal lies on the
+    landing of the stairs (five risers), 0.9 to 2.9 m behind its edge; or 2 to 6 m away and at most
+    0.1 m beside the middle of the field, whose pallets are 1.2 m broad and its tracks 0.82 m.
 
     Action: Box(-1, 1, (3,), float32). Zero stands still.
 
@@ -123,7 +112,9 @@ class Drive(Environment):
             fidelity: "exact", "fast", or on flat ground "kinematic".
             terrain: "flat", "ramps", "slope", "stairs", "rough_road", "step_field", "gravel",
                 "sand".
-            terrain_seed: of one of the last four, which are drawn; the others are as they are.
+            terrain_seed: draws the terrain: of the last four the ground, of ramps their angle (5 to
+                15 degrees), of a slope too (10 to 30), of stairs pitch (25 to 35) and riser (0.15
+                to 0.2 m); 0 is as the scene says (15 and 30 degrees; 35 degrees, 0.2 m).
             sparse: reward of success and fall only.
             rate: steps a second [Hz].
             action: "twist" (the table), or "joint": tracks, and the velocity of each coordinate.
@@ -137,13 +128,11 @@ class Drive(Environment):
         require_known("terrain", terrain, TERRAINS)
         if fidelity == "kinematic" and terrain != "flat":
             raise hurcules.Error(f"fidelity: without physics the ground is flat, not {terrain}")
-        if terrain not in DRAWN and terrain_seed != 0:
-            raise hurcules.Error(
-                f"terrain_seed: '{terrain}' is always the same; wanted none, got {terrain_seed!r}, "
-                f"or one of the terrains that are drawn: {', '.join(DRAWN)}"
-            )
+        require_whole("terrain_seed", terrain_seed, 0)
+        if terrain == "flat" and terrain_seed != 0:
+            raise hurcules.Error(f"terrain_seed: flat ground has none, got {terrain_seed!r}")
         self.terrain, self.terrain_seed = terrain, terrain_seed
-        self._scene = {"seed": terrain_seed} | SCENES.get(terrain, {})
+        self._scene = scene_of(terrain, terrain_seed)
         self.sparse, self.rate = sparse, rate
         self._climbs = terrain in CLIMBED
         self._centre = MIDDLE if self._climbs else CENTRE
@@ -152,7 +141,7 @@ class Drive(Environment):
         model = self._model(visuals=False)
         robot = hurcules.Robot(model)
         robot.set_keyframe("drive")
-        self._qpos = _climbing(model, robot.qpos) if self._climbs else robot.qpos.copy()
+        self._qpos = ready_to_climb(model, robot.qpos) if self._climbs else robot.qpos.copy()
         robot.set_qpos(self._qpos)
         self.goal = 4
         self.memory = {"goal": 4, "before": 4, "now": 4}  # the last two as they are seen
@@ -236,7 +225,8 @@ class Drive(Environment):
             goal = (x + far * math.cos(bearing), y + far * math.sin(bearing), turn)
         else:
             wide = NARROW if self.terrain == "step_field" else WIDE
-            goal = (x + far, y + generator.uniform(-wide, wide), heading)
+            begin = self._edge if self.terrain == "stairs" else x
+            goal = (begin + far, y + generator.uniform(-wide, wide), heading)
         place = [*goal[:2], math.cos(goal[2]), math.sin(goal[2])]
         here = _seen(np.array([x, y, math.cos(heading), math.sin(heading)]))
         way, skew, _ = _errors(here, _seen(np.array(place)))
@@ -256,7 +246,7 @@ class Drive(Environment):
         memory["aligned"][:, 0] = memory["skew"][:, 0] - skew
         memory["way"][:, 0], memory["skew"][:, 0] = way, skew
         if self._climbs:
-            self._keep_on(way, memory, numbers.dt)
+            keep_on(way, memory, numbers.dt)
         memory["speed"][:, 0] = np.linalg.norm(numbers["velocity/upper_legs"], axis=1)
         memory["done"][:, 0] = (way < NEAR) & aligned & (memory["speed"][:, 0] < STILL)
 
@@ -275,12 +265,23 @@ class Drive(Environment):
             "margin": numbers["monitor/static_margin_m"],
         }
         if self._sees:
-            seen["ground"] = self._ground(achieved, numbers)
+            seen["ground"] = self._ground(numbers)
         return seen
 
-    def _ground(self, place: Array, numbers: Numbers) -> Array:
+    def _ground(self, numbers: Numbers) -> Array:
         """Heights [m] about the robot over the soles of its tracks at the knees."""
-        return self._heights.around(place, numbers["position/upper_legs"][:, 2:] - RADIUS)
+
+        def scan() -> Array:
+            sole = numbers["position/upper_legs"][:, 2:] - RADIUS
+            return self._heights.around(self.goals(numbers)[0], sole)
+
+        return numbers.once("ground", scan)
+
+    @cached_property
+    def _edge(self) -> float:
+        """Of the landing [m], along x."""
+        values = {name: value for name, value in self._scene.items() if name != "seed"}
+        return hurcules.scenes.scene(self.terrain, **values).end
 
     @cached_property
     def _heights(self) -> Heights:
@@ -339,76 +340,18 @@ class Drive(Environment):
         return self.succeeded(numbers)
 
     def expert(self, numbers: Numbers) -> Array:
-        """Actions (n, 3) of a smooth law for unicycles (Park and Kuipers, ICRA 2011).
-
-        On terrain it follows the goal's own line, where it climbs tail first (`_climb`).
-        """
+        """Actions (n, 3) of a law: on flat ground `to_pose`, on terrain `along`, or `climb`."""
+        seen = self.observe(numbers)
         if self._climbs:
-            return np.clip(self._climb(numbers), -1.0, 1.0)
-        seen = self.observe(numbers)["goal"]
-        if self.terrain != "flat":
-            speed, rate = _along(seen[:, :2], seen, 0.8)
-            action = np.stack([speed / SPEED, rate / YAW_RATE, np.zeros_like(rate)], axis=1)
-            return np.clip(action, -1.0, 1.0)
-        way = np.linalg.norm(seen[:, :2], axis=1)
-        sight = np.arctan2(seen[:, 1], seen[:, 0])  # of the goal, from the heading
-        turn = np.arctan2(seen[:, 3], seen[:, 2])
-        delta, theta = _wrap(-sight), _wrap(turn - sight)
-        k1, k2 = 1.0, 3.0
-        bend = k2 * (delta - np.arctan(-k1 * theta)) + (1 + k1 / (1 + (k1 * theta) ** 2)) * np.sin(
-            delta
-        )
-        bend = -bend / np.maximum(way, 0.05)
-        speed = np.minimum(1.2 / (1.0 + 0.4 * np.abs(bend) ** 1.5), 0.8 * way)
-        near = way < 0.15
-        speed = np.where(near, 0.0, np.maximum(speed, 0.08))
-        rate = np.where(near, 1.5 * turn, speed * bend)
-        action = np.stack([speed / SPEED, rate / YAW_RATE, np.zeros_like(way)], axis=1)
+            speed, rate, legs = climb(seen, self._ground(numbers), numbers.memory)
+        elif self.terrain != "flat":
+            speed, rate = along(seen["goal"][:, :2], seen["goal"], 0.8)
+            legs = np.zeros_like(rate)
+        else:
+            speed, rate = to_pose(seen["goal"])
+            legs = np.zeros_like(rate)
+        action = np.stack([speed / SPEED, rate / YAW_RATE, legs / LEGS], axis=1)
         return np.clip(action, -1.0, 1.0)
-
-    def _climb(self, numbers: Numbers) -> Array:
-        """Tail first: the upper legs over what is ahead, the lower ones on what is behind.
-
-        What is held straightens, lifts its tail higher, and backs off to come again beside it.
-        """
-        seen, memory = self.observe(numbers), numbers.memory
-        roll = np.arcsin(np.clip(seen["up"][:, 1], -1.0, 1.0))
-        ground = self._ground(self.goals(numbers)[0], numbers)
-        scan = ground.reshape(-1, len(AHEAD), len(BESIDE))
-        scan = scan - np.tan(roll)[:, None, None] * BESIDE
-        ahead = -AHEAD - self._centre  # [m] of the knees
-        on, off = (ahead > 0.1) & (ahead < 1.0), (ahead < -0.15) & (ahead > -0.95)
-        tracks = np.maximum(scan[:, on, 2], scan[:, on, 6])
-        height = np.maximum(tracks, scan[:, on, 3:6].max(axis=2) - BATTERY) + CLEAR
-        over = np.arctan2(height, np.minimum(ahead[on], TAIL)).max(axis=1)
-        behind = scan[:, off][:, :, [0, 1, 7, 8]].max(axis=2)
-        lying = -np.arctan2(behind, -ahead[off]).max(axis=1) - 0.1  # where the lower legs meet it
-        knee, rise = seen["legs"][:, 0], np.arcsin(np.clip(-seen["up"][:, 0], -1.0, 1.0))
-        bend = over - np.maximum(rise - np.pi + knee, lying)
-        phase = np.minimum(memory["held"][:, 0] // HELD, 3)
-        bend = np.where(phase % 2 == 1, STRAIGHT, bend + np.where(phase == 2, HIGHER, 0.0))
-        missing = np.pi - np.clip(bend, STRAIGHT, RAISED) - knee
-        pace = np.clip(1.0 - np.abs(missing) / 0.15, np.where(phase > 0, 0.5, 0.0), 1.0)
-        speed, rate = _along(-seen["goal"][:, :2], seen["goal"], 0.4, memory["aside"][:, 0])
-        retreats = phase == 3
-        speed = np.where(retreats, -0.3, speed * pace)
-        rate = np.where(retreats, 1.5 * np.arctan2(seen["goal"][:, 3], seen["goal"][:, 2]), rate)
-        return np.stack([-speed / SPEED, rate / YAW_RATE, 6.0 * missing / LEGS], axis=1)
-
-    def _keep_on(self, way: Array, memory: Mapping[str, Array], dt: float) -> None:
-        """For how long what climbs is held, and how far beside its line it tries then."""
-        nearest, held, edge, tries, aside = (memory[name][:, 0] for name in HOLDS)
-        onward = way < nearest - 0.02
-        held[:] = np.where(onward, 0.0, held + dt)
-        nearest[:] = np.where(onward, way, nearest)
-        begins = (held > 3 * HELD) & (edge != nearest)
-        edge[begins] = nearest[begins]
-        tries[begins] += 1
-        aside[begins] = np.where(tries % 2 == 1, ASIDE, -ASIDE)[begins]
-        over = (held > 3 * HELD) & (way > nearest + 0.4) | (held > 3 * HELD + 3.5)
-        held[over], nearest[over] = 0.0, way[over]
-        free = way < edge - 0.55
-        aside[free], edge[free] = 0.0, 0.0
 
     def camera(self) -> mujoco.MjvCamera:
         """From above, with all places where the goal may lie."""
@@ -440,37 +383,11 @@ class Drive(Environment):
         return {"drive": action["drive"], "climb": np.repeat(action["legs"], 2, axis=1)}
 
 
-def _climbing(model: mujoco.MjModel, qpos: Array) -> Array:
-    """Where it starts to climb: looking back, its lower legs turned over to the front."""
-    there = qpos.copy()
-    there[3:7] = quaternion(np.array([0.0, 0.0, np.pi]))
-    for joint, angle in CLIMBING.items():
-        there[model.joint(joint).qposadr[0]] = angle
-    return there
-
-
 def _into(forward: Array, vector: Array) -> Array:
     """Planar vectors (n, 2) along a heading (n, 2) and to its left."""
     along = np.einsum("ni,ni->n", forward, vector)
     left = forward[:, 0] * vector[:, 1] - forward[:, 1] * vector[:, 0]
     return np.stack([along, left], axis=1)
-
-
-def _along(way: Array, goal: Array, most: float, aside: Array | float = 0.0) -> tuple[Array, Array]:
-    """Speed [m/s] and yaw rate [rad/s] along the goal's own line.
-
-    Args:
-        way: (n, 2) [m] to the goal, ahead and to the left of where it drives to.
-        goal: (n, 4) as it is seen.
-        most: of the speed [m/s].
-        aside: [m] to the left of the line to keep to.
-    """
-    turn, x = np.arctan2(goal[:, 3], goal[:, 2]), way[:, 0]
-    there = np.abs(x) < 0.1
-    left = np.cos(turn) * way[:, 1] - np.sin(turn) * x + aside
-    turn = turn + np.where(x > 0.1, np.clip(1.5 * left, -0.4, 0.4), 0.0)
-    speed = np.where(there, 0.0, np.clip(x, -0.25, most))
-    return speed, np.where(there & (np.abs(turn) < 0.15), 0.0, 1.5 * turn)
 
 
 def _seen(goal: Array) -> Array:
@@ -485,7 +402,3 @@ def _errors(now: Array, goal: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
     cosine = np.einsum("...i,...i->...", now[..., 2:], goal[..., 2:])
     turn = np.arccos(np.maximum(np.minimum(cosine, 1.0), -1.0))
     return way, 0.5 * turn * np.exp(-way / NEARBY), turn < ALIGNED
-
-
-def _wrap(angle: Array) -> Array:
-    return (angle + np.pi) % (2.0 * np.pi) - np.pi

@@ -95,6 +95,7 @@ class Numbers:
         self.finished = finished
         self._endings = endings
         self._rows: dict[tuple[str, ...], Array] = {}
+        self._computed: dict[str, Array] = {}
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
@@ -125,6 +126,18 @@ class Numbers:
             if all(name in self._places for name in names):  # these stay as they are
                 self._rows[names] = row
         return row
+
+    def once(self, name: str, compute: Callable[[], Array]) -> Array:
+        """What is computed of the quantities: by the first call, kept for those that follow.
+
+        Args:
+            name: under which it is kept.
+            compute: gives the array, which is not to be written to. The memory may still change
+                within a step: it must not depend on that.
+        """
+        if name not in self._computed:
+            self._computed[name] = compute()
+        return self._computed[name]
 
 
 class Environment(ABC):

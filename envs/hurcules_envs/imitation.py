@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,17 +64,25 @@ def ask_expert(name: str, episodes: Any, shape: tuple[int, ...]) -> NDArray[np.f
 
 
 def demonstrate(
-    name: str, episodes: int, seed: int = 0, noise: float = 0.3, **options: Any
+    name: str,
+    episodes: int,
+    seed: int = 0,
+    noise: float = 0.3,
+    act: Callable[[Any], NDArray[Any]] | None = None,
+    **options: Any,
 ) -> Demonstrations:
     """The scripted expert acts while noise pushes its actions about, so that it has to mend.
 
     What is kept is what it wanted to do (Laskey et al., DART, 2017). Actions of 0 are not pushed.
+    With `act` a policy acts in its place, and the expert says what it would have done there (Ross,
+    Gordon and Bagnell, DAgger, 2011).
 
     Args:
         name: id of the environment, "Reach-v0" say.
         episodes: how many, side by side.
         seed: of episodes and noise.
         noise: standard deviation of the pushes.
+        act: actions (n, k) for observations (n, ...), a `Policy` say; None: the expert acts.
         options: of the environment.
 
     Raises:
@@ -89,9 +97,10 @@ def demonstrate(
     kept: list[tuple[Any, ...]] = []
     for _ in range(steps_of_episode(name, options) or sys.maxsize):
         before, wanted = _chosen(seen.observation, going), ask_expert(name, batch, shape)
+        acted = wanted if act is None else act(seen.observation)
         fresh = generator.normal(0.0, noise, shape)
         push = KEPT * push + np.sqrt(1.0 - KEPT**2) * fresh
-        batch.step(np.clip(wanted + push * (wanted != 0.0), -1.0, 1.0), going)
+        batch.step(np.clip(acted + push * (acted != 0.0), -1.0, 1.0), going)
         seen = batch.look(remember=going)
         kept.append((before, wanted[going], np.where(going, seen.reward, 0.0), going))
         successes |= going & seen.info["is_success"]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import hurcules
 from hurcules_envs import onnx_file
-from hurcules_envs.registry import full_id
+from hurcules_envs.registry import full_id, takes
 
 __all__ = ["Policy", "shipped"]
 
@@ -70,8 +70,8 @@ class Policy:
         installed.
 
         Args:
-            source: an ONNX file, a folder that `hurcules train` wrote, or the id of an environment
-                whose policy is part of the package, see `shipped`.
+            source: an ONNX file, a folder that `hurcules train` wrote, or the name of a policy that
+                is part of the package, see `shipped`.
 
         Raises:
             hurcules.Error: there is none, or it is no ONNX file of one output.
@@ -118,6 +118,8 @@ class Policy:
         known = {key: size for key, size in self._graph.inputs.items()}
         unfit = {key for key in known if known[key] not in (0, wanted.get(key))}
         if set(known) - set(wanted) or unfit:
+            if unfit == {"observation"} and takes(name, "blind"):
+                trained += "; one of flat ground fits terrain with blind=True (--set blind=true)"
             raise hurcules.Error(
                 f"{self.path} does not fit {name}: wanted the inputs {_listed(wanted)}, "
                 f"got {_listed(known)}{trained}"
@@ -254,7 +256,10 @@ class Policy:
 
 
 def shipped() -> dict[str, Path]:
-    """The policies that are part of the package, by the id of their environment."""
+    """The policies that are part of the package, by name: the id of their environment.
+
+    A second one of an environment has a word behind it: Hurcules/Drive-v0-terrain.
+    """
     folder = Path(str(files("hurcules_envs") / "policies"))
     return {f"Hurcules/{path.stem}": path for path in sorted(folder.glob("*.onnx"))}
 

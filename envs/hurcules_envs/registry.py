@@ -26,6 +26,7 @@ __all__ = [
     "register",
     "spec_of",
     "steps_of_episode",
+    "takes",
     "usual_rate",
     "warn_of_rate",
 ]
@@ -206,6 +207,18 @@ def fidelities_of(name: str) -> tuple[str, ...]:
     path = spec_of(name).kwargs.get("environment")
     kind = _class_of(path) if path else None
     return kind.fidelities if kind and "fidelity" in _keywords(kind) else ()
+
+
+def takes(name: str, option: str) -> bool:
+    """Whether the class of an environment has a keyword; no where there is no such environment.
+
+    Args:
+        name: its id.
+        option: the keyword.
+    """
+    known = gymnasium.registry.get(name.rpartition(":")[2])
+    path = known.kwargs.get("environment") if known else None
+    return path is not None and option in _keywords(_class_of(path))
 
 
 def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:

@@ -1,19 +1,47 @@
-"""Ground of Drive: how high it is, and what of it a robot sees."""
+"""Ground of Drive: what a seed draws, how high it is, and what of it a robot sees."""
 
 from __future__ import annotations
+
+import math
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from hurcules_envs.environment import Array
 
-__all__ = ["AHEAD", "BESIDE", "Heights"]
+__all__ = ["AHEAD", "BESIDE", "TERRAINS", "Heights", "scene_of"]
+
+# of scenes, by terrain: what stays
+TERRAINS: dict[str, dict[str, Any]] = {
+    "flat": {}, "ramps": {}, "slope": {}, "stairs": {"landing": 4.0},
+    "rough_road": {}, "step_field": {}, "gravel": {}, "sand": {},
+}  # fmt: skip
+# and what a seed draws beside the ground itself, evenly between these; seed 0: as the scene says
+RANGES: dict[str, dict[str, tuple[float, float]]] = {
+    "ramps": {"angle": (math.radians(5), math.radians(15))},
+    "slope": {"angle": (math.radians(10), math.radians(30))},
+    "stairs": {"pitch": (math.radians(25), math.radians(35)), "riser": (0.15, 0.2)},
+}
 
 AHEAD = np.linspace(-1.2, 1.2, 25)  # [m] of a point of the grid before the robot
 BESIDE = np.linspace(0.4, -0.4, 9)  # [m] to its left
 CELL = 0.025  # [m] of the map
 LOW, HIGH = np.array([-4.0, -3.0]), np.array([9.0, 3.0])  # [m] of its corners
 ABOVE = 10.0  # [m] from where it is measured
+
+
+def scene_of(terrain: str, seed: int) -> dict[str, Any]:
+    """Parameters of a terrain's scene, its seed too.
+
+    Args:
+        terrain: one of `TERRAINS`.
+        seed: a whole number >= 0.
+    """
+    ranges = RANGES.get(terrain, {}) if seed else {}
+    generator = np.random.default_rng(seed)
+    drawn = {name: float(generator.uniform(*between)) for name, between in ranges.items()}
+    return {"seed": seed} | TERRAINS[terrain] | drawn
 
 
 class Heights:

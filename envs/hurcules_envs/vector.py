@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules_envs.checks import require_open
+from hurcules_envs.checks import require_open, require_whole
 from hurcules_envs.copies import Copied
 from hurcules_envs.endings import Ending
 from hurcules_envs.environment import Numbers
@@ -79,10 +78,10 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             flat, cameras, camera_size, width, height, **options,
         )  # fmt: skip
         hurcules.validation.require_known("render mode", render_mode or MODES[0], MODES)
-        _require_whole("num_envs", num_envs, 1)
-        _require_whole("threads", threads, 0)
+        require_whole("num_envs", num_envs, 1)
+        require_whole("threads", threads, 0)
         if max_episode_steps is not None:
-            _require_whole("max_episode_steps", max_episode_steps, 1)
+            require_whole("max_episode_steps", max_episode_steps, 1)
         self.num_envs = num_envs
         ranges, options = split(options)
         known = ("flat", "threads", "autoreset_mode", "cameras", "camera_size", "width", "height")
@@ -302,11 +301,6 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         if isinstance(self.single_observation_space, spaces.Dict):
             return {n: _chosen(ended, fresh[n], observation[n]) for n in observation}, merged
         return _chosen(ended, fresh, observation), merged
-
-
-def _require_whole(name: str, value: object, least: int) -> None:
-    if not isinstance(value, Integral) or int(value) < least:
-        raise hurcules.Error(f"{name}: wanted a whole number >= {least}, got {value!r}")
 
 
 def _chosen(mask: NDArray[np.bool_], one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:

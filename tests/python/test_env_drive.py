@@ -13,14 +13,19 @@ import pytest
 import hurcules
 import hurcules_envs  # noqa: F401  registers
 from hurcules_envs.evaluation import evaluate
+from hurcules_envs.policy import Policy
 from hurcules_envs.registry import make_episodes
-from hurcules_envs.terrain import AHEAD, BESIDE, Heights
+from hurcules_envs.terrain import AHEAD, BESIDE, Heights, scene_of
 
 DRIVE = "Hurcules/Drive-v0"
 
 
 def drive(terrain, **options):
     return gym.make(DRIVE, fidelity="fast", terrain=terrain, **options).unwrapped
+
+
+def spaces_of(env):
+    return env.observation_space, env.action_space
 
 
 def ground(observation):
@@ -36,6 +41,19 @@ def test_heights_are_those_of_the_scene():
     assert heights.at(points) == pytest.approx([0.0, 0.2, 0.4, 0.6], abs=1e-9)
     slope = Heights(hurcules.scenes.make("slope"))
     assert slope.at(np.array([3.0, 1.0])) == pytest.approx(3 * math.tan(math.pi / 6), abs=0.01)
+
+
+@pytest.mark.parametrize("blind", [False, True])
+def test_the_ground_is_looked_up_once_a_step(monkeypatch, blind):
+    episodes = make_episodes(DRIVE, 2, 0, 1, fidelity="fast", terrain="stairs", blind=blind)
+    calls = []
+    around = Heights.around
+    monkeypatch.setattr(Heights, "around", lambda *given: calls.append(1) or around(*given))
+    episodes.look(remember=None)
+    for _ in range(3):
+        episodes.step(episodes.environment.expert(episodes.numbers))
+        episodes.look(remember=np.ones(2, dtype=bool))
+    assert len(calls) == (3 if blind else 4)  # blind, only the expert asks, three times
 
 
 def test_the_grid_turns_with_the_robot():
@@ -71,15 +89,40 @@ def test_on_flat_ground_nothing_is_added_and_blind_leaves_it_out():
 
 def test_a_policy_of_flat_ground_drives_blind_and_else_is_told_the_sizes():
     given = {"fidelity": "fast", "terrain": "rough_road"}
-    with pytest.raises(hurcules.Error, match=r"does not fit .*wanted the inputs .*\(240\).*\(15\)"):
+    sizes = r"does not fit .*wanted the inputs .*\(240\).*\(15\).*blind=True"
+    with pytest.raises(hurcules.Error, match=sizes):
         evaluate("Drive-v0", "Drive-v0", 1, **given)
+    with pytest.raises(hurcules.Error, match=r"does not fit") as other:
+        Policy("Reach-v0").check(DRIVE, *spaces_of(drive("flat")))
+    assert "blind" not in str(other.value)
     assert evaluate("Drive-v0", "Drive-v0", 2, blind=True, **given).success == 1.0
 
 
-@pytest.mark.parametrize("terrain", ["slope", "ramps", "stairs"])
-def test_the_expert_comes_across_and_standing_still_does_not(terrain):
+@pytest.mark.parametrize(
+    ("terrain", "least", "most"),
+    [("slope", 10, 30), ("ramps", 5, 15), ("stairs", 25, 35)],
+)
+def test_a_seed_draws_how_steep_a_terrain_is(terrain, least, most):
+    """Degrees, of the text of the class."""
+    steep = [
+        angle
+        for seed in range(1, 9)
+        for name, angle in scene_of(terrain, seed).items()
+        if name in ("angle", "pitch")
+    ]
+    assert len(set(steep)) == 8
+    assert least <= np.degrees(min(steep)) < np.degrees(max(steep)) <= most
+    assert scene_of(terrain, 5) == scene_of(terrain, 5)
+
+
+@pytest.mark.parametrize(
+    ("terrain", "seed"), [("slope", 0), ("ramps", 1), ("stairs", 0), ("stairs", 3)]
+)
+def test_the_expert_comes_across_and_standing_still_does_not(terrain, seed):
     for act, wanted in ((lambda e: e.environment.expert(e.numbers), 1.0), (None, 0.0)):
-        episodes = make_episodes(DRIVE, 3, 900, 2, fidelity="fast", terrain=terrain)
+        episodes = make_episodes(
+            DRIVE, 3, 900, 2, fidelity="fast", terrain=terrain, terrain_seed=seed
+        )
         running, done = np.ones(3, dtype=bool), np.zeros(3, dtype=bool)
         episodes.look(remember=None)
         for _ in range(300 if act else 30):

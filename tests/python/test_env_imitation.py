@@ -41,6 +41,20 @@ def test_the_same_seed_shows_the_same(shown) -> None:
     assert np.array_equal(again.actions, shown.actions)
 
 
+def test_where_a_policy_acts_the_expert_says_what_it_would_have_done(shown) -> None:
+    asked = []
+
+    def stands_still(seen):
+        asked.append(len(seen["observation"]))
+        return np.zeros((4, 4))
+
+    other = demonstrate(VALVE, 4, seed=3, act=stands_still, **FAST)
+    assert asked == [4] * len(other.going)
+    assert not other.successes.any()  # the expert's succeed in all
+    assert np.abs(other.actions).max(axis=1).min() > 0.0  # not those that were taken
+    assert np.array_equal(other.actions[:4], shown.actions[:4])  # the starts are the same
+
+
 def test_the_goals_of_goal_environments_are_kept() -> None:
     seen = demonstrate("Hurcules/Reach-v0", 2, fidelity="kinematic").observations
     assert set(seen) == {"observation", "achieved_goal", "desired_goal"}

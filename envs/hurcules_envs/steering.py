@@ -1,0 +1,51 @@
+"""Laws that lead a tracked robot to a pose: speed and yaw rate of what it sees of it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hurcules_envs.environment import Array
+
+__all__ = ["along", "to_pose"]
+
+
+def to_pose(goal: Array) -> tuple[Array, Array]:
+    """Speed [m/s] and yaw rate [rad/s] of a smooth law for unicycles (Park and Kuipers, ICRA 2011).
+
+    Args:
+        goal: (n, 4) seen from the robot: x, y [m], cosine and sine of the heading.
+    """
+    way = np.linalg.norm(goal[:, :2], axis=1)
+    sight = np.arctan2(goal[:, 1], goal[:, 0])  # of the goal, from the heading
+    turn = np.arctan2(goal[:, 3], goal[:, 2])
+    delta, theta = _wrap(-sight), _wrap(turn - sight)
+    k1, k2 = 1.0, 3.0
+    bend = k2 * (delta - np.arctan(-k1 * theta)) + (1 + k1 / (1 + (k1 * theta) ** 2)) * np.sin(
+        delta
+    )
+    bend = -bend / np.maximum(way, 0.05)
+    speed = np.minimum(1.2 / (1.0 + 0.4 * np.abs(bend) ** 1.5), 0.8 * way)
+    near = way < 0.15
+    speed = np.where(near, 0.0, np.maximum(speed, 0.08))
+    return speed, np.where(near, 1.5 * turn, speed * bend)
+
+
+def along(way: Array, goal: Array, most: float, aside: Array | float = 0.0) -> tuple[Array, Array]:
+    """Speed [m/s] and yaw rate [rad/s] along the goal's own line.
+
+    Args:
+        way: (n, 2) [m] to the goal, ahead and to the left of where it drives to.
+        goal: (n, 4) as in `to_pose`.
+        most: of the speed [m/s].
+        aside: [m] to the left of the line to keep to.
+    """
+    turn, x = np.arctan2(goal[:, 3], goal[:, 2]), way[:, 0]
+    there = np.abs(x) < 0.1
+    left = np.cos(turn) * way[:, 1] - np.sin(turn) * x + aside
+    turn = turn + np.where(x > 0.1, np.clip(1.5 * left, -0.4, 0.4), 0.0)
+    speed = np.where(there, 0.0, np.clip(x, -0.25, most))
+    return speed, np.where(there & (np.abs(turn) < 0.15), 0.0, 1.5 * turn)
+
+
+def _wrap(angle: Array) -> Array:
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
