@@ -134,7 +134,7 @@ def test_what_a_compiled_class_takes_is_its_signature() -> None:
     assert servo.kind is inspect.Parameter.KEYWORD_ONLY and str(servo.default) == "{}"
     assert [*inspect.signature(hurcules.Robot).parameters] == ["model", "joints", "floating"]
     assert [*inspect.signature(Height).parameters] == ["frame"]
-    assert [*inspect.signature(Same).parameters] == ["name", "robot", "rows", "measure"]
+    assert [*inspect.signature(Same).parameters] == ["name", "robot", "rows", "measure", "unit"]
     assert "mission" in inspect.signature(hurcules.Simulation).parameters
 
 
