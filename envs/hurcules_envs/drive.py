@@ -170,7 +170,7 @@ class Drive(Environment):
         self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
         self.components = {"legs": ("legs",)} if self._climbs else {}
-        controller = self._controller(robot, model, action, tick, physics=physics)
+        controller = self._controller(robot, action, tick, physics=physics)
         if physics:
             model = hurcules.models.with_timestep(model, tick)
         self.simulation = hurcules.Simulation(
@@ -182,13 +182,7 @@ class Drive(Environment):
         )
 
     def _controller(
-        self,
-        plan: hurcules.Robot,
-        model: mujoco.MjModel,
-        action: str,
-        tick: float,
-        *,
-        physics: bool,
+        self, plan: hurcules.Robot, action: str, tick: float, *, physics: bool
     ) -> hurcules.WholeBodyController:
         legs = hurcules.PostureTask("legs", plan, ["KN", "HIP"] if self._climbs else ["KN"])
         legs.max_lead = 0.2

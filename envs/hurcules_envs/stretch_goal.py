@@ -151,7 +151,7 @@ class Stretch(Environment):
         robot = hurcules.Robot(model)
         robot.set_keyframe("stretch")
         robot.stand_on(lift.SUPPORT)
-        controller = self._controller(robot, model, tick, physics=fidelity != "kinematic")
+        controller = self._controller(robot, tick, physics=fidelity != "kinematic")
         self.simulation = hurcules.Simulation(
             model=hurcules.models.with_timestep(model, tick),
             controller=controller,
@@ -177,9 +177,7 @@ class Stretch(Environment):
                 spec.delete(joint)
         return spec
 
-    def _controller(
-        self, plan: hurcules.Robot, model: mujoco.MjModel, tick: float, *, physics: bool
-    ) -> Any:
+    def _controller(self, plan: hurcules.Robot, tick: float, *, physics: bool) -> Any:
         limits = hurcules.JointLimits("joint", plan)
         for name, (lower, upper) in hurcules.mode_ranges("rescue_ready").items():
             limits.set_range(name, lower, upper)
