@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.rendering import make_renderer, overview_camera, pose
 from hurcules.validation import require_known
-from hurcules_envs.checks import require_open
+from hurcules_envs.checks import require_no_nan, require_open
 from hurcules_envs.copies import GENERATOR, Copied, generator_numbers, generator_state
 from hurcules_envs.episodes import numbers_of
 from hurcules_envs.observations import observation_space
@@ -86,6 +86,11 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         self._copy = mujoco.MjData(self.simulation.model)
         self._start()
 
+    @property
+    def dt(self) -> float:
+        """Of a step of the policy [s]."""
+        return FRAME_SKIP * self.simulation.dt
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
@@ -150,6 +155,7 @@ class HurculesEnv(gymnasium.Env[Observation, Action], Copied):
         """
         require_open(self._closed, "set_state")
         values = numbers_of("state", state)
+        require_no_nan("state", values)
         own = GENERATOR + len(self._memory())
         if values.ndim != 1 or len(values) <= own:
             wanted = own + len(self.simulation.state())

@@ -27,12 +27,15 @@ __all__ = [
     "require_finite",
     "require_flag",
     "require_names",
+    "require_no_nan",
     "require_numbers",
     "require_open",
     "require_unchanged",
     "require_whole",
     "warn_of_still_things",
 ]
+
+WHOLE = 1e-5  # share that a rate may be off: so close is one that is written with six digits
 
 
 class CheckedEnvironment:
@@ -80,9 +83,20 @@ class CheckedEnvironment:
         known = dict.fromkeys([*groups, *(group.name for group in own)])
         require_names(where, "group of the observation", seen, known, complete=False)
         for name, group in groups.items():
-            values = seen[name] if name in seen else numbers[name]
+            values = seen[name] if name in seen else self._read(name, numbers, seen)
             require_numbers(f"{where}: '{name}'", values, (self._n, group.size))
         return seen
+
+    def _read(self, name: str, numbers: Numbers, seen: Mapping[str, Array]) -> Array:
+        """The quantity or entry of the memory that a group is, which `observe` left out."""
+        try:
+            return numbers[name]
+        except hurcules.Error:
+            there = [*seen, *self._environment.quantities, *self._environment.memory]
+            raise hurcules.Error(
+                f"{self._name}.observe: group '{name}' is missing; there are: "
+                f"{', '.join(there) or 'none'}"
+            ) from None
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """As the environment's."""
@@ -208,6 +222,13 @@ def require_attributes(environment: Environment, read: Collection[str]) -> None:
     most = 1.0 / environment.simulation.dt
     if not (isinstance(environment.rate, Real) and 0.0 < environment.rate <= most):
         raise hurcules.Error(f"{name}.rate: wanted up to {most:g} Hz, got {environment.rate!r}")
+    ticks = most / environment.rate
+    if abs(ticks - round(ticks)) > WHOLE * ticks:
+        near = " and ".join(f"{most / whole:g}" for whole in (int(ticks) + 1, int(ticks)))
+        raise hurcules.Error(
+            f"{name}.rate: wanted a whole number of control ticks of {1e3 / most:g} ms a step, got "
+            f"{environment.rate:g} Hz ({ticks:g} ticks); the nearest rates are {near} Hz"
+        )
     for entry, size in environment.memory.items():
         if not (isinstance(size, Integral) and size > 0):
             raise hurcules.Error(f"{name}.memory: '{entry}' wants a whole number, got {size!r}")
@@ -259,6 +280,27 @@ def require_finite(where: str, values: Array) -> None:
         raise hurcules.Error(f"{where}: wanted finite numbers, got {values[place]} at {place}")
 
 
+def require_no_nan(where: str, values: Array) -> None:
+    """Numbers without NaN; infinity is one: a distance of bodies that are far apart, say.
+
+    Raises:
+        hurcules.Error: there is one; the text says where.
+    """
+    if np.isnan(values).any():
+        place = tuple(int(i) for i in np.argwhere(np.isnan(values))[0])
+        raise hurcules.Error(f"{where}: wanted numbers, got nan at {place}")
+
+
+def require_whole(name: str, value: object, least: int) -> None:
+    """A whole number that is large enough.
+
+    Raises:
+        hurcules.Error: it is none, or smaller.
+    """
+    if not isinstance(value, Integral) or int(value) < least:
+        raise hurcules.Error(f"{name}: wanted a whole number >= {least}, got {value!r}")
+
+
 def require_flag(name: str, value: object) -> None:
     """True or False.
 
@@ -267,16 +309,6 @@ def require_flag(name: str, value: object) -> None:
     """
     if not isinstance(value, bool | np.bool_):
         raise hurcules.Error(f"{name}: wanted True or False, got {value!r}")
-
-
-def require_whole(name: str, value: object, least: int) -> None:
-    """A whole number.
-
-    Raises:
-        hurcules.Error: it is none, or below the least.
-    """
-    if not isinstance(value, Integral) or int(value) < least:
-        raise hurcules.Error(f"{name}: wanted a whole number >= {least}, got {value!r}")
 
 
 def require_numbers(

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import math
+from contextlib import closing
 from dataclasses import asdict
 from hashlib import sha256
 from itertools import chain, count
 from pathlib import Path
 from typing import Annotated, Any
 
+import gymnasium
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -243,6 +245,8 @@ def record(
         source = sha256(network.path.read_bytes()).hexdigest()
         _, options = environment_of(network, name, **options)
         act = _acting(network)
+    else:
+        _require_expert(name, options)
     said = ""
 
     def show(done: int, succeeded: int) -> None:
@@ -272,6 +276,12 @@ def _expert(env: Any, seen: Any) -> Any:
         return ask_expert(env.spec.id, env, (1, *env.action_space.shape))[0]
     except hurcules.Error as error:
         raise hurcules.Error(f"{error}: give --policy FOLDER") from None
+
+
+def _require_expert(name: str, options: dict[str, Any]) -> None:
+    """An expert for the action of this environment, before packages are looked for."""
+    with closing(gymnasium.make(name, **options).unwrapped) as env:
+        _expert(env, env.reset(seed=0)[0])
 
 
 def _acting(policy: Policy) -> Any:

@@ -221,11 +221,7 @@ def _robot_type(recording: Recording, model: mujoco.MjModel) -> str | None:
 
 def _features(episode: Episode, env: Any) -> dict[str, dict[str, Any]]:
     """The columns of a data set of LeRobot."""
-    numbers = [
-        f"{one.name}_{k}" if one.size > 1 else one.name
-        for one in getattr(getattr(env, "environment", None), "observation", ())
-        for k in range(one.size)
-    ]
+    numbers = env.observation_names
     columns: dict[str, dict[str, Any]] = {}
     for name, values in episode.observations.items():
         picture = _is_picture(values)

@@ -60,7 +60,8 @@ class Start:
 
     Attributes:
         qpos: (nq,) of the model; None: where the simulation was built.
-        memory: by name what the episode remembers, see `Environment.memory`.
+        memory: by name what the episode remembers, see `Environment.memory`: a number for all of an
+            entry, or (size,). What is left out begins at 0.
         info: by name a number for `info`, the same names in each episode.
     """
 
@@ -157,7 +158,7 @@ class Environment(ABC):
         components: by action that is no channel the names of its numbers, see `command`.
         terms: of the reward, in the order in which they are added.
         goal: how many numbers a goal has; 0: no goal environment.
-        rate: steps of the policy a second [Hz].
+        rate: steps of the policy a second [Hz]; each is a whole number of the simulation's ticks.
         task_description: what is wanted, in a sentence.
         fidelities: those that it has, the fastest last.
     """
@@ -187,7 +188,8 @@ class Environment(ABC):
     def observe(self, numbers: Numbers) -> Mapping[str, Array]:
         """Observation by the name of its group, (n, size) each.
 
-        A group that is not there is the quantity or the entry of the memory of its name.
+        A group that is not there is the quantity or the entry of the memory of its name; an Error
+        says where there is none.
         """
 
     @abstractmethod

@@ -22,6 +22,7 @@ from hurcules_envs.checks import (
     require_finite,
     require_flag,
     require_names,
+    require_no_nan,
     require_numbers,
     require_unchanged,
     warn_of_still_things,
@@ -72,6 +73,7 @@ class Episodes:
         action_names: what each number of the action commands.
         action_scale: (k,) what 1 means [SI].
         action_units: their units, "m/s" say; "" for a mere number.
+        observation_names: what each number of the observation is, see `SingleEnv`.
         memory: by name what each remembers, (n, size).
         randomisation: what differs between them beside the task.
         single_action_space: Box(-1, 1, (k,), float32).
@@ -368,6 +370,12 @@ class Episodes:
         self._high = high.astype(np.float32)
         self._low = -self._high
         self._groups = [group.name for group in environment.observation]
+        parts = [(group.name, group.size) for group in environment.observation]
+        if self._flat:
+            parts.append(("to_goal", environment.goal))
+        self.observation_names = [
+            f"{name}_{i}" if size > 1 else name for name, size in parts for i in range(size)
+        ]
         box = spaces.Box(self._low, self._high, dtype=np.float32)
         self.single_action_space = spaces.Box(-1.0, 1.0, self.action_scale.shape, np.float32)
         self.single_observation_space: spaces.Space[Any] = box
@@ -379,6 +387,25 @@ class Episodes:
             self.single_observation_space = spaces.Dict(
                 {"observation": box, "achieved_goal": goal, "desired_goal": goal}
             )
+
+    def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
+        """Of a goal environment: the reward of other goals, any leading axes.
+
+        Args:
+            achieved: (..., goal).
+            desired: (..., goal), of the same shape.
+            info: of a step, of several in a vector, or a sequence of those of single ones.
+
+        Raises:
+            hurcules.Error: goals of another shape, or of two.
+        """
+        one, other, goal = np.shape(achieved), np.shape(desired), self.environment.goal
+        if one != other or one[-1:] != (goal,):
+            raise hurcules.Error(
+                f"compute_reward: wanted achieved and desired of one shape (..., {goal}), "
+                f"got {one} and {other}"
+            )
+        return self.environment.compute_reward(achieved, desired, info)
 
     def observe(self, *, noise: bool) -> dict[str, NDArray[np.float32]]:
         """What is seen now, with its errors or without."""
@@ -550,7 +577,7 @@ def state_of(state: object, shape: tuple[int, ...]) -> Array:
     """A state as float64.
 
     Raises:
-        hurcules.Error: no array of numbers, or one of another shape.
+        hurcules.Error: no array of numbers, one of another shape, or one with NaN.
     """
     values = numbers_of("state", state)
     if values.shape != shape:
@@ -558,6 +585,7 @@ def state_of(state: object, shape: tuple[int, ...]) -> Array:
             f"state: wanted shape {shape}, got {values.shape}: it belongs to another environment, "
             "or to other options of this one"
         )
+    require_no_nan("state", values)
     return values
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hurcules.shares import wilson
+from hurcules_envs.checks import require_whole
 from hurcules_envs.endings import Ending
 from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
@@ -75,7 +76,12 @@ def evaluate(
         threads: 0 for one a processor.
         options: of the environment, and ranges of what differs between episodes; `cameras` and
             `camera_size` as `gymnasium.make` takes them.
+
+    Raises:
+        hurcules.Error: `episodes` is no whole number >= 1, an option does not exist, or the policy
+            is of another environment.
     """
+    require_whole("episodes", episodes, 1)
     if isinstance(act, str | Path):
         act = Policy(act)
     environment = full_id(environment)

@@ -21,6 +21,7 @@ import numpy as np
 
 import hurcules
 from hurcules.validation import require_known
+from hurcules_envs.checks import require_whole
 from hurcules_envs.data_formats import FORMATS
 from hurcules_envs.endings import Ending
 from hurcules_envs.episode_data import Episode, Recording
@@ -81,7 +82,6 @@ def record(
     if not callable(act):
         raise hurcules.Error(f"act: wanted a function of environment and observation, got {act!r}")
     written = FORMATS[form]
-    written.require()
     recording = _wanted(environment, episodes, seed, author, source, options)
     target = Path(out) / written.place(recording)
     if target.exists():
@@ -92,6 +92,7 @@ def record(
     paths = [part / f"{i:06d}.npz" for i in range(episodes)]
     env: Any = gymnasium.make(recording.environment, **recording.options)
     try:
+        written.require()
         with _told(target, paths):
             part.mkdir(parents=True, exist_ok=True)
             _same(recording, part / "recording.json")
@@ -131,8 +132,7 @@ def _wanted(
 ) -> Recording:
     if not isinstance(environment, str):
         raise hurcules.Error(f"environment: wanted an id, Reach-v0 say, got {environment!r}")
-    if not isinstance(episodes, int) or episodes < 1:
-        raise hurcules.Error(f"episodes: wanted a whole number from 1 on, got {episodes!r}")
+    require_whole("episodes", episodes, 1)
     if not re.fullmatch(r"[\w-]+", author, re.ASCII):
         raise hurcules.Error(f"author: wanted letters, digits, '_' and '-', got {author!r}")
     name, plain = full_id(environment), json.loads(json.dumps(options, default=_plain))

@@ -122,7 +122,7 @@ class Sb3VecEnv(VecEnv):
     def env_method(self, method_name: str, *args: Any, indices: Any = None, **kwargs: Any) -> Any:
         """Calls a method of the vector once; `compute_reward` with all rows."""
         if method_name == "compute_reward":
-            return [self.environment.environment.compute_reward(*args, **kwargs)]
+            return [self.environment.compute_reward(*args, **kwargs)]
         result = getattr(self.environment, method_name)(*args, **kwargs)
         return [result for _ in self._get_indices(indices)]
 

@@ -44,7 +44,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         action_units: their units, "m/s" say; "" for a mere number.
         task_description: one sentence.
         compute_reward: of a goal environment alone, (achieved, desired, info): the reward of other
-            goals, any leading axes. Stable-Baselines3 takes who has it for one.
+            goals, any leading axes, the same of both. Stable-Baselines3 takes who has it for one.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 20}  # noqa: RUF012
@@ -97,7 +97,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self.observation_space = self._eyes.observation_space
         self.task_description = self.environment.task_description
         if self.environment.goal and not flat:
-            self.compute_reward = self.environment.compute_reward
+            self.compute_reward = self._episodes.compute_reward
         self._begun = self._closed = False
         self._steps = 0  # of the episode, none once it terminated
         self._over = False  # it terminated, and nobody has reset it
@@ -105,6 +105,19 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._window = ExitStack()  # waits for the viewer's thread
         self._due = 0.0  # [s] when the next step may be shown
         self._views = Views(self.environment, width, height)
+
+    @property
+    def dt(self) -> float:
+        """Of a step of the policy [s]."""
+        return self._episodes.period
+
+    @property
+    def observation_names(self) -> list[str]:
+        """(o,) what each number of the observation is: its group, with _i where that has several.
+
+        Of a dictionary its part "observation"; with `flat` the last are to_goal_i, the way there.
+        """
+        return self._episodes.observation_names
 
     @property
     def numbers(self) -> Numbers:

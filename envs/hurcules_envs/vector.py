@@ -108,10 +108,22 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.task_description = self.environment.task_description
+        if self.environment.goal and not flat:
+            self.compute_reward = self._episodes.compute_reward
         self._limit = np.inf if max_episode_steps is None else max_episode_steps
         self._steps = np.full(num_envs, -1, dtype=np.int64)  # -1: not begun
         self._over = np.zeros(num_envs, dtype=bool)
         self._begun = False  # all of them
+
+    @property
+    def dt(self) -> float:
+        """Of a step of the policy [s]."""
+        return self._episodes.period
+
+    @property
+    def observation_names(self) -> list[str]:
+        """(o,) of one episode, what each number of the observation is, see `SingleEnv`."""
+        return self._episodes.observation_names
 
     @property
     def batch(self) -> hurcules.SimulationBatch:

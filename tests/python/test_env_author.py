@@ -32,6 +32,7 @@ from hurcules_envs.evaluation import evaluate
 from hurcules_envs.onnx_file import Graph, Node, write
 from hurcules_envs.registry import make_environment
 from hurcules_envs.single import SingleEnv
+from hurcules_envs.vector import NativeVectorEnv
 
 CART = """
 <mujoco>
@@ -110,6 +111,11 @@ MISTAKES = {
     "Wrong.units: 'hand' has 1 numbers, got 2 units": {"units": {"hand": ["m/s", "m/s"]}},
     "Wrong.units: action 'hend' does not exist; there are: hand": {"units": {"hend": "m/s"}},
     "Wrong.rate: wanted up to 500 Hz, got 0.0": {"rate": 0.0},
+    # 1 / (30 Hz x 2 ms) = 16.67 ticks; 1 / (17 x 2 ms) and 1 / (16 x 2 ms)
+    "Wrong.rate: wanted a whole number of control ticks of 2 ms a step, got 30 Hz (16.6667 ticks); "
+    "the nearest rates are 29.4118 and 31.25 Hz": {"rate": 30},
+    "Wrong.rate: wanted a whole number of control ticks of 2 ms a step, got 400 Hz (1.25 ticks); "
+    "the nearest rates are 250 and 500 Hz": {"rate": 400.0},
     "Wrong.memory: 'place' wants a whole number, got (1,)": {"memory": {"place": (1,)}},
     "Wrong.memory: 'time' is a quantity": {"memory": {"place": 1, "time": 1}},
     "Wrong.parameters: entry of the memory 'mass' does not exist; there are: place": {
@@ -135,6 +141,9 @@ MISTAKES = {
     },
     "Wrong.observe: group of the observation 'wai' does not exist; there are: way, velocity": {
         "observe": lambda self, numbers: {"wai": self.way(numbers)}
+    },
+    "Wrong.observe: group 'way' is missing; there are: position/cart, velocity/cart, place": {
+        "observe": lambda self, numbers: {}
     },
     "Wrong.observe: 'way': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
         "observe": lambda self, numbers: {"way": self.way(numbers)[:, 0]}
@@ -189,6 +198,7 @@ MISTAKES = {
 def test_an_environment_without_a_mistake_runs() -> None:
     run()
     run(tell=lambda self, numbers: {"way": self.way(numbers)[:, 0]})
+    run(rate=29.4118)  # 17 ticks, as the error says it
 
 
 @pytest.mark.parametrize("text", MISTAKES)
@@ -347,6 +357,16 @@ def test_a_step_after_the_end_is_told() -> None:
         env.step(hold)
     env.reset()
     env.step(hold)
+
+
+def test_names_and_period_of_a_step_can_be_read_and_not_written() -> None:
+    for env in (SingleEnv(f"{__name__}:Cart"), NativeVectorEnv(f"{__name__}:Cart", 2)):
+        assert env.dt == pytest.approx(0.05)  # 20 Hz
+        names = ["way", "velocity/cart_0", "velocity/cart_1", "velocity/cart_2"]
+        assert env.observation_names == names
+        for name in ("dt", "observation_names"):
+            with pytest.raises(AttributeError):
+                setattr(env, name, 1)
 
 
 def test_check_env_of_gymnasium_has_nothing_to_say() -> None:

@@ -6,6 +6,7 @@ What Gymnasium's checker wants, sameness of bits alone and side by side, resets,
 import copy
 import json
 import pickle
+import re
 import signal
 import warnings
 from contextlib import nullcontext
@@ -192,6 +193,9 @@ def test_a_state_begins_the_next_episodes_alike_and_an_instance_that_has_not_beg
         env.get_state()
     with pytest.raises(hurcules.Error, match="a generator of random numbers"):
         fresh.set_state(np.where(state == state, state + 0.5, state))
+    state[3] = np.nan
+    with pytest.raises(hurcules.Error, match=r"state: wanted numbers, got nan at \(3,\)"):
+        fresh.set_state(state)
 
 
 def test_an_observation_is_never_written_again():
@@ -277,6 +281,7 @@ def test_a_vector_says_what_was_wanted():
         (state[0], rf"state: wanted shape \(2, {n}\), got \({n},\): it belongs to another"),
         (state[:, :-1], rf"state: wanted shape \(2, {n}\), got \(2, {n - 1}\)"),
         ("left", "state: wanted an array of numbers, got 'left'"),
+        (np.where(np.arange(n) == 1, np.nan, state), r"state: wanted numbers, got nan at \(0, 1\)"),
     ):
         with pytest.raises(hurcules.Error, match=text):
             vector.set_state(bad)
@@ -323,7 +328,7 @@ def test_the_reward_of_a_step_is_that_of_its_goals_and_info(name, options, spars
         seen, reward, _, _, info = env.step(env.action_space.sample())
         assert env.compute_reward(seen["achieved_goal"], seen["desired_goal"], info) == reward
         seen, reward, _, _, info = vector.step(vector.action_space.sample())
-        compute = vector.environment.compute_reward
+        compute = vector.compute_reward
         goals = seen["achieved_goal"], seen["desired_goal"]
         assert compute(*goals, info).tolist() == reward.tolist()
         each = [{key: info[key][i] for key in info} for i in range(4)]
@@ -332,6 +337,22 @@ def test_the_reward_of_a_step_is_that_of_its_goals_and_info(name, options, spars
         rewards = [compute(*row) for row in zip(*others, each, strict=True)]
         assert compute(*others, np.array(each)).tolist() == rewards
     assert reward == pytest.approx(sum(info[f"reward_{t}"] for t in vector.environment.terms))
+
+
+@pytest.mark.parametrize(
+    ("name", "goal"), [("Reach-v0", 6), ("ReachPrecise-v0", 14), ("Drive-v0", 4)]
+)
+def test_goals_of_two_shapes_are_refused(name, goal):
+    """They were broadcast against each other, or failed in the words of numpy."""
+    env = gym.make(f"Hurcules/{name}", **FAST).unwrapped
+    vector = gym.make_vec(f"Hurcules/{name}", num_envs=2, **FAST)
+    for shapes in (
+        ((5, goal // 2), (5, goal)), ((5, goal), (goal,)), ((5, 3), (5, 3)), ((), (goal,)),
+    ):  # fmt: skip
+        text = rf"one shape (..., {goal}), got {shapes[0]} and {shapes[1]}"
+        for one in (env, vector):
+            with pytest.raises(hurcules.Error, match=re.escape(text)):
+                one.compute_reward(*map(np.ones, shapes), {})
 
 
 def test_the_reward_of_a_drive_counts_the_way_that_it_came():

@@ -80,6 +80,14 @@ def test_a_policy_acts_in_one_line_and_is_judged(tmp_path: Path) -> None:
     assert wilson(8, 8) == pytest.approx((0.676, 1.0), abs=1e-3)  # Wilson (1927)
 
 
+@pytest.mark.parametrize("episodes", [0, -1, 2.5])
+def test_how_many_episodes_are_judged_is_a_whole_number(episodes: Any) -> None:
+    with pytest.raises(
+        hurcules.Error, match=f"episodes: wanted a whole number >= 1, got {episodes}"
+    ):
+        evaluate(lambda seen: seen, "Reach-v0", episodes, fidelity="kinematic")
+
+
 def test_endings_are_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     ahead = np.tile([[0.0] * 11, [1.0, 0.0, 0.0] * 2 + [0.0] * 5], (2, 1))  # holds, goes too far
     result = evaluate(lambda _: ahead, "Stretch-v1", 4, fidelity="kinematic")

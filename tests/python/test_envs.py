@@ -73,6 +73,17 @@ def test_a_state_goes_over_to_another_environment(env: HurculesEnv) -> None:
     assert same([env.step(action) for _ in range(20)], [other.step(action) for _ in range(20)])
 
 
+def test_a_state_with_nan_is_refused(env: HurculesEnv) -> None:
+    state = env.get_state()
+    state[2] = np.nan
+    with pytest.raises(hurcules.Error, match=r"state: wanted numbers, got nan at \(2,\)"):
+        env.set_state(state)
+
+
+def test_a_step_takes_20_ms(env: HurculesEnv) -> None:
+    assert env.dt == pytest.approx(0.02)
+
+
 def test_a_state_of_another_size_is_refused(env: HurculesEnv) -> None:
     before = env.get_state()
     with pytest.raises(hurcules.Error):

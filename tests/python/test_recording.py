@@ -348,12 +348,31 @@ def test_mistakes_are_told_before_anything_is_recorded(tmp_path, plain):
     for given, said in (
         ({"author": "J. Doe / 3"}, "author: wanted letters"),
         ({"act": "expert"}, "act: wanted a function of environment and observation, got 'ex"),
-        ({"episodes": 0}, "episodes: wanted a whole number from 1 on, got 0"),
+        ({"episodes": 0}, "episodes: wanted a whole number >= 1, got 0"),
         ({"environment": gym.make(NAME, **FAST)}, "environment: wanted an id"),
     ):
         wanted = {"environment": NAME, "act": expert, "episodes": 1, "out": tmp_path} | given
         with pytest.raises(hurcules.Error, match=said):
             recording.record(**wanted, form="plain", **FAST)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("ReachJoint-v0", "ReachJoint-v0 has no expert for its action"),
+        ("Reach-v0 --camera nose", "camera 'nose' does not exist"),
+        ("Drive-v0 --policy Drive-v0 --camera nose", "camera 'nose' does not exist"),
+        ("Reach-v0 --set colour=red", "option 'colour' does not exist"),
+        ("Reach-v0", "this format wants no_such: pip install it"),
+    ],
+)
+def test_a_package_that_is_missing_is_told_last(tmp_path, monkeypatch, capsys, words, told):
+    form = Format(("no_such", "it"), lambda one: "data", lambda *_: None)
+    monkeypatch.setitem(recording.FORMATS, "minari", form)
+    out = ["--fidelity", "kinematic", "--out", str(tmp_path / "data")]
+    assert main(["record", *words.split(), *out]) != 0
+    assert told in " ".join(capsys.readouterr().err.split())
     assert not list(tmp_path.iterdir())
 
 
@@ -400,7 +419,8 @@ def test_a_stop_says_what_is_kept(number, tmp_path, plain, monkeypatch, capsys):
     begun, before = count(), signal.getsignal(number)
 
     def stops(env, seen):
-        if env.simulation.time == 0.0 and next(begun) == 1:
+        # asked once before the recording; 2: the second episode
+        if env.simulation.time == 0.0 and next(begun) == 2:
             signal.raise_signal(number)
         return expert(env, seen)
 
