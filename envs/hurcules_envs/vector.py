@@ -14,7 +14,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import hurcules
-from hurcules_envs.checks import require_open, require_whole
+from hurcules_envs.checks import require_no_nan, require_open, require_whole
 from hurcules_envs.copies import Copied
 from hurcules_envs.endings import Ending
 from hurcules_envs.environment import Numbers
@@ -230,6 +230,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         if not self._begun:
             self.reset()
         values = state_of(state, self.get_state().shape)
+        require_no_nan("state: steps, over", values[:, -2:])
         self._episodes.restore(values[:, :-2])
         self._steps = values[:, -2].astype(np.int64)
         self._begun = bool((self._steps >= 0).all())

@@ -194,7 +194,7 @@ def test_a_state_begins_the_next_episodes_alike_and_an_instance_that_has_not_beg
     with pytest.raises(hurcules.Error, match="a generator of random numbers"):
         fresh.set_state(np.where(state == state, state + 0.5, state))
     state[3] = np.nan
-    with pytest.raises(hurcules.Error, match=r"state: wanted numbers, got nan at \(3,\)"):
+    with pytest.raises(hurcules.Error, match=r"state: wanted numbers, got nan at \(0, 3\)"):
         fresh.set_state(state)
 
 
@@ -282,6 +282,7 @@ def test_a_vector_says_what_was_wanted():
         (state[:, :-1], rf"state: wanted shape \(2, {n}\), got \(2, {n - 1}\)"),
         ("left", "state: wanted an array of numbers, got 'left'"),
         (np.where(np.arange(n) == 1, np.nan, state), r"state: wanted numbers, got nan at \(0, 1\)"),
+        (np.where(np.arange(n) == n - 2, np.nan, state), "state: steps, over: wanted numbers, got"),
     ):
         with pytest.raises(hurcules.Error, match=text):
             vector.set_state(bad)
