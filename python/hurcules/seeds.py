@@ -185,7 +185,7 @@ def _row(options: RunOptions) -> Row:
     try:
         simulation = make(options)
     except (Exception, SystemExit) as error:
-        return _broken(in_words(error))
+        return _broken(in_words(error.__cause__ or error))  # of a file of one's own, its own
     ticks = ticks_in(options.seconds, simulation.dt)
     require_end(options, simulation)
     try:
