@@ -333,6 +333,7 @@ def show_mission(
         require_known("kind of file", out.suffix, [*texts, ".table"])
         if out.suffix == ".table" and (mission := table_mission(name)):
             write_table(name, mission, mission.parameters_of(context.args), out)
+            print(out)
             return
     if context.args:
         raise Error(f"{context.args[0]}: for a file .table; other files hold the phases alone")
@@ -340,6 +341,7 @@ def show_mission(
         print(table.table(), end="")
         return
     write_whole(out, texts[out.suffix]().encode())
+    print(out)
 
 
 @app.command("view", context_settings=_WITH_PARAMETERS)

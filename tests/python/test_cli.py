@@ -60,7 +60,7 @@ def test_mission_prints_a_table_or_writes_it(
     assert out == hurcules.lift.mission().table()
     for kind, begin in ((".svg", "<svg"), (".toml", "[mission]"), (".txt", "1  settle")):
         file = tmp_path / f"lift{kind}"
-        assert call(capsys, "mission", "lift", "--out", str(file)) == (0, "", "")
+        assert call(capsys, "mission", "lift", "--out", str(file)) == (0, f"{file}\n", "")
         assert file.read_text(encoding="utf-8").startswith(begin)
     code, again, _ = call(capsys, "mission", str(tmp_path / "lift.toml"))
     assert (code, again) == (0, out)
