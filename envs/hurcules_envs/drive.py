@@ -348,10 +348,14 @@ class Drive(Environment):
         return np.clip(action, -1.0, 1.0)
 
     def camera(self) -> mujoco.MjvCamera:
-        """From above, with all places where the goal may lie."""
+        """From above, with all places where the goal may lie; of terrain from behind the start."""
         camera = mujoco.MjvCamera()
-        camera.lookat[:] = (0.0 if self.terrain == "flat" else 3.0, 0.0, 0.0)
-        camera.distance, camera.azimuth, camera.elevation = 11.0, 140.0, -45.0
+        if self.terrain == "flat":
+            camera.distance, camera.azimuth, camera.elevation = 11.0, 140.0, -45.0
+            return camera
+        middle = (2.6, 0.0)
+        camera.lookat[:] = (*middle, 0.2 + float(self._heights.at(np.array(middle))))
+        camera.distance, camera.azimuth, camera.elevation = 7.5, 50.0, -25.0
         return camera
 
     def visual_model(self) -> mujoco.MjModel:
