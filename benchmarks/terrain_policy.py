@@ -11,7 +11,6 @@ to 34. OUT has policy.onnx, and what was said, from which a run that was stopped
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from pathlib import Path
 from typing import Any
@@ -22,11 +21,11 @@ from numpy.typing import NDArray
 from torch import nn
 
 from hurcules_envs.imitation import demonstrate
-from hurcules_envs.onnx_file import Graph, Node, write
+from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import make_episodes
 from hurcules_envs.terrain import TERRAINS
-from hurcules_envs.torch_layers import add_layers, add_limits
+from hurcules_envs.torch_layers import add_layers, add_limits, add_standard
 
 NAME = "Hurcules/Drive-v0"
 GROUNDS = ("slope", "ramps", "stairs")  # each as its scene says
@@ -70,15 +69,12 @@ def fit(seen: Array, wanted: Array) -> tuple[nn.Sequential, Array, Array]:
 def save(path: Path, learnt: tuple[nn.Sequential, Array, Array], about: dict[str, Any]) -> None:
     """Writes the ONNX file, as `hurcules train` does; it cuts actions to [-1, 1]."""
     network, mean, spread = learnt
-    nodes = [
-        Node("Sub", ("observation", "mean"), ("centred",)),
-        Node("Div", ("centred", "spread"), ("seen",)),
-    ]
-    weights: dict[str, Any] = {"mean": mean, "spread": spread}
-    add_limits(add_layers(network, "seen", nodes, weights), nodes, weights)
+    nodes: list[Node] = []
+    weights: dict[str, Any] = {}
+    last = add_standard(mean, spread, nodes, weights)
+    add_limits(add_layers(network, last, nodes, weights), nodes, weights)
     sizes = {"observation": len(mean)}, {"action": network[-1].out_features}
-    texts = {name: v if isinstance(v, str) else json.dumps(v) for name, v in about.items()}
-    write(path, Graph(tuple(nodes), weights, *sizes, texts))
+    write(path, Graph(tuple(nodes), weights, *sizes, texts_of(about)))
 
 
 def main() -> None:

@@ -275,9 +275,7 @@ def require_finite(where: str, values: Array) -> None:
     Raises:
         hurcules.Error: there is one; the text says which, and of which episode.
     """
-    if not np.isfinite(values).all():
-        place = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
-        raise hurcules.Error(f"{where}: wanted finite numbers, got {values[place]} at {place}")
+    _require_none(~np.isfinite(values), f"{where}: wanted finite numbers", values)
 
 
 def require_no_nan(where: str, values: Array) -> None:
@@ -286,9 +284,14 @@ def require_no_nan(where: str, values: Array) -> None:
     Raises:
         hurcules.Error: there is one; the text says where.
     """
-    if np.isnan(values).any():
-        place = tuple(int(i) for i in np.argwhere(np.isnan(values))[0])
-        raise hurcules.Error(f"{where}: wanted numbers, got nan at {place}")
+    _require_none(np.isnan(values), f"{where}: wanted numbers", values)
+
+
+def _require_none(bad: NDArray[np.bool_], wanted: str, values: Array) -> None:
+    """An Error with the first bad one of the values, and its place."""
+    if bad.any():
+        place = tuple(int(i) for i in np.argwhere(bad)[0])
+        raise hurcules.Error(f"{wanted}, got {values[place]} at {place}")
 
 
 def require_whole(name: str, value: object, least: int) -> None:

@@ -274,12 +274,11 @@ class Drive(Environment):
     @cached_property
     def _edge(self) -> float:
         """Of the landing [m], along x."""
-        values = {name: value for name, value in self._scene.items() if name != "seed"}
-        return hurcules.scenes.scene(self.terrain, **values).end
+        return hurcules.scenes.scene(self.terrain, **self._scene).end
 
     @cached_property
     def _heights(self) -> Heights:
-        return Heights(hurcules.scenes.make(self.terrain, **self._scene))
+        return Heights(hurcules.scenes.make(self.terrain, seed=self.terrain_seed, **self._scene))
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Pose of the robot, pose that is wanted."""
@@ -338,11 +337,9 @@ class Drive(Environment):
         seen = self.observe(numbers)
         if self._climbs:
             speed, rate, legs = climb(seen, self._ground(numbers), numbers.memory)
-        elif self.terrain != "flat":
-            speed, rate = along(seen["goal"][:, :2], seen["goal"], 0.8)
-            legs = np.zeros_like(rate)
         else:
-            speed, rate = to_pose(seen["goal"])
+            goal, flat = seen["goal"], self.terrain == "flat"
+            speed, rate = to_pose(goal) if flat else along(goal[:, :2], goal, 0.8)
             legs = np.zeros_like(rate)
         action = np.stack([speed / SPEED, rate / YAW_RATE, legs / LEGS], axis=1)
         return np.clip(action, -1.0, 1.0)
@@ -371,7 +368,12 @@ class Drive(Environment):
 
     def _model(self, visuals: bool) -> mujoco.MjModel:
         return hurcules.models.load(
-            "rescue", self.terrain, bed=False, visuals=visuals, **self._scene
+            "rescue",
+            self.terrain,
+            bed=False,
+            visuals=visuals,
+            seed=self.terrain_seed,
+            **self._scene,
         )
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -10,9 +9,9 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.base_class import BaseAlgorithm
 
-from hurcules_envs.onnx_file import Graph, Node, write
+from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.sb3 import SCALE, GoalFeatures, Standardised
-from hurcules_envs.torch_layers import add_layers, add_limits
+from hurcules_envs.torch_layers import add_layers, add_limits, add_standard
 
 __all__ = ["export_policy"]
 
@@ -60,17 +59,11 @@ def export_policy(model: BaseAlgorithm, path: Path, metadata: Mapping[str, Any])
     else:
         inputs, last = {"observation": space.shape[0]}, "observation"
     if isinstance(features, Standardised):
-        weights |= {"mean": features.mean.numpy(), "spread": features.scale.numpy()}
-        nodes += [
-            Node("Sub", ("observation", "mean"), ("centred",)),
-            Node("Div", ("centred", "spread"), ("seen",)),
-        ]
-        last = "seen"
+        last = add_standard(features.mean.numpy(), features.scale.numpy(), nodes, weights)
     last = add_layers(layers, last, nodes, weights)
     if squashed:
         nodes.append(Node("Tanh", (last,), ("action",)))
     else:
         add_limits(last, nodes, weights)
-    texts = {n: v if isinstance(v, str) else json.dumps(v) for n, v in metadata.items()}
     action = {"action": model.action_space.shape[0]}
-    write(path, Graph(tuple(nodes), weights, inputs, action, texts))
+    write(path, Graph(tuple(nodes), weights, inputs, action, texts_of(metadata)))

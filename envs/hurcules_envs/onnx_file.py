@@ -6,6 +6,7 @@ operators 13). What is written here any program that knows ONNX reads.
 
 from __future__ import annotations
 
+import json
 import struct
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.output import write_whole
 
-__all__ = ["Graph", "Node", "read", "write"]
+__all__ = ["Graph", "Node", "read", "texts_of", "write"]
 
 IR_VERSION, OPERATORS = 8, 13
 FLOAT = 1  # TensorProto.DataType
@@ -58,6 +59,11 @@ class Graph:
     inputs: Mapping[str, int]
     outputs: Mapping[str, int]
     metadata: Mapping[str, str] = field(default_factory=dict)
+
+
+def texts_of(about: Mapping[str, Any]) -> dict[str, str]:
+    """What a file says about itself as the metadata of a graph: what is no text as JSON."""
+    return {name: one if isinstance(one, str) else json.dumps(one) for name, one in about.items()}
 
 
 def write(path: Path, graph: Graph) -> None:

@@ -204,8 +204,7 @@ def fidelities_of(name: str) -> tuple[str, ...]:
     Args:
         name: its id.
     """
-    path = spec_of(name).kwargs.get("environment")
-    kind = _class_of(path) if path else None
+    kind = _class_in(spec_of(name))
     return kind.fidelities if kind and "fidelity" in _keywords(kind) else ()
 
 
@@ -217,8 +216,8 @@ def takes(name: str, option: str) -> bool:
         option: the keyword.
     """
     known = gymnasium.registry.get(name.rpartition(":")[2])
-    path = known.kwargs.get("environment") if known else None
-    return path is not None and option in _keywords(_class_of(path))
+    kind = _class_in(known) if known else None
+    return kind is not None and option in _keywords(kind)
 
 
 def steps_of_episode(name: str, options: Mapping[str, Any]) -> int | None:
@@ -263,6 +262,12 @@ def usual_rate(known: EnvSpec, otherwise: float) -> float:
     """
     of_class = _keywords(_class_of(known.kwargs["environment"])).get("rate")
     return float(known.kwargs.get("rate", of_class.default if of_class else otherwise))
+
+
+def _class_in(spec: EnvSpec) -> type[Environment] | None:
+    """The class behind an id; none of what is no `Environment`."""
+    path = spec.kwargs.get("environment")
+    return _class_of(path) if path else None
 
 
 def _class_of(path: str) -> type[Environment]:

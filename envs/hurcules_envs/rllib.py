@@ -20,7 +20,7 @@ from torch import nn
 
 import hurcules
 from hurcules.interrupts import Interrupts
-from hurcules_envs.onnx_file import Graph, Node, write
+from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.run_folder import open_run, write_settings
 from hurcules_envs.torch_layers import add_layers, add_limits
 
@@ -237,5 +237,4 @@ def _export(algorithm: Algorithm, path: Path, about: Mapping[str, Any]) -> None:
     weights: dict[str, Any] = {}
     add_limits(add_layers([*hidden, means], "observation", nodes, weights), nodes, weights)
     inputs = {"observation": module.observation_space.shape[0]}
-    texts = {n: v if isinstance(v, str) else json.dumps(v) for n, v in about.items()}
-    write(path, Graph(tuple(nodes), weights, inputs, {"action": size}, texts))
+    write(path, Graph(tuple(nodes), weights, inputs, {"action": size}, texts_of(about)))

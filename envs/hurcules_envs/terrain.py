@@ -32,7 +32,7 @@ ABOVE = 10.0  # [m] from where it is measured
 
 
 def scene_of(terrain: str, seed: int) -> dict[str, Any]:
-    """Parameters of a terrain's scene, its seed too.
+    """Parameters of a terrain's scene.
 
     Args:
         terrain: one of `TERRAINS`.
@@ -41,7 +41,7 @@ def scene_of(terrain: str, seed: int) -> dict[str, Any]:
     ranges = RANGES.get(terrain, {}) if seed else {}
     generator = np.random.default_rng(seed)
     drawn = {name: float(generator.uniform(*between)) for name, between in ranges.items()}
-    return {"seed": seed} | TERRAINS[terrain] | drawn
+    return TERRAINS[terrain] | drawn
 
 
 class Heights:

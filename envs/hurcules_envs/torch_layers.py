@@ -12,7 +12,7 @@ from torch import nn
 import hurcules
 from hurcules_envs.onnx_file import Node
 
-__all__ = ["add_layers", "add_limits"]
+__all__ = ["add_layers", "add_limits", "add_standard"]
 
 _ACTIVATIONS = {nn.Tanh: "Tanh", nn.ReLU: "Relu"}
 
@@ -34,6 +34,16 @@ def add_layers(
             raise hurcules.Error(f"ONNX: the layer {type(layer).__name__} is not known")
         last = out
     return last
+
+
+def add_standard(mean: Any, spread: Any, nodes: list[Node], weights: dict[str, Any]) -> str:
+    """Adds what takes `observation` to mean 0 and spread 1; gives the name of what comes out."""
+    weights |= {"mean": mean, "spread": spread}
+    nodes += [
+        Node("Sub", ("observation", "mean"), ("centred",)),
+        Node("Div", ("centred", "spread"), ("seen",)),
+    ]
+    return "seen"
 
 
 def add_limits(last: str, nodes: list[Node], weights: dict[str, Any]) -> None:

@@ -6,7 +6,8 @@ import importlib.util
 import inspect
 import sys
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
@@ -38,12 +39,8 @@ def make(path: str, seed: int = 0, parameters: Mapping[str, Any] | None = None) 
         Error: no file, no such function, a parameter that it has not, or another result.
     """
     function = bound(path, seed, parameters)
-    try:
+    with _its_own_errors(Path(path)):
         made = function()
-    except Error:
-        raise
-    except Exception as error:
-        raise _its_own(Path(path), error) from error
     if not isinstance(made, Simulation):
         raise Error(f"{path}: {FUNCTION}() wants to return a hurcules.Simulation, got {made!r}")
     return made
@@ -97,24 +94,27 @@ def _module(file: Path, changed: int) -> ModuleType:
     if (folder := str(file.parent)) not in sys.path:
         sys.path.insert(0, folder)  # as for a script: it may import its neighbours
     try:
-        spec.loader.exec_module(module)
+        with _its_own_errors(file):
+            spec.loader.exec_module(module)
     except SystemExit as end:
         raise Error(f"{file}: it ends by itself (exit {end.code}) where it is imported") from end
-    except Error:
-        raise
-    except Exception as error:
-        raise _its_own(file, error) from error
     return module
 
 
-def _its_own(file: Path, error: Exception) -> Error:
-    """What went wrong in a file, and in which of its lines."""
-    if isinstance(error, SyntaxError):
-        return Error(f"{file}, line {error.lineno}: {error.msg}")
-    frames = traceback.extract_tb(error.__traceback__)
-    lines = [one.lineno for one in frames if Path(one.filename) == file.resolve()]
-    line = f", line {lines[-1]}" if lines else ""
-    return Error(f"{file}{line}: {type(error).__name__}: {error}")
+@contextmanager
+def _its_own_errors(file: Path) -> Iterator[None]:
+    """Around what a file does: an Error says what went wrong, and in which of its lines."""
+    try:
+        yield
+    except Error:
+        raise
+    except SyntaxError as error:
+        raise Error(f"{file}, line {error.lineno}: {error.msg}") from error
+    except Exception as error:
+        frames = traceback.extract_tb(error.__traceback__)
+        lines = [one.lineno for one in frames if Path(one.filename) == file.resolve()]
+        line = f", line {lines[-1]}" if lines else ""
+        raise Error(f"{file}{line}: {type(error).__name__}: {error}") from error
 
 
 def _function(path: str) -> Callable[..., Any]:

@@ -182,19 +182,14 @@ class Player:
         self, name: str, moving: list[int], q: NDArray[np.float64], qd: NDArray[np.float64]
     ) -> Result:
         """Ticks, a row of places and speeds of the moving motors each; the others stay."""
-        places = np.tile(self.reference, (len(q), 1))
-        speeds = np.zeros_like(places)
-        places[:, moving], speeds[:, moving] = q, qd
+        speed = np.zeros(len(self.joints))
 
         def step(i: int) -> int:
-            self.reference = places[i]
-            self.controller.move_all(self.reference, speeds[i])
+            self.reference[moving], speed[moving] = q[i], qd[i]
+            self.controller.move_all(self.reference, speed)
             return self.simulation.step(1)
 
-        try:
-            return self._run(name, len(q), step)
-        finally:
-            self.reference = self.reference.copy()  # not a row that keeps them all
+        return self._run(name, len(q), step)
 
     def _run(self, name: str, ticks: int, step: Callable[[int], int]) -> Result:
         """Ticks, watched."""
