@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Integral, Real
 from types import MappingProxyType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import mujoco
 import numpy as np
@@ -23,11 +23,12 @@ from hurcules.drawing import overview
 from hurcules.rendering import pose
 from hurcules.validation import require_known
 
-__all__ = ["Array", "Environment", "Group", "Numbers", "Start", "tick_of", "told"]
+__all__ = ["Array", "Environment", "Group", "Numbers", "Places", "Start", "tick_of", "told"]
 
 Array = NDArray[np.float64]
+Kept = TypeVar("Kept")
 
-FIDELITIES = {"exact": 1e-3, "fast": 4e-3, "kinematic": 25e-3}  # [s] longest control tick
+FIDELITIES = {"exact": 1e-3, "fast": 4e-3, "kinematic": 50e-3}  # [s] longest control tick
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,24 @@ class Start:
     info: Mapping[str, float] = field(default_factory=dict)
 
 
+class Places(dict[str, slice]):
+    """Where quantities stand in a row of what is read, by name."""
+
+    def __init__(self, places: Mapping[str, slice]) -> None:
+        super().__init__(places)
+        self._runs: dict[tuple[str, ...], slice | None] = {}
+
+    def run(self, names: tuple[str, ...]) -> slice | None:
+        """Of several that stand side by side in this order; None: they do not."""
+        if names not in self._runs:
+            places = [self.get(name) for name in names]
+            ends = [place.stop for place in places if place is not None]
+            starts = [place.start for place in places if place is not None]
+            joined = None not in places and ends[:-1] == starts[1:]
+            self._runs[names] = slice(starts[0], ends[-1]) if joined else None
+        return self._runs[names]
+
+
 class Numbers:
     """What is known after a step, by name, one row an episode.
 
@@ -81,7 +100,7 @@ class Numbers:
     def __init__(
         self,
         values: Array,
-        places: Mapping[str, slice],
+        places: Places,
         memory: dict[str, Array],
         action: Array,
         dt: float,
@@ -96,7 +115,7 @@ class Numbers:
         self.finished = finished
         self._endings = endings
         self._rows: dict[tuple[str, ...], Array] = {}
-        self._computed: dict[str, Array] = {}
+        self._computed: dict[str, Any] = {}
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
@@ -121,6 +140,9 @@ class Numbers:
 
     def row(self, *names: str) -> Array:
         """Several of them side by side, (n, ...); not to be written to."""
+        run = self._places.run(names)
+        if run is not None:
+            return self._values[:, run]
         row = self._rows.get(names)
         if row is None:
             row = np.concatenate([self[name] for name in names], axis=1)
@@ -128,17 +150,22 @@ class Numbers:
                 self._rows[names] = row
         return row
 
-    def once(self, name: str, compute: Callable[[], Array]) -> Array:
-        """What is computed of the quantities: by the first call, kept for those that follow.
+    def once(self, name: str, compute: Callable[[], Kept]) -> Kept:
+        """What is computed after a step: by the first call, kept for those that follow.
 
         Args:
             name: under which it is kept.
-            compute: gives the array, which is not to be written to. The memory may still change
-                within a step: it must not depend on that.
+            compute: gives what is kept, and not to be written to. If it takes entries of the
+                memory, `remember` asks for it when it has updated these.
         """
         if name not in self._computed:
             self._computed[name] = compute()
-        return self._computed[name]
+        kept: Kept = self._computed[name]
+        return kept
+
+    def forget(self) -> None:
+        """Has all be computed anew: episodes that stood still got their memory back."""
+        self._computed.clear()
 
 
 class Environment(ABC):
@@ -293,7 +320,7 @@ def tick_of(fidelity: str, rate: float, known: tuple[str, ...] = tuple(FIDELITIE
     """Control tick [s]: the longest of this fidelity that divides the period of the policy.
 
     Args:
-        fidelity: "exact" (1 ms), "fast" (about 4 ms) or "kinematic" (no physics, about 25 ms).
+        fidelity: "exact" (1 ms), "fast" (about 4 ms) or "kinematic" (no physics, about 50 ms).
         rate: steps of the policy a second [Hz], 10 to 100.
         known: fidelities that the environment has.
 

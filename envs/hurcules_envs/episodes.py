@@ -28,7 +28,7 @@ from hurcules_envs.checks import (
     warn_of_still_things,
 )
 from hurcules_envs.copies import GENERATOR, generator_numbers, generator_state
-from hurcules_envs.environment import Array, Environment, Numbers, Start
+from hurcules_envs.environment import Array, Environment, Numbers, Places, Start
 from hurcules_envs.randomisation import Randomisation
 
 __all__ = ["Episodes", "Step", "numbers_of", "seeds_of", "state_of"]
@@ -122,10 +122,12 @@ class Episodes:
         names = [*environment.quantities, "finished", *_WATCHED]
         self._quantities = hurcules.Quantities(simulation, names)
         stops = np.cumsum(self._quantities.sizes)
-        self._places = {
-            name: slice(int(stop) - size, int(stop))
-            for name, size, stop in zip(names, self._quantities.sizes, stops, strict=True)
-        }
+        self._places = Places(
+            {
+                name: slice(int(stop) - size, int(stop))
+                for name, size, stop in zip(names, self._quantities.sizes, stops, strict=True)
+            }
+        )
         self._values: Array | None = None  # what is read now; None: nobody has
         self._commands = _Commands(environment)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
@@ -133,6 +135,7 @@ class Episodes:
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
         self._terms = set(environment.terms)
+        self._rewards = [(name, f"reward_{name}") for name in environment.terms]  # in info
         self._told: set[str] | None = None  # names of `tell`
         self._action = np.zeros((n, len(self.action_scale)))
         self._worst = np.zeros(n)
@@ -360,6 +363,7 @@ class Episodes:
         self._asked.remember(numbers)
         for name, values in kept.items():
             self.memory[name][~mask] = values
+        numbers.forget()
 
     def _go(self, phases: Mapping[int, str]) -> None:
         for i, phase in phases.items():
@@ -450,15 +454,16 @@ class Episodes:
         ending: NDArray[np.int64],
     ) -> dict[str, NDArray[Any]]:
         columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
-        columns[np.isnan(columns)] = 0.0  # the margin of a robot that cannot tip
         watched = dict(zip(_WATCHED.values(), columns, strict=True))
+        margin = watched["support_margin"]
+        margin[np.isnan(margin)] = 0.0  # of a robot that cannot tip
         excess = watched["limit_excess"]
         cost = watched["limit_excess_now"] > EXCESS
         cost |= excess > np.maximum(self._worst, EXCESS)  # within the step
         cost |= watched["self_contacts"] > 0.0
         cost |= self._asked.costs(numbers)
         self._worst[:] = excess
-        info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
+        info: dict[str, NDArray[Any]] = {where: terms[name] for name, where in self._rewards}
         info |= {"is_success": success, "failed": failure, "ending": ending}
         info["cost"] = cost.astype(np.float64)
         info |= watched

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from numbers import Real
-from typing import Any
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -28,6 +28,14 @@ STIFF = 60.0  # [rad/s] a spring of a higher frequency is not felt at the policy
 TURN = 0.3  # [m/rad] what an angle counts in the reward
 GAIN = 3.0  # [1/s] of the expert
 TILT = 0.35  # [rad] of what it stands on: it falls
+
+
+class _Errors(NamedTuple):
+    """Of hands, any leading axes."""
+
+    distance: Array  # (..., h) [m]
+    angle: Array  # (..., h) [rad]; of no use where hands may turn as they like
+    within: NDArray[np.bool_]  # (...) all of them
 
 
 class Reach(Environment):
@@ -151,9 +159,8 @@ class Reach(Environment):
         """How the hands swing, and how long they have been at their goals."""
         if self._swings is not None:
             self._swing(numbers, self._swings)
-        distance, angle = self._errors(*self.goals(numbers))
         held = numbers.memory["held"]
-        held[:, 0] = (held[:, 0] + numbers.dt) * self._at_goal(distance, angle)
+        held[:, 0] = (held[:, 0] + numbers.dt) * self._errors_now(numbers).within
         numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
@@ -168,22 +175,15 @@ class Reach(Environment):
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """Where the hands are, and where they are wanted."""
-        hands = self._hands(numbers)
         if self.angle is None:
-            return hands, numbers["goal"]
-        parts = []
-        for i, frame in enumerate(self.setup.hands):
-            parts += [hands[:, 3 * i : 3 * i + 3], quaternion(numbers[f"rotation/{frame}"])]
-        return np.concatenate(parts, axis=1), numbers["goal"]
+            return self._hands(numbers), numbers["goal"]
+        return numbers.once("poses", lambda: self._poses(numbers)), numbers["goal"]
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Distance, nearness, 1 for all hands within the tolerance, effort."""
         effort = np.einsum("ni,ni->n", numbers.action, numbers.action)
         effort *= -EFFORT * (not self.sparse) / numbers.action.shape[1]
-        # as they are seen, so that `compute_reward` of an observation gives the same bits
-        achieved, desired = (goal.astype(np.float32).astype(float) for goal in self.goals(numbers))
-        terms = self._terms(achieved, desired)
-        return terms | {"effort": effort}
+        return self._terms(self._errors_now(numbers)) | {"effort": effort}
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
         """The reward of other goals, any leading axes; the effort is that of `info`.
@@ -193,7 +193,7 @@ class Reach(Environment):
             desired: (..., g).
             info: of a step, of several in a vector, or a sequence of those of single ones.
         """
-        terms = self._terms(np.asarray(achieved, float), np.asarray(desired, float))
+        terms = self._terms(self._errors(np.asarray(achieved, float), np.asarray(desired, float)))
         reward = sum(terms.values()) + told(info, "reward_effort")
         return float(reward) if np.ndim(reward) == 0 else reward
 
@@ -305,33 +305,47 @@ class Reach(Environment):
     def _hands(self, numbers: Numbers) -> Array:
         """(n, 3 h) [m] where the hands are; without physics, where springs let them be."""
         planned = self._planned(numbers)
-        return planned if self._swings is None else planned + numbers["sway"]
+        if self._swings is None:
+            return planned
+        return numbers.once("hands", lambda: planned + numbers["sway"])
 
-    def _terms(self, achieved: Array, desired: Array) -> dict[str, Array]:
-        distance, angle = self._errors(achieved, desired)
-        shaped = 0.0 if self.sparse else 1.0
-        error = distance if self.angle is None else distance + TURN * angle
-        return {
-            "distance": -shaped * _mean(error),
-            "nearness": shaped * _mean(1.0 - np.tanh(error / NEAR)),
-            "success": self._at_goal(distance, angle).astype(np.float64),
-        }
+    def _poses(self, numbers: Numbers) -> Array:
+        """(n, 7 h) place and turn of each hand."""
+        hands, parts = self._hands(numbers), []
+        for i, frame in enumerate(self.setup.hands):
+            parts += [hands[:, 3 * i : 3 * i + 3], quaternion(numbers[f"rotation/{frame}"])]
+        return np.concatenate(parts, axis=1)
 
-    def _at_goal(self, distance: Array, angle: Array) -> NDArray[np.bool_]:
-        near = np.maximum.reduce(distance, axis=-1) < self.tolerance
-        if self.angle is None:
-            return np.asarray(near)
-        return np.asarray(near & (np.maximum.reduce(angle, axis=-1) < self.angle))
+    def _errors_now(self, numbers: Numbers) -> _Errors:
+        """Of the goals as they are seen, so that `compute_reward` of them gives the same bits."""
 
-    def _errors(self, one: Array, other: Array) -> tuple[Array, Array]:
-        """Distances [m] and angles [rad] of the hands, (..., h) each."""
+        def compute() -> _Errors:
+            goals = self.goals(numbers)
+            return self._errors(*(goal.astype(np.float32).astype(float) for goal in goals))
+
+        return numbers.once("errors", compute)
+
+    def _errors(self, one: Array, other: Array) -> _Errors:
         one = one.reshape(*one.shape[:-1], -1, self._size)
         other = other.reshape(*other.shape[:-1], -1, self._size)
         difference = one[..., :3] - other[..., :3]
         distance = np.sqrt(np.einsum("...i,...i->...", difference, difference))
+        within = np.maximum.reduce(distance, axis=-1) < self.tolerance
         if self.angle is None:
-            return distance, _NO_ANGLE
-        return distance, angle_between(one[..., 3:], other[..., 3:])
+            return _Errors(distance, _NO_ANGLE, within)
+        angle = angle_between(one[..., 3:], other[..., 3:])
+        return _Errors(distance, angle, within & (np.maximum.reduce(angle, axis=-1) < self.angle))
+
+    def _terms(self, errors: _Errors) -> dict[str, Array]:
+        shaped = 0.0 if self.sparse else 1.0
+        error = errors.distance
+        if self.angle is not None:
+            error = error + TURN * errors.angle
+        return {
+            "distance": -shaped * _mean(error),
+            "nearness": shaped * _mean(1.0 - np.tanh(error / NEAR)),
+            "success": errors.within.astype(np.float64),
+        }
 
 
 _NO_ANGLE = np.zeros(())
