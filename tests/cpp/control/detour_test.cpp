@@ -17,13 +17,13 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 // the first link turns by 2.6 rad to either side, the second by 2.5
-constexpr const char* kPlanarArm = R"(<mujoco><compiler angle="radian"/><worldbody>
+constexpr const char* kTwoLinks = R"(<mujoco><compiler angle="radian"/><worldbody>
 <body><joint name="shoulder" axis="0 0 1" range="-2.6 2.6"/>
 <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.03"/>
 <body pos="0.5 0 0"><joint name="elbow" axis="0 0 1" range="-2.5 2.5"/>
 <geom type="capsule" fromto="0 0 0 0.45 0 0" size="0.03"/><site name="hand" pos="0.5 0 0"/></body>
 </body></worldbody><actuator><motor joint="shoulder"/><motor joint="elbow"/></actuator></mujoco>)";
-constexpr double kDt = 0.005, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTick = 0.005, kInfinity = std::numeric_limits<double>::infinity();
 
 Vector3 hand_at(double shoulder, double elbow) {
   return {0.5 * std::cos(shoulder) + 0.5 * std::cos(shoulder + elbow),
@@ -40,18 +40,18 @@ class DetourOfAnArm : public testing::Test {
   // what was decided, in so many seconds
   std::vector<std::string> run(Detour& detour, double seconds) {
     std::vector<std::string> decisions;
-    for (int i = 0; i < std::lround(seconds / kDt); ++i) {
+    for (int i = 0; i < std::lround(seconds / kTick); ++i) {
       controller_.step(robot_);
-      if (detour.look(robot_, controller_.velocity(), kDt))
+      if (detour.look(robot_, controller_.velocity(), kTick))
         controller_.set_stack(detour.on_the_way() ? detour.way() : detour.direct());
       if (!detour.decision().empty()) decisions.push_back(detour.decision());
     }
     return decisions;
   }
 
-  Robot robot_{load_model_text(kPlanarArm)};
+  Robot robot_{load_model_text(kTwoLinks)};
   PositionTask hand_{"hand", robot_, "hand"};
-  VelocityController controller_{robot_, {.dt = kDt}};
+  VelocityController controller_{robot_, {.dt = kTick}};
 };
 
 // 0.3 m beyond an arm of 1 m, where the first link cannot turn on to
@@ -144,7 +144,7 @@ TEST_F(DetourOfAnArm, WhatIsNoneIsRefused) {
       error_text([&] { Detour(robot_, {}, {StackLevel(hand_)}, {}, {.tolerance = -1.0}); }),
       "tolerance"));
   Detour detour(robot_, {}, {StackLevel(hand_)});
-  EXPECT_TRUE(contains(error_text([&] { detour.look(robot_, Vector::Zero(3), kDt); }),
+  EXPECT_TRUE(contains(error_text([&] { detour.look(robot_, Vector::Zero(3), kTick); }),
                        "2 finite numbers, got 3"));
 }
 

@@ -21,7 +21,7 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
-constexpr double kDt = 1e-3;
+constexpr double kPeriod = 1e-3;
 
 ForceTaskOptions first_order(double C, double G, double blend = 0.1) {
   ForceTaskOptions options;
@@ -53,7 +53,7 @@ struct Press {
   }
   // largest change of a joint speed in a tick [rad/s]
   void tick(double approach) {
-    force.advance(Vector::Constant(1, approach), kDt);
+    force.advance(Vector::Constant(1, approach), kPeriod);
     force.sense(robot, lost ? std::numeric_limits<double>::quiet_NaN() : reading());
     const Vector before = velocity.velocity();
     velocity.compute(robot);
@@ -117,7 +117,7 @@ TEST(ForceTask, KeepsTheForceWhileTheTipSlides) {
   double worst = 0.0;
   const double start = press.robot.position(press.tip).x();
   for (int i = 0; i < 2000; ++i) {
-    press.across.advance(Eigen::Vector2d(0.05, 0.0), kDt);
+    press.across.advance(Eigen::Vector2d(0.05, 0.0), kPeriod);
     press.tick(0.0);
     worst = std::max(worst, std::abs(press.reading() + 5.0));
   }
@@ -245,7 +245,7 @@ struct AccelerationPress : Press {
   void accelerate(int ticks, double approach) {
     Vector q(robot.size()), v(robot.size());
     for (int i = 0; i < ticks; ++i) {
-      force_law->advance(Vector::Constant(1, approach), kDt);
+      force_law->advance(Vector::Constant(1, approach), kPeriod);
       force_law->sense(robot, reading());
       controller.compute(robot);
       follow(controller, robot, q, v);
@@ -323,7 +323,7 @@ TEST(ForceTask, AllocatesNothingInATick) {
   const Vector approach = Vector::Constant(1, -0.02);
   const NoAllocation guard;
   for (int i = 0; i < 300; ++i) {
-    press.force.advance(approach, kDt);
+    press.force.advance(approach, kPeriod);
     press.force.sense(press.robot, press.reading());
     press.velocity.compute(press.robot);
     press.velocity.integrate(q);

@@ -4,7 +4,6 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "hurcules/mission/mission_simulation.hpp"
 #include "support/expect.hpp"
@@ -28,10 +27,6 @@ MissionOptions usual() {
   options.sensors.range.rays = 50;
   options.sensors.range.model.noise = 0.01;
   return options;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 // after the beginning of the stretch the joints move: 4 s of it with a fault at 3 s

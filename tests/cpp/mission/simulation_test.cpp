@@ -3,7 +3,6 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <memory>
 
@@ -25,10 +24,6 @@ MissionOptions quiet(std::uint64_t seed = 3) {
 }
 
 // figures that have not happened are NaN: compared by their bits
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
 // A simulation on data that the test may disturb.
 struct Borrowed {
   explicit Borrowed(const MissionOptions& options = quiet())

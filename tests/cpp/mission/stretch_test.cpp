@@ -18,8 +18,8 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 // The run is made once and looked at by all tests.
-struct Recorded {
-  Recorded() {
+struct StretchRun {
+  StretchRun() {
     plan.stand_on(stretch.setup().support);
     plan.set_keyframe(stretch.setup().keyframe);
     controller->reset(plan.qpos());
@@ -68,7 +68,7 @@ struct Recorded {
   Vector lean_start;
 };
 
-void has_the_five_levels_of_the_thesis(const Recorded& run) {
+void has_the_five_levels_of_the_thesis(const StretchRun& run) {
   SCOPED_TRACE("has the five levels of the thesis");
   EXPECT_EQ(run.controller->law().stack().text(), "joint < hpos < hpitch < pel < gaze");
   const std::vector<Index> rows = {13, 6, 2, 1, 2};
@@ -78,14 +78,14 @@ void has_the_five_levels_of_the_thesis(const Recorded& run) {
   }
 }
 
-void both_arms_go_forward_by_the_command_alone(const Recorded& run) {
+void both_arms_go_forward_by_the_command_alone(const StretchRun& run) {
   SCOPED_TRACE("both arms go forward by the command alone");
   // S01
   EXPECT_NEAR(run.figure("stretched_m"), 0.875, 1e-9);
   EXPECT_TRUE(near(run.hand_moved, Vector3(0.875, 0, 0), 2e-4));
 }
 
-void hip_meets_its_limit_and_the_pelvis_begins_to_give_way(const Recorded& run) {
+void hip_meets_its_limit_and_the_pelvis_begins_to_give_way(const StretchRun& run) {
   SCOPED_TRACE("hip meets its limit and the pelvis begins to give way");
   // S02: thesis about 15 s; our geometry 14.3 (docs/design/robot.md#start-postures)
   EXPECT_NEAR(run.figure("hip_locked_s"), 14.3, 0.3);
@@ -93,7 +93,7 @@ void hip_meets_its_limit_and_the_pelvis_begins_to_give_way(const Recorded& run) 
   EXPECT_NEAR(run.highest.at("HIP"), 0.36, 1e-6);
 }
 
-void shoulder_meets_its_limit_and_the_hip_is_released(const Recorded& run) {
+void shoulder_meets_its_limit_and_the_hip_is_released(const StretchRun& run) {
   SCOPED_TRACE("shoulder meets its limit and the hip is released");
   // S03: thesis about 25 s, both at once; our geometry 23.7 and 23.8
   EXPECT_NEAR(run.figure("shoulder_locked_s"), 23.7, 0.3);
@@ -103,7 +103,7 @@ void shoulder_meets_its_limit_and_the_hip_is_released(const Recorded& run) {
   EXPECT_LT(run.plan.configuration()[run.plan.coordinate("HIP")], 0.0);
 }
 
-void pelvis_ends_forty_centimetres_off_and_hands_do_not(const Recorded& run) {
+void pelvis_ends_forty_centimetres_off_and_hands_do_not(const StretchRun& run) {
   SCOPED_TRACE("pelvis ends forty centimetres off and hands do not");
   // S05
   EXPECT_NEAR(run.figure("pelvis_error_m"), 0.40, 0.005);
@@ -111,7 +111,7 @@ void pelvis_ends_forty_centimetres_off_and_hands_do_not(const Recorded& run) {
   EXPECT_LT(run.figure("pitch_error_max_rad"), 2e-4);
 }
 
-void no_limit_is_ever_exceeded_and_every_solve_is_good(const Recorded& run) {
+void no_limit_is_ever_exceeded_and_every_solve_is_good(const StretchRun& run) {
   SCOPED_TRACE("no limit is ever exceeded and every solve is good");
   for (const ModeRange& range : rescue_ready_ranges()) {
     EXPECT_LE(run.highest.at(range.coordinate), range.upper) << range.coordinate;
@@ -120,27 +120,27 @@ void no_limit_is_ever_exceeded_and_every_solve_is_good(const Recorded& run) {
   EXPECT_LT(run.fastest, 1.5);
 }
 
-void lasts_as_long_as_its_command(const Recorded& run) {
+void lasts_as_long_as_its_command(const StretchRun& run) {
   SCOPED_TRACE("lasts as long as its command");
   EXPECT_NEAR(run.time, 2.0 + 0.875 / 0.0215 + 2.0, 2e-3);
   EXPECT_LT(run.time, run.stretch.setup().max_seconds);
 }
 
-void the_operator_presses_half_of_full_scale(const Recorded& run) {
+void the_operator_presses_half_of_full_scale(const StretchRun& run) {
   SCOPED_TRACE("the operator presses half of full scale");
   ASSERT_EQ(run.controller->command_names().size(), 11U);
   EXPECT_EQ(run.controller->command_names()[0], "left_hand_x");
   EXPECT_EQ(run.controller->scale()[0], 2.0 * 0.0215);
 }
 
-void mode_ranges_narrow_the_robots_own(const Recorded& run) {
+void mode_ranges_narrow_the_robots_own(const StretchRun& run) {
   SCOPED_TRACE("mode ranges narrow the robots own");
   JointLimits limits("joint", run.plan);
   set_ranges(limits, rescue_ready_ranges());  // throws where one is wider
   EXPECT_EQ(limits.upper()[run.plan.coordinate("HIP")], 0.36);
 }
 
-void servo_reckons_with_the_inertia_of_the_model(const Recorded& run) {
+void servo_reckons_with_the_inertia_of_the_model(const StretchRun& run) {
   SCOPED_TRACE("servo reckons with the inertia of the model");
   // diagonal of the joint-space inertia at both ends of the stretch; the knees share theirs
   Robot robot(run.plan.model());
@@ -163,7 +163,7 @@ void servo_reckons_with_the_inertia_of_the_model(const Recorded& run) {
 }
 
 TEST(Stretch, KeepsTheClaimsOfTheThesis) {
-  const Recorded run;
+  const StretchRun run;
   has_the_five_levels_of_the_thesis(run);
   both_arms_go_forward_by_the_command_alone(run);
   hip_meets_its_limit_and_the_pelvis_begins_to_give_way(run);

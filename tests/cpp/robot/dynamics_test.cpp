@@ -18,13 +18,13 @@ namespace {
 using namespace hurcules;
 using namespace hurcules_test;
 
-struct Case {
+struct ChainCase {
   const char* name;
   const char* model;
   const char* support;  // "" for the root
 };
 
-class Dynamics : public testing::TestWithParam<Case> {
+class Dynamics : public testing::TestWithParam<ChainCase> {
  protected:
   Dynamics() {
     if (*GetParam().support) robot_.stand_on(GetParam().support);
@@ -72,8 +72,8 @@ TEST_P(Dynamics, TorqueTimesVelocityIsTheRateOfEnergy) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryKind, Dynamics,
-                         testing::Values(Case{"Arm", kArm, ""}, Case{"Twin", kTwin, ""},
-                                         Case{"TwinOnALeg", kTwin, "leg_l"}),
+                         testing::Values(ChainCase{"Arm", kArm, ""}, ChainCase{"Twin", kTwin, ""},
+                                         ChainCase{"TwinOnALeg", kTwin, "leg_l"}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(AngularMomentum, IsMuJoCosAndChangesByItsDrift) {

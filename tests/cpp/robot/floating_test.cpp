@@ -15,14 +15,14 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 // a robot of MuJoCo's own coordinates
-struct Case {
+struct SiteCase {
   std::string name;
   ModelPtr model;
   bool floating;
   std::string site;
 };
 
-class OfMuJoCo : public testing::TestWithParam<Case> {
+class OfMuJoCo : public testing::TestWithParam<SiteCase> {
  protected:
   // Jacobian of the site's origin or of its turn, at a configuration
   Matrix jacobian(const Vector& qpos, bool turn) {
@@ -104,9 +104,9 @@ TEST_P(OfMuJoCo, GoesAStepFurtherAsMuJoCoDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, OfMuJoCo,
-                         testing::Values(Case{"Floating", quadruped(), true, "hand"},
-                                         Case{"BallJoints", load_model_text(kBallArm), false,
-                                              "tip"}),
+                         testing::Values(SiteCase{"Floating", quadruped(), true, "hand"},
+                                         SiteCase{"BallJoints", load_model_text(kBallArm), false,
+                                                  "tip"}),
                          [](const auto& test) { return test.param.name; });
 
 class Floating : public testing::Test {

@@ -11,14 +11,14 @@ namespace {
 using namespace hurcules;
 using Trouble = SensorMonitor::Trouble;
 
-constexpr double kDt = 0.001;
+constexpr double kPeriod = 0.001;
 
 class SensorMonitorTest : public testing::Test {
  protected:
   // a tick in which the coordinate goes on at `speed`; the encoders say what `said` makes of it
   template <typename Said>
   SensorMonitor::Finding tick(double speed, Said&& said) {
-    q_[0] += kDt * speed;
+    q_[0] += kPeriod * speed;
     position_ << -2.0 * q_[0], 1.0;
     speed_ << -2.0 * speed, 0.0;
     said(position_, speed_);
@@ -33,7 +33,7 @@ class SensorMonitorTest : public testing::Test {
     return most;
   }
 
-  SensorMonitor monitor_{{{0, -2.0}, {}}, kDt};
+  SensorMonitor monitor_{{{0, -2.0}, {}}, kPeriod};
   Vector q_ = Vector::Zero(1), position_ = Vector::Zero(2), speed_ = Vector::Zero(2);
   SensorMonitor::Finding found_;
 };
@@ -77,7 +77,7 @@ TEST_F(SensorMonitorTest, GoesOnTheSameAfterARestore) {
   std::vector<double> state;
   StateWriter writer(state);
   monitor_.save(writer);
-  SensorMonitor other({{0, -2.0}, {}}, kDt);
+  SensorMonitor other({{0, -2.0}, {}}, kPeriod);
   StateReader reader(state);
   other.restore(reader);
   EXPECT_TRUE(reader.at_end());

@@ -3,7 +3,6 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 #include "hurcules/sim/simulation_batch.hpp"
@@ -76,10 +75,6 @@ Simulation simulate(const char* actuators = kMotors, bool physics = true) {
   options.record = false;
   options.physics = physics;
   return {model, make(model), options};
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 TEST(WholeBody, StandsStillUnderGravityFromTheFirstTick) {

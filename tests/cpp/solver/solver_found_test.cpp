@@ -16,8 +16,6 @@ namespace {
 
 using namespace hurcules_test;
 
-constexpr double kInf = kNoLimit;
-
 void expect_solved(const Hierarchy& levels, Index unknowns) {
   Solver solver(unknowns);
   for (const char* start : {"cold", "warm"}) {
@@ -42,8 +40,8 @@ TEST(SolverFound, AWeakRowTakesXFarAway) {
                 4);
   expect_solved(
       {interval(Matrix{{0.0, 0.0, 0.001, 1.0, 0.0}}, Vector{{1.9375}}, Vector{{2.9375}}, 0.0),
-       make_bounds(Vector{{-kInf, -kInf, -kInf, -kInf, -kInf}},
-                   Vector{{kInf, kInf, 2.0 + 1e-14, -999.999, kInf}}),
+       make_bounds(Vector{{-kNoLimit, -kNoLimit, -kNoLimit, -kNoLimit, -kNoLimit}},
+                   Vector{{kNoLimit, kNoLimit, 2.0 + 1e-14, -999.999, kNoLimit}}),
        equality(Matrix{{0.001, 0.001, 0.001, 0.001, 0.001}}, Vector{{0.001}}, 0.0)},
       5);
 }
@@ -54,9 +52,9 @@ TEST(SolverFound, RoundingBehindAWeakRowIsNoDirection) {
     Matrix A = Matrix::Zero(2, 7);
     A.rightCols(5).setConstant(weak);
     A(0, 2) = -1.8125;
-    Vector lower = Vector::Constant(7, -kInf);
+    Vector lower = Vector::Constant(7, -kNoLimit);
     lower[2] = 0.5;
-    const Hierarchy levels = {make_bounds(lower, Vector::Constant(7, kInf)),
+    const Hierarchy levels = {make_bounds(lower, Vector::Constant(7, kNoLimit)),
                               equality(A, Vector{{weak, weak}}, 0.0)};
     expect_solved(levels, 7);
     // both violations of opposite signs and one size
@@ -68,8 +66,8 @@ TEST(SolverFound, RoundingBehindAWeakRowIsNoDirection) {
 
 TEST(SolverFound, ABoundBelowPullsAgainstAOneSidedBoundAbove) {
   const Hierarchy levels = {
-      make_bounds(Vector{{0.25, 0.5, -kInf}}, Vector{{0.25, 1.5, -0.75}}),
-      make_bounds(Vector{{-0.75, -kInf, -0.5}}, Vector{{-0.75, 1.25, -0.25}})};
+      make_bounds(Vector{{0.25, 0.5, -kNoLimit}}, Vector{{0.25, 1.5, -0.75}}),
+      make_bounds(Vector{{-0.75, -kNoLimit, -0.5}}, Vector{{-0.75, 1.25, -0.25}})};
   expect_solved(levels, 3);
   Solver solver(3);
   EXPECT_LE((solver.solve(levels).x - Vector{{0.25, 0.5, -0.75}}).norm(), 1e-12);
@@ -101,10 +99,10 @@ TEST(SolverFound, ParallelRowsWithTinyRegularisationStayOnTheirLine) {
 TEST(SolverFound, AWeakRowBesideAStrongLimitIsMet) {
   // 0.001 x1 = 0.001 below nothing, with -2 x1 + 0.001 x2 >= 2 in the same level: both can be met
   expect_solved({interval(Matrix{{-2.0, 0.001}, {0.001, 0.0}}, Vector{{2.0, 0.001}},
-                          Vector{{kInf, 0.001}}, 0.0)},
+                          Vector{{kNoLimit, 0.001}}, 0.0)},
                 2);
   expect_solved({interval(Matrix{{-1000.0, -1.0}, {0.001, 0.001}}, Vector{{0.001, 0.001}},
-                          Vector{{kInf, 0.001}}, 0.0)},
+                          Vector{{kNoLimit, 0.001}}, 0.0)},
                 2);
 }
 
@@ -131,7 +129,7 @@ TEST(SolverFound, AWeakEqualityBesideALimitWithTinyRegularisation) {
   expect_solved({interval(Matrix{{278.2129685317737, 1565.6117451807434},
                                  {1.3243626947064973, 7.3961667753724463}},
                           Vector{{-115304.7805787222, -201.31391881575274}},
-                          Vector{{-115304.7805787222, kInf}}, 1e-9)},
+                          Vector{{-115304.7805787222, kNoLimit}}, 1e-9)},
                 2);
 }
 
@@ -195,8 +193,9 @@ TEST(SolverFound, CopiesOfARowEachMetToRoundingAreNotMetTogether) {
 TEST(SolverFound, TinyRegularisationDecidesBetweenTwoUnknownsOfEqualWorth) {
   // rho is 1e-8 below a row of length 2000 that is in conflict
   expect_solved(
-      {make_bounds(Vector{{0.001, -kInf, 2.0, 0.001, 0.001, -kInf, -kInf, -kInf}},
-                   Vector{{1.001, -999.999999999, 2.000000001, 1.001, kInf, -998.0, -998.0, 4.0}}),
+      {make_bounds(
+           Vector{{0.001, -kNoLimit, 2.0, 0.001, 0.001, -kNoLimit, -kNoLimit, -kNoLimit}},
+           Vector{{1.001, -999.999999999, 2.000000001, 1.001, kNoLimit, -998.0, -998.0, 4.0}}),
        equality(Matrix{{-1000.0, -1000.0, -1000.0, -1000.0, 2.0, 0.001, 0.001, -0.001},
                        {0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001}},
                 Vector{{0.001, 0.001}}, 1e-8),
@@ -216,8 +215,8 @@ TEST(SolverFound, DirectionsOfWeakRowsBehindWeakRowsTurnByBoth) {
        interval(Matrix{{1.0, -3.0, 2.0, 1.43994140625, 0.5, -1.425537109375, -2.0, 0.0},
                        {0.5, -1.0, -1000.0, -2.0, 1000.0, -2.0, 0.5, -1.0},
                        {-4.0, 2.0, -3.2783203125, 1.76123046875, -0.999, 0.0, 1.0, -2.0}},
-                Vector{{-1.845703125, -1.0, 1.882080078125}}, Vector{{-1.845703125, -1.0, kInf}},
-                1e-5),
+                Vector{{-1.845703125, -1.0, 1.882080078125}},
+                Vector{{-1.845703125, -1.0, kNoLimit}}, 1e-5),
        equality(Matrix{{-0.4019541015625, 0.805908203125, 805.908203125, 1.61181640625,
                         -805.908203125, 1.61181640625, -0.4029541015625, 0.805908203125},
                        {2.0, 1.09521484375, 0.5, -2.0, -0.5, -2.0, -0.2431640625, -0.32470703125},
@@ -230,14 +229,14 @@ TEST(SolverFound, AnInterruptedSolveStaysInsideTheBoundsAbove) {
   const Matrix row{{-1000.0, -1000.0, 30.0, 0.001, 0.001, 0.001, -1000.0, -1000.0}};
   const Vector fixed{{3.0, 0.001, 0.001, 0.001, 1.0, 2.0}};
   Vector lower(8), upper(8);
-  lower << fixed, -kInf, -kInf;
+  lower << fixed, -kNoLimit, -kNoLimit;
   upper << fixed, -998.0, -998.0;
   const Hierarchy limited = {make_bounds(lower, upper),
-                             interval(row, Vector{{-kInf}}, Vector{{-1.0}}, 1e-8)};
+                             interval(row, Vector{{-kNoLimit}}, Vector{{-1.0}}, 1e-8)};
   const Hierarchy boxes = {make_bounds(Vector{{0.0, 0.0, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0}},
                                        Vector{{0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0}}),
                            make_bounds(Vector{{0.0, 0.0, 0.0, 1.0, -0.5, 0.5, -0.5, 1.0}},
-                                       Vector{{0.0, 0.0, 0.0, 1.0, -0.5, kInf, -0.5, 2.0}}),
+                                       Vector{{0.0, 0.0, 0.0, 1.0, -0.5, kNoLimit, -0.5, 2.0}}),
                            make_bounds(Vector::Zero(8), Vector::Zero(8))};
   for (const Hierarchy& levels : {limited, boxes}) {
     for (int limit = 1; limit <= 10; ++limit) {
@@ -258,9 +257,9 @@ TEST(SolverFound, AnswerAtTheLimitOfChangesIsProvenBeforeItIsDoubted) {
   const Matrix last{{-3.9150493741035461, 0.0}, {0.80615234375, 1.0}, {2.0, -0.541015625}};
   const Hierarchy levels = {
       interval(first, Vector{{3.0, 2.0}}, Vector{{3.001, 4.0}}, 0.1),
-      interval(second, Vector{{1.0, -1.0}}, Vector{{kInf, -0.999}}, 1.0),
+      interval(second, Vector{{1.0, -1.0}}, Vector{{kNoLimit, -0.999}}, 1.0),
       interval(last, Vector{{2.0, 1.0, -0.0869140625}},
-               Vector{{2.0000000000000102, kInf, -0.086914062499989994}}, 0.1)};
+               Vector{{2.0000000000000102, kNoLimit, -0.086914062499989994}}, 0.1)};
   for (int limit = 1; limit <= 10; ++limit) {
     Solver solver(2, {.max_changes = limit});
     const SolverStatus status = solver.solve(levels).status;
@@ -269,7 +268,7 @@ TEST(SolverFound, AnswerAtTheLimitOfChangesIsProvenBeforeItIsDoubted) {
 }
 
 TEST(SolverFound, SidesBeyondInfinityAreRefusedBySolveAsByCheck) {
-  const Hierarchy no_upper = {make_bounds(Vector{{1e300}}, Vector{{kInf}})};
+  const Hierarchy no_upper = {make_bounds(Vector{{1e300}}, Vector{{kNoLimit}})};
   const Hierarchy at_infinity = {equality(Matrix{{1.0}}, Vector{{-1e20}}, 0.0)};
   for (const Hierarchy& levels : {no_upper, at_infinity}) {
     EXPECT_THROW(check(levels, 1), Error);

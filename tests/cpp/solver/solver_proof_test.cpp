@@ -12,10 +12,7 @@
 
 namespace hurcules {
 namespace {
-
 using namespace hurcules_test;
-
-constexpr double kProven = 1e-9;  // "Must show" of the solver: residual relative to its forces
 
 class SolverProof : public EachClass {};
 

@@ -22,7 +22,6 @@ namespace {
 
 using namespace hurcules_test;
 
-constexpr double kProven = 1e-9;  // "Must show" of the solver
 constexpr unsigned kSeeds = 6;
 const SolverOptions kSmooth{.handover = Handover::Smooth};
 

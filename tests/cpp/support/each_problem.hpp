@@ -14,6 +14,9 @@
 
 namespace hurcules_test {
 
+inline constexpr double kProven =
+    1e-9;  // "Must show" of the solver: residual relative to its forces
+
 class EachClass : public testing::TestWithParam<HierarchyClass> {
  protected:
   // check(levels, draw): `draw` is for what the check itself chooses

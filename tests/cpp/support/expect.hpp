@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/types.hpp"
@@ -30,6 +32,10 @@ inline testing::AssertionResult near(const hurcules::Matrix& actual, const hurcu
          << "worst difference " << worst << " > " << tolerance(allowed) << "\nactual\n"
          << actual << "\nwanted\n"
          << wanted;
+}
+
+inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 // what the Error of `action` says, "" when there was none

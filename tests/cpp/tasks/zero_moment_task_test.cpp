@@ -21,16 +21,16 @@ using namespace hurcules;
 using namespace hurcules_test;
 
 const Matrix kSquare = (Matrix(4, 2) << -0.3, -0.2, 0.4, -0.2, 0.4, 0.25, -0.3, 0.25).finished();
-constexpr double kStep = 1e-5;  // [s]
+constexpr double kNudge = 1e-5;  // [s]
 
 // qvel of the robot at q and v, by differences of qpos
 Vector qvel_at(Robot& robot, const Vector& q, const Vector& v) {
   const mjModel* const m = robot.model().get();
-  robot.set_configuration(q + kStep * v);
+  robot.set_configuration(q + kNudge * v);
   const Vector ahead = robot.qpos();
-  robot.set_configuration(q - kStep * v);
+  robot.set_configuration(q - kNudge * v);
   Vector qvel(m->nv);
-  mj_differentiatePos(m, qvel.data(), 2.0 * kStep, robot.qpos().data(), ahead.data());
+  mj_differentiatePos(m, qvel.data(), 2.0 * kNudge, robot.qpos().data(), ahead.data());
   robot.set_configuration(q);
   return qvel;
 }
