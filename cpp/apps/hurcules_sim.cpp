@@ -4,10 +4,12 @@
 // usage, 128 and the signal's number after Ctrl-C, SIGTERM or SIGHUP (130, 143, 129); what was
 // recorded until then is saved.
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <iostream>
@@ -41,7 +43,7 @@ std::ofstream open(const std::string& file) {
   std::ofstream out;
   if (file.empty()) return out;
   out.open(file);
-  hurcules::require(out.is_open(), "file '" + file + "' cannot be written");
+  hurcules::require(out.is_open(), "file '" + file + "' cannot be written: " + std::strerror(errno));
   return out;
 }
 

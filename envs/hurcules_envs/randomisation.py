@@ -301,7 +301,9 @@ class _Range:
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
-    def __get__(self, env: Any, owner: type) -> Range:
+    def __get__(self, env: Any, owner: type) -> Any:
+        if env is None:  # asked of the class
+            return self
         return env._episodes.randomisation.ranges[self._name]
 
     def __set__(self, env: Any, value: Any) -> None:
@@ -318,6 +320,22 @@ class Ranged:
     action_delay = _Range()
     push = _Range()
     payload = _Range()
+
+    _made = False  # of a class of one's own never: it may say of itself what it likes
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Sets an attribute.
+
+        Raises:
+            hurcules.Error: one that nobody would read, `frictoin` say.
+        """
+        known = name.startswith("_") or name in self.__dict__ or hasattr(type(self), name)
+        if self._made and not known:
+            raise hurcules.Error(
+                f"attribute '{name}' does not exist; to be set there are: {', '.join(NAMES)}; all "
+                "else is said by keyword where the environment is made"
+            )
+        super().__setattr__(name, value)
 
 
 def _load(model: mujoco.MjModel, frame: str, mass: float) -> None:

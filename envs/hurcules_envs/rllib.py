@@ -19,7 +19,7 @@ from ray.rllib.env.single_agent_env_runner import SingleAgentEnvRunner
 from torch import nn
 
 import hurcules
-from hurcules.interrupts import Interrupts
+from hurcules.interrupts import Interrupts, unheard_by_children
 from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.run_folder import open_run, write_settings
 from hurcules_envs.torch_layers import add_layers, add_limits
@@ -184,7 +184,8 @@ def _connect(address: str) -> None:
         except (OSError, OverflowError) as error:  # Ray itself tries for minutes
             raise hurcules.Error(f"--ray: nothing answers at {address}: {error}") from error
     try:
-        ray.init(address=None if address == "local" else address, ignore_reinit_error=True)
+        with unheard_by_children():  # of the cluster on this machine
+            ray.init(address=None if address == "local" else address, ignore_reinit_error=True)
     except (ConnectionError, ValueError, RuntimeError) as error:
         raise hurcules.Error(f"--ray {address}: {error}") from error
 

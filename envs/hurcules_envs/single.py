@@ -105,6 +105,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._window = ExitStack()  # waits for the viewer's thread
         self._due = 0.0  # [s] when the next step may be shown
         self._views = Views(self.environment, width, height)
+        self._made = type(self) is SingleEnv
 
     @property
     def dt(self) -> float:

@@ -26,6 +26,7 @@ from hurcules_envs.registry import make_environment, warn_of_rate
 __all__ = ["NativeVectorEnv"]
 
 MODES = ("rgb_array",)
+_CALLED = ("observe", "get_state")  # by `call`
 
 
 class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
@@ -114,6 +115,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         self._steps = np.full(num_envs, -1, dtype=np.int64)  # -1: not begun
         self._over = np.zeros(num_envs, dtype=bool)
         self._begun = False  # all of them
+        self._made = type(self) is NativeVectorEnv
 
     @property
     def dt(self) -> float:
@@ -253,14 +255,56 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         assert self._views is not None
         return tuple(self._views.take(self._episodes, i) for i in range(self.num_envs))
 
-    def call(self, name: str) -> tuple[Any, ...]:
-        """`call("render")` is a picture of each episode: so trainers ask Gymnasium's own vectors.
+    def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
+        """What an episode answers, one each, as Gymnasium's own vectors are asked.
+
+        Args:
+            name: render, observe, get_state, or an attribute (`get_attr`).
+            args: of the method.
+            kwargs: the same.
 
         Raises:
-            hurcules.Error: another name.
+            hurcules.Error: another method, or a name that does not exist.
         """
-        hurcules.validation.require_known("call", name, ("render",))
-        return self.render() or (None,) * self.num_envs
+        if name == "render":
+            return self.render() or (None,) * self.num_envs
+        if name in _CALLED:
+            answers = getattr(self, name)(*args, **kwargs)
+            return tuple(_row(answers, i) for i in range(self.num_envs))
+        if callable(getattr(self, name, None)):
+            hurcules.validation.require_known("call", name, ("render", *_CALLED, "an attribute"))
+        return self.get_attr(name)
+
+    def get_attr(self, name: str) -> tuple[Any, ...]:
+        """An attribute of an episode, one each; all have the same, spaces are those of one.
+
+        Raises:
+            hurcules.Error: it does not exist.
+        """
+        for its in (f"single_{name}", name):
+            if hasattr(self, its):
+                return (getattr(self, its),) * self.num_envs
+        raise hurcules.Error(f"attribute '{name}' of the vector does not exist")
+
+    def set_attr(self, name: str, values: Any) -> None:
+        """Sets an attribute, `friction` say: from the next episodes on.
+
+        Args:
+            name: of the attribute.
+            values: one for all, or, in a list or tuple, one each, all the same. A range of two
+                episodes is [(0.4, 1.4)] * 2, of any vector `vector.friction = 0.4, 1.4`.
+
+        Raises:
+            hurcules.Error: other values, or an attribute that does not exist.
+        """
+        each = list(values) if isinstance(values, (list, tuple)) else [values] * self.num_envs
+        if len(each) != self.num_envs or any(one != each[0] for one in each):
+            raise hurcules.Error(
+                f"set_attr: wanted one value, or a list of {self.num_envs} that are the same, for "
+                f"an attribute is the vector's, got {values!r}; a range is set by "
+                f"vector.{name} = (least, most)"
+            )
+        setattr(self, name, each[0])
 
     def close_extras(self, **kwargs: Any) -> None:
         """Gives the renderers back."""

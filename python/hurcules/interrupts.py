@@ -16,7 +16,7 @@ from typing import Any
 
 from hurcules.outlet import to_nowhere
 
-__all__ = ["Interrupts", "as_ctrl_c"]
+__all__ = ["Interrupts", "as_ctrl_c", "unheard_by_children"]
 
 ENDS = (signal.SIGTERM, signal.SIGHUP)
 
@@ -36,6 +36,20 @@ def as_ctrl_c() -> Iterator[None]:
     finally:
         for number in taken:
             signal.signal(number, signal.SIG_DFL)
+
+
+@contextmanager
+def unheard_by_children() -> Iterator[None]:
+    """Processes that are started while this is entered never hear SIGTERM and SIGHUP.
+
+    For helpers that saving needs: a queue sends SIGTERM to all processes of a job at once. Who
+    started them ends them by SIGKILL.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class Interrupts:

@@ -80,6 +80,34 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
         ),
         r"one control period dt.* got 0\.05 s at dt = 0\.1 s",
     ),
+    "period": (
+        lambda: hurcules.VelocityController(robot(), hurcules.VelocityControllerOptions(dt=0.0)),
+        r"dt wants a positive time \[s\], 0 came",
+    ),
+    "stiffness": (
+        lambda: hurcules.AccelerationController(
+            robot(), hurcules.AccelerationControllerOptions(stiffness=-1.0)
+        ),
+        r"stiffness wants a number >= 0 \[1/s\^2\], -1 came",
+    ),
+    "margin of distances": (
+        lambda: hurcules.self_collision(robot(), margin=0.2),
+        r"margin .* below `most`, 0.15 m, 0.2 came",
+    ),
+    "target of a task": (
+        lambda: hurcules.PositionTask("hand", robot(), "hand").set_target([0.0, np.nan, 0.0]),
+        "target of task 'hand' wants finite numbers, number 1 is nan",
+    ),
+    "rows of a task": (
+        lambda: hurcules.CustomTask("own", robot(), 0, lambda _: ([], [])),
+        "rows of task 'own' want a number >= 1, 0 came",
+    ),
+    "start of a reset": (
+        lambda: hurcules.Simulation(model=arm_model(), controller=whole_body()).reset(
+            0, start=np.zeros(9)
+        ),
+        "wants 1 numbers?, 9 came",
+    ),
     "obstacle": (
         lambda: hurcules.obstacles(robot(), bodies=["crate"]),
         "body 'crate' does not exist; there are: world",

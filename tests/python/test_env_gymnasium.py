@@ -1,5 +1,6 @@
 """The environments inside Gymnasium: its checker, registration, vectors, storage, pictures."""
 
+import copy
 import json
 import os
 import pickle
@@ -15,6 +16,7 @@ from gymnasium.utils.env_checker import check_env
 import hurcules
 from environments import IDS, env, same
 from hurcules_envs.base import HurculesEnv
+from hurcules_envs.single import SingleEnv
 
 __all__ = ["env"]
 
@@ -80,8 +82,66 @@ def test_a_vector_is_asked_for_pictures_as_gymnasiums_own() -> None:
         vector.reset(seed=0)
         with pytest.warns(UserWarning, match="render"):
             assert vector.call("render") == (None, None)
-    with pytest.raises(hurcules.Error, match="there are: render"):
-        vector.call("friction")
+    with pytest.raises(hurcules.Error, match="call 'close' does not exist; there are: render"):
+        vector.call("close")
+
+
+def test_a_vector_is_asked_for_attributes_as_gymnasiums_own() -> None:
+    own, native = (
+        gymnasium.make_vec(
+            "Hurcules/Reach-v0", num_envs=3, fidelity="fast", vectorization_mode=mode
+        )
+        for mode in ("sync", "vector_entry_point")
+    )
+    ranges = (0.4, 1.4)
+    for vector in (own, native):
+        vector.reset(seed=3)
+        vector.set_attr("friction", [ranges] * 3)
+        vector.set_attr("mass", 1.1)
+        assert vector.get_attr("friction") == (ranges,) * 3
+        assert vector.get_attr("mass") == ((1.1, 1.1),) * 3
+        assert vector.get_attr("dt") == (0.05,) * 3
+        assert vector.reset(seed=3)[1]["drawn_mass"].tolist() == [1.1] * 3
+    for name in ("action_space", "observation_space", "task_description"):
+        assert own.get_attr(name) == native.get_attr(name)
+    for seen, alone in zip(native.call("observe", noise=False), own.call("observe"), strict=True):
+        assert all(np.array_equal(seen[part], alone[part]) for part in alone)
+    assert np.array_equal(native.call("get_state")[2], native.get_state()[2])
+    assert native.call("friction") == own.call("friction")
+    with pytest.raises(
+        hurcules.Error, match=r"list of 3 .* got \(0.4, 1.4\); .* vector.friction ="
+    ):
+        native.set_attr("friction", ranges)
+    with pytest.raises(hurcules.Error, match="3 that are the same"):
+        native.set_attr("friction", [0.5, 0.5, 0.6])
+    with pytest.raises(hurcules.Error, match="attribute 'frictoin' of the vector does not exist"):
+        native.get_attr("frictoin")
+
+
+@pytest.mark.parametrize("name", ["frictoin", "max_episode_steps", "rate"])
+def test_an_attribute_that_nobody_reads_is_refused(name: str) -> None:
+    """`env.unwrapped.max_episode_steps = 5` was taken in silence and changed nothing."""
+    single = gymnasium.make("Hurcules/Reach-v0", fidelity="kinematic")
+    vector = gymnasium.make_vec("Hurcules/Reach-v0", num_envs=2, fidelity="kinematic")
+    for one in (single.unwrapped, copy.deepcopy(single).unwrapped, vector, copy.deepcopy(vector)):
+        with pytest.raises(
+            hurcules.Error, match=f"attribute '{name}' .* there are: friction, mass"
+        ):
+            setattr(one, name, 5)
+    with pytest.raises(hurcules.Error, match=f"attribute '{name}'"):
+        vector.set_attr(name, 5)
+
+
+def test_a_class_of_ones_own_has_attributes_of_its_own() -> None:
+    class Counted(SingleEnv):
+        def __init__(self) -> None:
+            super().__init__("hurcules_envs.reach:Reach", fidelity="kinematic")
+            self.count = 0
+
+    counted = Counted()
+    counted.count += 1
+    counted.label = "first"
+    assert (counted.count, counted.label) == (1, "first")
 
 
 def test_drawing_does_not_disturb_the_run(env: HurculesEnv) -> None:

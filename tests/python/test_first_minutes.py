@@ -17,6 +17,7 @@ import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -24,7 +25,7 @@ import pytest
 
 import hurcules
 from hurcules import cli, extras, legend, rhqp
-from hurcules.interrupts import Interrupts
+from hurcules.interrupts import Interrupts, unheard_by_children
 
 COMMAND = [sys.executable, "-m", "hurcules"]
 
@@ -207,6 +208,21 @@ def test_a_signal_is_noted_a_second_one_ends(number: signal.Signals) -> None:
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(number)
     assert signal.getsignal(number) == before
+
+
+def test_a_child_that_saving_needs_does_not_hear_sigterm() -> None:
+    """A queue sent it to Ray's own processes too, and nothing of a training was saved."""
+    words = [sys.executable, "-c", "input(); print('goes on')"]
+    pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with unheard_by_children():
+        kept = subprocess.Popen(words, **pipes)
+    other = subprocess.Popen(words, **pipes)
+    for child in (kept, other):
+        child.send_signal(signal.SIGTERM)
+    assert kept.communicate("\n")[0] == "goes on\n"
+    assert other.communicate()[0] == ""
+    assert (kept.returncode, other.returncode) == (0, -signal.SIGTERM)
+    assert not signal.pthread_sigmask(signal.SIG_BLOCK, ()) & {signal.SIGTERM, signal.SIGHUP}
 
 
 def test_what_was_not_made_is_shown_by_tracebacks_that_show_variables() -> None:

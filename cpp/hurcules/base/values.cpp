@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 
 namespace hurcules {
 
@@ -29,6 +30,10 @@ void require_values(std::string_view what, const ConstVectorRef& values, Index w
     throw Error(std::string(what) + " wants finite numbers, number " + std::to_string(i) + " is " +
                 std::to_string(values[i]));
   }
+}
+
+void require_number(bool holds, std::string_view wanted, double came) {
+  if (!holds) throw Error(std::string(wanted) + ", " + number_text(came) + " came");
 }
 
 }  // namespace hurcules

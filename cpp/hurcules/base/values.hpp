@@ -14,4 +14,7 @@ void require_shape(std::string_view what, const MatrixRef& matrix, Index rows, I
 // as many, and finite: "qpos wants finite numbers, number 2 is nan"
 void require_values(std::string_view what, const ConstVectorRef& values, Index wanted);
 
+// "dt wants a positive time [s], 0 came" unless it holds
+void require_number(bool holds, std::string_view wanted, double came);
+
 }  // namespace hurcules

@@ -7,6 +7,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/control/limit_rows.hpp"
 #include "hurcules/tasks/force_task.hpp"
 #include "hurcules/tasks/torque_limits.hpp"
@@ -22,21 +23,25 @@ constexpr double kSteepest = 0.05;
 
 void check(const AccelerationControllerOptions& options) {
   const double dt = options.dt, K = options.stiffness, L = options.damping;
-  require(std::isfinite(dt) && dt > 0.0, "dt wants a positive time [s]");
-  require(std::isfinite(K) && K >= 0.0, "stiffness wants a number >= 0 [1/s^2]");
-  require(std::isfinite(L) && L > 0.0, "damping wants a positive number [1/s]");
+  require_number(std::isfinite(dt) && dt > 0.0, "dt wants a positive time [s]", dt);
+  require_number(std::isfinite(K) && K >= 0.0, "stiffness wants a number >= 0 [1/s^2]", K);
+  require_number(std::isfinite(L) && L > 0.0, "damping wants a positive number [1/s]", L);
   // held for dt, an acceleration turns the speed beyond L dt = 2; a third of it leaves room
   require(L * dt < 0.66 && K * dt * dt < 0.1,
           "stiffness and damping are too high for a control period of " + number_text(dt) +
-              " s: damping * dt < 0.66 and stiffness * dt^2 < 0.1 are wanted");
+              " s: damping * dt < 0.66 and stiffness * dt^2 < 0.1 are wanted, " + number_text(L) +
+              " 1/s and " + number_text(K) + " 1/s^2 came");
   require(std::isfinite(options.horizon) && options.horizon >= dt,
           "horizon wants a time of at least one control period dt, else a limit is passed; got " +
               number_text(options.horizon) + " s at dt = " + number_text(dt) + " s");
-  require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
-  require(options.rest >= 0.0 && options.rest * dt < 0.66,
-          "rest wants a rate >= 0 [1/s], below 0.66 / dt");
-  require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
-  require(options.friction >= 0.0 && options.friction <= 1.0, "friction wants a share from 0 to 1");
+  require_number(options.max_acceleration > 0.0,
+                 "max_acceleration wants a positive number [rad/s^2]", options.max_acceleration);
+  require_number(options.rest >= 0.0 && options.rest * dt < 0.66,
+                 "rest wants a rate >= 0 [1/s], below 0.66 / dt", options.rest);
+  require_number(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]",
+                 options.return_speed);
+  require_number(options.friction >= 0.0 && options.friction <= 1.0,
+                 "friction wants a share from 0 to 1", options.friction);
 }
 
 // drives give no more, whatever a limit above asks for; a free root has none, its first coordinates

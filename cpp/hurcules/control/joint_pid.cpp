@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -23,8 +24,8 @@ void check(const JointPidOptions& options) {
   const Index m = options.K.size();
   require(options.K_P.size() == m && options.K_I.size() == m && options.max_torque.size() == m,
           "K, K_P, K_I and max_torque want the same size; K has " + std::to_string(m));
-  require(positive(options.gamma), "gamma wants a positive number");
-  require(positive(options.dt), "dt wants a positive time [s]");
+  require_number(positive(options.gamma), "gamma wants a positive number", options.gamma);
+  require_number(positive(options.dt), "dt wants a positive time [s]", options.dt);
   for (Index i = 0; i < m; ++i) {
     require(positive(options.K[i]) && positive(options.K_P[i]) && positive(options.K_I[i]),
             "K, K_P and K_I want positive numbers" + at_joint(i));  // [T A.2.9]
@@ -32,7 +33,8 @@ void check(const JointPidOptions& options) {
         options.K_P[i] * options.K_P[i] > 2.0 * options.K_I[i],
         "the servo is robust only for K_P^2 > 2 K_I; got K_P = " + std::to_string(options.K_P[i]) +
             ", K_I = " + std::to_string(options.K_I[i]) + at_joint(i));  // [T A.2.9]
-    require(options.max_torque[i] > 0.0, "max_torque wants a positive number" + at_joint(i));
+    require_number(options.max_torque[i] > 0.0,
+                   "max_torque" + at_joint(i) + " wants a positive number", options.max_torque[i]);
   }
 }
 

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
 SpeedProfile::SpeedProfile(const SpeedLimits& limits, double dt) : limits_(limits), dt_(dt) {
-  require(std::isfinite(dt) && dt > 0.0, "dt wants a positive time [s]");
-  require(std::isfinite(limits.acceleration) && limits.acceleration > 0.0,
-          "a speed profile wants a positive acceleration");
-  require(std::isfinite(limits.jerk) && limits.jerk > 0.0, "a speed profile wants a positive jerk");
+  require_number(std::isfinite(dt) && dt > 0.0, "dt wants a positive time [s]", dt);
+  require_number(std::isfinite(limits.acceleration) && limits.acceleration > 0.0,
+                 "a speed profile wants a positive acceleration", limits.acceleration);
+  require_number(std::isfinite(limits.jerk) && limits.jerk > 0.0,
+                 "a speed profile wants a positive jerk", limits.jerk);
 }
 
 double SpeedProfile::advance(double target) {

@@ -19,8 +19,10 @@ namespace {
 constexpr double kForesight = 0.05;
 
 void check(const VelocityControllerOptions& options) {
-  require(std::isfinite(options.dt) && options.dt > 0.0, "dt wants a positive time [s]");
-  require(std::isfinite(options.gain) && options.gain >= 0.0, "gain wants a number >= 0 [1/s]");
+  require_number(std::isfinite(options.dt) && options.dt > 0.0, "dt wants a positive time [s]",
+                 options.dt);
+  require_number(std::isfinite(options.gain) && options.gain >= 0.0,
+                 "gain wants a number >= 0 [1/s]", options.gain);
   // an error that is corrected by more than itself in a period grows
   require(options.gain * options.dt <= 1.0, "gain * dt wants to be 1 at most, got " +
                                                 number_text(options.gain) + " 1/s at " +
@@ -28,10 +30,12 @@ void check(const VelocityControllerOptions& options) {
   require(std::isfinite(options.horizon) && options.horizon >= options.dt,
           "horizon wants a time of at least one control period dt, else a limit is passed; got " +
               number_text(options.horizon) + " s at dt = " + number_text(options.dt) + " s");
-  require(options.max_acceleration > 0.0, "max_acceleration wants a positive number [rad/s^2]");
-  require(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]");
-  require(std::isfinite(options.transition) && options.transition >= 0.0,
-          "transition wants a time >= 0 [s]");
+  require_number(options.max_acceleration > 0.0,
+                 "max_acceleration wants a positive number [rad/s^2]", options.max_acceleration);
+  require_number(options.return_speed > 0.0, "return_speed wants a positive number [rad/s]",
+                 options.return_speed);
+  require_number(std::isfinite(options.transition) && options.transition >= 0.0,
+                 "transition wants a time >= 0 [s]", options.transition);
 }
 
 // rows that bound accelerations: how J qdot may change in a time, from what it was at this velocity

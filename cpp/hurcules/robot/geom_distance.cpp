@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/robot/geom_bounds.hpp"
 #include "hurcules/robot/object_names.hpp"
 
@@ -88,7 +89,8 @@ GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, doub
       points_(points),
       seen_(count),
       near_(count) {
-  require(std::isfinite(most) && most > 0.0, "the largest distance wants a positive number [m]");
+  require_number(std::isfinite(most) && most > 0.0,
+                 "the largest distance wants a positive number [m]", most);
   for (const GeomPair& pair : pairs_) {
     for (const int geom : {pair.first, pair.second}) {
       require(model_->geom_type[geom] != mjGEOM_HFIELD,

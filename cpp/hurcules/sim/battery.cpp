@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -17,10 +17,12 @@ bool positive(double value) {
 }  // namespace
 
 Battery::Battery(const BatteryOptions& options) : options_(options), energy_(options.capacity) {
-  require(positive(options.capacity), "a battery wants a capacity above 0 [J]");
-  require(positive(options.voltage), "a battery wants a voltage above 0 [V]");
-  require(std::isfinite(options.resistance) && options.resistance >= 0.0,
-          "a battery wants a resistance >= 0 [Ohm]");
+  require_number(positive(options.capacity), "a battery wants a capacity above 0 [J]",
+                 options.capacity);
+  require_number(positive(options.voltage), "a battery wants a voltage above 0 [V]",
+                 options.voltage);
+  require_number(std::isfinite(options.resistance) && options.resistance >= 0.0,
+                 "a battery wants a resistance >= 0 [Ohm]", options.resistance);
 }
 
 double Battery::max_power() const {

@@ -13,6 +13,7 @@
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/control/tasks.hpp"
 #include "hurcules/robot/trees.hpp"
 
@@ -566,8 +567,7 @@ void Simulation::set_brake(const std::string& joint, bool closed) {
 }
 
 void Simulation::reset(std::uint64_t seed, const Vector* start) {
-  require(!start || (start->size() == plant_.model()->nq && start->allFinite()),
-          "a start wants qpos of " + std::to_string(plant_.model()->nq) + " finite numbers");
+  if (start) require_values("start, a qpos,", *start, plant_.model()->nq);
   begin(seed, start, false);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -31,12 +32,14 @@ std::string to_string(ContactState state) {
 ContactMonitor::ContactMonitor(const ContactOptions& options, const std::string& task)
     : options_(options) {
   const std::string of = " of force task '" + task + "' ";
-  require(std::isfinite(options.f_min) && options.f_min > 0.0,
-          "f_min" + of + "wants a positive number [N]");
-  require(options.f_max > options.f_min, "f_max" + of + "wants to be above f_min [N]");
+  require_number(std::isfinite(options.f_min) && options.f_min > 0.0,
+                 "f_min" + of + "wants a positive number [N]", options.f_min);
+  require_number(options.f_max > options.f_min, "f_max" + of + "wants to be above f_min [N]",
+                 options.f_max);
   require(options.release_time >= 0.0 && options.patience >= 0.0 && options.frozen_move >= 0.0,
           "release_time, patience and frozen_move" + of + "want numbers >= 0");
-  require(std::isfinite(options.dt) && options.dt > 0.0, "dt" + of + "wants a positive time [s]");
+  require_number(std::isfinite(options.dt) && options.dt > 0.0,
+                 "dt" + of + "wants a positive time [s]", options.dt);
   release_ = 0.5 * options.f_min;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -12,7 +13,8 @@ CustomTask::CustomTask(std::string name, const Robot& robot, Index rows, Measure
     : ValueTask(std::move(name), std::max(rows, Index{0}), robot),
       measure_(std::move(measure)),
       unit_(std::move(unit)) {
-  require(rows > 0, "rows of task '" + name_ + "' wants a number >= 1");
+  require_number(rows > 0, "rows of task '" + name_ + "' want a number >= 1",
+                 static_cast<double>(rows));
   require(static_cast<bool>(measure_), "task '" + name_ + "' wants a function that measures");
   CustomTask::hold(robot);
 }

@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/base/values.hpp"
 #include "hurcules/robot/object_names.hpp"
 #include "hurcules/robot/trees.hpp"
 
@@ -17,7 +19,8 @@ namespace {
 constexpr std::size_t kPoints = 4;
 
 Index rows_for(std::size_t pairs, Index most) {
-  require(most >= 1, "rows of a distance task want a number >= 1");
+  require_number(most >= 1, "rows of a distance task want a number >= 1",
+                 static_cast<double>(most));
   return std::clamp(static_cast<Index>(kPoints * pairs), Index{1}, most);
 }
 
@@ -69,10 +72,10 @@ DistanceTask::DistanceTask(std::string name, const Robot& robot,
 }
 
 void DistanceTask::make_rows(double margin) {
-  require(margin >= 0.0, "margin of task '" + name_ + "' wants 0 m or more");
-  require(
-      margin < most_,  // also for a number that is none
-      "margin of task '" + name_ + "' wants to be below the largest distance that it looks for");
+  require_number(margin >= 0.0 && margin < most_,  // also for a number that is none
+                 "margin of task '" + name_ + "' wants 0 m or more, below `most`, " +
+                     number_text(most_) + " m",
+                 margin);
   lower_.setConstant(margin);
   upper_.setConstant(std::numeric_limits<double>::infinity());
   max_speed_ = 0.5;

@@ -5,6 +5,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -71,16 +72,18 @@ double largest_stiffness(const ForceGains& gains) {
 
 void check_force_gains(const ForceGains& gains, double environment, const std::string& task) {
   const std::string of = " of force task '" + task + "' ";
-  require(positive(gains.dt), "dt" + of + "wants a positive time [s]");
-  require(positive(gains.compliance), "compliance" + of + "wants a positive number");
-  require(std::isfinite(environment) && environment >= 0.0,
-          "environment stiffness" + of + "wants a number >= 0 [N/m]");
+  require_number(positive(gains.dt), "dt" + of + "wants a positive time [s]", gains.dt);
+  require_number(positive(gains.compliance), "compliance" + of + "wants a positive number",
+                 gains.compliance);
+  require_number(std::isfinite(environment) && environment >= 0.0,
+                 "environment stiffness" + of + "wants a number >= 0 [N/m]", environment);
   if (gains.loop != ForceLoop::FirstOrder) {
     require(positive(gains.mass) && positive(gains.damping) && positive(gains.stiffness),
             "mass, damping and stiffness" + of + "want positive numbers");
   }
   const bool integral = gains.loop == ForceLoop::PositionIntegral;
-  require(!integral || positive(gains.integral), "integral gain" + of + "wants a positive number");
+  require_number(!integral || positive(gains.integral),
+                 "integral gain" + of + "wants a positive number", gains.integral);
   const double G = environment, M = gains.mass, L = gains.damping, C = gains.compliance;
   if (integral && G > 0.0) {
     const double most = L * (1.0 + C * G) / (M * G);  // Routh

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/base/number_text.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -49,17 +51,19 @@ ForceTask::ForceTask(std::string name, const Robot& robot, const std::string& fr
       force_des_(options.force_des) {
   if (options.reference == frame) own_ = robot.frame(frame);
   check_force_gains(options.gains, options.environment, name);
-  require(std::isfinite(options.blend) && options.blend >= 0.0,
-          "blend of force task '" + name + "' wants a time >= 0 [s]");
-  require(options.max_rate > 0.0 && options.max_rate * options.gains.dt < 1.0,
-          "max_rate of force task '" + name + "' wants to be positive and below 1 / dt");
+  require_number(std::isfinite(options.blend) && options.blend >= 0.0,
+                 "blend of force task '" + name + "' wants a time >= 0 [s]", options.blend);
+  require_number(options.max_rate > 0.0 && options.max_rate * options.gains.dt < 1.0,
+                 "max_rate of force task '" + name + "' wants to be positive and below 1 / dt",
+                 options.max_rate);
   set_force(options.force_des);
   ForceTask::hold(robot);
 }
 
 void ForceTask::set_force(double force_des) {
-  require(std::abs(force_des) < options_.contact.f_max,  // also for a number that is none
-          "force of task '" + name_ + "' wants to be below f_max");
+  if (!(std::abs(force_des) < options_.contact.f_max))  // also a number that is none
+    throw Error("force of task '" + name_ + "' wants to be below f_max, " +
+                number_text(options_.contact.f_max) + " N, " + number_text(force_des) + " came");
   force_des_ = force_des;
   monitor_.expect(force_des);
 }

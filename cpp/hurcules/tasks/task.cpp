@@ -5,6 +5,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
+#include "hurcules/base/values.hpp"
 
 namespace hurcules {
 
@@ -152,7 +153,7 @@ void Task::require_rows(const ConstVectorRef& values, const char* what) const {
 
 void Task::require_values(const ConstVectorRef& values, const char* what) const {
   if (!values.allFinite())
-    throw Error(std::string(what) + " of task '" + name_ + "' wants finite values");
+    hurcules::require_values(std::string(what) + " of task '" + name_ + "'", values, values.size());
   if (values.size() > 0 && values.cwiseAbs().maxCoeff() > kLargest)
     throw Error(std::string(what) + " of task '" + name_ + "' wants numbers up to 1e6, " +
                 number_text(values.cwiseAbs().maxCoeff()) + " came");
