@@ -1,11 +1,12 @@
 """A policy for terrain learns from Drive's expert, by DAgger.
 
-Run:  python benchmarks/terrain_policy.py [OUT] [--rounds 12] [--grounds slope ramps stairs]
+Run:  python benchmarks/terrain_policy.py [OUT] [--rounds 5] [--grounds slope ramps ...]
 
 In each round the policy as it is drives some episodes, the expert says what it would have done in
-each step, and a network learns all that was ever said (Ross, Gordon and Bagnell, 2011). In the
-first round the expert drives. What is drawn by a seed is in each round of three other ones of 20
-to 34. OUT has policy.onnx, and what was said, from which a run that was stopped goes on.
+each step, and a network learns all that was ever said (Ross, Gordon and Bagnell, 2011), what the
+expert says of steps that were altered a little, and the mirror image of both. In the first round
+the expert drives. Each round has other grounds, drawn by the seeds 100 to 399. OUT has policy.onnx,
+and what was said, from which a run that was stopped goes on.
 """
 
 from __future__ import annotations
@@ -20,43 +21,97 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
+from hurcules_envs.climbing import ASIDE
+from hurcules_envs.drive import CLIMBED, Drive
 from hurcules_envs.imitation import demonstrate
 from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import make_episodes
-from hurcules_envs.terrain import TERRAINS
+from hurcules_envs.terrain import AHEAD, BESIDE
 from hurcules_envs.torch_layers import add_layers, add_limits, add_standard
 
 NAME = "Hurcules/Drive-v0"
-GROUNDS = ("slope", "ramps", "stairs")  # each as its scene says
-SEEDS = range(20, 35)  # of the others
-EPISODES = 8  # of each ground a round
+GROUNDS = {  # how many a round
+    "flat": 1, "slope": 3, "ramps": 5, "stairs": 4, "step_field": 12, "rough_road": 1, "gravel": 1,
+    "sand": 1,
+}  # fmt: skip
+SEEDS = range(100, 400)  # of them
+EPISODES = 2  # of each ground
+# places in the observation: y and sine of the goal, velocity to the left, spin about x and z, the
+# vertical to the left, aside; the mirror is the world's plane of x and z
+SIDEWAYS = [1, 3, 5, 7, 9, 11, 243]
+FIRST = 20_000  # seed of the first episode; those that judge begin at 10,000
 WIDTH, BATCH, RATE = 128, 512, 2e-3  # of the hidden layers, samples a step, learning rate
-STEPS = 4000  # of Adam a round
+STEPS, LAST = 4000, 12_000  # of Adam a round; of the last one
 
 Array = NDArray[np.float32]
+Said = tuple[str, Array, Array]  # terrain, observations, actions of the expert
 
 
 def grounds(names: list[str], number: int) -> list[dict[str, Any]]:
     """Options of the environment in a round of this number."""
-    seeds = [SEEDS[(3 * number + i) % len(SEEDS)] for i in range(3)]
     return [
-        {"terrain": name, "terrain_seed": seed}
-        for name in names
-        for seed in ([0] if name in GROUNDS else seeds)
+        {"terrain": name, "blind": False}
+        | ({} if name == "flat" else {"terrain_seed": SEEDS[(number * n + i) % len(SEEDS)]})
+        for name, n in GROUNDS.items()
+        if name in names
+        for i in range(n)
     ]
 
 
-def fit(seen: Array, wanted: Array) -> tuple[nn.Sequential, Array, Array]:
+def mirrored(seen: Array, wanted: Array) -> tuple[Array, Array]:
+    """Observations and actions where left is right."""
+    other, turned = seen.copy(), wanted.copy()
+    other[:, SIDEWAYS] *= -1.0
+    other[:, 15:240] = seen[:, 15:240].reshape(-1, 25, 9)[:, :, ::-1].reshape(-1, 225)
+    turned[:, 1] *= -1.0
+    return other, turned
+
+
+def imagined(
+    seen: Array, environment: Drive, generator: np.random.Generator
+) -> tuple[Array, Array]:
+    """Observations that might have been, and what the expert does there.
+
+    What its law does not use is of another step, so that nothing is learnt from it.
+    """
+    stops = np.cumsum([group.size for group in environment.observation])
+    other = seen.copy()
+    names = [group.name for group in environment.observation]
+    parts = dict(zip(names, np.split(other, stops[:-1], axis=1), strict=True))  # views
+
+    def normal(deviation: float, *shape: int) -> Array:
+        return generator.normal(0.0, deviation, (len(seen), *shape)).astype(np.float32)
+
+    goal, turn = parts["goal"], normal(0.15)
+    goal[:, :2] += normal(0.1, 2)
+    turn += np.arctan2(goal[:, 3], goal[:, 2])
+    goal[:, 2], goal[:, 3] = np.cos(turn), np.sin(turn)
+    for name in ("velocity", "spin", "margin"):
+        parts[name][:] = generator.permutation(parts[name])
+    parts["up"][:, :2] += normal(0.08, 2)
+    parts["up"] /= np.linalg.norm(parts["up"], axis=1, keepdims=True)
+    parts["ground"] += normal(0.03, 1) + normal(0.05, 1) * np.repeat(AHEAD, len(BESIDE))
+    if environment.terrain in CLIMBED:
+        parts["legs"] += normal(0.15, 1)
+        phase = generator.integers(0, 4, len(seen))
+        parts["held"][:] = phase[:, None] > np.arange(3)
+        parts["aside"][:] = generator.choice([-ASIDE, 0.0, ASIDE], (len(seen), 1))
+    wanted = environment.law({name: part.astype(float) for name, part in parts.items()})
+    return other, wanted.astype(np.float32)
+
+
+def fit(seen: Array, wanted: Array, steps: int) -> tuple[nn.Sequential, Array, Array]:
     """A network that does what the expert wanted, and mean and deviation of what it sees."""
+    torch.set_num_threads(1)  # a small network: more threads only wait for each other
     torch.manual_seed(0)
     mean, spread = seen.mean(axis=0), seen.std(axis=0) + np.float32(1e-3)
     layers = [nn.Linear(seen.shape[1], WIDTH), nn.Tanh(), nn.Linear(WIDTH, WIDTH), nn.Tanh()]
     network = nn.Sequential(*layers, nn.Linear(WIDTH, wanted.shape[1]))
     x, y = torch.as_tensor((seen - mean) / spread), torch.as_tensor(wanted)
     optimiser = torch.optim.Adam(network.parameters(), RATE)
-    schedule = torch.optim.lr_scheduler.LinearLR(optimiser, 1.0, 0.0, STEPS)
-    for _ in range(STEPS):
+    schedule = torch.optim.lr_scheduler.LinearLR(optimiser, 1.0, 0.0, steps)
+    for _ in range(steps):
         rows = torch.randint(len(x), (BATCH,))
         loss = ((network(x[rows]) - y[rows]) ** 2).mean()
         optimiser.zero_grad()
@@ -81,14 +136,13 @@ def main() -> None:
     """A line a ground, a policy a round."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", nargs="?", type=Path, default=Path("out/terrain"))
-    parser.add_argument("--rounds", type=int, default=12)
-    parser.add_argument("--grounds", nargs="+", choices=list(TERRAINS)[1:], default=list(GROUNDS))
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--grounds", nargs="+", choices=list(GROUNDS), default=list(GROUNDS))
     given = parser.parse_args()
-    torch.set_num_threads(1)  # a small network: more threads only wait for each other
     batch = make_episodes(NAME, 1, 0, 1)
     about = {
         "environment": NAME,
-        "options": {"terrain": given.grounds[-1]},
+        "options": {"terrain": "stairs", "blind": False},
         "algorithm": "dagger",
         "seed": 0,
         "action_names": batch.action_names,
@@ -96,25 +150,43 @@ def main() -> None:
         "rate": batch.environment.rate,
     }
     given.out.mkdir(parents=True, exist_ok=True)
-    path, parts = given.out / "policy.onnx", []
+    path, said = given.out / "policy.onnx", []
     for number in range(given.rounds):
-        act = Policy(path) if number else None
-        for i, ground in enumerate(grounds(given.grounds, number)):
-            file = given.out / f"{number}_{'_'.join(map(str, ground.values()))}.npz"
-            if not file.exists():
-                start = time.perf_counter()
-                options = {"fidelity": "fast", **ground}
-                shown = demonstrate(NAME, EPISODES, 100 * number + 10 * i, 0.0, act, **options)
-                seen = shown.observations["observation"]
-                np.savez_compressed(file, seen=seen, wanted=shown.actions)
-                done, taken = int(shown.successes.sum()), time.perf_counter() - start
-                print(f"{number} {ground}: {done} of {EPISODES}, {taken:.0f} s", flush=True)
-            with np.load(file) as part:
-                parts.append((part["seen"], part["wanted"]))
-        steps = sum(len(wanted) for _, wanted in parts)
-        if not path.exists() or int(Policy(path).metadata["steps"]) < steps:
-            learnt = fit(*(np.concatenate(one) for one in zip(*parts, strict=True)))
-            save(path, learnt, about | {"steps": steps})
+        said += hear(given.out, number, given.grounds, Policy(path) if number else None)
+        steps = sum(len(wanted) for *_, wanted in said)
+        last = number == given.rounds - 1
+        if last or not path.exists() or int(Policy(path).metadata["steps"]) < steps:
+            save(path, fit(*more(said), LAST if last else STEPS), about | {"steps": steps})
+
+
+def hear(out: Path, number: int, names: list[str], act: Policy | None) -> list[Said]:
+    """What the expert says in a round, a line a ground."""
+    said = []
+    for i, ground in enumerate(grounds(names, number)):
+        name = ground["terrain"]
+        file = out / f"{number}_{name}_{ground.get('terrain_seed', 0)}.npz"
+        if not file.exists():
+            start, seed = time.process_time(), FIRST + 1000 * number + 10 * i
+            options = {"fidelity": "fast", **ground}
+            shown = demonstrate(NAME, EPISODES, seed, 0.0, act, **options)
+            seen = shown.observations["observation"]
+            np.savez_compressed(file, seen=seen, wanted=shown.actions)
+            done, taken = int(shown.successes.sum()), time.process_time() - start
+            print(f"{file.stem}: {done} of {EPISODES}, {taken:.0f} s", flush=True)
+        with np.load(file) as part:
+            said.append((name, part["seen"], part["wanted"]))
+    return said
+
+
+def more(said: list[Said]) -> tuple[Array, Array]:
+    """All that was said, as often again of steps that were altered, and the mirror image."""
+    generator = np.random.default_rng(0)
+    drives = {name: Drive("fast", name, blind=False) for name in {name for name, *_ in said}}
+    parts = [(seen, wanted) for _, seen, wanted in said]
+    parts += [imagined(seen, drives[name], generator) for name, seen, _ in said]
+    parts += [mirrored(*part) for part in parts]
+    seen, wanted = (np.concatenate(one) for one in zip(*parts, strict=True))
+    return seen, wanted
 
 
 if __name__ == "__main__":

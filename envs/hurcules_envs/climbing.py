@@ -16,7 +16,7 @@ from hurcules_envs.rotations import quaternion
 from hurcules_envs.steering import along
 from hurcules_envs.terrain import AHEAD, BESIDE
 
-__all__ = ["HOLDS", "MIDDLE", "climb", "keep_on", "ready_to_climb"]
+__all__ = ["HOLDS", "MIDDLE", "climb", "keep_on", "ready_to_climb", "shown"]
 
 # [rad] of the joints: lower legs turned over to the front, trunk and arms forward
 JOINTS = {
@@ -44,25 +44,21 @@ def ready_to_climb(model: mujoco.MjModel, qpos: Array) -> Array:
     return there
 
 
-def climb(
-    seen: Mapping[str, Array], ground: Array, memory: Mapping[str, Array]
-) -> tuple[Array, Array, Array]:
+def climb(seen: Mapping[str, Array]) -> tuple[Array, Array, Array]:
     """Speed along the heading [m/s], yaw rate and rate of the knees [rad/s], (n,) each.
 
     Args:
-        seen: groups of Drive's observation: goal, up and legs.
-        ground: (n, 225) [m] its group of that name.
-        memory: (n, 1) each of HOLDS, kept by `keep_on`.
+        seen: groups of Drive's observation: goal, up, legs, ground, held and aside.
     """
-    goal, knee = seen["goal"], seen["legs"][:, 0]
-    phase = np.minimum(memory["held"][:, 0] // HELD, 3)
+    goal, knee, ground = seen["goal"], seen["legs"][:, 0], seen["ground"]
+    phase = seen["held"].sum(axis=1)
     rise = np.arcsin(np.clip(-seen["up"][:, 0], -1.0, 1.0))
     over, lying = _angles(ground, np.arcsin(np.clip(seen["up"][:, 1], -1.0, 1.0)))
     bend = over - np.maximum(rise - np.pi + knee, lying)
     bend = np.where(phase % 2 == 1, STRAIGHT, bend + np.where(phase == 2, HIGHER, 0.0))
     missing = np.pi - np.clip(bend, STRAIGHT, RAISED) - knee
     pace = np.clip(1.0 - np.abs(missing) / 0.15, np.where(phase > 0, 0.5, 0.0), 1.0)
-    speed, rate = along(-goal[:, :2], goal, 0.4, memory["aside"][:, 0])
+    speed, rate = along(-goal[:, :2], goal, 0.4, seen["aside"][:, 0])
     retreats = phase == 3
     speed = np.where(retreats, -0.3, speed * pace)
     rate = np.where(retreats, 1.5 * np.arctan2(goal[:, 3], goal[:, 2]), rate)
@@ -85,6 +81,18 @@ def _angles(ground: Array, roll: Array) -> tuple[Array, Array]:
     over = np.arctan2(height, np.minimum(ahead[on], TAIL)).max(axis=1)
     behind = scan[:, off][:, :, [0, 1, 7, 8]].max(axis=2)
     return over, -np.arctan2(behind, -ahead[off]).max(axis=1) - 0.1
+
+
+def shown(memory: Mapping[str, Array], n: int) -> dict[str, Array]:
+    """Groups held (n, 3) and aside (n, 1) of Drive's observation.
+
+    Args:
+        memory: (n, 1) each of HOLDS; without them it does not climb.
+        n: how many robots.
+    """
+    if "held" not in memory:
+        return {"held": np.zeros((n, 3)), "aside": np.zeros((n, 1))}
+    return {"held": (memory["held"] // HELD > np.arange(3)).astype(float), "aside": memory["aside"]}
 
 
 def keep_on(way: Array, memory: Mapping[str, Array], dt: float) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules.validation import require_known
 from hurcules_envs.checks import require_flag, require_whole
-from hurcules_envs.climbing import HOLDS, MIDDLE, climb, keep_on, ready_to_climb
+from hurcules_envs.climbing import HOLDS, MIDDLE, climb, keep_on, ready_to_climb, shown
 from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.drawing import add_arrow
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
@@ -77,11 +77,20 @@ class Drive(Environment):
     | legs     | 1    | rad   | 4     | knee                                              |
     | margin   | 1    | m     | 2     | of the centre of mass within what it stands on    |
 
-    On terrain, unless `blind`, the group `ground` follows (225 numbers, m, bound 1): heights of the
-    ground about the point that the robot turns about, without noise, at 25 places from 1.2 m behind
-    it to 1.2 m ahead, at each of them 9 from 0.4 m left to 0.4 m right, all 0.1 m apart, over the
-    soles at the knees. Where it climbs it drives towards "behind". Outside of the map (x from -4 to
-    9 m, y from -3 to 3 m) they are 0. A policy of flat ground fits terrain with `blind=True` alone.
+    On terrain, unless `blind`, and on flat ground with `blind=False`, three groups follow:
+
+    | group    | size | unit  | bound | what it is                                        |
+    |----------|------|-------|-------|---------------------------------------------------|
+    | ground   | 225  | m     | 1     | heights of the ground about the robot             |
+    | held     | 3    | 1     | 1     | 1 where it is held for 1.5 s, for 3 s, for 4.5 s  |
+    | aside    | 1    | m     | 1     | to the left of its line, where it tries then      |
+
+    The heights lie about the point that the robot turns about, without noise, at 25 places from
+    1.2 m behind it to 1.2 m ahead, at each of them 9 from 0.4 m left to 0.4 m right, all 0.1 m
+    apart, over the soles at the knees. Where it climbs it drives towards "behind". Outside of the
+    map (x from -4 to 9 m, y from -3 to 3 m) they are 0. It is held while its goal comes no nearer
+    than it was; 0 where it does not climb, as is `aside`. A policy of flat ground fits terrain with
+    `blind=True` alone, one of terrain flat ground with `blind=False`.
 
     Reward: `progress`, the way [m] that the goal came nearer; `heading`, what half of the heading's
     error [rad] times exp(-d / 1 m) became smaller, d the distance of the goal; `success`, 10 once;
@@ -104,7 +113,7 @@ class Drive(Environment):
         sparse: bool = False,
         rate: float = 10.0,
         action: str = "twist",
-        blind: bool = False,
+        blind: bool | None = None,
     ) -> None:
         """Builds robot, ground and loop.
 
@@ -118,12 +127,13 @@ class Drive(Environment):
             sparse: reward of success and fall only.
             rate: steps a second [Hz].
             action: "twist" (the table), or "joint": tracks, and the velocity of each coordinate.
-            blind: the observation is that of flat ground, without `ground`.
+            blind: the observation ends before `ground`; None: on flat ground alone.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         require_known("action", action, TWINS)
+        blind = terrain == "flat" if blind is None else blind
         require_flag("blind", blind)
         require_known("terrain", terrain, TERRAINS)
         if fidelity == "kinematic" and terrain != "flat":
@@ -136,7 +146,7 @@ class Drive(Environment):
         self.sparse, self.rate = sparse, rate
         self._climbs = terrain in CLIMBED
         self._centre = MIDDLE if self._climbs else CENTRE
-        self._sees = terrain != "flat" and not blind
+        self._sees = not blind
         tick, physics = tick_of(fidelity, rate), fidelity != "kinematic"
         model = self._model(visuals=False)
         robot = hurcules.Robot(model)
@@ -165,8 +175,15 @@ class Drive(Environment):
             Group("margin", 1, "m", 2.0, "of the centre of mass within what it stands on"),
         )
         if self._sees:
-            size, text = len(AHEAD) * len(BESIDE), "heights of the ground about the robot"
-            self.observation += (Group("ground", size, "m", 1.0, text),)
+            size, held = (
+                len(AHEAD) * len(BESIDE),
+                "1 where it is held for 1.5 s, for 3 s, for 4.5 s",
+            )
+            self.observation += (
+                Group("ground", size, "m", 1.0, "heights of the ground about the robot"),
+                Group("held", 3, "1", 1.0, held),
+                Group("aside", 1, "m", 1.0, "to the left of its line, where it tries then"),
+            )
         self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
         self.components = {"legs": ("legs",)} if self._climbs else {}
@@ -258,9 +275,11 @@ class Drive(Environment):
             "legs": numbers["q/KN"],
             "margin": numbers["monitor/static_margin_m"],
         }
-        if self._sees:
-            seen["ground"] = self._ground(numbers)
-        return seen
+        return seen | self._about(numbers) if self._sees else seen
+
+    def _about(self, numbers: Numbers) -> dict[str, Array]:
+        """What is seen on terrain beside that."""
+        return {"ground": self._ground(numbers)} | shown(numbers.memory, len(numbers.action))
 
     def _ground(self, numbers: Numbers) -> Array:
         """Heights [m] about the robot over the soles of its tracks at the knees."""
@@ -333,10 +352,18 @@ class Drive(Environment):
         return self.succeeded(numbers)
 
     def expert(self, numbers: Numbers) -> Array:
-        """Actions (n, 3) of a law: on flat ground `to_pose`, on terrain `along`, or `climb`."""
+        """Actions (n, 3) of a law of what is seen, on terrain also where it is blind."""
         seen = self.observe(numbers)
+        return self.law(seen | self._about(numbers) if self._climbs else seen)
+
+    def law(self, seen: Mapping[str, Array]) -> Array:
+        """Actions (n, 3): on flat ground `to_pose`, on terrain `along`, or `climb`.
+
+        Args:
+            seen: groups of the observation by name.
+        """
         if self._climbs:
-            speed, rate, legs = climb(seen, self._ground(numbers), numbers.memory)
+            speed, rate, legs = climb(seen)
         else:
             goal, flat = seen["goal"], self.terrain == "flat"
             speed, rate = to_pose(goal) if flat else along(goal[:, :2], goal, 0.8)

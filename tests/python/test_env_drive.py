@@ -12,6 +12,7 @@ import pytest
 
 import hurcules
 import hurcules_envs  # noqa: F401  registers
+from hurcules_envs.climbing import climb
 from hurcules_envs.evaluation import evaluate
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import make_episodes
@@ -29,8 +30,8 @@ def spaces_of(env):
 
 
 def ground(observation):
-    """(ahead, beside) of the group of that name, the last one."""
-    return observation["observation"][15:].reshape(len(AHEAD), len(BESIDE))
+    """(ahead, beside) of the group of that name."""
+    return observation["observation"][15:240].reshape(len(AHEAD), len(BESIDE))
 
 
 def test_heights_are_those_of_the_scene():
@@ -75,7 +76,7 @@ def test_what_is_seen_is_the_ground_under_it_and_ahead():
     middle = np.abs(AHEAD[1:]) < 0.9  # beyond it the numbers are cut off at 1 m
     assert rises[middle] == pytest.approx(math.tan(math.pi / 6), abs=0.2)
     assert np.ptp(seen, axis=1).max() < 0.03
-    assert drive("ramps").observation_space["observation"].shape == (240,)
+    assert drive("ramps").observation_space["observation"].shape == (244,)
 
 
 def test_on_flat_ground_nothing_is_added_and_blind_leaves_it_out():
@@ -87,9 +88,40 @@ def test_on_flat_ground_nothing_is_added_and_blind_leaves_it_out():
     assert np.array_equal(one["observation"][:15], two["observation"])
 
 
+def test_flat_ground_is_seen_where_it_is_asked_for():
+    env, plain = (
+        gym.make(DRIVE, fidelity="fast", **given).unwrapped for given in ({"blind": False}, {})
+    )
+    one, two = env.reset(seed=4)[0], plain.reset(seed=4)[0]
+    assert np.array_equal(one["observation"][:15], two["observation"])
+    assert np.abs(one["observation"][15:]).max() < 1e-3
+
+
+def test_the_climbing_expert_is_a_function_of_what_is_seen():
+    """What it remembers stands in the observation, so that a network can learn what it does."""
+    episodes = make_episodes(
+        DRIVE, 3, 1100, 1, fidelity="fast", terrain="step_field", terrain_seed=2
+    )
+    environment, phases = episodes.environment, set()
+    stops = np.cumsum([0, *(group.size for group in environment.observation)])
+    for t in range(80):
+        seen = episodes.look(remember=np.full(3, t > 0)).observation["observation"].astype(float)
+        groups = {
+            group.name: seen[:, start : start + group.size]
+            for group, start in zip(environment.observation, stops[:-1], strict=True)
+        }
+        speed, rate, legs = climb(groups)
+        action = np.clip(np.stack([speed / 1.5, rate, legs / 0.3], axis=1), -1.0, 1.0)
+        assert action == pytest.approx(environment.expert(episodes.numbers), abs=1e-4)
+        phases |= set(groups["held"].sum(axis=1))
+        # the first one is driven; the others are held: nobody drives them
+        episodes.step(np.where([[True], [False], [False]], action, 0.0))
+    assert phases == {0.0, 1.0, 2.0, 3.0}
+
+
 def test_a_policy_of_flat_ground_drives_blind_and_else_is_told_the_sizes():
     given = {"fidelity": "fast", "terrain": "rough_road"}
-    sizes = r"does not fit .*wanted the inputs .*\(240\).*\(15\).*blind=True"
+    sizes = r"does not fit .*wanted the inputs .*\(244\).*\(15\).*blind=True"
     with pytest.raises(hurcules.Error, match=sizes):
         evaluate("Drive-v0", "Drive-v0", 1, **given)
     with pytest.raises(hurcules.Error, match=r"does not fit") as other:
@@ -161,7 +193,7 @@ def test_an_expert_that_is_held_goes_on_with_the_same_bits_from_a_state():
 
 def test_its_twin_of_joints_climbs_too():
     env = gym.make("Hurcules/DriveJoint-v0", fidelity="fast", terrain="stairs").unwrapped
-    assert [group.name for group in env.environment.observation][-2:] == ["ground", "q"]
+    assert [group.name for group in env.environment.observation][-2:] == ["aside", "q"]
     seen, _ = env.reset(seed=0)
     assert env.observation_space.contains(seen)
     assert env.observation_space.contains(env.step(env.action_space.sample())[0])

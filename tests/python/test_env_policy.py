@@ -153,6 +153,13 @@ def test_what_ships_solves_its_environment(name: str) -> None:
     assert evaluate(policy, policy.environment, episodes, **policy.options).success >= 0.9
 
 
+@pytest.mark.parametrize("terrain", ["slope", "ramps", "step_field", "rough_road"])
+def test_the_policy_of_terrain_drives_grounds_that_it_has_not_learnt_on(terrain: str) -> None:
+    policy = Policy("Drive-v0-terrain")
+    options = policy.options | {"terrain": terrain, "terrain_seed": 14, "fidelity": "fast"}
+    assert evaluate(policy, policy.environment, 3, **options).success == 1.0
+
+
 def test_the_command_line_judges_a_file(tmp_path: Path) -> None:
     words = ["evaluate", str(linear(tmp_path / "a.onnx", 8.0)), "--fidelity", "kinematic"]
     assert main([*words, "--episodes", "4", "--out", str(tmp_path / "judged")]) == 0
