@@ -139,7 +139,53 @@ def test_every_part_of_the_story_has_its_way_to_safety() -> None:
         assert last == ({"lower"} if name == "carry" else {"abort"}), name
     assert rows["hand over"].last
     down = ["lower", "set down", "withdraw", "rest", *lift.ON_THE_FRONT]
-    assert names[-len(down) :] == down
+    at = names.index("lower")
+    assert names[at : at + len(down)] == down
+
+
+@pytest.mark.parametrize("pose, after", [("front", "lean back"), ("back", "raise the bed")])
+def test_who_lies_on_the_front_is_laid_on_the_bed_in_a_way_of_his_own(
+    pose: str, after: str
+) -> None:
+    simulation = hurcules.Simulation(
+        "casualty", variation=0.0, parameters={"pose": pose}, record=False
+    )
+    simulation.step(1)
+    simulation.go("raise the bed")
+    simulation.step(2)
+    assert simulation.phase == after
+
+
+@pytest.mark.slow
+def test_who_lay_on_the_left_side_is_fetched_on_the_bed() -> None:
+    person = {"pose": "left"}
+    simulation = hurcules.Simulation(
+        "casualty", 1021, variation=1 / 3, parameters=person, record=False
+    )
+    phases = set()
+    while not simulation.finished:
+        simulation.step(20)
+        phases.add(simulation.phase)
+        if simulation.question and simulation.phase == "settle":
+            simulation.answer(True)
+    assert simulation.success, simulation.reason
+    assert phases >= {"lean back", "lay on the front", "draw out", "home"}
+    figures = simulation.figures()
+    assert figures["support_N"] < 1200.0
+    assert figures["contact_share"] <= 2.6
+
+
+@pytest.mark.parametrize("name, onward", [("casualty", "home"), ("crossing", "rims up")])
+def test_an_arm_that_still_bears_a_leg_is_lowered_before_it_drives_off(
+    name: str, onward: str
+) -> None:
+    rows = {row.name: row for row in lift.mission(name).rows.phases}
+    assert rows["draw out"].next == "arms out"
+    assert [one.phase for one in rows["arms free"].late] == ["arms low", ""]
+    low = rows["arms low"]
+    assert low.next == onward
+    assert [one.quantity for one in low.done] == [one.quantity for one in rows["arms free"].done]
+    assert any("on_ground" in one.when.quantity for one in low.troubles)
 
 
 def test_half_seated_no_question_lasts_as_long_as_a_motor_takes_to_overheat() -> None:

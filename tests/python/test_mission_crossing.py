@@ -107,7 +107,8 @@ def test_what_carries_the_person_is_watched_as_in_the_rescue_on_the_flat() -> No
     assert [name for name in names[3:] if name != "rims up"] == list(flat)
     assert names.index("rims up") == names.index("home") - 1
     own = {row.name: row for row in rows.phases}
-    assert [name for name in flat if name != "home" and own[name] != flat[name]] == []
+    assert [name for name in flat if own[name] != flat[name]] == ["home", "arms low"]
+    assert own["arms low"].keys == flat["arms low"].keys  # it goes on to the rims
     watched = {trouble.when.quantity for trouble in own["home"].troubles}
     assert {"casualty/head_mps2", "casualty/on_ground", "base_rotation/y"} <= watched
     measures = {one.name for one in lift.mission("casualty").rows.measures} - {"way_home_m"}
