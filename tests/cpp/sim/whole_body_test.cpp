@@ -285,7 +285,7 @@ TEST(WholeBody, StartsWhereItIsTold) {
   simulation.reset(0);
   EXPECT_EQ(simulation.plant().qpos()[0], 0.3);
   const Vector bad = Vector::Zero(2);
-  EXPECT_TRUE(contains(error_text([&] { simulation.reset(0, &bad); }), "qpos of 4"));
+  EXPECT_TRUE(contains(error_text([&] { simulation.reset(0, &bad); }), "wants 4 numbers, 2 came"));
 }
 
 TEST(Quantities, AreReadByNameFromACopyToo) {
