@@ -37,19 +37,19 @@ class Casualty(Rescue):
 
     | index | name | bound | unit | what |
     |---|---|---|---|---|
-    | 0-36 | phase | 1 |  | 1 for the present one, in the order of the table |
-    | 37 | progress | 1 |  | of the present phase |
-    | 38-42 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
-    | 43-44 | tips | 5 | m | height of the left and the right one |
-    | 45-46 | heading | 4 | rad | of his body against square; bearing of the stand |
-    | 47-50 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
-    | 51-54 | force | 5000 | N | of both presses, push along the ground, largest support |
-    | 55 | contact | 20 |  | largest force of a contact over the limit of its region |
-    | 56 | head | 500 | m/s^2 | of his head, gravity included |
-    | 57-58 | tilt | 2 | rad | of the left and the right blade, tip up |
-    | 59-64 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
-    | 65 | mass | 200 | kg | of the person |
-    | 66 | margin | 2 | m | of the centre of mass within what the robot stands on |
+    | 0-40 | phase | 1 |  | 1 for the present one, in the order of the table |
+    | 41 | progress | 1 |  | of the present phase |
+    | 42-46 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
+    | 47-48 | tips | 5 | m | height of the left and the right one |
+    | 49-50 | heading | 4 | rad | of his body against square; bearing of the stand |
+    | 51-54 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
+    | 55-58 | force | 5000 | N | of both presses, push along the ground, largest support |
+    | 59 | contact | 20 |  | largest force of a contact over the limit of its region |
+    | 60 | head | 500 | m/s^2 | of his head, gravity included |
+    | 61-62 | tilt | 2 | rad | of the left and the right blade, tip up |
+    | 63-68 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
+    | 69 | mass | 200 | kg | of the person |
+    | 70 | margin | 2 | m | of the centre of mass within what the robot stands on |
 
     Reward:
 
