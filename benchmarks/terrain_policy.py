@@ -37,9 +37,9 @@ GROUNDS = {  # how many a round
 }  # fmt: skip
 SEEDS = range(100, 400)  # of them
 EPISODES = 2  # of each ground
-# places in the observation: y and sine of the goal, velocity to the left, spin about x and z, the
-# vertical to the left, aside; the mirror is the world's plane of x and z
-SIDEWAYS = [1, 3, 5, 7, 9, 11, 243]
+# by group of the observation what changes its sign in the mirror, the robot's plane of x and z:
+# y and sine of the goal, velocity to the left, spin about x and z, the vertical to the left, aside
+SIDEWAYS = {"goal": (1, 3), "velocity": (1,), "spin": (0, 2), "up": (1,), "aside": (0,)}
 FIRST = 20_000  # seed of the first episode; those that judge begin at 10,000
 WIDTH, BATCH, RATE = 128, 512, 2e-3  # of the hidden layers, samples a step, learning rate
 STEPS, LAST = 4000, 12_000  # of Adam a round; of the last one
@@ -59,11 +59,14 @@ def grounds(names: list[str], number: int) -> list[dict[str, Any]]:
     ]
 
 
-def mirrored(seen: Array, wanted: Array) -> tuple[Array, Array]:
+def mirrored(seen: Array, wanted: Array, environment: Drive) -> tuple[Array, Array]:
     """Observations and actions where left is right."""
     other, turned = seen.copy(), wanted.copy()
-    other[:, SIDEWAYS] *= -1.0
-    other[:, 15:240] = seen[:, 15:240].reshape(-1, 25, 9)[:, :, ::-1].reshape(-1, 225)
+    parts = environment.groups_of(other)
+    for name, places in SIDEWAYS.items():
+        parts[name][:, places] *= -1.0
+    lines = parts["ground"].reshape(-1, len(AHEAD), len(BESIDE))
+    parts["ground"][:] = lines[:, :, ::-1].reshape(parts["ground"].shape)
     turned[:, 1] *= -1.0
     return other, turned
 
@@ -75,10 +78,8 @@ def imagined(
 
     What its law does not use is of another step, so that nothing is learnt from it.
     """
-    stops = np.cumsum([group.size for group in environment.observation])
     other = seen.copy()
-    names = [group.name for group in environment.observation]
-    parts = dict(zip(names, np.split(other, stops[:-1], axis=1), strict=True))  # views
+    parts = environment.groups_of(other)
 
     def normal(deviation: float, *shape: int) -> Array:
         return generator.normal(0.0, deviation, (len(seen), *shape)).astype(np.float32)
@@ -184,7 +185,8 @@ def more(said: list[Said]) -> tuple[Array, Array]:
     drives = {name: Drive("fast", name, blind=False) for name in {name for name, *_ in said}}
     parts = [(seen, wanted) for _, seen, wanted in said]
     parts += [imagined(seen, drives[name], generator) for name, seen, _ in said]
-    parts += [mirrored(*part) for part in parts]
+    any_of_them = drives[said[0][0]]  # all have the same groups
+    parts += [mirrored(*part, any_of_them) for part in parts]
     seen, wanted = (np.concatenate(one) for one in zip(*parts, strict=True))
     return seen, wanted
 

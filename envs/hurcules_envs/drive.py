@@ -175,13 +175,10 @@ class Drive(Environment):
             Group("margin", 1, "m", 2.0, "of the centre of mass within what it stands on"),
         )
         if self._sees:
-            size, held = (
-                len(AHEAD) * len(BESIDE),
-                "1 where it is held for 1.5 s, for 3 s, for 4.5 s",
-            )
+            size = len(AHEAD) * len(BESIDE)
             self.observation += (
                 Group("ground", size, "m", 1.0, "heights of the ground about the robot"),
-                Group("held", 3, "1", 1.0, held),
+                Group("held", 3, "1", 1.0, "1 where it is held for 1.5 s, for 3 s, for 4.5 s"),
                 Group("aside", 1, "m", 1.0, "to the left of its line, where it tries then"),
             )
         self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
@@ -354,7 +351,8 @@ class Drive(Environment):
     def expert(self, numbers: Numbers) -> Array:
         """Actions (n, 3) of a law of what is seen, on terrain also where it is blind."""
         seen = self.observe(numbers)
-        return self.law(seen | self._about(numbers) if self._climbs else seen)
+        blind = self._climbs and not self._sees
+        return self.law(seen | self._about(numbers) if blind else seen)
 
     def law(self, seen: Mapping[str, Array]) -> Array:
         """Actions (n, 3): on flat ground `to_pose`, on terrain `along`, or `climb`.

@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from numbers import Integral, Real
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
@@ -81,11 +82,10 @@ class Places(dict[str, slice]):
     def run(self, names: tuple[str, ...]) -> slice | None:
         """Of several that stand side by side in this order; None: they do not."""
         if names not in self._runs:
-            places = [self.get(name) for name in names]
-            ends = [place.stop for place in places if place is not None]
-            starts = [place.start for place in places if place is not None]
-            joined = None not in places and ends[:-1] == starts[1:]
-            self._runs[names] = slice(starts[0], ends[-1]) if joined else None
+            places = [self[name] for name in names if name in self]
+            known = 0 < len(places) == len(names)
+            joined = known and all(one.stop == two.start for one, two in pairwise(places))
+            self._runs[names] = slice(places[0].start, places[-1].stop) if joined else None
         return self._runs[names]
 
 
@@ -218,6 +218,12 @@ class Environment(ABC):
         A group that is not there is the quantity or the entry of the memory of its name; an Error
         says where there is none.
         """
+
+    def groups_of(self, seen: NDArray[Any]) -> dict[str, NDArray[Any]]:
+        """The groups of whole observations (n, o) by name, (n, size) each; views."""
+        stops = np.cumsum([group.size for group in self.observation])
+        names = [group.name for group in self.observation]
+        return dict(zip(names, np.split(seen, stops[:-1], axis=1), strict=True))
 
     @abstractmethod
     def reward(self, numbers: Numbers) -> Mapping[str, Array]:

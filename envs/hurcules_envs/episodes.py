@@ -135,7 +135,6 @@ class Episodes:
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
         self._terms = set(environment.terms)
-        self._rewards = [(name, f"reward_{name}") for name in environment.terms]  # in info
         self._told: set[str] | None = None  # names of `tell`
         self._action = np.zeros((n, len(self.action_scale)))
         self._worst = np.zeros(n)
@@ -463,7 +462,7 @@ class Episodes:
         cost |= watched["self_contacts"] > 0.0
         cost |= self._asked.costs(numbers)
         self._worst[:] = excess
-        info: dict[str, NDArray[Any]] = {where: terms[name] for name, where in self._rewards}
+        info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
         info |= {"is_success": success, "failed": failure, "ending": ending}
         info["cost"] = cost.astype(np.float64)
         info |= watched

@@ -103,13 +103,9 @@ def test_the_climbing_expert_is_a_function_of_what_is_seen():
         DRIVE, 3, 1100, 1, fidelity="fast", terrain="step_field", terrain_seed=2
     )
     environment, phases = episodes.environment, set()
-    stops = np.cumsum([0, *(group.size for group in environment.observation)])
     for t in range(80):
         seen = episodes.look(remember=np.full(3, t > 0)).observation["observation"].astype(float)
-        groups = {
-            group.name: seen[:, start : start + group.size]
-            for group, start in zip(environment.observation, stops[:-1], strict=True)
-        }
+        groups = environment.groups_of(seen)
         speed, rate, legs = climb(groups)
         action = np.clip(np.stack([speed / 1.5, rate, legs / 0.3], axis=1), -1.0, 1.0)
         assert action == pytest.approx(environment.expert(episodes.numbers), abs=1e-4)

@@ -22,11 +22,7 @@ import terrain_policy
 
 def law(drive, seen):
     """What the expert does for whole observations."""
-    sizes = [group.size for group in drive.observation]
-    parts = np.split(seen.astype(float), np.cumsum(sizes)[:-1], axis=1)
-    return drive.law(
-        {group.name: part for group, part in zip(drive.observation, parts, strict=True)}
-    )
+    return drive.law(drive.groups_of(seen.astype(float)))
 
 
 @pytest.fixture(scope="module", params=["step_field", "ramps", "flat"])
@@ -47,10 +43,10 @@ def test_a_round_has_grounds_that_the_next_one_has_not() -> None:
 def test_the_expert_does_in_a_mirror_what_its_mirror_image_does(said) -> None:
     drive, seen, acted = said
     assert law(drive, seen) == pytest.approx(acted, abs=1e-4)
-    other, turned = terrain_policy.mirrored(seen, acted)
+    other, turned = terrain_policy.mirrored(seen, acted, drive)
     assert law(drive, other) == pytest.approx(turned, abs=1e-4)
     assert np.abs(turned[:, 1]).max() > 0.01
-    back, again = terrain_policy.mirrored(other, turned)
+    back, again = terrain_policy.mirrored(other, turned, drive)
     assert np.array_equal(back, seen)
     assert np.array_equal(again, acted)
 
