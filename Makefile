@@ -45,7 +45,7 @@ ctest: setup
 pytest: setup
 	$(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile
 
-# the C++ tests again: debug build, asserts, address and undefined-behaviour sanitizers, Eigen's allocation guard
+# the C++ tests again: debug build, asserts, address and undefined-behaviour sanitizers
 sanitize: setup
 	PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)" cmake --workflow --preset dev
 

@@ -7,12 +7,6 @@ function(hurcules_warnings target)
   endif()
 endfunction()
 
-# hurcules_precompile(TARGET HEADER ...): headers that are read once, not once a file; for the tests, whose
-# headers are large.
-function(hurcules_precompile target)
-  target_precompile_headers(${target} PRIVATE ${HURCULES_GUARD} ${ARGN})
-endfunction()
-
 # hurcules_room(NAME [LINKS module or target ...]): every source in cpp/hurcules/NAME and its folders
 function(hurcules_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})

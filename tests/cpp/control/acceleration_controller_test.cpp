@@ -10,7 +10,7 @@
 #include "hurcules/control/velocity_controller.hpp"
 #include "support/accelerated_motion.hpp"
 #include "support/expect.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_motion.hpp"
 #include "support/tiny_models.hpp"
 

@@ -13,7 +13,7 @@
 #include "hurcules/control/velocity_controller.hpp"
 #include "support/accelerated_motion.hpp"
 #include "support/expect.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/tiny_models.hpp"
 
 namespace {

@@ -12,7 +12,7 @@
 #include "hurcules/robot/robot.hpp"
 #include "support/expect.hpp"
 #include "support/linkages.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "hurcules/tasks/joint_ranges.hpp"
 #include "hurcules/tasks/pose_task.hpp"
 #include "support/expect.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_motion.hpp"
 #include "support/tiny_models.hpp"
 #include "support/tip_simulation.hpp"

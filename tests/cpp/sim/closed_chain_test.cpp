@@ -3,7 +3,7 @@
 // joint that follows keeps its range; bits and memory.
 #include "hurcules/robot/closures.hpp"
 #include "support/linkages.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/tip_simulation.hpp"
 
 namespace {

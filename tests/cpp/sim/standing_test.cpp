@@ -12,7 +12,7 @@
 #include "hurcules/tasks/position_task.hpp"
 #include "hurcules/tasks/posture_task.hpp"
 #include "support/expect.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/quadruped.hpp"
 #include "support/tiny_models.hpp"
 #include "support/tip_simulation.hpp"

@@ -8,6 +8,7 @@
 
 #include "hurcules/solver/method.hpp"
 #include "hurcules/solver/solver.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_hierarchy.hpp"
 
 namespace hurcules {
@@ -169,9 +170,9 @@ TEST(Methods, AllButTheCascadeAllocateNothingOnceSized) {
     for (int tick = 0; tick < 20; ++tick) {
       levels[1].lower.array() += 0.05;
       levels[1].upper.array() += 0.05;
-      Eigen::internal::set_is_malloc_allowed(false);
+      const hurcules_test::NoAllocation none;
       (void)solver.solve(levels);
-      Eigen::internal::set_is_malloc_allowed(true);
+      EXPECT_EQ(none.count(), 0u) << name;
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "hurcules/solver/solver.hpp"
 #include "support/each_problem.hpp"
 #include "support/expect.hpp"
+#include "support/no_allocation.hpp"
 #include "support/nonnegative_least_squares.hpp"
 #include "support/singular_sweep.hpp"
 #include "support/smooth_reference.hpp"
@@ -251,10 +252,10 @@ TEST(SolverSingular, NothingIsAllocatedInASolve) {
     Solver solver(SingularSweep::kUnknowns, both);
     const Hierarchy regular = sweep.at(0.9), singular = sweep.at(1e-3);
     solver.reserve(regular);
-    Eigen::internal::set_is_malloc_allowed(false);
+    const hurcules_test::NoAllocation none;
     static_cast<void>(solver.solve(regular));
     static_cast<void>(solver.solve(singular));
-    Eigen::internal::set_is_malloc_allowed(true);
+    EXPECT_EQ(none.count(), 0u);
   });
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/no_allocation.hpp"
 #include "support/random_hierarchy.hpp"
 
 namespace hurcules {
@@ -236,9 +237,9 @@ TEST(Solver, AllocatesNothingOnceSized) {
     for (int tick = 0; tick < 20; ++tick) {
       levels[1].lower.array() += 0.05;
       levels[1].upper.array() += 0.05;
-      Eigen::internal::set_is_malloc_allowed(false);
+      const hurcules_test::NoAllocation none;
       (void)solver.solve(levels);
-      Eigen::internal::set_is_malloc_allowed(true);
+      EXPECT_EQ(none.count(), 0u);
     }
   }
 }
@@ -316,9 +317,9 @@ TEST(Solver, LimitsThatComeAndGoAllocateNothing) {
   Solver solver(12);
   solver.reserve(limited);
   for (int tick = 0; tick < 10; ++tick) {
-    Eigen::internal::set_is_malloc_allowed(false);
+    const hurcules_test::NoAllocation none;
     (void)solver.solve(tick % 2 ? limited : problem.with);
-    Eigen::internal::set_is_malloc_allowed(true);
+    EXPECT_EQ(none.count(), 0u);
   }
 }
 

@@ -1,18 +1,24 @@
-// Replaces operator new so that NoAllocation counts it: one file of each test program includes
-// this.
+// Counts every allocation of a scope, in all threads: of ours, Eigen's, MuJoCo's and the standard
+// library's.
 #pragma once
 
-#include "support/no_allocation_guard.hpp"
+#include <cstddef>
 
-// not inlined: the compiler would see malloc and delete as a mismatched pair
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++hurcules_test::allocations();
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+namespace hurcules_test {
+
+// all that this process has made so far
+std::size_t allocations();
+
+class NoAllocation {
+ public:
+  NoAllocation() = default;
+  NoAllocation(const NoAllocation&) = delete;
+  NoAllocation& operator=(const NoAllocation&) = delete;
+
+  [[nodiscard]] std::size_t count() const { return allocations() - before_; }
+
+ private:
+  std::size_t before_ = allocations();
+};
+
+}  // namespace hurcules_test

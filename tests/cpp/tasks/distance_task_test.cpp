@@ -13,7 +13,7 @@
 
 #include "hurcules/robot/object_names.hpp"
 #include "support/expect.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_motion.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "support/expect.hpp"
-#include "support/no_allocation_guard.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_motion.hpp"
 #include "support/tiny_models.hpp"
 
