@@ -72,7 +72,13 @@ hurcules::MissionSimulation make_simulation(const Arguments& arguments) {
                         ", and what hurcules mission NAME --out FILE.table writes");
   const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
   const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
-  return {hurcules::load_model(scene), arguments.mission, options};
+  const hurcules::ModelPtr model = hurcules::load_model(scene);
+  try {
+    return {model, arguments.mission, options};
+  } catch (const hurcules::Error& error) {
+    throw hurcules::Error("model '" + scene + "' does not fit '" + arguments.mission +
+                          "': " + error.what());
+  }
 }
 
 // in pieces, so that Ctrl-C is heard

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import torch
 from numpy.typing import NDArray
-from stable_baselines3 import PPO
-from stable_baselines3.common.utils import obs_as_tensor
 
+from hurcules import extras
 from hurcules_envs.imitation import Demonstrations
 from hurcules_envs.sb3 import Standardised
+
+with extras.importing(extras.remedy("train")):
+    import torch
+    from stable_baselines3 import PPO
+    from stable_baselines3.common.utils import obs_as_tensor
 
 __all__ = ["clone"]
 

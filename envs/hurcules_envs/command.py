@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict
+from functools import partial
 from hashlib import sha256
 from itertools import chain, count
 from pathlib import Path
 from typing import Annotated, Any
 
-import gymnasium
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -32,7 +33,6 @@ from hurcules_envs.running import environment_of, run_policy, settings_of
 
 __all__ = ["evaluate", "record", "train"]
 
-MISSING = "training wants Stable-Baselines3 and PyTorch: pip install 'hurcules[train]'"
 ENVIRONMENT = "Reach-v0, Drive-v0, ... or module:Own/Name-v0."
 
 Fidelity = Annotated[
@@ -107,7 +107,8 @@ def train(
         _on_cluster(ray, name, steps, folder, options, envs, seed)
         _show(folder, judge, video, Console())
         return
-    training = _training()
+    with _told():
+        from hurcules_envs import training
     wanted = training.TrainOptions(
         environment=name, algorithm=algo, steps=steps, episodes=envs, seed=seed, options=options,
         out=folder, demonstrations=demonstrations,
@@ -118,10 +119,17 @@ def train(
         TextColumn("success {task.fields[success]:.0%} exploring"), TimeElapsedColumn(),
         TimeRemainingColumn(),
     ]  # fmt: skip
-    with Progress(*columns, console=console) as bar:
-        task = bar.add_task(f"{algo} on {name.split('/')[-1]}", total=steps, success=0.0)
+    bar = Progress(*columns, console=console)
+    task = bar.add_task(f"{algo} on {name.split('/')[-1]}", total=steps, success=0.0)
+    with ExitStack() as shown:
+
+        def show(done: int, success: float) -> None:
+            if not bar.live.is_started:  # nothing is wrong with what was asked
+                shown.enter_context(bar)
+            bar.update(task, completed=done, success=success)
+
         try:
-            training.train(wanted, lambda n, share: bar.update(task, completed=n, success=share))
+            training.train(wanted, show)
         except KeyboardInterrupt:
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
@@ -135,18 +143,17 @@ def _show(folder: Path, judge: int, video: bool, console: Console) -> None:
     """How what was trained does in the full physics, and a film of the first episode of these."""
     _judge(str(folder), None, judge, {"fidelity": "exact"}, None, console)
     if video:
-        first = PolicyOptions(str(folder), seed=evaluation.SEED, out=folder / "episode")
+        first = PolicyOptions(
+            str(folder), seed=evaluation.SEED, out=folder / "episode", replaces=True
+        )
         run_policy(first, console)
 
 
 def _on_cluster(
     address: str, name: str, steps: int, folder: Path, options: dict[str, Any], envs: int, seed: int
 ) -> None:
-    try:
+    with _told():
         from hurcules_envs import rllib
-    except ImportError as error:
-        remedy = "pip install 'ray[rllib]' torch"
-        raise hurcules.Error(f"--ray wants RLlib: {remedy} ({error})") from error
     console = Console()
 
     def tell(done: int, mean: float) -> None:
@@ -234,6 +241,7 @@ def record(
         robot=robot, frames=frame or None, rate=rate, **_ranges(vary),
     ) | settings_of(settings)  # fmt: skip
     act: Any = _expert
+    check: Any = _require_expert
     if policy == "operator":
         raise hurcules.Error(
             "--policy: no operator sits here; who records a person gives a function that reads a "
@@ -244,23 +252,24 @@ def record(
         network, kind = Policy(policy), "policy"
         source = sha256(network.path.read_bytes()).hexdigest()
         _, options = environment_of(network, name, **options)
-        act = _acting(network)
-    else:
-        _require_expert(name, options)
+        act, check = lambda _, seen: network.one(seen), partial(_require_fit, network)
     said = ""
+    bar = Progress()
+    task = bar.add_task(f"{kind} in {name}", total=episodes)
 
     def show(done: int, succeeded: int) -> None:
         nonlocal said
         said = f"{succeeded} of {done} episodes succeeded"
+        if not bar.live.is_started:  # nothing is wrong with what was asked
+            shown.enter_context(bar)
         bar.update(task, completed=done)
 
-    with Progress() as bar, as_ctrl_c():
-        task = bar.add_task(f"{kind} in {name}", total=episodes)
+    with ExitStack() as shown, as_ctrl_c():
         folder = out or Path("out", "data")
         try:
             identifier = recording.record(
                 name, act, episodes, folder, seed=seed, author=author or kind, source=source,
-                form=form, **options, progress=show,
+                form=form, check=check, **options, progress=show,
             )  # fmt: skip
         except KeyboardInterrupt as stopped:
             bar.console.print(*getattr(stopped, "__notes__", ()))
@@ -278,20 +287,13 @@ def _expert(env: Any, seen: Any) -> Any:
         raise hurcules.Error(f"{error}: give --policy FOLDER") from None
 
 
-def _require_expert(name: str, options: dict[str, Any]) -> None:
-    """An expert for the action of this environment, before packages are looked for."""
-    with closing(gymnasium.make(name, **options).unwrapped) as env:
-        _expert(env, env.reset(seed=0)[0])
+def _require_expert(env: Any) -> None:
+    """An expert for the action of this environment."""
+    _expert(env, env.reset(seed=0)[0])
 
 
-def _acting(policy: Policy) -> Any:
-    """The policy as `recording.record` wants it; it is checked at the first observation."""
-
-    def act(env: Any, seen: Any) -> Any:
-        policy.check(env.spec.id, env.observation_space, env.action_space)
-        return policy.one(seen)
-
-    return act
+def _require_fit(policy: Policy, env: Any) -> None:
+    policy.check(env.spec.id, env.observation_space, env.action_space)
 
 
 def _judge(
@@ -349,12 +351,13 @@ def _known(environment: str) -> str:
     return name
 
 
-def _training() -> Any:
+@contextmanager
+def _told() -> Iterator[None]:
+    """Around what wants packages that not everybody has: who lacks one is told how to get it."""
     try:
-        from hurcules_envs import training
+        yield
     except ImportError as error:
-        raise hurcules.Error(f"{MISSING} ({error})") from error
-    return training
+        raise hurcules.Error(str(error)) from error
 
 
 def _given(**options: Any) -> dict[str, Any]:

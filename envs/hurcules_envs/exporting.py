@@ -7,11 +7,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from stable_baselines3.common.base_class import BaseAlgorithm
 
+from hurcules import extras
 from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.sb3 import SCALE, GoalFeatures, Standardised
 from hurcules_envs.torch_layers import add_layers, add_limits, add_standard
+
+with extras.importing(extras.remedy("train")):
+    from stable_baselines3.common.base_class import BaseAlgorithm
 
 __all__ = ["export_policy"]
 

@@ -268,11 +268,13 @@ def _file(source: str) -> Path:
     path = Path(source)
     if path.is_dir() and (path / "policy.onnx").is_file():
         return path / "policy.onnx"
-    if path.is_file():
+    packed = path.suffix == ".zip"  # of Stable-Baselines3
+    if path.is_file() and not packed:
         return path
     if found := shipped().get(full_id(source)):
         return found
     what = "no policy.onnx lies there" if path.is_dir() else "no such file"
+    what = "a file of Stable-Baselines3, its policy.onnx is wanted" if packed else what
     raise hurcules.Error(
         f"policy: wanted an ONNX file, a folder that train wrote, or one of "
         f"{', '.join(name.split('/')[1] for name in shipped())}; got '{source}': {what}"

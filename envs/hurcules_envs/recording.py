@@ -20,6 +20,7 @@ import gymnasium
 import numpy as np
 
 import hurcules
+from hurcules.output import differing
 from hurcules.validation import require_known
 from hurcules_envs.checks import require_whole
 from hurcules_envs.data_formats import FORMATS
@@ -47,6 +48,7 @@ def record(
     seed: int = 0,
     author: str = "expert",
     source: str = "",
+    check: Callable[[Any], object] = lambda _: None,
     progress: Callable[[int, int], None] = lambda _, __: None,
     **options: Any,
 ) -> str:
@@ -66,7 +68,8 @@ def record(
         seed: of the first episode, the others follow.
         author: who acts, for the data set's name: letters, digits, "_" and "-".
         source: which policy, so that a recording that was stopped goes on with no other.
-        progress: is told how many are done, and how many of them succeeded.
+        check: is given the environment before anything is written; raises where it does not fit.
+        progress: is told how many are done, at first 0, and how many of them succeeded.
         options: of the environment, and `max_episode_steps`; at another `rate` episodes last as
             long, unless it is given.
 
@@ -92,11 +95,13 @@ def record(
     paths = [part / f"{i:06d}.npz" for i in range(episodes)]
     env: Any = gymnasium.make(recording.environment, **recording.options)
     try:
+        check(env.unwrapped)
         written.require()
         with _told(target, paths):
             part.mkdir(parents=True, exist_ok=True)
             _same(recording, part / "recording.json")
         succeeded = 0
+        progress(0, succeeded)
         for i, path in enumerate(paths):
             if path.exists():
                 episode = Episode.load(path)
@@ -172,14 +177,10 @@ def _same(recording: Recording, path: Path) -> None:
     settings = asdict(recording) | {"version": hurcules.__version__}
     settings = json.loads(json.dumps(settings))
     earlier = json.loads(path.read_text() or "{}") if path.exists() else {}
-    differing = [
-        f"{name} (there {earlier[name]!r}, now {settings.get(name)!r})"
-        for name in earlier
-        if name != "episodes" and earlier[name] != settings.get(name)
-    ]
-    if differing:
+    wanted = {name: settings.get(name) for name in earlier if name != "episodes"}
+    if others := differing(earlier, wanted):
         raise hurcules.Error(
-            f"{path.parent} holds another recording that was stopped: {', '.join(differing)}; "
+            f"{path.parent} holds another recording that was stopped: {', '.join(others)}; "
             "delete it or give another folder"
         )
     kept = len(list(path.parent.glob("*.npz")))

@@ -11,18 +11,22 @@ from pathlib import Path
 from typing import Any
 
 import gymnasium
-import ray
-import torch
-from ray.rllib.algorithms.algorithm import Algorithm
-from ray.rllib.algorithms.ppo import PPOConfig
-from ray.rllib.env.single_agent_env_runner import SingleAgentEnvRunner
-from torch import nn
 
 import hurcules
+from hurcules import extras
 from hurcules.interrupts import Interrupts, unheard_by_children
 from hurcules_envs.onnx_file import Graph, Node, texts_of, write
 from hurcules_envs.run_folder import open_run, write_settings
-from hurcules_envs.torch_layers import add_layers, add_limits
+
+with extras.importing("pip install 'ray[rllib]' torch"):
+    import ray
+    import torch
+    from ray.rllib.algorithms.algorithm import Algorithm
+    from ray.rllib.algorithms.ppo import PPOConfig
+    from ray.rllib.env.single_agent_env_runner import SingleAgentEnvRunner
+    from torch import nn
+
+    from hurcules_envs.torch_layers import add_layers, add_limits
 
 __all__ = ["Runner", "ppo_config", "train"]
 

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import hurcules
-from hurcules.output import write_whole
+from hurcules.output import Output, differing, write_whole
 
 __all__ = ["open_run", "write_settings"]
 
+FREE = ("steps", "out")  # may be others where a run goes on
 CHECKPOINTS = ("checkpoint.zip", "rllib")  # of Stable-Baselines3, of RLlib
 
 
@@ -20,16 +21,13 @@ def open_run(out: Path, settings: Mapping[str, Any]) -> None:
 
     Args:
         out: the folder.
-        settings: of the run, as JSON has them; `steps` and `out` may differ from the earlier run's.
+        settings: of the run, as JSON has them; those of FREE may differ from the earlier run's.
 
     Raises:
         hurcules.Error: the folder holds another run, or one whose settings are broken, or cannot be
-            made.
+            made or written.
     """
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise hurcules.Error(f"--out: {out}: {error.strerror}") from error
+    Output(out, ())
     written = out / "settings.json"
     if not written.exists() or not any((out / name).exists() for name in CHECKPOINTS):
         return  # nothing is lost
@@ -37,15 +35,11 @@ def open_run(out: Path, settings: Mapping[str, Any]) -> None:
         earlier = json.loads(written.read_text())
     except ValueError as error:
         raise hurcules.Error(f"{written} is broken: give another folder ({error})") from error
-    differing = [
-        f"{name} (there {earlier.get(name)!r}, now {settings.get(name)!r})"
-        for name in dict.fromkeys([*settings, *earlier])
-        if name not in ("steps", "out") and earlier.get(name) != settings.get(name)
-    ]
-    if differing:
-        raise hurcules.Error(
-            f"{out} holds another run: {', '.join(differing)}; give another folder"
-        )
+    wanted = {
+        key: settings.get(key) for key in dict.fromkeys([*settings, *earlier]) if key not in FREE
+    }
+    if others := differing(earlier, wanted):
+        raise hurcules.Error(f"{out} holds another run: {', '.join(others)}; give another folder")
 
 
 def write_settings(out: Path, settings: Mapping[str, Any]) -> None:

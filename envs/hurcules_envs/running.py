@@ -19,7 +19,7 @@ from hurcules.interrupts import Interrupts
 from hurcules.output import Output, void
 from hurcules.plugins import PolicyOptions
 from hurcules.rendering import RendererError
-from hurcules.run import DONE, FAILED, INTERRUPTED, progress_bar
+from hurcules.run import DONE, FAILED, INTERRUPTED, open_output, progress_bar
 from hurcules.video import encode
 from hurcules_envs.endings import Ending
 from hurcules_envs.policy import Policy
@@ -29,8 +29,8 @@ __all__ = ["environment_of", "run_policy", "settings_of"]
 
 # what `evaluate` and `record` take beside the options of an environment
 TOLD = (
-    "act", "author", "environment", "episodes", "form", "out", "progress", "seed", "source",
-    "threads",
+    "act", "author", "check", "environment", "episodes", "form", "out", "progress", "seed",
+    "source", "threads",
 )  # fmt: skip
 FILES = ("summary.json", "episode.npz", "video.mp4")
 # of info: what the table shows, its unit, what it is multiplied by, the worst of an episode
@@ -110,8 +110,8 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
         The exit code: DONE after a success, FAILED, or INTERRUPTED.
 
     Raises:
-        hurcules.Error: there is no such policy, it does not fit the environment, or that has no
-            native vector.
+        hurcules.Error: there is no such policy, it does not fit the environment, that has no
+            native vector, or a folder that was asked for holds another run.
         hurcules.output.WriteError: a file could not be written.
     """
     policy = Policy(options.policy)
@@ -126,7 +126,13 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
     mode = None if lost else "rgb_array"
     env = gymnasium.make(name, max_episode_steps=steps, render_mode=mode, **settings)
     policy.check(name, env.observation_space, env.action_space)
-    output = Output(options.out or Path("out", name.split("/")[-1]), FILES)
+    told = {
+        "environment": name, "options": settings, "seed": options.seed,
+        "policy": str(policy.path), "video": options.video,
+    }  # fmt: skip
+    folder = options.out or Path("out", name.split("/")[-1])
+    named = options.out is not None and not options.replaces
+    output = open_output(folder, FILES, told, named, console)
     if lost and options.video:
         console.print(f"no film: {lost}", style="yellow", highlight=False, markup=False)
     with Interrupts() as interrupts:
@@ -139,9 +145,7 @@ def run_policy(options: PolicyOptions, console: Console) -> int:
                 bar.update(task, completed=len(episode.rewards), note=f"{episode.time:5.1f} s")
             bar.update(task, total=len(episode.rewards))
         summary = episode.summary() | {
-            "environment": name, "options": settings, "seed": options.seed,
-            "policy": str(policy.path), "interrupted": interrupts.noted,
-            "hurcules_version": hurcules.__version__,
+            **told, "interrupted": interrupts.noted, "hurcules_version": hurcules.__version__,
         }  # fmt: skip
         _save(episode, summary, output)
         if episode.undrawn:

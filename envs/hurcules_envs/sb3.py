@@ -7,15 +7,18 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-import torch
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
-from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
-from stable_baselines3.common.vec_env import VecEnv
 
 import hurcules
+from hurcules import extras
 from hurcules_envs.registry import full_id, native_options, spec_of, steps_of_episode
 from hurcules_envs.vector import NativeVectorEnv
+
+with extras.importing(extras.remedy("train")):
+    import torch
+    from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
+    from stable_baselines3.common.vec_env import VecEnv
 
 __all__ = ["GoalFeatures", "Sb3VecEnv", "Standardised", "make_sb3"]
 

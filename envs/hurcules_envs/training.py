@@ -12,13 +12,9 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-import torch
-from stable_baselines3 import PPO, SAC, HerReplayBuffer
-from stable_baselines3.common.base_class import BaseAlgorithm
-from stable_baselines3.common.callbacks import BaseCallback
-from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
 import hurcules
+from hurcules import extras
 from hurcules.interrupts import Interrupts
 from hurcules.output import write_whole
 from hurcules.validation import require_known
@@ -27,6 +23,13 @@ from hurcules_envs.exporting import export_policy
 from hurcules_envs.imitation import demonstrate
 from hurcules_envs.run_folder import open_run, write_settings
 from hurcules_envs.sb3 import PARTS, SCALE, GoalFeatures, Standardised, make_sb3
+
+with extras.importing(extras.remedy("train")):
+    import torch
+    from stable_baselines3 import PPO, SAC, HerReplayBuffer
+    from stable_baselines3.common.base_class import BaseAlgorithm
+    from stable_baselines3.common.callbacks import BaseCallback
+    from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
 __all__ = ["TrainOptions", "make_model", "train"]
 
@@ -123,7 +126,8 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
 
     Args:
         options: what, and for how long.
-        progress: is told the steps done and the share of successes among the last episodes.
+        progress: is told the steps done, at first 0, and the share of successes among the last
+            episodes.
 
     Returns:
         The folder.
@@ -170,7 +174,9 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
                 f"{checkpoint} is broken: give another folder ({error})"
             ) from error
         environment.seed(options.seed + model.num_timesteps)  # else the first episodes come again
-    elif options.demonstrations:
+    if progress is not None:
+        progress(0, 0.0)
+    if options.demonstrations and not checkpoint.exists():
         _imitate(model, options)
         save()
     done = options.steps <= model.num_timesteps or _learn(model, options, save, progress)

@@ -4,7 +4,11 @@
 #include <pybind11/pybind11.h>
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <string>
+#include <utility>
+
+#include "hurcules/base/error.hpp"
 
 namespace py = pybind11;
 
@@ -58,6 +62,57 @@ py::dict build() {
   return facts;
 }
 
+// "self: hurcules._core.Park, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None" in short
+std::string wanted_by(const std::string& setter) {
+  const std::size_t begin = setter.find(": ", setter.find(", arg")) + 2;
+  std::string text = setter.substr(begin, setter.rfind(") -> None") - begin);
+  for (const auto& [long_name, short_name] :
+       std::initializer_list<std::pair<std::string, std::string>>{
+           {"typing.SupportsFloat | typing.SupportsIndex", "float"},
+           {"typing.SupportsInt | typing.SupportsIndex", "int"},
+           {"typing.Annotated[numpy.typing.ArrayLike, numpy.float64, \"[m, 1]\"]", "numbers (m,)"},
+           {"collections.abc.", ""},
+           {"hurcules._core.", ""}}) {
+    for (std::size_t at; (at = text.find(long_name)) != std::string::npos;) {
+      text.replace(at, long_name.size(), short_name);
+    }
+  }
+  return text;
+}
+
+// An attribute that is given what it does not take says what was wanted and what came, as the
+// constructors of options do; pybind11 lists its overloads.
+py::cpp_function telling(const py::object& setter, const std::string& where) {
+  const std::string signature = py::str(setter.attr("__doc__"));
+  py::options texts;
+  texts.disable_function_signatures();  // that of what it calls is told on
+  return py::cpp_function(
+      [setter, where, wanted = wanted_by(signature)](const py::object& self,
+                                                     const py::object& value) {
+        try {
+          setter(self, value);
+        } catch (py::error_already_set& error) {
+          if (!error.matches(PyExc_TypeError)) throw;
+          throw hurcules::Error(where + " wants " + wanted + ", got " +
+                                std::string(py::repr(value)));
+        }
+      },
+      py::doc(signature.c_str()));
+}
+
+void tell_wrong_types(const py::module_& module) {
+  for (const auto& [_, kind] : py::cast<py::dict>(module.attr("__dict__").attr("copy")())) {
+    if (!py::isinstance<py::type>(kind)) continue;
+    const std::string owner = py::str(kind.attr("__name__"));
+    for (const auto& [name, member] : py::dict(kind.attr("__dict__"))) {
+      const bool is_property = py::isinstance(member, py::handle((PyObject*)&PyProperty_Type));
+      if (!is_property || member.attr("fset").is_none()) continue;
+      const std::string where = owner + ": " + std::string(py::str(name));
+      kind.attr(name) = member.attr("setter")(telling(member.attr("fset"), where));
+    }
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
@@ -84,4 +139,5 @@ PYBIND11_MODULE(_core, module) {
   bind_sim(module);
   bind_batch(module);
   bind_power(module);
+  tell_wrong_types(module);
 }

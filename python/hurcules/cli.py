@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,6 +12,7 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from typer.core import TyperGroup
 
 import hurcules
 from hurcules import own_simulation, plugins
@@ -29,7 +31,29 @@ __all__ = ["main", "results_in"]
 
 USAGE = 2  # exit code of wrong usage
 
+
+class _Commands(TyperGroup):
+    """A Ctrl-C is told, where typer ends by its exit code alone."""
+
+    def make_context(self, *arguments: Any, **more: Any) -> Any:
+        with _told_stop():
+            return super().make_context(*arguments, **more)
+
+    def invoke(self, *arguments: Any, **more: Any) -> Any:
+        with _told_stop():
+            return super().invoke(*arguments, **more)
+
+
+@contextmanager
+def _told_stop() -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt as stopped:
+        raise typer.Abort from stopped
+
+
 app = typer.Typer(
+    cls=_Commands,
     add_completion=False,
     no_args_is_help=True,
     rich_markup_mode="markdown",
@@ -149,6 +173,8 @@ def run_mission(
     settings instead, and other parameters of its scene may follow (degrees, m). A policy acts for
     one episode of its environment; `hurcules evaluate` tells how often it succeeds.
 
+    A folder of --out that holds another run is refused; the usual one holds the last run.
+
     Exit status: 0 done, 1 the mission failed (`summary.json` says why), with --seeds one of them,
     2 wrong usage, 130 Ctrl-C.
 
@@ -193,13 +219,10 @@ def run_mission(
         )
         raise typer.Exit(_policy_runner()(wanted, Console()))
     _refuse(context, ("fidelity", "frame", "settings"), "for policies")
-    folder = out or Path("out", Path(mission).stem)
     if methods := _methods(mission):
         _refuse(context, _MISSION_OPTIONS, f"for missions; '{mission}' is a test method")
         words = tuple(context.args)
-        asked = MethodOptions(
-            mission, words, robot, repetitions, seed, pace, workers, folder, video
-        )
+        asked = MethodOptions(mission, words, robot, repetitions, seed, pace, workers, out, video)
         raise typer.Exit(methods.run(asked, Console()))
     titles = [name for methods in plugins.method_groups() for name in methods.titles()]
     if any(one == mission or one.endswith(f"/{mission}") for one in plugins.environments()):
@@ -211,9 +234,7 @@ def run_mission(
         require_known("mission or test method", mission, [*hurcules.missions(), *titles])
     _refuse(context, _METHOD_OPTIONS[:-1], f"for test methods; '{mission}' is a mission")
     parameters = _parameters(mission, context.args)
-    options = RunOptions(
-        mission, seed, folder, seconds, method, video, sensors, parameters, variation
-    )
+    options = RunOptions(mission, seed, out, seconds, method, video, sensors, parameters, variation)
     if seeds is None:
         _refuse(context, ("workers",), "for test methods and --seeds")
         raise typer.Exit(run(options, Console()))
@@ -230,7 +251,7 @@ def _parameters(mission: str, words: Sequence[str]) -> dict[str, Any]:
     parameters = rows.parameters_of(words) if rows else {}
     if words and not parameters:
         kind = "no such option" if words[0].startswith("-") else "unexpected argument"
-        raise Error(f"{kind}: {words[0]}")
+        raise Error(f"{kind}: {words[0]}; '{mission}' has no options of its own")
     return parameters
 
 

@@ -12,7 +12,7 @@ import sys
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from hurcules.extras import EXTRA, REMEDY, missing
+from hurcules import extras
 from hurcules.opengl import REMEDY as RENDERER_REMEDY
 from hurcules.opengl import import_mujoco, lacking
 
@@ -171,15 +171,20 @@ def _renderer() -> list[Finding]:
 
 
 def _extras() -> list[Finding]:
-    """The packages for film, plots and report."""
-    lost = missing()
-    if lost:
-        return [Finding("film and report", "lacks", f"no {', '.join(lost)}", REMEDY)]
-    return [Finding("film and report", "ok", ", ".join(EXTRA.values()))]
+    """What is needed for films, training and more, each an extra of the package."""
+    found = []
+    for extra in extras.names():
+        what = extras.FOR.get(extra, extra)
+        if lost := extras.missing(extra):
+            text = f"no {', '.join(lost)}"
+            found.append(Finding(what, "lacks", text, extras.remedy(extra)))
+        else:
+            found.append(Finding(what, "ok", ", ".join(extras.packages(extra))))
+    return found
 
 
 def _codec() -> list[Finding]:
-    if "imageio_ffmpeg" in missing():
+    if "imageio-ffmpeg" in extras.missing():
         return []
     try:
         import imageio_ffmpeg
@@ -187,7 +192,7 @@ def _codec() -> list[Finding]:
         program = imageio_ffmpeg.get_ffmpeg_exe()
         encoders = subprocess.run([program, "-encoders"], capture_output=True, text=True).stdout
     except (ImportError, RuntimeError, OSError) as error:
-        return [Finding("video codec", "lacks", str(error), REMEDY)]
+        return [Finding("video codec", "lacks", str(error), extras.remedy())]
     if "libx264" not in encoders:
-        return [Finding("video codec", "lacks", f"{program} has no libx264", REMEDY)]
+        return [Finding("video codec", "lacks", f"{program} has no libx264", extras.remedy())]
     return [Finding("video codec", "ok", f"libx264 by {program}")]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import math
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from reprlib import Repr
 from typing import Any
 
 import mujoco
@@ -15,7 +17,11 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 
-__all__ = ["Output", "WriteError", "compiled", "write_whole", "writing"]
+__all__ = ["Output", "WriteError", "compiled", "differing", "plain", "write_whole", "writing"]
+
+_SHORT = Repr()
+_SHORT.maxdict = _SHORT.maxlist = 100
+_SHORT.maxstring = _SHORT.maxother = 40
 
 
 class WriteError(Error):
@@ -63,24 +69,49 @@ def _whole(path: Path) -> Iterator[Path]:
         part.unlink(missing_ok=True)
 
 
+def differing(there: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """What two runs were made of where that differs, in words.
+
+    Args:
+        there: of an earlier run.
+        now: of another; what is not named here may be anything there.
+    """
+    return [
+        f"{name} (there {_SHORT.repr(there.get(name))}, now {_SHORT.repr(mine)})"
+        for name, mine in now.items()
+        if there.get(name) != mine
+    ]
+
+
 class Output:
     """A folder for results.
 
     Attributes:
         folder: the folder; it exists and can be written.
         saved: the files written so far.
+        replaces: the earlier run whose files give way to those of this one, in words; "": there
+            is none.
     """
 
-    def __init__(self, folder: Path, names: Sequence[str]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        names: Sequence[str],
+        made_of: Mapping[str, Any] | None = None,
+        named: bool = True,
+    ) -> None:
         """Makes the folder.
 
         Args:
             folder: for the results.
             names: of files that an earlier run may have left there: they are removed before the
                 first one is written, not sooner.
+            made_of: what the run is made of, as its summary.json says it: in a folder that was
+                asked for only the same run takes the place of an earlier one.
+            named: whether it was asked for; False: it is the usual one, where the last run lies.
 
         Raises:
-            Error: the folder cannot be made or written.
+            Error: the folder cannot be made or written, or holds another run.
         """
         self.folder = folder
         self.saved: list[Path] = []
@@ -93,6 +124,14 @@ class Output:
         except OSError as error:
             reason = "it is a file" if folder.is_file() else error.strerror
             raise Error(f"--out: cannot write to {folder}: {reason}") from error
+        self.replaces = ""
+        if made_of is None or not any(path.exists() for path in self._earlier):
+            return
+        others = _others(folder, plain(made_of))
+        if others and named:
+            raise Error(f"--out: {folder} holds another run: {others}; give another folder")
+        which = "another run" if others else "the same run"
+        self.replaces = f"takes the place of {which} in {folder}" + f": {others}" * bool(others)
 
     def write(self, name: str, writer: Callable[[Path], None]) -> Path:
         """Writes a file under another name and renames it when it is whole.
@@ -139,6 +178,30 @@ class Output:
         """What was saved, in words."""
         names = ", ".join(path.name for path in self.saved)
         return f"saved in {self.folder}: {names}" if names else "nothing was saved"
+
+
+def _others(folder: Path, made_of: Mapping[str, Any]) -> str:
+    """What the run of a folder was made of where that differs; "": it is the same."""
+    try:
+        there = dict(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return "no summary.json tells of its files"
+    return ", ".join(differing(there, made_of))
+
+
+def plain(value: Any) -> Any:
+    """NumPy's numbers as Python's; what is not finite as None, for JSON has no word for it."""
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    if isinstance(value, int | np.integer):
+        return int(value)
+    if isinstance(value, float | np.floating):
+        return float(value) if math.isfinite(value) else None
+    return value
 
 
 def void(_: object) -> None:

@@ -120,7 +120,7 @@ def _its_own_errors(file: Path) -> Iterator[None]:
 def _function(path: str) -> Callable[..., Any]:
     file = Path(path)
     if not file.is_file():
-        raise Error(f"{path}: no such file")
+        raise Error(f"{path}: {'it is a folder' if file.is_dir() else 'no such file'}")
     function = getattr(_module(file.resolve(), file.stat().st_mtime_ns), FUNCTION, None)
     if not callable(function):
         raise Error(

@@ -36,7 +36,7 @@ class MethodOptions:
     seed: int = 0
     speed: float | None = None  # [m/s]
     workers: int = 1
-    out: Path = Path("out", "method")
+    out: Path | None = None  # out/METHOD, where the last run lies
     video: bool = True
 
 
@@ -53,6 +53,7 @@ class PolicyOptions:
     out: Path | None = None
     video: bool = True
     settings: Sequence[str] = ()  # NAME=VALUE, other options of the environment
+    replaces: bool = False  # an earlier run of whatever kind; without `out` any run does
 
 
 class Methods(Protocol):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +17,7 @@ from rich.table import Table
 
 from hurcules import extras, own_simulation
 from hurcules._core import Error
+from hurcules._version import __version__
 from hurcules.drawing import overview
 from hurcules.figures import describe, readable, tells, wanted
 from hurcules.interrupts import Interrupts
@@ -37,6 +39,7 @@ __all__ = [
     "RunOptions",
     "made_of",
     "make",
+    "open_output",
     "progress_bar",
     "require_end",
     "run",
@@ -66,13 +69,18 @@ class RunOptions:
 
     mission: str = "stretch"  # or the path of a table, or of a file with a `simulation`
     seed: int = 0
-    out: Path = Path("out", "stretch")  # folder for the results
+    out: Path | None = None  # folder for the results; None: out/MISSION, where the last run lies
     seconds: float | None = None  # [s] stop after this time; None lets the mission end
     method: str = "lexicographic"
     video: bool = True
     sensors: bool = False  # with the noise of `hurcules.sensors.realistic`
     parameters: Mapping[str, Any] = field(default_factory=dict)  # of the mission
     variation: float = 1.0  # of a mission by name: how much differs between seeds
+
+    @property
+    def folder(self) -> Path:
+        """For the results."""
+        return self.out or Path("out", Path(self.mission).stem)
 
 
 def run(options: RunOptions, console: Console) -> int:
@@ -90,14 +98,16 @@ def run(options: RunOptions, console: Console) -> int:
 
     Raises:
         Error: wrong usage (unknown mission or method, bad number, a folder that cannot be written,
-            a simulation of one's own that has no end or no log).
+            a folder that was asked for holds another run, a simulation of one's own that has no
+            end or no log).
         WriteError: a file could not be written; those before it were.
     """
     mission = table_mission(options.mission)
     simulation = _made(options)
     ticks = ticks_in(options.seconds, simulation.dt)
+    told = _told(options, mission, simulation)
     with Interrupts() as interrupts:
-        output = Output(options.out, FILES)
+        output = open_output(options.folder, FILES, told, options.out is not None, console)
         if lost := extras.without():
             console.print(
                 f"no film and no report: {lost}", style="yellow", highlight=False, markup=False
@@ -106,7 +116,8 @@ def run(options: RunOptions, console: Console) -> int:
         if not recording.simulated_seconds:
             console.print("interrupted before anything was recorded", style="bold")
             return INTERRUPTED
-        summary = summarize(simulation, recording, _told(options, mission, simulation))
+        file = {"file": options.mission} if Path(options.mission).suffix else {}
+        summary = summarize(simulation, recording, told | file)
         try:
             _save(options, simulation, mission, recording, summary, output, console, interrupts)
         except KeyboardInterrupt:  # the second one
@@ -121,6 +132,16 @@ def run(options: RunOptions, console: Console) -> int:
         failed = simulation.finished and not simulation.success
         _report(summary, "failed: " * failed, output, console)
     return FAILED if failed else DONE
+
+
+def open_output(
+    folder: Path, names: Sequence[str], made_of: Mapping[str, Any], named: bool, console: Console
+) -> Output:
+    """The folder of a run, as `Output` makes it; says whose place the run takes."""
+    output = Output(folder, names, made_of, named)
+    if output.replaces:
+        console.print(output.replaces, highlight=False, markup=False, soft_wrap=True)
+    return output
 
 
 def _made(options: RunOptions) -> Simulation:
@@ -156,18 +177,26 @@ def _told(
     options: RunOptions, mission: TableMission | None, simulation: Simulation
 ) -> dict[str, Any]:
     name = simulation.mission or Path(options.mission).stem
-    file = {"file": options.mission} if Path(options.mission).suffix else {}
-    return {"mission": name, **file, "seed": options.seed, **made_of(options, mission)}
+    asked = {"seed": options.seed, "video": options.video}
+    return {"mission": name, **asked, **made_of(options, mission)}
 
 
 def made_of(options: RunOptions, mission: TableMission | None) -> dict[str, Any]:
     """What a run is made of; solver and sensors of a simulation of one's own are its own."""
+    file = Path(options.mission)
+    mine = file.suffix in (".py", ".toml")
     parameters = mission.complete(options.parameters) if mission else options.parameters
+    told = {
+        "version": __version__,
+        "file_sha256": hashlib.sha256(file.read_bytes()).hexdigest() if mine else None,
+        "seconds": options.seconds,
+        "parameters": dict(parameters),
+    }
     if own_simulation.is_own(options.mission):
-        return {"parameters": dict(parameters)}
+        return told
     sensors = "realistic" if options.sensors else "exact"
     return {
-        "parameters": dict(parameters),
+        **told,
         "method": options.method,
         "sensors": sensors,
         "variation": options.variation,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 from collections import defaultdict
@@ -17,10 +16,9 @@ from rich.console import Console
 
 from hurcules import extras, own_simulation
 from hurcules._core import Error
-from hurcules._version import __version__
 from hurcules.figures import describe, readable, wanted
 from hurcules.interrupts import Interrupts
-from hurcules.output import Output, void, write_whole, writing
+from hurcules.output import Output, differing, plain, void, write_whole, writing
 from hurcules.run import (
     DONE,
     FAILED,
@@ -33,7 +31,7 @@ from hurcules.run import (
     ticks_in,
 )
 from hurcules.shares import wilson
-from hurcules.summary import bounds, figures, plain
+from hurcules.summary import bounds, figures
 from hurcules.table_missions import table_mission
 from hurcules.workers import DIED, in_words, side_by_side
 
@@ -77,8 +75,8 @@ def run_seeds(options: RunOptions, seeds: int, workers: int, console: Console) -
     _try_out(replace(options, seed=asked[-1]))
     told = _told(options)
     with Interrupts() as interrupts:
-        output = Output(options.out, FILES)
-        path = options.out / RUNS
+        output = Output(options.folder, FILES)
+        path = options.folder / RUNS
         rows = {row["seed"]: row for row in _held(path, told) if row["seed"] in asked}
         if rows:
             console.print(f"{len(rows)} of {seeds} runs are in {path} already", highlight=False)
@@ -110,16 +108,8 @@ def _try_out(options: RunOptions) -> None:
 
 def _told(options: RunOptions) -> Row:
     """What each row says of what it was made of: rows of one file say the same."""
-    file = Path(options.mission)
-    mine = file.suffix in (".py", ".toml")
-    told = {
-        "mission": file.stem,
-        "file_sha256": hashlib.sha256(file.read_bytes()).hexdigest() if mine else None,
-        "seconds": options.seconds,
-        "version": __version__,
-        **made_of(options, table_mission(options.mission)),
-    }
-    return json.loads(json.dumps(told))
+    name = Path(options.mission).stem
+    return plain({"mission": name, **made_of(options, table_mission(options.mission))})
 
 
 def _held(path: Path, told: Row) -> list[Row]:
@@ -128,16 +118,11 @@ def _held(path: Path, told: Row) -> list[Row]:
         text = path.read_text(encoding="utf-8") if path.exists() else ""
         whole = text[: text.rfind("\n") + 1]
         rows: list[Row] = [json.loads(line) for line in whole.splitlines()]
-        others = [
-            f"{key} {row[key]!r} there, {mine!r} here"
-            for row in rows
-            for key, mine in told.items()
-            if row[key] != mine
-        ]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        others = [one for row in rows for one in differing(row, told)]
+    except (OSError, ValueError, TypeError) as error:
         raise Error(f"--out: cannot read {path}: {type(error).__name__}: {error}") from None
     if others:
-        raise Error(f"--out: {path} is of other runs: {others[0]}; another folder wanted")
+        raise Error(f"--out: {path} is of other runs: {others[0]}; give another folder")
     if whole != text:
         write_whole(path, whole.encode())
     return rows

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import math
 import platform
 from collections.abc import Mapping
 from typing import Any
@@ -12,12 +11,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from hurcules._version import __version__
-from hurcules.output import compiled
+from hurcules.output import compiled, plain
 from hurcules.recording import Recording
 from hurcules.simulation import Simulation
 
-__all__ = ["bounds", "figures", "plain", "processor", "summarize"]
+__all__ = ["bounds", "figures", "processor", "summarize"]
 
 
 def summarize(
@@ -28,7 +26,7 @@ def summarize(
     Args:
         simulation: after the run.
         recording: what it left.
-        told: what it was made of: mission, parameters, seed.
+        told: what it was made of: mission, parameters, seed, version.
 
     Returns:
         Plain data for JSON: numbers are finite or None.
@@ -37,7 +35,6 @@ def summarize(
     return plain(
         {
             **told,
-            "version": __version__,
             "finished": simulation.finished,
             "success": simulation.success,
             "reason": _reason(simulation, recording),
@@ -123,18 +120,3 @@ def processor() -> str:
     except OSError:
         lines = []
     return lines[0].split(":", 1)[1].strip() if lines else platform.processor()
-
-
-def plain(value: Any) -> Any:
-    """NumPy's numbers as Python's; what is not finite as None, for JSON has no word for it."""
-    if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if isinstance(value, bool | np.bool_):
-        return bool(value)
-    if isinstance(value, int | np.integer):
-        return int(value)
-    if isinstance(value, float | np.floating):
-        return float(value) if math.isfinite(value) else None
-    return value

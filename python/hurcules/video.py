@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from hurcules import extras
 from hurcules.legend import level_words, limit_words
 from hurcules.rendering import open_renderer, overview_camera, pose
 
@@ -79,8 +80,9 @@ class Painter:
         self._overview = self._stack.enter_context(open_renderer(model, WIDTH, HEIGHT))
         if self._inset:
             self._small = self._stack.enter_context(open_renderer(model, INSET_WIDTH, INSET_HEIGHT))
-        import matplotlib  # both are of the extra hurcules[report]
-        from PIL import ImageFont
+        with extras.importing(extras.remedy()):
+            import matplotlib
+            from PIL import ImageFont
 
         fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
         self._text = ImageFont.truetype(str(fonts / "DejaVuSans.ttf"), 22)
@@ -198,7 +200,8 @@ def encode(
 
     Arguments, result and errors are those of `film`.
     """
-    import imageio.v2 as imageio  # of the extra hurcules[report]
+    with extras.importing(extras.remedy()):
+        import imageio.v2 as imageio
 
     done = 0
     writer = imageio.get_writer(

@@ -229,3 +229,39 @@ def test_a_point_of_another_size_is_told() -> None:
             task.set_target([1.0, 2.0])
         with pytest.raises(hurcules.Error, match=r"real numbers of shape \(3,\)"):
             task.set_target("ahead")
+
+
+@pytest.mark.parametrize(
+    ("thing", "name", "value", "wanted"),
+    [
+        (lambda: hurcules.Phase(name="go", stack="arms"), "seconds", "2", "float, got '2'"),
+        (lambda: hurcules.Phase(name="go", stack="arms"), "leads", 3, "Sequence[Lead], got 3"),
+        (lambda: hurcules.Lead(channel="arm"), "rate", "up", "numbers (m,), got 'up'"),
+        (hurcules._core.SimulationOptions, "seed", -1, "int, got -1"),
+        (lambda: hurcules.PositionTask("hand", robot(), "hand"), "max_lead", None, "float, got "),
+    ],
+)
+def test_an_attribute_says_what_it_wants_and_what_came(
+    thing: Callable[[], Any], name: str, value: object, wanted: str
+) -> None:
+    made = thing()
+    before = getattr(made, name)
+    with pytest.raises(hurcules.Error) as told:
+        setattr(made, name, value)
+    assert f": {name} wants {wanted}" in str(told.value)
+    assert np.array_equal(getattr(made, name), before)
+    setattr(made, name, before)
+
+
+def test_no_attribute_answers_with_a_list_of_overloads() -> None:
+    """The setters of all compiled classes, by what they say of themselves."""
+    said = {}
+    for kind in vars(hurcules._core).values():
+        for name, member in vars(kind).items() if isinstance(kind, type) else ():
+            if isinstance(member, property) and member.fset:
+                with pytest.raises(hurcules.Error) as told:
+                    member.fset(object(), object())
+                said[kind.__name__, name] = str(told.value)
+    assert len(said) > 150
+    for (owner, name), text in said.items():
+        assert text.startswith(f"{owner}: {name} wants ") and "typing" not in text, text

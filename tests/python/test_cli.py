@@ -7,12 +7,13 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 
 import hurcules
-from hurcules import cli, doctor, view
+from hurcules import cli, doctor, extras, view
 from hurcules.output import Output, void
 
 
@@ -133,6 +134,24 @@ def test_doctor_tells_each_finding_and_ends_well_where_nothing_is_broken(
         assert word in out
 
 
+def test_doctor_looks_at_every_extra_and_none_of_them_has_to_be_there(
+    root: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pyproject = tomllib.loads((root / "pyproject.toml").read_text())
+    declared = pyproject["project"]["optional-dependencies"]
+    assert extras.names() == list(extras.FOR) == list(declared)
+    for extra, wanted in declared.items():
+        assert [re.match("[a-z0-9-]+", one)[0] for one in wanted] == extras.packages(extra)
+    monkeypatch.setattr(doctor, "_renderer", lambda: [])
+    monkeypatch.setattr(extras, "find_spec", lambda module: None)
+    code, out, _ = call(capsys, "doctor")
+    words = " ".join(out.split())
+    assert code == 0
+    for extra in declared:
+        assert f"{extras.FOR[extra]} lacks no " in words
+        assert f"remedy: pip install 'hurcules[{extra}]'" in words
+
+
 def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -209,6 +228,7 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["record", "Fly-v0"], "environment 'Hurcules/Fly-v0' does not exist"),
         (["record", "Reach-v0", "--episodes", "0"], "greater than or equal to 1, got '0'"),
         (["run", "--out", __file__], "test_cli.py: it is a file"),
+        (["run", "stretch", "--mass", "90"], "--mass; 'stretch' has no options of its own"),
         (["run", "--seed", str(2**64)], "seed: wanted a whole number"),
         (["run", "--out", ""], "'--out': wanted the name of a folder, got ''"),
         (["run", "--seconds", "x"], "--seconds"),
@@ -238,6 +258,16 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_run(
     code, out, err = call(capsys, "run", "--out", str(tmp_path / "file" / "out"))
     assert (code, out) == (2, "")
     assert err == f"hurcules: error: --out: cannot write to {tmp_path}/file/out: Not a directory\n"
+
+
+def test_ctrl_c_in_a_command_is_told(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(hurcules, "missions", stopped)
+    assert call(capsys, "list") == (130, "", "hurcules: error: interrupted\n")
 
 
 def test_the_console_script_ends_with_the_code_of_main() -> None:

@@ -252,6 +252,9 @@ def test_bad_files_get_one_clear_error(tmp_path: Path, monkeypatch: pytest.Monke
         Policy(tmp_path / "none.onnx")
     with pytest.raises(hurcules.Error, match=r"no policy\.onnx lies there"):
         Policy(tmp_path)
+    (tmp_path / "policy.zip").touch()
+    with pytest.raises(hurcules.Error, match=r"of Stable-Baselines3, its policy\.onnx is wanted"):
+        Policy(tmp_path / "policy.zip")
     with pytest.raises(hurcules.Error, match="Softmax want onnxruntime"):
         Policy(linear(tmp_path / "b.onnx", kind="Softmax"))
 

@@ -198,6 +198,9 @@ def test_the_command_writes_summary_and_report_and_its_status_tells(tmp_path, ca
     page = (tmp_path / "report.html").read_text()
     assert "hitched sleds" in page and "friction 0.4 · pace 0.5 m/s · seed 0" in page
     assert "Faults" not in page
+    assert cli.main([*words, "2000"]) == 2  # the folder holds another run
+    assert "mass 75', now '" in capsys.readouterr().err
+    words[words.index("--out") + 1] = str(tmp_path := tmp_path / "2000")
     assert cli.main([*words, "2000"]) == 1
     assert json.loads((tmp_path / "summary.json").read_text())["success"] is False
     assert "<h2>Faults</h2>" in (tmp_path / "report.html").read_text()

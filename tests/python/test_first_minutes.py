@@ -289,17 +289,40 @@ def test_diagnostics_show_what_is_short_and_why() -> None:
 def test_without_the_extra_a_run_says_so_and_does_the_rest(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(extras, "missing", lambda: ["jinja2", "PIL"])
+    monkeypatch.setattr(extras, "missing", lambda: ["jinja2", "pillow"])
     assert cli.main(["run", "stretch", "--seconds", "0.1", "--out", str(tmp_path)]) == 0
     out = " ".join(capsys.readouterr().out.split())
     assert "jinja2, pillow are not installed; remedy: pip install 'hurcules[report]'" in out
     assert {path.name for path in tmp_path.iterdir()} == {"log.npz", "timing.npz", "summary.json"}
 
 
+REPORT = ["matplotlib", "PIL", "jinja2", "imageio", "imageio_ffmpeg"]
+
+
 def test_the_product_imports_without_the_extra() -> None:
-    blocked = "import sys; sys.modules.update(dict.fromkeys(" + repr(list(extras.EXTRA)) + ")); "
+    blocked = "import sys; sys.modules.update(dict.fromkeys(" + repr(REPORT) + ")); "
     code = blocked + "import hurcules, hurcules.cli, hurcules_studies.field_tests.command"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    ("module", "package", "remedy"),
+    [
+        ("hurcules_envs.sb3", "torch", "'hurcules[train]'"),
+        ("hurcules_envs.training", "stable_baselines3", "'hurcules[train]'"),
+        ("hurcules_envs.rllib", "ray", "'ray[rllib]' torch"),
+        ("hurcules.report", "jinja2", "'hurcules[report]'"),
+        ("hurcules.report.seeds", "matplotlib", "'hurcules[report]'"),
+    ],
+)
+def test_an_import_without_its_package_says_what_installs_it(
+    module: str, package: str, remedy: str
+) -> None:
+    code = f"import sys, importlib; sys.modules[{package!r}] = None; import {module}"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    said = done.stderr.splitlines()[-1]
+    assert said.startswith("ModuleNotFoundError: ") and package in said
+    assert said.endswith(f"; remedy: pip install {remedy}")
 
 
 def test_opengl_is_not_imported_before_the_first_picture() -> None:

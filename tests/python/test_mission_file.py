@@ -260,3 +260,11 @@ def test_one_file_is_not_for_both(tmp_path: Path) -> None:
     done = program("stretch", "--seconds", "0.01", "--csv", same, "--json", same)
     assert done.returncode == 2
     assert done.stderr == f"hurcules-sim: --json and --csv name one file, '{same}'\n"
+
+
+def test_a_model_that_does_not_fit_is_named(tmp_path: Path) -> None:
+    model = tmp_path / "other.xml"
+    model.write_text("<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
+    done = program("stretch", "--model", str(model))
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"hurcules-sim: model '{model}' does not fit 'stretch': ")

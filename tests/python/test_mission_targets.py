@@ -157,7 +157,7 @@ def test_a_run_says_what_did_not_come_true() -> None:
     endless = {"name": "wait", "done": ["position/train/z >= 0.5"]}
     made = simulation(endless, max_seconds=0.5)
     made.step(5000)
-    assert made.reason.startswith("time is up at 0.49")
+    assert made.reason.startswith("time is up at 0.500 s in phase")
     assert made.reason.endswith("in phase 'wait': position/train/z >= 0.5 is not true, it is 0.2")
     states = made.state()
     made.reset()

@@ -59,7 +59,7 @@ def words(form: str, out: Path, *more: str) -> list[str]:
 def test_the_mission_records_its_own_operator(tmp_path, monkeypatch):
     taken, authors = [], []
 
-    def kept(name, act, *_, progress, form, seed, author, source, **options):
+    def kept(name, act, *_, check, progress, form, seed, author, source, **options):
         taken.append(options)
         authors.append(author)
         env = gym.make(name, **options).unwrapped
@@ -306,7 +306,7 @@ def test_how_many_episodes_succeeded_is_told(tmp_path, plain, capsys):
     acting: list[bool] = []
     given = {"form": "plain", "progress": lambda *one: told.append(one), **FAST}
     recording.record(NAME, stands, 2, tmp_path / "a", **given)
-    assert told == [(1, 1), (2, 1)]
+    assert told == [(0, 0), (1, 1), (2, 1)]
     assert main(words("plain", tmp_path / "b")) == 0
     assert f"{sum(one.success for one in plain)} of 2 episodes succeeded" in capsys.readouterr().out
 
@@ -371,8 +371,16 @@ def test_a_package_that_is_missing_is_told_last(tmp_path, monkeypatch, capsys, w
     form = Format(("no_such", "it"), lambda one: "data", lambda *_: None)
     monkeypatch.setitem(recording.FORMATS, "minari", form)
     out = ["--fidelity", "kinematic", "--out", str(tmp_path / "data")]
+    made: list[str] = []
+    make = gym.make
+    monkeypatch.setattr(
+        gym, "make", lambda *one, **given: made.append(one[0]) or make(*one, **given)
+    )
     assert main(["record", *words.split(), *out]) != 0
-    assert told in " ".join(capsys.readouterr().err.split())
+    said = capsys.readouterr()
+    assert told in " ".join(said.err.split())
+    assert said.out == ""  # and no bar
+    assert len(made) < 2  # one environment for all that is asked of it
     assert not list(tmp_path.iterdir())
 
 

@@ -11,6 +11,7 @@ import re
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ import pytest
 from rich.console import Console
 
 import hurcules
-from hurcules import extras, report
+from hurcules import extras, lift, report
 from hurcules import run as runs
 from hurcules.figures import readable, wanted
 from hurcules.recording import CHANNELS, STAGES
@@ -145,6 +146,7 @@ def test_figures_are_told_with_their_units_and_their_names_whole(tmp_path: Path)
         '[[figure]]\nname = "speed"\nquantity = "time"\nphases = ["never"]\nmost = 0.01\n'
     )
     console = quiet()
+    options = RunOptions(str(own), out=tmp_path / "never", video=False)
     with pytest.warns(UserWarning, match="never"):
         assert run(options, console) == FAILED
     assert "failed: speed has no value, wanted at most 0.01" in said(console)
@@ -249,6 +251,13 @@ def test_the_report_has_each_force_on_the_person_beside_its_limit() -> None:
     assert "skull" not in page  # nothing touched it
 
 
+@pytest.mark.parametrize("mission", ["lift", "casualty", "crossing"])
+def test_the_report_draws_the_force_that_the_tables_stop_at(mission: str) -> None:
+    when = [one.when for row in lift.mission(mission).rows.phases for one in row.troubles]
+    limits = {one.value for one in when if one.quantity == "casualty/support_n"}
+    assert limits == {plots.SUPPORT}
+
+
 @pytest.mark.usefixtures("without_report")
 def test_the_same_seed_gives_the_same_file_and_another_seed_another(tmp_path: Path) -> None:
     logs = []
@@ -300,12 +309,39 @@ def test_plots_leave_no_coordinate_out() -> None:
     assert [name for name in names if f"({name})" not in drawn] == []
 
 
-def test_files_of_an_earlier_run_do_not_stay(tmp_path: Path) -> None:
-    (tmp_path / "video.mp4").write_text("old")
-    (tmp_path / "mine.txt").write_text("kept")
-    assert run(RunOptions(out=tmp_path, seconds=0.1, video=False), quiet()) == DONE
-    assert not (tmp_path / "video.mp4").exists()
-    assert (tmp_path / "mine.txt").read_text() == "kept"
+def test_in_a_folder_that_was_asked_for_only_the_same_run_is_replaced(
+    tmp_path: Path, without_report: None
+) -> None:
+    options = RunOptions(out=tmp_path, seconds=0.1, video=False)
+    (tmp_path / "video.mp4").write_text("my own")
+    with pytest.raises(hurcules.Error, match=r"another run: no summary\.json tells of its files"):
+        run(options, quiet())
+    assert (tmp_path / "video.mp4").read_text() == "my own"
+    (tmp_path / "video.mp4").rename(tmp_path / "mine.mp4")
+    assert run(options, first := quiet()) == DONE
+    (tmp_path / "report.html").write_text("old")
+    assert run(options, again := quiet()) == DONE
+    assert "takes the place" not in said(first)
+    assert f"takes the place of the same run in {tmp_path}\n" in said(again)
+    assert not (tmp_path / "report.html").exists() and (tmp_path / "mine.mp4").exists()
+    before = (tmp_path / "summary.json").read_bytes()
+    told = r"holds another run: seed \(there 0, now 7\); give another folder"
+    with pytest.raises(hurcules.Error, match=told):
+        run(replace(options, seed=7), quiet())
+    with pytest.raises(hurcules.Error, match=r"seconds \(there 0.1, now 0.2\)"):
+        run(replace(options, seconds=0.2), quiet())
+    assert (tmp_path / "summary.json").read_bytes() == before
+
+
+def test_the_usual_folder_holds_the_last_run_and_says_whose_place_it_takes(
+    tmp_path: Path, without_report: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for seed in (0, 7):
+        assert run(RunOptions(seed=seed, seconds=0.1, video=False), console := quiet()) == DONE
+    place = Path("out", "stretch")
+    assert f"takes the place of another run in {place}: seed (there 0, now 7)\n" in said(console)
+    assert json.loads((place / "summary.json").read_text())["seed"] == 7
 
 
 def test_without_a_renderer_the_rest_is_done_and_the_remedy_named(tmp_path: Path) -> None:

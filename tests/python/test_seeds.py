@@ -120,7 +120,7 @@ def test_a_sweep_goes_on_where_it_was_cut_off(
     said = capsys.readouterr().out
     assert "2 of 2 runs are in" in said and "arm: 2 of 2 succeeded" in said
     assert call(file, tmp_path, "--seeds", "2", "--seed", "6", "--seconds", "0.05") == 2
-    assert "is of other runs: seconds None there, 0.05 here" in capsys.readouterr().err
+    assert "is of other runs: seconds (there None, now 0.05)" in capsys.readouterr().err
     path.write_text("3\n")
     assert call(file, tmp_path, "--seeds", "2") == 2
     assert f"cannot read {path}" in capsys.readouterr().err

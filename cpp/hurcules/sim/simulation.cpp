@@ -437,7 +437,7 @@ void Simulation::judge() {
     return end(Ending::SolverFailed, now);
   }
   if (fall_monitor_.fell(world_.orientation(support_), height())) return end(Ending::Fell, now);
-  if (time() >= options_.max_seconds) return end(Ending::TimeUp, now);
+  if (time() >= options_.max_seconds) return end(Ending::TimeUp, time());
   if (held()) {
     ++held_ticks_;
     const double held_for = static_cast<double>(held_ticks_) * dt();

@@ -8,8 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import jinja2
-
+from hurcules import extras
 from hurcules.casualties import contact_limit
 from hurcules.figures import describe, readable, tells, wanted
 from hurcules.legend import event_words, joint_words, level_words, reason_words, region_words
@@ -22,8 +21,12 @@ from hurcules.recording import (
     Recording,
     Snapshot,
 )
-from hurcules.report import plots
-from hurcules.report.style import applied, data_address, jpeg
+
+with extras.importing(extras.remedy()):
+    import jinja2
+
+    from hurcules.report import plots
+    from hurcules.report.style import applied, data_address, jpeg
 
 __all__ = ["write"]
 
@@ -199,7 +202,7 @@ _PERSON = (
     "What the robot does to the person. While more than 15 % of his weight is on the ground its "
     "forces are contacts, the worst over the limit of its region (dashed: 1; ISO/TS 15066); later "
     "they carry him: there is no limit of force for that, limits are of pressure, and no pressure "
-    "is computed here. Above 1200 N (dashed) the mission casualty stops, while it lays him down. "
+    f"is computed here. Above {plots.SUPPORT:.0f} N (dashed) the missions stop or lay him down. "
     "Acceleration includes gravity (dashed: 10 g)."
 )
 _LOAD = (

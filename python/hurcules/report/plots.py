@@ -161,10 +161,11 @@ def quantities(log: Log, events: Sequence[float]) -> str:
     return side_by_side(drawn)
 
 
+SUPPORT = 1200.0  # [N] on a region of the person: what the missions' tables stop at
 # of the person: channel, title, and what it should stay below
 _PERSON = (
     ("contact_share", "contact force over its region's limit", 1.0),
-    ("support_n", "largest force that carries a region [N]", 1200.0),  # of casualty.toml
+    ("support_n", "largest force that carries a region [N]", SUPPORT),
     ("head_mps2", "acceleration of the head [m/s²]", 98.1),
 )
 _BEARERS = {

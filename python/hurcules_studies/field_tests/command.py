@@ -21,7 +21,7 @@ from hurcules.models import names as robot_names
 from hurcules.output import Output
 from hurcules.plugins import MethodOptions
 from hurcules.rendering import RendererError
-from hurcules.run import DONE, FAILED, INTERRUPTED, Pace, progress_bar
+from hurcules.run import DONE, FAILED, INTERRUPTED, Pace, open_output, progress_bar
 from hurcules.validation import require_known
 from hurcules.video import Frame, Painter, film
 from hurcules_studies.field_tests import METHODS, Method, Result, Variation, page, repeat, runner
@@ -72,8 +72,9 @@ def run_method(options: MethodOptions, console: Console) -> int:
     runner.check(chosen, options.repetitions, options.workers, options.speed)
     if chosen.grasps and options.robot != WITH_HANDS:  # before the last results are removed
         raise Error(f"{options.method}: --robot: wanted '{WITH_HANDS}', which has hands")
+    folder, told = options.out or Path("out", options.method), _told(chosen, options)
     with Interrupts() as interrupts:
-        output = Output(options.out, FILES)
+        output = open_output(folder, FILES, told, options.out is not None, console)
         started = perf_counter()
         result = _run(options, chosen, settings, console, interrupts)
         wall = perf_counter() - started
@@ -82,7 +83,7 @@ def run_method(options: MethodOptions, console: Console) -> int:
             return INTERRUPTED
         success = all(one.passed for one in result.settings) if settings else result.passed
         success = success and not (settings and result.interrupted)
-        summary = summarize(result, chosen, options, success, wall)
+        summary = summarize(result, chosen, told, success, wall)
         output.write_json("summary.json", summary)
         if lost := extras.without():
             console.print(
@@ -97,8 +98,23 @@ def run_method(options: MethodOptions, console: Console) -> int:
     return DONE if success else FAILED
 
 
+def _told(chosen: Method, options: MethodOptions) -> dict[str, Any]:
+    """What the run is made of."""
+    return {
+        "mission": options.method,
+        "seed": options.seed,
+        "video": options.video,
+        "version": __version__,
+        "robot": options.robot,
+        "repetitions": options.repetitions,
+        "pace": options.speed,
+        "parameters": chosen.fixed,
+        "asked": " ".join(options.words),
+    }
+
+
 def summarize(
-    result: Result, chosen: Method, options: MethodOptions, success: bool, wall: float
+    result: Result, chosen: Method, told: dict[str, Any], success: bool, wall: float
 ) -> dict[str, Any]:
     """Sums up a result for JSON."""
     plain: dict[str, Any] = result.as_dict()
@@ -107,9 +123,7 @@ def summarize(
     largest = shown(chosen, result.largest) if result.passed else "none"
     reason = f"largest setting passed: {largest}"
     return {
-        "mission": result.method,
-        "seed": options.seed,
-        "version": __version__,
+        **told,
         "success": success,
         "reason": f"interrupted; {reason}" if result.interrupted else reason,
         "simulated_seconds": result.simulated_seconds,
@@ -118,10 +132,6 @@ def summarize(
         "control_tick_us": {"median": None, "p99": None, "max": None},
         "limit_violation": None,
         "title": result.title,
-        "robot": result.robot,
-        "repetitions": options.repetitions,
-        "pace": options.speed,
-        "parameters": chosen.fixed,
         "parameter": result.parameter,
         "largest": result.largest,
         "settings": plain["settings"],
