@@ -157,19 +157,23 @@ def test_who_lies_on_the_front_is_laid_on_the_bed_in_a_way_of_his_own(
 
 
 @pytest.mark.slow
-def test_who_lay_on_the_left_side_is_fetched_on_the_bed() -> None:
-    person = {"pose": "left"}
+def test_who_lies_on_the_front_is_fetched_on_the_bed() -> None:
+    person = {"pose": "front"}
     simulation = hurcules.Simulation(
         "casualty", 1021, variation=1 / 3, parameters=person, record=False
     )
-    phases = set()
+    face = hurcules.Quantities(simulation, ["casualty/force/face"])
+    phases, pressed = set(), 0.0
     while not simulation.finished:
-        simulation.step(20)
+        simulation.step(5 if simulation.phase == "draw out" else 20)
         phases.add(simulation.phase)
+        pressed = max(pressed, float(simulation.read(face)[0]))
         if simulation.question and simulation.phase == "settle":
             simulation.answer(True)
     assert simulation.success, simulation.reason
     assert phases >= {"lean back", "lay on the front", "draw out", "home"}
+    assert "arms low" not in phases  # no leg stays on an arm
+    assert pressed <= 65.0
     figures = simulation.figures()
     assert figures["support_N"] < 1200.0
     assert figures["contact_share"] <= 2.6
