@@ -43,7 +43,8 @@ std::ofstream open(const std::string& file) {
   std::ofstream out;
   if (file.empty()) return out;
   out.open(file);
-  hurcules::require(out.is_open(), "file '" + file + "' cannot be written: " + std::strerror(errno));
+  hurcules::require(out.is_open(),
+                    "file '" + file + "' cannot be written: " + std::strerror(errno));
   return out;
 }
 

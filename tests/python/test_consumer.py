@@ -5,6 +5,7 @@ is seen, and builds the programs of README and docs there. Not tested: a prefix 
 another machine.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -39,9 +40,10 @@ ARM = """<mujoco><worldbody><body pos="0 0 1"><joint name="shoulder" axis="0 1 0
   <actuator><motor joint="shoulder"/><motor joint="elbow"/></actuator></mujoco>"""
 
 
-def run(*command: str | Path) -> str:
+def run(*command: str | Path, **environment: str) -> str:
     """Standard output of a command that must succeed."""
-    done = subprocess.run(command, capture_output=True, text=True)
+    env = os.environ | environment
+    done = subprocess.run(command, capture_output=True, text=True, env=env)
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
     return done.stdout
 
@@ -64,6 +66,24 @@ def installed(build: Path, folder: Path, program: str) -> Path:
     run(cmake(), "-S", source, "-B", source / "build", *flags)
     run(cmake(), "--build", source / "build")
     return source / "build" / "consumer"
+
+
+def test_the_library_is_compiled_alike_with_its_tests_and_without(
+    root: Path, tmp_path: Path
+) -> None:
+    """So that `make test` goes on from what `make demo` compiled."""
+
+    def commands(tests: str) -> dict[str, str]:
+        where = str(tmp_path / tests)
+        flags = "-DHURCULES_PRECOMPILE=OFF", f"-DHURCULES_TESTS={tests}"
+        run(cmake(), "-S", root, "-B", where, *flags, VIRTUAL_ENV=sys.prefix)
+        known = json.loads(Path(where, "compile_commands.json").read_text())
+        own = str(root / "cpp")
+        return {one["file"]: one["command"] for one in known if one["file"].startswith(own)}
+
+    shipped, tested = commands("OFF"), commands("ON")
+    assert len(shipped) > 100
+    assert tested == shipped
 
 
 def test_what_is_missing_is_told_to_who_can_do_without_it(build: Path, tmp_path: Path) -> None:

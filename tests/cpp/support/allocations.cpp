@@ -1,7 +1,7 @@
 // malloc and its kin, counted: those of glibc behind a counter, or the sanitizer's with its hook.
-#include "support/no_allocation.hpp"
-
 #include <atomic>
+
+#include "support/no_allocation.hpp"
 
 namespace {
 
@@ -23,7 +23,9 @@ std::size_t hurcules_test::allocations() {
 
 #include <cerrno>
 
-std::size_t hurcules_test::allocations() { return count; }
+std::size_t hurcules_test::allocations() {
+  return count;
+}
 
 extern "C" {
 
@@ -48,7 +50,9 @@ void* memalign(std::size_t alignment, std::size_t size) {
   ++count;
   return __libc_memalign(alignment, size);
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  return memalign(alignment, size);
+}
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   *memory = memalign(alignment, size);
   return *memory ? 0 : ENOMEM;
