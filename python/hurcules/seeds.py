@@ -117,7 +117,7 @@ def _held(path: Path, told: Row) -> list[Row]:
     try:
         text = path.read_text(encoding="utf-8") if path.exists() else ""
         whole = text[: text.rfind("\n") + 1]
-        rows: list[Row] = [json.loads(line) for line in whole.splitlines()]
+        rows: list[Row] = [dict(json.loads(line)) for line in whole.splitlines()]
         others = [one for row in rows for one in differing(row, told)]
     except (OSError, ValueError, TypeError) as error:
         raise Error(f"--out: cannot read {path}: {type(error).__name__}: {error}") from None

@@ -309,7 +309,7 @@ def test_the_product_imports_without_the_extra() -> None:
     ("module", "package", "remedy"),
     [
         ("hurcules_envs.sb3", "torch", "'hurcules[train]'"),
-        ("hurcules_envs.training", "stable_baselines3", "'hurcules[train]'"),
+        ("hurcules_envs.training", "torch", "'hurcules[train]'"),
         ("hurcules_envs.rllib", "ray", "'ray[rllib]' torch"),
         ("hurcules.report", "jinja2", "'hurcules[report]'"),
         ("hurcules.report.seeds", "matplotlib", "'hurcules[report]'"),

@@ -157,10 +157,10 @@ def test_who_lies_on_the_front_is_laid_on_the_bed_in_a_way_of_his_own(
 
 
 @pytest.mark.slow
-def test_who_lies_on_the_front_is_fetched_on_the_bed() -> None:
-    person = {"pose": "front"}
+def test_who_lay_on_the_right_side_is_fetched_on_the_bed() -> None:
+    person = {"pose": "right"}
     simulation = hurcules.Simulation(
-        "casualty", 1000, variation=1 / 3, parameters=person, record=False
+        "casualty", 1030, variation=1 / 3, parameters=person, record=False
     )
     face = hurcules.Quantities(simulation, ["casualty/force/face"])
     phases, pressed = set(), 0.0
