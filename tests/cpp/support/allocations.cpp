@@ -11,7 +11,10 @@ constinit std::atomic<std::size_t> count{0};
 
 #ifdef __SANITIZE_ADDRESS__
 
-#include <sanitizer/allocator_interface.h>
+// GCC ships no header of it
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
+                                                                  std::size_t),
+                                                         void (*)(const volatile void*));
 
 std::size_t hurcules_test::allocations() {
   [[maybe_unused]] static const int installed = __sanitizer_install_malloc_and_free_hooks(
