@@ -72,12 +72,14 @@ hurcules::MissionSimulation make_simulation(const Arguments& arguments) {
                     hurcules::unknown_name("mission", arguments.mission, names) +
                         ", and what hurcules mission NAME --out FILE.table writes");
   const hurcules::MissionSetup& setup = hurcules::mission_setup(arguments.mission);
-  const std::string scene = arguments.model.empty() ? find_model(setup.scene) : arguments.model;
-  const hurcules::ModelPtr model = hurcules::load_model(scene);
+  if (arguments.model.empty()) {
+    return {hurcules::load_model(find_model(setup.scene)), arguments.mission, options};
+  }
+  const hurcules::ModelPtr model = hurcules::load_model(arguments.model);
   try {
     return {model, arguments.mission, options};
   } catch (const hurcules::Error& error) {
-    throw hurcules::Error("model '" + scene + "' does not fit '" + arguments.mission +
+    throw hurcules::Error("model '" + arguments.model + "' does not fit '" + arguments.mission +
                           "': " + error.what());
   }
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict
 from functools import partial
@@ -121,15 +121,9 @@ def train(
     ]  # fmt: skip
     bar = Progress(*columns, console=console)
     task = bar.add_task(f"{algo} on {name.split('/')[-1]}", total=steps, success=0.0)
-    with ExitStack() as shown:
-
-        def show(done: int, success: float) -> None:
-            if not bar.live.is_started:  # nothing is wrong with what was asked
-                shown.enter_context(bar)
-            bar.update(task, completed=done, success=success)
-
+    with _shown_late(bar) as update:
         try:
-            training.train(wanted, show)
+            training.train(wanted, lambda n, share: update(completed=n, success=share))
         except KeyboardInterrupt:
             if (folder / "checkpoint.zip").exists():
                 console.print(f"{folder}: the same command goes on from here")
@@ -255,16 +249,14 @@ def record(
         act, check = lambda _, seen: network.one(seen), partial(_require_fit, network)
     said = ""
     bar = Progress()
-    task = bar.add_task(f"{kind} in {name}", total=episodes)
+    bar.add_task(f"{kind} in {name}", total=episodes)
 
     def show(done: int, succeeded: int) -> None:
         nonlocal said
         said = f"{succeeded} of {done} episodes succeeded"
-        if not bar.live.is_started:  # nothing is wrong with what was asked
-            shown.enter_context(bar)
-        bar.update(task, completed=done)
+        update(completed=done)
 
-    with ExitStack() as shown, as_ctrl_c():
+    with _shown_late(bar) as update, as_ctrl_c():
         folder = out or Path("out", "data")
         try:
             identifier = recording.record(
@@ -349,6 +341,19 @@ def _known(environment: str) -> str:
     name = full_id(environment)
     spec_of(name)
     return name
+
+
+@contextmanager
+def _shown_late(bar: Progress) -> Iterator[Callable[..., None]]:
+    """Updates the task of a bar, which is shown at the first: what was asked is right then."""
+    with ExitStack() as shown:
+
+        def update(**told: Any) -> None:
+            if not bar.live.is_started:
+                shown.enter_context(bar)
+            bar.update(bar.task_ids[0], **told)
+
+        yield update
 
 
 @contextmanager

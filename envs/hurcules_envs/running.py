@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Sequence
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -22,16 +23,15 @@ from hurcules.rendering import RendererError
 from hurcules.run import DONE, FAILED, INTERRUPTED, open_output, progress_bar
 from hurcules.video import encode
 from hurcules_envs.endings import Ending
+from hurcules_envs.evaluation import evaluate
 from hurcules_envs.policy import Policy
+from hurcules_envs.recording import record
 from hurcules_envs.registry import fidelities_of, full_id, native_options, steps_of_episode
 
 __all__ = ["environment_of", "run_policy", "settings_of"]
 
 # what `evaluate` and `record` take beside the options of an environment
-TOLD = (
-    "act", "author", "check", "environment", "episodes", "form", "out", "progress", "seed",
-    "source", "threads",
-)  # fmt: skip
+TOLD = {*signature(evaluate).parameters, *signature(record).parameters} - {"options"}
 FILES = ("summary.json", "episode.npz", "video.mp4")
 # of info: what the table shows, its unit, what it is multiplied by, the worst of an episode
 FIGURES = (
