@@ -268,7 +268,7 @@ def _file(source: str) -> Path:
     path = Path(source)
     if path.is_dir() and (path / "policy.onnx").is_file():
         return path / "policy.onnx"
-    packed = path.suffix == ".zip"  # of Stable-Baselines3
+    packed = path.suffix == ".zip" and path.is_file()  # of Stable-Baselines3
     if path.is_file() and not packed:
         return path
     if found := shipped().get(full_id(source)):

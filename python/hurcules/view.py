@@ -27,6 +27,7 @@ from hurcules.video import encode
 __all__ = ["film", "opened", "require_display", "view", "watch"]
 
 FPS = 60  # pictures a second
+_MODELS = (".xml", ".mjb", ".urdf")
 
 
 def view(
@@ -213,10 +214,13 @@ def opened(model: Any, data: Any, **shown: Any) -> Iterator[Any]:
 def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:
     """Model, state, and what takes so many steps."""
     path = Path(name)
-    if path.suffix in (".xml", ".mjb", ".urdf"):
+    if path.suffix in _MODELS:
         model = _read(path)
         data = mujoco.MjData(model)
         return model, data, lambda n: mujoco.mj_step(model, data, n)
+    if path.is_file() and name not in _names():
+        endings = ", ".join((*_MODELS, ".toml", ".py"))
+        raise Error(f"{path}: wanted a file that ends in one of {endings}")
     require_known("mission, model, scene or file", name, _names())
     model = models.load(name) if name in models.names() else models.load(scene=name)
     data = mujoco.MjData(model)

@@ -193,6 +193,10 @@ def test_doctor_ends_with_1_and_the_remedy_where_something_is_broken(
         (["mission", "lift", "--out", "lift.pdf"], "kind of file '.pdf' does not exist"),
         (["view", "nowhere"], "mission, model, scene or file 'nowhere' does not exist"),
         (["view", "nowhere.xml"], "nowhere.xml: no such file"),
+        (
+            ["view", str(Path(__file__).parents[2] / "LICENSE")],
+            "LICENSE: wanted a file that ends in one of .xml, .mjb",
+        ),
         (["run", "--method", "magic"], "magic"),
         (["run", "--seed", "-1"], "seed: wanted a whole number from 0 to 2**64 - 1, got -1"),
         (["run", "--seed", "x"], "--seed"),

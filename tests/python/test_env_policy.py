@@ -248,8 +248,9 @@ def test_bad_files_get_one_clear_error(tmp_path: Path, monkeypatch: pytest.Monke
         (tmp_path / name).write_bytes(content)
         with pytest.raises(hurcules.Error, match=text):
             Policy(tmp_path / name)
-    with pytest.raises(hurcules.Error, match=r"no such file"):
-        Policy(tmp_path / "none.onnx")
+    for name in ("none.onnx", "none.zip"):
+        with pytest.raises(hurcules.Error, match=r"no such file"):
+            Policy(tmp_path / name)
     with pytest.raises(hurcules.Error, match=r"no policy\.onnx lies there"):
         Policy(tmp_path)
     (tmp_path / "policy.zip").touch()
