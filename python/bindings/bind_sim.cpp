@@ -21,6 +21,7 @@
 #include "hurcules/sim/simulation.hpp"
 #include "in_use.hpp"
 #include "mujoco_pointer.hpp"
+#include "options.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -276,9 +277,21 @@ py::dict mode_ranges(const std::string& mode) {
   return ranges;
 }
 
-void bind_options(py::module_& module) {
+// whether there is a clock
+Field<MissionOptions> timed() {
   using Options = MissionOptions;
-  const Options defaults;
+  const auto get = [](const Options& self) { return self.clock != nullptr; };
+  const auto set = [](Options& self, bool timed) { self.clock = timed ? now : nullptr; };
+  return {.name = "timed",
+          .type = "bool",
+          .get = [get](const Options& self) { return py::bool_(get(self)); },
+          .set = [set](Options& self, py::handle value) { set(self, value.cast<bool>()); },
+          .equal = [get](const Options& a, const Options& b) { return get(a) == get(b); },
+          .bind = [=](py::class_<Options>& bound) { bound.def_property("timed", get, set); }};
+}
+
+void bind_simulation_options(py::module_& module) {
+  using Options = MissionOptions;
   py::enum_<BaseSource>(module, "BaseSource", "Where the planner's support stands.")
       .value("Held", BaseSource::Held, "where it stood at the start")
       .value("Sensed", BaseSource::Sensed, "where it is now");
@@ -291,61 +304,26 @@ void bind_options(py::module_& module) {
       .value("Diverged", Ending::Diverged, "numbers out of range")
       .value("SolverFailed", Ending::SolverFailed)
       .value("Held", Ending::Held, "its sensors could not be believed");
-  py::class_<FallOptions>(module, "FallOptions", kFall)
-      .def(py::init([](std::string frame, double min_height, double max_tilt) {
-             return FallOptions{std::move(frame), min_height, max_tilt};
-           }),
-           "frame"_a = "", "min_height"_a = -std::numeric_limits<double>::infinity(),
-           "max_tilt"_a = std::numeric_limits<double>::infinity())
-      .def_readwrite("frame", &FallOptions::frame)
-      .def_readwrite("min_height", &FallOptions::min_height, "[m]")
-      .def_readwrite("max_tilt", &FallOptions::max_tilt, "[rad]");
-  py::class_<Options>(module, "SimulationOptions", kOptions)
-      .def(py::init([](std::uint64_t seed, double variation, std::string method, bool record,
-                       bool timed, BaseSource base, SensorOptions sensors,
-                       const MonitorOptions& monitors, double max_seconds, bool physics,
-                       const FallOptions& fall, bool adds_command, bool loaded_springs) {
-             Options options;
-             options.seed = seed;
-             options.variation = variation;
-             options.method = std::move(method);
-             options.record = record;
-             options.clock = timed ? now : nullptr;
-             options.base = base;
-             options.sensors = std::move(sensors);
-             options.monitors = monitors;
-             options.max_seconds = max_seconds;
-             options.physics = physics;
-             options.fall = fall;
-             options.adds_command = adds_command;
-             options.loaded_springs = loaded_springs;
-             return options;
-           }),
-           py::kw_only(), "seed"_a = defaults.seed, "variation"_a = defaults.variation,
-           "method"_a = defaults.method, "record"_a = defaults.record,
-           "timed"_a = defaults.clock != nullptr, "base"_a = defaults.base,
-           "sensors"_a = defaults.sensors, "monitors"_a = defaults.monitors,
-           "max_seconds"_a = defaults.max_seconds, "physics"_a = defaults.physics,
-           "fall"_a = defaults.fall, "adds_command"_a = defaults.adds_command,
-           "loaded_springs"_a = defaults.loaded_springs)
-      .def_readwrite("seed", &Options::seed)
-      .def_readwrite("variation", &Options::variation)
-      .def_readwrite("method", &Options::method)
-      .def_readwrite("record", &Options::record)
-      .def_property(
-          "timed", [](const Options& self) { return self.clock != nullptr; },
-          [](Options& self, bool timed) { self.clock = timed ? now : nullptr; })
-      .def_readwrite("base", &Options::base)
-      .def_readwrite("sensors", &Options::sensors)
-      .def_readwrite("monitors", &Options::monitors)
-      .def_readwrite("max_seconds", &Options::max_seconds, "[s] the run ends when it takes longer")
-      .def_readwrite("fall", &Options::fall, "when the robot counts as fallen")
-      .def_readwrite("physics", &Options::physics,
-                     "false: the robot is where it is commanded to be")
-      .def_readwrite("adds_command", &Options::adds_command,
-                     "a command is added to the mission's own")
-      .def_readwrite("loaded_springs", &Options::loaded_springs,
-                     "springs start where they bear what hangs on them");
+  bind_options<FallOptions>(
+      module, "FallOptions", kFall,
+      {field("frame", &FallOptions::frame), field("min_height", &FallOptions::min_height, "[m]"),
+       field("max_tilt", &FallOptions::max_tilt, "[rad]")},
+      Arguments::Positional);
+  bind_options<Options>(
+      module, "SimulationOptions", kOptions,
+      {field<Options>("seed", &Options::seed), field("variation", &Options::variation),
+       field("method", &Options::method), field<Options>("record", &Options::record), timed(),
+       field("base", &Options::base), field<Options>("sensors", &Options::sensors),
+       field<Options>("monitors", &Options::monitors),
+       field<Options>("max_seconds", &Options::max_seconds,
+                      "[s] the run ends when it takes longer"),
+       field<Options>("physics", &Options::physics,
+                      "false: the robot is where it is commanded to be"),
+       field<Options>("fall", &Options::fall, "when the robot counts as fallen"),
+       field<Options>("adds_command", &Options::adds_command,
+                      "a command is added to the mission's own"),
+       field<Options>("loaded_springs", &Options::loaded_springs,
+                      "springs start where they bear what hangs on them")});
 }
 
 void bind_run(py::class_<Simulation>& simulation) {
@@ -438,7 +416,7 @@ void bind_sim(py::module_& module) {
   module.def("servo_table", &servo_table, "robot"_a, kServoTable);
   module.def("mode_ranges", &mode_ranges, "mode"_a, kModeRanges);
   bind_sensors(module);
-  bind_options(module);
+  bind_simulation_options(module);
   py::class_<Simulation> simulation(module, "Simulation", kSimulation);
   simulation
       .def(py::init(&make_simulation), "model"_a, "data"_a, "mission"_a = "stretch",

@@ -60,6 +60,13 @@ Field<T> field(const char* name, Value T::* member, const char* doc = "") {
                    doc](py::class_<T>& bound) { bound.def_readwrite(name, member, doc); }};
 }
 
+// one that T inherits: field<T>(...)
+template <typename T, typename Base, typename Value>
+  requires(!std::is_same_v<T, Base>)
+Field<T> field(const char* name, Value Base::* member, const char* doc = "") {
+  return field(name, static_cast<Value T::*>(member), doc);
+}
+
 // a field that Python sees as a text, such as an enumeration by its names
 template <typename T, typename Get, typename Set>
 Field<T> text_field(const char* name, Get get, Set set, const char* doc = "") {

@@ -3937,9 +3937,14 @@ class FallOptions:
       min_height: of the frame above the controller's support, of a robot that floats above z = 0 [m].
       max_tilt: of the support (of a robot that floats: its root) against its start [rad]."""
 
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     frame: str
 
+    def __copy__(self) -> FallOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> FallOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(self, frame: str = "", min_height: float = ..., max_tilt: float = ...) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def max_tilt(self) -> float:
         """[rad]"""
@@ -3968,6 +3973,7 @@ class SimulationOptions:
       adds_command: a command is added to what the mission commands, in place of taking its place.
       loaded_springs: sprung hinges without a motor start where they bear what hangs on them."""
 
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     base: BaseSource
     method: str
     monitors: MonitorOptions
@@ -3975,6 +3981,9 @@ class SimulationOptions:
     sensors: SensorOptions
     timed: bool
 
+    def __copy__(self) -> SimulationOptions: ...
+    def __deepcopy__(self, memo: dict[str, Any]) -> SimulationOptions: ...
+    def __eq__(self, other: object) -> bool: ...
     def __init__(
         self,
         *,
@@ -3992,6 +4001,7 @@ class SimulationOptions:
         adds_command: bool = False,
         loaded_springs: bool = False,
     ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def adds_command(self) -> bool:
         """a command is added to the mission's own"""

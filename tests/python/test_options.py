@@ -21,11 +21,12 @@ REQUIRED = {
     "SpeedLimits": {"acceleration": 1.0, "jerk": 2.0},
     "SensorFault": {"entry": "gyro"},
 }
-POSITIONAL = {"SpeedLimits", "SensorFault"}
+POSITIONAL = {"FallOptions", "SpeedLimits", "SensorFault"}
 NAMES = [
     "AccelerationControllerOptions",
     "ContactOptions",
     "DriveOptions",
+    "FallOptions",
     "ForceGains",
     "JointPidOptions",
     "MonitorOptions",
@@ -34,6 +35,7 @@ NAMES = [
     "SensorFault",
     "SensorModel",
     "SensorOptions",
+    "SimulationOptions",
     "SolverOptions",
     "SpeedLimits",
     "StiffnessOptions",
@@ -115,6 +117,7 @@ def test_arrays_and_texts_compare_too() -> None:
     ("name", "values", "says"),
     [
         ("DriveOptions", {"dt": "fast"}, r"DriveOptions: dt wants float, got 'fast'"),
+        ("SimulationOptions", {"seed": -1}, r"SimulationOptions: seed wants int, got -1"),
         ("RangeFinder", {"rays": 1.5}, r"RangeFinder: rays wants int, got 1\.5"),
         ("DriveOptions", {"forward": 3}, r"DriveOptions: forward wants .*SpeedLimits, got 3"),
         ("SolverOptions", {"handover": "rough"}, "rough"),
