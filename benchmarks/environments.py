@@ -192,7 +192,9 @@ def reach_figures(wanted: argparse.Namespace) -> None:
     for n in (1, 16, 256):
         vector = gymnasium.make_vec(REACH, num_envs=n, threads=1, fidelity="kinematic")
         plain = gymnasium.make_vec(REACH, num_envs=n, threads=1, fidelity="kinematic", safe=False)
-        steps = {"whole": stepper(vector, 0), "bare": bare(vector, 2), "plain": stepper(plain, 0)}
+        ticks = round(1.0 / vector.environment.rate / vector.environment.simulation.dt)
+        steps = {"whole": stepper(vector, 0), "bare": bare(vector, ticks)}
+        steps["plain"] = stepper(plain, 0)
         found = rates(steps, time.process_time, wanted)
         show(f"Reach kinematic, {n} episodes: steps, a core", found["whole"] * n, "/s", 0)
         show(f"Reach kinematic, {n} episodes, safe=False", found["plain"] * n, "/s", 0)

@@ -135,6 +135,7 @@ class Episodes:
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
         self._terms = set(environment.terms)
+        self._told_terms = {name: f"reward_{name}" for name in environment.terms}  # in info
         self._told: set[str] | None = None  # names of `tell`
         self._action = np.zeros((n, len(self.action_scale)))
         self._worst = np.zeros(n)
@@ -209,14 +210,18 @@ class Episodes:
         success = environment.succeeded(numbers)
         failure = environment.failed(numbers)
         ended = environment.ended(numbers)
-        ending = np.where(failure, _MISSED, np.where(ended, _COMPLETED, 0))
+        ending = np.zeros(self.n, dtype=np.int64)
+        if np.count_nonzero(failure) or np.count_nonzero(ended):
+            ending = np.where(failure, _MISSED, np.where(ended, _COMPLETED, 0))
         if np.count_nonzero(numbers.finished):
             over = numbers.endings
             fallen = numbers.finished & (over != _COMPLETED)
             failure, ending = failure | fallen, np.where(fallen, over, ending)
         step = Step()
         step.observation = self._observe(numbers)
-        step.reward = sum((terms[name] for name in self.environment.terms), np.zeros(self.n))
+        step.reward = np.zeros(self.n)
+        for name in self.environment.terms:
+            step.reward += terms[name]
         if not math.isfinite(np.vdot(step.reward, step.reward)):
             for name, term in terms.items():
                 require_finite(f"{self._name}.reward: term '{name}'", term)
@@ -298,10 +303,11 @@ class Episodes:
         values = numbers_of("action", action)
         if values.shape != shape:
             raise hurcules.Error(f"action: wanted shape {shape}, got {values.shape}")
-        if np.count_nonzero(np.isfinite(values)) < values.size:
+        if not math.isfinite(np.vdot(values, values)) and not np.isfinite(values).all():
             bad = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
             raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
-        return np.maximum(np.minimum(values, 1.0), -1.0)
+        np.minimum(values, 1.0, out=values)  # a copy
+        return np.maximum(values, -1.0, out=values)
 
     def _copy_simulation(self, *, own_models: bool) -> None:
         """A batch of copies of the environment's simulation."""
@@ -455,14 +461,17 @@ class Episodes:
         columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
         watched = dict(zip(_WATCHED.values(), columns, strict=True))
         margin = watched["support_margin"]
-        margin[np.isnan(margin)] = 0.0  # of a robot that cannot tip
+        if np.count_nonzero(none := np.isnan(margin)):  # of a robot that cannot tip
+            margin[none] = 0.0
         excess = watched["limit_excess"]
         cost = watched["limit_excess_now"] > EXCESS
         cost |= excess > np.maximum(self._worst, EXCESS)  # within the step
         cost |= watched["self_contacts"] > 0.0
         cost |= self._asked.costs(numbers)
         self._worst[:] = excess
-        info: dict[str, NDArray[Any]] = {f"reward_{n}": terms[n] for n in self.environment.terms}
+        info: dict[str, NDArray[Any]] = {
+            told: terms[name] for name, told in self._told_terms.items()
+        }
         info |= {"is_success": success, "failed": failure, "ending": ending}
         info["cost"] = cost.astype(np.float64)
         info |= watched
@@ -527,6 +536,9 @@ class _Commands:
             self.units += units
             scales.append(np.broadcast_to(most, len(components)))
         self.scale = np.concatenate(scales).astype(np.float64)
+        self._turns = type(environment).command is not Environment.command
+        # actions that are the commands, number by number
+        self._same = not self._turns and list(self._parts.items()) == list(self._channels.items())
 
     def of(
         self,
@@ -536,9 +548,11 @@ class _Commands:
     ) -> Array:
         """(n, k) commands; the numbers are read only where an environment turns its action."""
         scaled = action * self.scale
+        if self._same:
+            return scaled
         parts = {name: scaled[:, part] for name, part in self._parts.items()}
         given: Mapping[str, Array] = parts
-        if type(self._environment).command is not Environment.command:
+        if self._turns:
             read = numbers()
             go(self._environment.phases(parts, read))
             given = self._environment.command(parts, read)

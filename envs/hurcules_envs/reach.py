@@ -278,21 +278,21 @@ class Reach(Environment):
             fall=hurcules.FallOptions(setup.support, max_tilt=TILT) if setup.support else None,
         )
 
-    def _free_swing(self, dt: float) -> Array | None:
+    def _free_swing(self, dt: float) -> list[list[float]] | None:
         """Of the spring that hands hang in, see `springs`; None: there is none to be felt."""
         model, data = self.setup.model, mujoco.MjData(self.setup.model)
         data.qpos[:] = self.setup.robot().qpos
         mujoco.mj_forward(model, data)
         spring = softest_spring(model, data)
-        return None if spring is None or spring.frequency > STIFF else spring.free(dt)
+        return None if spring is None or spring.frequency > STIFF else spring.free(dt).tolist()
 
-    def _swing(self, numbers: Numbers, free: Array) -> None:
+    def _swing(self, numbers: Numbers, free: list[list[float]]) -> None:
         """Carries the deflections on by a step, at whose start the plan changed its velocity."""
         memory = numbers.memory
         plan = self._planned(numbers)
         rate = (plan - memory["plan"]) / numbers.dt
         sway, sway_rate = memory["sway"], memory["sway_rate"] - (rate - memory["plan_rate"])
-        (a, b), (c, d) = free.tolist()
+        (a, b), (c, d) = free
         memory["sway"][:], memory["sway_rate"][:] = (
             a * sway + b * sway_rate,
             c * sway + d * sway_rate,
@@ -326,14 +326,13 @@ class Reach(Environment):
         return numbers.once("errors", compute)
 
     def _errors(self, one: Array, other: Array) -> _Errors:
-        one = one.reshape(*one.shape[:-1], -1, self._size)
-        other = other.reshape(*other.shape[:-1], -1, self._size)
-        difference = one[..., :3] - other[..., :3]
+        hands = (*one.shape[:-1], -1, self._size)
+        difference = (one - other).reshape(hands)[..., :3]
         distance = np.sqrt(np.einsum("...i,...i->...", difference, difference))
         within = np.maximum.reduce(distance, axis=-1) < self.tolerance
         if self.angle is None:
             return _Errors(distance, _NO_ANGLE, within)
-        angle = angle_between(one[..., 3:], other[..., 3:])
+        angle = angle_between(one.reshape(hands)[..., 3:], other.reshape(hands)[..., 3:])
         return _Errors(distance, angle, within & (np.maximum.reduce(angle, axis=-1) < self.angle))
 
     def _terms(self, errors: _Errors) -> dict[str, Array]:

@@ -198,11 +198,14 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         if some_over:  # NEXT_STEP: the step after an end is the reset
             self._begin(over)
         step = episodes.look(remember=goes_on)
-        self._steps[goes_on] += 1
-        reward = np.where(goes_on, step.reward, 0.0)
-        terminated = step.terminated & goes_on
-        truncated = (self._steps >= self._limit) & goes_on & ~terminated
-        step.info["ending"][truncated] = Ending.TimeLimit
+        reward, terminated = step.reward, step.terminated
+        self._steps += goes_on if some_over else 1
+        truncated = self._steps >= self._limit
+        if some_over:
+            reward, terminated = np.where(goes_on, reward, 0.0), terminated & goes_on
+        if np.count_nonzero(truncated):
+            truncated &= goes_on & ~terminated
+            step.info["ending"][truncated] = int(Ending.TimeLimit)
         ended = terminated | truncated
         observation, info = self._seen(step.observation), _info(step)
         if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):
@@ -375,10 +378,10 @@ def _row(observation: Any, i: int) -> Any:
 
 
 def _info(step: Step) -> dict[str, Any]:
-    known = np.ones((len(step.info), len(step.reward)), dtype=bool)  # a row each
-    return {**step.info, **dict(zip(map(_mask_of, step.info), known, strict=True))}
+    known = np.ones(len(step.reward), dtype=bool)  # one for all: it costs more than what it says
+    return step.info | dict.fromkeys(_masks_of(tuple(step.info)), known)
 
 
 @cache
-def _mask_of(name: str) -> str:
-    return f"_{name}"
+def _masks_of(names: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(f"_{name}" for name in names)

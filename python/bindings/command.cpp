@@ -18,6 +18,23 @@ std::string shape_of(const py::array& array) {
   return std::string(py::str(array.attr("shape")));
 }
 
+using Shape = std::vector<py::ssize_t>;
+
+std::string text_of(const Shape& shape) {
+  py::tuple sizes(shape.size());
+  for (std::size_t i = 0; i < shape.size(); ++i) sizes[i] = shape[i];
+  return std::string(py::str(sizes));
+}
+
+bool has_shape(const py::array& array, const Shape& shape) {
+  return std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim());
+}
+
+bool is_mapping(const py::object& command) {
+  return !py::isinstance<py::array>(command) &&
+         py::isinstance(command, py::module_::import("collections.abc").attr("Mapping"));
+}
+
 Array numbers_of(const std::string& what, const py::handle& values) {
   const Array numbers = Array::ensure(values);
   if (!numbers) {
@@ -40,15 +57,15 @@ void hold(const WholeBodyController& controller, Matrix& all) {
   }
 }
 
-// rows of what came, or of the values of all channels side by side; `shape` of n numbers, as a text
-template <class Shape>
+// rows of what came, or of the values of all channels side by side; `shape`: of n numbers
+template <class ShapeOf>
 Matrix rows_of(const WholeBodyController& controller, const py::object& command, Index rows,
-               const Shape& shape) {
+               const ShapeOf& shape) {
   const Index k = controller.scale().size();
-  if (!py::isinstance(command, py::module_::import("collections.abc").attr("Mapping"))) {
+  if (!is_mapping(command)) {
     const Array numbers = numbers_of("a command", command);
-    if (shape_of(numbers) != shape(k))
-      throw Error("a command: wanted shape " + shape(k) + ", got " + shape_of(numbers));
+    if (!has_shape(numbers, shape(k)))
+      throw Error("a command: wanted shape " + text_of(shape(k)) + ", got " + shape_of(numbers));
     return Eigen::Map<const Matrix>(numbers.data(), rows, k);
   }
   const auto given = py::dict(command);
@@ -67,7 +84,7 @@ Matrix rows_of(const WholeBodyController& controller, const py::object& command,
       const std::string what = "channel '" + channel.name() + "'";
       const Array numbers = numbers_of(what, given[name]);
       if (numbers.size() != rows * size)
-        throw Error(what + ": wanted shape " + shape(size) + ", got " + shape_of(numbers));
+        throw Error(what + ": wanted shape " + text_of(shape(size)) + ", got " + shape_of(numbers));
       all.middleCols(column, size) = Eigen::Map<const Matrix>(numbers.data(), rows, size);
     }
     column += size;
@@ -87,16 +104,14 @@ std::optional<Numbers> given(const Numbers& numbers) {
 
 std::optional<Vector> command_of(const WholeBodyController& controller, const py::object& command) {
   if (command.is_none()) return std::nullopt;
-  const auto shape = [](Index n) { return "(" + std::to_string(n) + ",)"; };
+  const auto shape = [](Index n) { return Shape{n}; };
   return given<Vector>(rows_of(controller, command, 1, shape).row(0).transpose());
 }
 
 std::optional<Matrix> commands_of(const WholeBodyController& controller, const py::object& commands,
                                   Index rows) {
   if (commands.is_none()) return std::nullopt;
-  const auto shape = [rows](Index n) {
-    return "(" + std::to_string(rows) + ", " + std::to_string(n) + ")";
-  };
+  const auto shape = [rows](Index n) { return Shape{rows, n}; };
   return given<Matrix>(rows_of(controller, commands, rows, shape));
 }
 

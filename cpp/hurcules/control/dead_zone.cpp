@@ -24,6 +24,11 @@ bool is_equality(const Level& level, Index row) {
   return level.lower[row] == level.upper[row];
 }
 
+// of a direction in which a row lets the joints turn by so much [rad/s] more
+double share_held(double room) {
+  return std::min(1.0, 1.0 - room / kSlow);
+}
+
 }  // namespace
 
 void DeadZone::set_stack(const Stack& stack, Index n) {
@@ -228,12 +233,14 @@ void DeadZone::hold_pressed_joints(std::size_t k, const JointLimits& limits) {
 void DeadZone::hold_pressed_rows(std::size_t k, std::size_t above, const Level& level) {
   for (Index row = 0; row < level.rows(); ++row) {
     if (!nearness_[above][static_cast<std::size_t>(row)] || is_equality(level, row)) continue;
+    const double nearest = std::min(level.upper[row], -level.lower[row]);
+    if (nearest == std::numeric_limits<double>::infinity()) continue;
     const double length = level.A.row(row).norm();
-    if (length < kFreeJoint) continue;
+    if (length < kFreeJoint || !(share_held(nearest / length) > 0.0)) continue;
     direction_ = level.A.row(row) / length;
     const double along = direction_.dot(pull_);
     const double room = (along > 0.0 ? level.upper[row] : -level.lower[row]) / length;
-    const double held = std::min(1.0, 1.0 - room / kSlow);
+    const double held = share_held(room);
     if (!(held > 0.0) || along == 0.0) continue;
     if (held > 0.5) pressed_rows_[k].emplace_back(above, row);
     hold_direction(held, {above, row});

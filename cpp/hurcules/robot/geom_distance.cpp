@@ -101,6 +101,12 @@ GeomDistance::GeomDistance(const Robot& robot, std::vector<GeomPair> pairs, doub
     entry.second = add_geom(pair.second);
     table_.push_back(entry);
   }
+  for (Pair& entry : table_) {
+    entry.reference = geoms_[entry.first].body;
+    entry.mover = geoms_[entry.second].body;
+    if (bodies_[entry.reference].radius < bodies_[entry.mover].radius)
+      std::swap(entry.reference, entry.mover);
+  }
   list_.reserve(pairs_.size());
 }
 
@@ -168,20 +174,25 @@ void GeomDistance::place_bodies(const Robot& robot) {
 // the two bodies that moved most together by the skin
 bool GeomDistance::list_is_old() const {
   if (!listed_) return true;
-  double most = 0.0, second = 0.0;
-  for (const Body& body : bodies_) {
-    const double way = travel(body.seen, body.pose, body.radius);
-    second = std::max(second, std::min(way, most));
-    most = std::max(most, way);
-  }
-  return most + second >= kSkin;
+  const auto together = [this](auto way_of) {
+    double most = 0.0, second = 0.0;
+    for (const Body& body : bodies_) {
+      const double way = way_of(body);
+      second = std::max(second, std::min(way, most));
+      most = std::max(most, way);
+    }
+    return most + second;
+  };
+  const auto counted = [](const Body& body) { return body.moved; };
+  const auto straight = [](const Body& body) { return travel(body.seen, body.pose, body.radius); };
+  return together(counted) >= kSkin && together(straight) >= kSkin;
 }
 
 void GeomDistance::make_list() {
   list_.clear();
   // ways are counted from here on
   for (Pair& entry : table_) {
-    entry.bound -= body_of(entry.first).moved + body_of(entry.second).moved - entry.moved;
+    entry.bound -= moved(entry) - entry.moved;
     entry.moved = 0.0;
   }
   for (Body& body : bodies_) {
@@ -193,14 +204,8 @@ void GeomDistance::make_list() {
   listed_ = true;
 }
 
-bool GeomDistance::refers_to_first(const Pair& pair) const {
-  return body_of(pair.first).radius >= body_of(pair.second).radius;
-}
-
 Skeleton::Pose GeomDistance::mover(const Pair& pair) const {
-  const bool first = refers_to_first(pair);
-  const Skeleton::Pose &from = body_of(first ? pair.first : pair.second).pose,
-                       &to = body_of(first ? pair.second : pair.first).pose;
+  const Skeleton::Pose &from = bodies_[pair.reference].pose, &to = bodies_[pair.mover].pose;
   return {from.R.transpose() * (to.p - from.p), from.R.transpose() * to.R};
 }
 
@@ -210,10 +215,9 @@ void GeomDistance::renew_reported() {
     Seen& seen = seen_[i];
     if (seen.pair < 0 || seen.kept) continue;
     const Pair& entry = pair(seen.pair);
-    const bool first = refers_to_first(entry);
-    const double radius = body_of(first ? entry.second : entry.first).radius;
     near_[i] = now(seen);
-    if (travel(seen.mover, mover(entry), radius) > kStale * std::max(0.0, near_[i].distance))
+    if (travel(seen.mover, mover(entry), bodies_[entry.mover].radius) >
+        kStale * std::max(0.0, near_[i].distance))
       renew(i);
     if (seen.pair >= 0 && !seen.kept && near_[i].distance >= most_) leave(i);
   }
@@ -293,8 +297,8 @@ GeomDistance::Seen GeomDistance::look(Index index) {
   seen.second = b.R.transpose() * (p + apart - b.p);
   const double length = apart.norm();
   if (length >= kTouches)  // also from inside: turned round
-    seen.direction = (refers_to_first(entry) ? a : b).R.transpose() * apart /
-                     (distance < 0.0 ? -length : length);
+    seen.direction =
+        bodies_[entry.reference].pose.R.transpose() * apart / (distance < 0.0 ? -length : length);
   seen.mover = mover(entry);
   return seen;
 }
@@ -306,7 +310,7 @@ GeomDistance::Near GeomDistance::now(const Seen& seen) const {
   Near near{.pair = seen.pair, .kept = seen.kept, .distance = seen.distance};
   near.first = a.p + a.R * seen.first;
   near.second = b.p + b.R * seen.second;
-  near.direction = (refers_to_first(entry) ? a : b).R * seen.direction;
+  near.direction = bodies_[entry.reference].pose.R * seen.direction;
   if (seen.direction != Vector3::Zero())
     near.distance = near.direction.dot(near.second - near.first);
   return near;
@@ -368,13 +372,13 @@ void GeomDistance::place(Geom& geom) {
 }
 
 double GeomDistance::bound(Pair& pair, double enough) {
-  const double moved = body_of(pair.first).moved + body_of(pair.second).moved;
-  const double known = pair.bound - (moved - pair.moved);
+  const double way = moved(pair);
+  const double known = pair.bound - (way - pair.moved);
   if (known >= enough) return known;
   Geom &first = geoms_[pair.first], &second = geoms_[pair.second];
   place(first);
   place(second);
-  pair.moved = moved;
+  pair.moved = way;
   pair.bound = sphere_gap(model_.get(), data_, first.id, second.id);
   if (pair.bound < enough)
     pair.bound = std::max(pair.bound, box_gap(model_.get(), data_, {first.id, second.id}, enough));

@@ -101,6 +101,8 @@ class GeomDistance {
   };
   struct Pair {
     std::size_t first = 0, second = 0;  // of geoms_
+    // of bodies_: the larger one, and the other, whose motion is seen from it
+    std::size_t reference = 0, mover = 0;
     bool reported = false;
     // [m] the distance was at least `bound` when the bodies had moved by `moved`
     double bound = -std::numeric_limits<double>::infinity(), moved = 0.0;
@@ -136,9 +138,11 @@ class GeomDistance {
   [[nodiscard]] double threshold() const;
   [[nodiscard]] Body& body_of(std::size_t geom) { return bodies_[geoms_[geom].body]; }
   [[nodiscard]] const Body& body_of(std::size_t geom) const { return bodies_[geoms_[geom].body]; }
-  // of two geoms, that whose body is larger: the motion of the other is seen from it
-  [[nodiscard]] bool refers_to_first(const Pair& pair) const;
+  // pose of its mover in its reference
   [[nodiscard]] Skeleton::Pose mover(const Pair& pair) const;
+  [[nodiscard]] double moved(const Pair& pair) const {
+    return bodies_[pair.reference].moved + bodies_[pair.mover].moved;
+  }
   [[nodiscard]] Pair& pair(Index index) { return table_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] const Pair& pair(Index index) const {
     return table_[static_cast<std::size_t>(index)];

@@ -110,8 +110,9 @@ void Momentum::angular_jacobian(const Screws& screws, MatrixRef A) const {
   });
 }
 
-Momentum::Rate Momentum::rate(const Screws& screws) const {
-  Rate sum;
+const Momentum::Rate& Momentum::rate(const Screws& screws) const {
+  if (rate_) return *rate_;
+  Rate& sum = rate_.emplace();
   if (!screws.moving()) return sum;
   const Skeleton& skeleton = screws.skeleton();
   for (int bone = 0; bone < skeleton.bones(); ++bone) {
@@ -135,7 +136,7 @@ Vector3 Momentum::com_drift(const Screws& screws) const {
 }
 
 Vector3 Momentum::angular_drift(const Screws& screws) const {
-  const Rate change = rate(screws);
+  const Rate& change = rate(screws);
   return change.torque - arm_.cross(change.force);
 }
 

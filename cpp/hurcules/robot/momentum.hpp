@@ -6,6 +6,7 @@
 // moves are its part and all below, their sums. About the centre of mass c: L - c x p, N - c x F.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hurcules/base/types.hpp"
@@ -24,6 +25,8 @@ class Momentum {
   void note(const Skeleton& skeleton);
   // where they are now
   void place(const Screws& screws);
+  // the coordinates move otherwise
+  void forget_rate() { rate_.reset(); }
 
   [[nodiscard]] const Vector3& com() const { return com_; }  // [m] in W
   // (3, n) of the centre of mass, [m/s] a unit; of the angular momentum about it [kg m^2] (hinges)
@@ -51,7 +54,8 @@ class Momentum {
   [[nodiscard]] const Inertia& below(int bone) const {
     return below_[static_cast<std::size_t>(bone + 1)];
   }
-  [[nodiscard]] Rate rate(const Screws& screws) const;
+  // reckoned once
+  [[nodiscard]] const Rate& rate(const Screws& screws) const;
 
   const mjModel_* model_;
   int root_;
@@ -59,6 +63,7 @@ class Momentum {
   // all below
   std::vector<Inertia> noted_, own_, below_;
   Vector3 com_ = Vector3::Zero(), arm_ = Vector3::Zero();  // c in W, and from o
+  mutable std::optional<Rate> rate_;                       // none: nobody has asked
 };
 
 }  // namespace hurcules

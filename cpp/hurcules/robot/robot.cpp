@@ -373,6 +373,7 @@ const Momentum& Robot::momentum() const {
   const Screws& screws = this->screws();
   if (momentum_stale_ == Stale::All) momentum_->note(screws.skeleton());
   if (momentum_stale_ >= Stale::Places) momentum_->place(screws);
+  if (momentum_stale_ >= Stale::Velocity) momentum_->forget_rate();
   momentum_stale_ = Stale::Nothing;
   return *momentum_;
 }

@@ -79,8 +79,11 @@ void Screws::find_above() {
   for (int body = 1; body < m.nbody; ++body) {
     std::vector<Index>& joints = above_[static_cast<std::size_t>(body)];
     joints = above(m.body_parentid[body]);
-    for (std::size_t j = 0; j < driven_.size(); ++j)
-      if (driven_[j].body == body) joints.push_back(static_cast<Index>(j));
+    for (std::size_t j = 0; j < driven_.size(); ++j) {
+      if (driven_[j].body != body) continue;
+      driven_[j].before = joints.empty() ? -1 : joints.back();
+      joints.push_back(static_cast<Index>(j));
+    }
   }
 }
 
@@ -145,18 +148,23 @@ void Screws::set_velocity(const Vector& velocity) {
   }
   if (support_ >= 0)
     for (const Index j : above(support_)) root_velocity_ -= driven(j).speed * driven(j).screw;
-  for (std::size_t i = 0; i < driven_.size(); ++i) {
-    Driven& joint = driven_[i];
-    Screw before = stands(joint.body) ? root_velocity_ : Screw::Zero();
-    for (const Index j : above(joint.body)) {
-      const bool at_once = joint.part >= 3 && driven(j).part >= 3 && driven(j).joint == joint.joint;
-      if (j < static_cast<Index>(i) && !at_once) before += driven(j).speed * driven(j).screw;
-    }
-    joint.rate = cross(before, joint.screw) * joint.speed;
+  for (Driven& joint : driven_) {  // those before it come before it
+    const auto velocity_to = [&](Index j) {
+      return j < 0 ? root_velocity_of(joint.body) : driven(j).velocity_to;
+    };
+    Index j = joint.before;
+    joint.velocity_to = velocity_to(j) + joint.speed * joint.screw;
+    // what turns at once does not turn the other
+    while (joint.part >= 3 && j >= 0 && driven(j).joint == joint.joint && driven(j).part >= 3)
+      j = driven(j).before;
+    joint.rate = cross(velocity_to(j), joint.screw) * joint.speed;
     if (joint.follower >= 0) joint.rate += closures_->drift()[joint.follower] * joint.screw;
   }
-  if (support_ < 0) return;
-  for (const Index j : above(support_)) root_rate_ -= driven(j).rate;
+  if (support_ >= 0)
+    for (const Index j : above(support_)) root_rate_ -= driven(j).rate;
+  for (Driven& joint : driven_)
+    joint.rate_to =
+        (joint.before < 0 ? root_rate_of(joint.body) : driven(joint.before).rate_to) + joint.rate;
 }
 
 template <class Of>
@@ -217,16 +225,20 @@ void Screws::add_rates(std::span<const Index> joints, const BodyPoint& at, const
   }
 }
 
+Screw Screws::root_velocity_of(int body) const {
+  return stands(body) ? root_velocity_ : Screw::Zero();
+}
+
+Screw Screws::root_rate_of(int body) const {
+  return stands(body) ? root_rate_ : Screw::Zero();
+}
+
 Screw Screws::velocity_of(int body) const {
-  Screw twist = stands(body) ? root_velocity_ : Screw::Zero();
-  for (const Index j : above(body)) twist += driven(j).speed * driven(j).screw;
-  return twist;
+  return above(body).empty() ? root_velocity_of(body) : driven(above(body).back()).velocity_to;
 }
 
 Screw Screws::rate_of(int body) const {
-  Screw rate = stands(body) ? root_rate_ : Screw::Zero();
-  for (const Index j : above(body)) rate += driven(j).rate;
-  return rate;
+  return above(body).empty() ? root_rate_of(body) : driven(above(body).back()).rate_to;
 }
 
 Vector3 Screws::point_drift(const Vector3& point, int body) const {

@@ -87,6 +87,9 @@ class Screws {
     Screw screw = Screw::Zero();  // at the coordinate's velocity 1
     Screw rate = Screw::Zero();   // at its velocity
     double speed = 0.0;           // that velocity, of the last set_velocity
+    Index before = -1;            // the joint before it on the way from the root, -1: none
+    // of what it moves, by all joints from the root to it: velocity and its rate
+    Screw velocity_to = Screw::Zero(), rate_to = Screw::Zero();
   };
 
   [[nodiscard]] static std::vector<Driven> driven_of(const mjModel_& model,
@@ -102,6 +105,9 @@ class Screws {
   void each_coordinate(const Driven& joint, Act&& act) const;
   // its tree stands on something else than the root
   [[nodiscard]] bool stands(int body) const;
+  // of the root of its tree
+  [[nodiscard]] Screw root_velocity_of(int body) const;
+  [[nodiscard]] Screw root_rate_of(int body) const;
   // (3, n): `of` a screw of each coordinate
   template <class Of>
   void fill(int body, MatrixRef J, Of&& of) const;
