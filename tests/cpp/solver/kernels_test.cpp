@@ -143,6 +143,42 @@ TEST_P(Kernels, ProjectionLeavesNoPartAlongOrthonormalRows) {
   }
 }
 
+TEST_P(Kernels, ProjectionOfSplitNumbersIsThatInLongDouble) {
+  using Long = long double;
+  const Size stride = 16;
+  const auto put = [](Long x, Numbers& high, Numbers& low, Size at) {
+    high[at] = kernels::on_grid(static_cast<double>(x));
+    low[at] = static_cast<double>(x - high[at]);
+  };
+  for (const Size count : {1, 2, 3, 4, 5, 8}) {
+    // row i lies in the plane of coordinates 2 i and 2 i + 1
+    Numbers rows_high(count * stride), rows_low(count * stride), v_high(stride), v_low(stride);
+    Numbers part_high(8), part_low(8);
+    const Numbers x = numbers(2 * stride);
+    std::vector<Long> v(stride);
+    for (Size j = 0; j < stride; ++j) v[j] = 0.02L * x[j] + 1e-14L * x[stride + j];
+    for (Size j = 0; j < stride; ++j) put(v[j], v_high, v_low, j);
+    std::vector<Long> parts(count);
+    for (Size i = 0; i < count; ++i) {
+      const Long c = std::cos(Long(i + 1)), s = std::sin(Long(i + 1));
+      put(c, rows_high, rows_low, i * stride + 2 * i);
+      put(s, rows_high, rows_low, i * stride + 2 * i + 1);
+      parts[i] = c * v[2 * i] + s * v[2 * i + 1];
+      v[2 * i] -= parts[i] * c;
+      v[2 * i + 1] -= parts[i] * s;
+    }
+    kernels::chosen->project_split(rows_high.data(), rows_low.data(), count, stride,
+                                   {v_high.data(), v_low.data()},
+                                   {part_high.data(), part_low.data()});
+    for (Size i = 0; i < count; ++i) {
+      EXPECT_NEAR(static_cast<double>(part_high[i] + Long(part_low[i]) - parts[i]), 0.0, 1e-19);
+    }
+    for (Size j = 0; j < stride; ++j) {
+      EXPECT_NEAR(static_cast<double>(v_high[j] + Long(v_low[j]) - v[j]), 0.0, 1e-19);
+    }
+  }
+}
+
 TEST_P(Kernels, EliminationLeavesRowsWithoutAPartAlongThePivot) {
   const Size stride = 20, count = 6;
   const Numbers pivot = numbers(stride);

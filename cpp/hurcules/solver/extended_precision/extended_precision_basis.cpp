@@ -21,25 +21,6 @@ Long norm(Index size, const Long* v) {
   return std::sqrt(sum);
 }
 
-// takes the parts along four directions, b and the three after it, out of v: sums that do not wait
-// for each other, and one store for four
-void take_out(Index size, const Long* b, Long* v, Long* parts) {
-  const Long *b1 = b + size, *b2 = b1 + size, *b3 = b2 + size;
-  Long p0 = 0.0L, p1 = 0.0L, p2 = 0.0L, p3 = 0.0L;
-  for (Index c = 0; c < size; ++c) {
-    const Long x = v[c];
-    p0 += b[c] * x;
-    p1 += b1[c] * x;
-    p2 += b2[c] * x;
-    p3 += b3[c] * x;
-  }
-  for (Index c = 0; c < size; ++c) v[c] -= (p0 * b[c] + p1 * b1[c]) + (p2 * b2[c] + p3 * b3[c]);
-  parts[0] += p0;
-  parts[1] += p1;
-  parts[2] += p2;
-  parts[3] += p3;
-}
-
 }  // namespace
 
 void ExtendedPrecisionBasis::reserve(Index columns, Index rows) {
@@ -49,11 +30,16 @@ void ExtendedPrecisionBasis::reserve(Index columns, Index rows) {
   parts_.resize(std::max(parts_.size(), directions * width));
   rest_.resize(std::max(rest_.size(), width));
   mark_.resize(std::max(mark_.size(), directions));
+  for (PaddedRows* r : {&high_, &low_}) r->reserve(std::min(columns, rows), columns);
+  for (PaddedVector* v : {&rest_high_, &rest_low_, &part_high_, &part_low_}) {
+    v->reserve(padded(columns) + 4);
+  }
 }
 
 void ExtendedPrecisionBasis::start(Index columns) {
   columns_ = columns;
   size_ = 0;
+  for (PaddedRows* r : {&high_, &low_}) r->shape(columns);
   weakest_ = 1.0L;
 }
 
@@ -64,19 +50,30 @@ Long ExtendedPrecisionBasis::dot(Index j, const Long* v) const {
   return sum;
 }
 
+void ExtendedPrecisionBasis::split(Index size, const Long* v, Long scale, kernels::Split out) {
+  for (Index c = 0; c < size; ++c) {
+    const Long x = scale * v[c];
+    out.high[c] = kernels::on_grid(static_cast<double>(x));
+    out.low[c] = static_cast<double>(x - out.high[c]);
+  }
+  for (Index c = size; c < padded(size); ++c) out.high[c] = out.low[c] = 0.0;
+}
+
 Long ExtendedPrecisionBasis::remove(const Long* row, Long* rest, Long* parts) const {
   std::copy_n(row, columns_, rest);
   std::fill_n(parts, size_, 0.0L);
   Long left = norm(columns_, row);
+  const kernels::Split v = {rest_high_.data(), rest_low_.data()};
+  const kernels::Split part = {part_high_.data(), part_low_.data()};
   for (int pass = 0; pass < kCleanings && size_ > 0; ++pass) {
-    Index j = 0;
-    for (; j + 4 <= size_; j += 4) take_out(columns_, direction(j), rest, parts + j);
-    for (; j < size_; ++j) {
-      const Long part = dot(j, rest);
-      const Long* b = direction(j);
-      for (Index c = 0; c < columns_; ++c) rest[c] -= part * b[c];
-      parts[j] += part;
-    }
+    int exponent = 0;
+    (void)std::frexp(left, &exponent);
+    const Long size = std::ldexp(1.0L, exponent);  // a power of two above
+    split(columns_, rest, 1.0L / size, v);
+    for (double* p : {part.high, part.low}) std::fill_n(p, padded(size_), 0.0);
+    kernels::chosen->project_split(high_.row(0), low_.row(0), size_, high_.stride(), v, part);
+    for (Index c = 0; c < columns_; ++c) rest[c] = size * (Long(v.high[c]) + v.low[c]);
+    for (Index j = 0; j < size_; ++j) parts[j] += size * (Long(part.high[j]) + part.low[j]);
     const Long before = left;
     left = norm(columns_, rest);
     if (left > kClean * before) break;
@@ -91,6 +88,7 @@ bool ExtendedPrecisionBasis::add(const Long* row, Index mark, Long least) {
   if (!(left > least)) return false;
   Long* b = &directions_[size_ * columns_];
   for (Index c = 0; c < columns_; ++c) b[c] = rest_[c] / left;
+  split(columns_, b, 1.0L, {high_.row(size_), low_.row(size_)});
   parts[size_] = left;
   mark_[size_] = mark;
   weakest_ = std::min(weakest_, left);

@@ -1,10 +1,13 @@
 // Orthonormal directions of rows one after the other, in long double, each cleaned until it stays
-// orthogonal: row = sum_j l_j b_j.
+// orthogonal: row = sum_j l_j b_j. The cleaning splits every number into two doubles, which the
+// kernels take several at a time (kernels.hpp).
 #pragma once
 
 #include <vector>
 
 #include "hurcules/base/types.hpp"
+#include "hurcules/solver/kernels/kernels.hpp"
+#include "hurcules/solver/kernels/padded.hpp"
 
 namespace hurcules {
 
@@ -30,10 +33,15 @@ class ExtendedPrecisionBasis {
   [[nodiscard]] Long weakest() const { return weakest_; }
 
  private:
+  // numbers times `scale` into two doubles
+  static void split(Index size, const Long* v, Long scale, kernels::Split out);
+
   Index columns_ = 0, size_ = 0;
   Long weakest_ = 1.0L;
   std::vector<Long> directions_, parts_, rest_;
   std::vector<Index> mark_;
+  PaddedRows high_, low_;  // of directions_
+  mutable PaddedVector rest_high_, rest_low_, part_high_, part_low_;
 };
 
 }  // namespace hurcules

@@ -202,6 +202,7 @@ constexpr Table kTable = {
     .dots = dots,
     .axpys = axpys,
     .project = project,
+    .project_split = project_split,
     .eliminate = eliminate,
     .reflect = reflect,
     .copy_rows = copy_rows,

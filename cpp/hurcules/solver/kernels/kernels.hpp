@@ -21,6 +21,18 @@ struct LimitArrays {
   const double* norm;
 };
 
+// numbers high + low (project_split)
+struct Split {
+  double *high, *low;
+};
+inline constexpr double kGrid = 0x1p-25;
+// added to x, |x| < 1 / kGrid, and taken off again: the multiple of kGrid next to it
+inline constexpr double kOffGrid = 0x1.8p52 * kGrid;
+// static: the linker may not take the code of one instruction set for all
+static inline double on_grid(double x) {
+  return (x + kOffGrid) - kOffGrid;
+}
+
 // Rows on their way to orthonormal directions (orthogonal_factor.hpp).
 struct Directions {
   double* rest;         // what is left of each row
@@ -57,6 +69,10 @@ struct Table {
   // v loses its parts along orthonormal rows, which are added to part[i] (a multiple of four of
   // them); |v|^2 then
   double (*project)(const double* rows, Size count, Size stride, double* v, double* part);
+  // The same on numbers of more digits, high + low: high is a multiple of kGrid up to 1, so that
+  // products of two add up without rounding, and low the rest of it. No |v| or row is above 1.
+  void (*project_split)(const double* high, const double* low, Size count, Size stride, Split v,
+                        Split part);
   // One step of Gram-Schmidt: coordinates[i * stride] = scale (pivot . row i), and the row loses
   // its part along the pivot: row i -= scale^2 (pivot . row i) pivot. Takes four rows at a time: up
   // to three rows behind the last are read and written.

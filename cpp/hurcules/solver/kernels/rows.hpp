@@ -75,6 +75,50 @@ double project(const double* rows, Size count, Size stride, double* v, double* p
   return sum(left);
 }
 
+void project_split(const double* rows_high, const double* rows_low, Size count, Size stride,
+                   Split v, Split part) {
+  const Pack off_grid = spread(kOffGrid);
+  for (Size i = 0; i < count; i += 4) {
+    const Size last = count - 1;
+    const auto row = [&](Size l) { return (i + l < last ? i + l : last) * stride; };
+    const Size at[4] = {row(0), row(1), row(2), row(3)};
+    Pack large[4] = {}, small[4] = {};
+    for (Size j = 0; j < stride; j += kWidth) {
+      const Pack high = load(v.high + j), low = load(v.low + j), whole = high + low;
+      for (int l = 0; l < 4; ++l) {
+        const Pack h = load(rows_high + at[l] + j);
+        large[l] += h * high;
+        small[l] += load(rows_low + at[l] + j) * whole;
+        small[l] += h * low;
+      }
+    }
+    double exact[4], rest[4];
+    sums(large[0], large[1], large[2], large[3], exact);
+    sums(small[0], small[1], small[2], small[3], rest);
+    Pack p[4], p_low[4];
+    for (int l = 0; l < 4; ++l) {
+      const double high = i + l > last ? 0.0 : on_grid(exact[l] + rest[l]);
+      const double low = i + l > last ? 0.0 : (exact[l] - high) + rest[l];
+      part.high[i + l] += high;
+      part.low[i + l] += low;
+      p[l] = spread(high);
+      p_low[l] = spread(low);
+    }
+    for (Size j = 0; j < stride; j += kWidth) {
+      Pack high = load(v.high + j), low = load(v.low + j);
+      for (int l = 0; l < 4; ++l) {
+        const Pack h = load(rows_high + at[l] + j), b = load(rows_low + at[l] + j);
+        high -= p[l] * h;
+        low -= p[l] * b;
+        low -= p_low[l] * (h + b);
+      }
+      const Pack rounded = ((high + low) + off_grid) - off_grid;
+      store(v.high + j, rounded);
+      store(v.low + j, (high - rounded) + low);
+    }
+  }
+}
+
 // with_side: side[i] -= part of row i times `value`, too
 template <bool with_side>
 inline void eliminate_rows(const double* pivot, double scale, double* rows, Size count, Size stride,
