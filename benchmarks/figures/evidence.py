@@ -1,8 +1,9 @@
 """Draws docs/evidence.png from docs/evidence.json, what benchmarks/evidence.py measured.
 
-Left: success of the deterministic policy while it learns, median and range of the seeds. Then, a
-dot a seed: success without physics and in it; what was measured in the physics, of the actions
-drawn in training and of the last policy: excess over limits, self-contact.
+A row an environment. Success of the deterministic policy while it learns, median and range of the
+seeds. Then, a dot a seed: success in the fidelity that it learns in and in `exact`; what was
+measured in the physics, of the actions drawn in training and of the last policy: excess over
+limits, and self-contact of Reach, the largest force of Press.
 
 Run:  python benchmarks/figures/evidence.py [JSON] [FILE]
 Prints the tables of docs/evidence.md too.
@@ -12,6 +13,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -29,14 +31,15 @@ COLOURS = {
     "joint": "#d1495b",
     "least squares": "#8d6a9f",
 }
+LEARNT_IN = {"Reach": "kinematic", "Press": "fast"}  # fidelity by environment
 ENOUGH = 0.8  # share of successes that counts as learnt
 
 Row = dict[str, Any]
 
 
-def of(rows: list[Row], layer: str, algorithm: str = "ppo") -> list[Row]:
+def of(rows: list[Row], layer: str, environment: str) -> list[Row]:
     """The runs of a layer."""
-    return [row for row in rows if (row["layer"], row["algorithm"]) == (layer, algorithm)]
+    return [row for row in rows if (row["layer"], row["environment"]) == (layer, environment)]
 
 
 def first(row: Row) -> float:
@@ -49,26 +52,28 @@ def training(row: Row, name: str) -> list[float]:
     return [look[name] for look in row["training"]]
 
 
-def curves(axes: Axes, rows: list[Row]) -> None:
+def curves(axes: Axes, rows: list[Row], environment: str) -> None:
     """Success while it learns."""
     for layer, colour in COLOURS.items():
-        found = of(rows, layer)
+        found = of(rows, layer, environment)
         if not found:
             continue
         steps = np.array(found[0]["curve"])[:, 0] / 1000.0
         shares = 100.0 * np.array([np.array(row["curve"])[:, 1] for row in found])
         axes.plot(steps, np.median(shares, axis=0), color=colour, label=layer)
         axes.fill_between(steps, shares.min(axis=0), shares.max(axis=0), color=colour, alpha=0.15)
-    axes.set_title("Success of the policy while it learns, median and range", fontsize=10)
+    axes.set_title(f"{environment}: success while it learns, median and range", fontsize=10)
     axes.set(xlabel="steps [1000]", ylabel="success [%]")
     axes.legend(frameon=False, fontsize=8)
 
 
-def pairs(axes: Axes, rows: list[Row], title: str, names: tuple[str, str], value: Any) -> None:
+def pairs(
+    axes: Axes, rows: list[Row], environment: str, title: str, names: tuple[str, str], value: Any
+) -> None:
     """Two figures of each run, by layer: a dot a seed, a bar for the median."""
     for place, (layer, colour) in enumerate(COLOURS.items()):
         for k, mark in enumerate(("o", "s")):
-            values = [value(row, k) for row in of(rows, layer)]
+            values = [value(row, k) for row in of(rows, layer, environment)]
             if not values:
                 continue
             x = place + 0.36 * (k - 0.5)
@@ -90,9 +95,19 @@ def contact(row: Row, k: int) -> float:
     return 100.0 * (trained, row["exact"]["self_contacts"])[k]
 
 
+def share(name: str) -> Callable[[Row, int], float]:
+    """[%] of the episodes that ended so: in training, of the last policy."""
+    return lambda row, k: 100.0 * (float(np.mean(training(row, name))), row["exact"][name])[k]
+
+
+def force(row: Row, k: int) -> float:
+    """[N] largest on the plate: in training, of the last policy."""
+    return (max(training(row, "force")), row["exact"]["force"])[k]
+
+
 def success(row: Row, k: int) -> float:
-    """[%] without physics, in it."""
-    return 100.0 * row[("kinematic", "exact")[k]]["success"]
+    """[%] in the fidelity that it learnt in, in `exact`."""
+    return 100.0 * row[(LEARNT_IN[row["environment"]], "exact")[k]]["success"]
 
 
 def spread(values: list[float], text: str = "{:.0f}") -> str:
@@ -106,29 +121,39 @@ def spread(values: list[float], text: str = "{:.0f}") -> str:
     return middle if low == high else f"{middle} ({low} to {high})"
 
 
-def table(rows: list[Row], algorithm: str) -> str:
+def table(rows: list[Row], environment: str) -> str:
     """What the page says, a line a layer."""
-    lines = [
-        "| layer | seeds | steps to 80 % | `kinematic` | `exact` | other robot |"
-        " over a limit [mrad], training | `exact` | self-contact, training | `exact` |"
-        " falls, training | `exact` |",
-        "|" + "---|" * 12,
+    pressed = environment == "Press"
+    kinds = [
+        ("over a limit [mrad]", excess, "{:.1f}", ""),
+        ("self-contact", contact, "{:.2g}", " %"),
+        ("falls", share("falls"), "{:.0f}", " %"),
     ]
+    if pressed:
+        kinds += [
+            ("over 100 N", share("failures"), "{:.0f}", " %"),
+            ("largest force [N]", force, "{:.0f}", ""),
+        ]
+    titles = ["layer", "seeds", *(["clone"] if pressed else []), "steps to 80 %"]
+    titles += [f"`{LEARNT_IN[environment]}`", "`exact`"]
+    titles += [] if pressed else ["other robot"]
+    titles += [title for kind in kinds for title in (f"{kind[0]}, training", "`exact`")]
+    lines = ["| " + " | ".join(titles) + " |", "|" + "---|" * len(titles)]
     for layer in COLOURS:
-        found = of(rows, layer, algorithm)
+        found = of(rows, layer, environment)
         if not found:
             continue
-        other = [100.0 * row["manipulation"]["success"] for row in found if "manipulation" in row]
-        falls = [100.0 * float(np.mean(training(row, "falls"))) for row in found]
-        cells = [
-            layer, str(len(found)), spread([round(first(row), -3) for row in found], "{:,.0f}"),
-            *(spread([success(row, k) for row in found]) + " %" for k in (0, 1)),
-            spread(other) + " %" if other else "",
-            *(spread([excess(row, k) for row in found], "{:.1f}") for k in (0, 1)),
-            *(spread([contact(row, k) for row in found], "{:.2g}") + " %" for k in (0, 1)),
-            spread(falls) + " %",
-            spread([100.0 * row["exact"]["falls"] for row in found]) + " %",
-        ]  # fmt: skip
+        cells = [layer, str(len(found))]
+        if pressed:
+            cells += [spread([100.0 * row["curve"][0][1] for row in found]) + " %"]
+        cells += [spread([round(first(row), -3) for row in found], "{:,.0f}")]
+        cells += [spread([success(row, k) for row in found]) + " %" for k in (0, 1)]
+        if not pressed:
+            there = [row["manipulation"] for row in found if "manipulation" in row]
+            other = [100.0 * one["success"] for one in there]
+            cells += [spread(other) + " %" if other else ""]
+        for _, value, text, unit in kinds:
+            cells += [spread([value(row, k) for row in found], text) + unit for k in (0, 1)]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
@@ -138,20 +163,26 @@ def main() -> None:
     source = Path(sys.argv[1]) if len(sys.argv) > 1 else DOCS / "evidence.json"
     target = Path(sys.argv[2]) if len(sys.argv) > 2 else DOCS / "evidence.png"
     rows = json.loads(source.read_text())
-    figure, axes = plt.subplots(2, 2, figsize=(11, 7.5), layout="constrained")
-    curves(axes[0, 0], rows)
-    pairs(axes[0, 1], rows, "Success [%]", ("kinematic", "exact"), success)
-    pairs(axes[1, 0], rows, "Over a limit, measured [mrad]", ("training", "exact"), excess)
-    pairs(axes[1, 1], rows, "Steps with self-contact [%]", ("training", "exact"), contact)
-    axes[1, 0].set_yscale("symlog", linthresh=1.0)
-    axes[1, 0].set_ylim(0.0, 1000.0)
+    both = ("training", "exact")
+    shown = [name for name in LEARNT_IN if any(row["environment"] == name for row in rows)]
+    figure, axes = plt.subplots(
+        len(shown), 4, figsize=(20, 3.8 * len(shown)), layout="constrained", squeeze=False
+    )
+    for name, (left, middle, right, last) in zip(shown, axes, strict=True):
+        curves(left, rows, name)
+        pairs(middle, rows, name, "Success [%]", (LEARNT_IN[name], "exact"), success)
+        pairs(right, rows, name, "Over a limit, measured [mrad]", both, excess)
+        right.set_yscale("symlog", linthresh=1.0)
+        right.set_ylim(0.0, 1000.0)
+        if name == "Press":
+            pairs(last, rows, name, "Largest force on the plate [N]", both, force)
+        else:
+            pairs(last, rows, name, "Steps with self-contact [%]", both, contact)
+        print(f"{name}\n\n{table(rows, name)}\n")
     for one in axes.flat:
         one.grid(alpha=0.2)
         one.set_axisbelow(True)
     figure.savefig(target, dpi=90)
-    for algorithm in ("ppo", "her"):
-        if any(row["algorithm"] == algorithm for row in rows):
-            print(f"{algorithm}\n\n{table(rows, algorithm)}\n")
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from hurcules.shares import wilson
 from hurcules_envs.checks import require_whole
 from hurcules_envs.endings import Ending
+from hurcules_envs.episodes import Episodes
 from hurcules_envs.pictures import Eyes
 from hurcules_envs.policy import Policy
 from hurcules_envs.registry import full_id, make_episodes, steps_of_episode
@@ -63,6 +64,7 @@ def evaluate(
     episodes: int = 100,
     seed: int = SEED,
     threads: int = 0,
+    watch: Callable[[Episodes, NDArray[np.bool_]], None] | None = None,
     **options: Any,
 ) -> Evaluation:
     """Runs a policy once in each of many episodes.
@@ -74,6 +76,7 @@ def evaluate(
         episodes: how many, side by side.
         seed: of the first; they are not those of training.
         threads: 0 for one a processor.
+        watch: is shown the episodes after each step, and (n,) which of them took it.
         options: of the environment, and ranges of what differs between episodes; `cameras` and
             `camera_size` as `gymnasium.make` takes them.
 
@@ -102,6 +105,8 @@ def evaluate(
             parts = eyes.look(seen.observation, running)
             batch.step(batch.checked(act(parts), shape), running)  # those that are over stand still
             seen = batch.look(remember=running)
+            if watch is not None:
+                watch(batch, running)
             info = seen.info
             returns[running] += seen.reward[running]
             lengths[running] += 1

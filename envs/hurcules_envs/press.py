@@ -213,9 +213,13 @@ class Press(ContactEnvironment):
         memory = {"place": place, "tilt": tilt, "middle": place, "path": path}
         return Start(None, memory | drawn, drawn | tilts)
 
+    def load(self, numbers: Numbers) -> Array:
+        """(n, 1) [N] what the plate's springs bear; its weight is borne apart."""
+        return -numbers["stiffness"] * numbers["joint/surface"]
+
     def remember(self, numbers: Numbers) -> None:
         """Which parts of the path are passed, and whether the plate bore too much."""
-        load = -numbers["stiffness"] * numbers["joint/surface"]  # its weight is borne apart
+        load = self.load(numbers)
         force, bias = numbers.memory["force"], numbers.memory["bias"]
         force += (1.0 - math.exp(-numbers.dt / LAG)) * (load - force)
         share = np.where(load > 1.0, 1.0 - math.exp(-numbers.dt / BIAS_LAG), 0.0)

@@ -31,7 +31,15 @@ with extras.importing(extras.remedy("train")):
     from stable_baselines3.common.callbacks import BaseCallback
     from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
-__all__ = ["TrainOptions", "make_model", "train"]
+__all__ = [
+    "PUSHES",
+    "Standardise",
+    "TrainOptions",
+    "imitate",
+    "make_model",
+    "standardises",
+    "train",
+]
 
 ALGORITHMS = ("ppo", "sac", "her")
 PPO_SETTINGS = {
@@ -73,6 +81,7 @@ AFTER_CLONING = {
     "log_std_init": -1.6,  # where the expert was pushed by PUSH
 }
 PUSH = 0.3  # of the expert's actions: standard deviation
+# by the beginning of an id, the longest that fits
 PUSHES = {"Hurcules/Press": 0.1}  # where 1 is 60 N, and 10 % of 8 N matter
 # of the observation and the way to the goal, what a network sees; by default both
 SEEN: Mapping[str, Sequence[str]] = {
@@ -177,7 +186,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
     if progress is not None:
         progress(model.num_timesteps, 0.0)
     if options.demonstrations and not checkpoint.exists():
-        _imitate(model, options)
+        imitate(model, options)
         save()
     done = options.steps <= model.num_timesteps or _learn(model, options, save, progress)
     save()
@@ -256,15 +265,19 @@ def _wandering(options: TrainOptions, environment: Any) -> VectorizedActionNoise
     return VectorizedActionNoise(noise, options.episodes)
 
 
-def _standardised(model: BaseAlgorithm) -> bool:
-    return isinstance(getattr(model.policy, "features_extractor", None), Standardised)
+def standardises(model: BaseAlgorithm, options: TrainOptions) -> bool:
+    """Whether it wants `Standardise` while it learns; a clone goes on seeing the same."""
+    extractor = getattr(model.policy, "features_extractor", None)
+    return not options.demonstrations and isinstance(extractor, Standardised)
 
 
 def _push(options: TrainOptions) -> float:
-    return next((p for n, p in PUSHES.items() if options.environment.startswith(n)), PUSH)
+    known = [name for name in PUSHES if options.environment.startswith(name)]
+    return PUSHES[max(known, key=len)] if known else PUSH
 
 
-def _imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
+def imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
+    """Makes an untrained model the clone of the expert in `options.demonstrations` episodes."""
     n, push = options.demonstrations, _push(options)
     shown = demonstrate(options.environment, n, options.seed, push, **options.options)
     clone(model, shown, options.seed)
@@ -279,8 +292,7 @@ def _learn(
     """Up to the wanted number of steps; false: to Ctrl-C or SIGTERM."""
     with Interrupts() as interrupts:
         watch = _Watch(save, options.checkpoint_every, progress, interrupts)
-        adapts = not options.demonstrations and _standardised(model)
-        callbacks = [watch, _Standardise()] if adapts else [watch]
+        callbacks = [watch, Standardise()] if standardises(model, options) else [watch]
         left = options.steps - model.num_timesteps
         model.learn(left, callback=callbacks, reset_num_timesteps=False)
     return not interrupts.noted
@@ -301,7 +313,7 @@ def _save(model: BaseAlgorithm, path: Path) -> None:
     write_whole(path, contents.getvalue())
 
 
-class _Standardise(BaseCallback):
+class Standardise(BaseCallback):
     """Tells the network between two batches what observations are like; no batch is torn."""
 
     _seen: Any = None
