@@ -37,19 +37,19 @@ class Casualty(Rescue):
 
     | index | name | bound | unit | what |
     |---|---|---|---|---|
-    | 0-40 | phase | 1 |  | 1 for the present one, in the order of the table |
-    | 41 | progress | 1 |  | of the present phase |
-    | 42-46 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
-    | 47-48 | tips | 5 | m | height of the left and the right one |
-    | 49-50 | heading | 4 | rad | of his body against square; bearing of the stand |
-    | 51-54 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
-    | 55-58 | force | 5000 | N | of both presses, push along the ground, largest support |
-    | 59 | contact | 20 |  | largest force of a contact over the limit of its region |
-    | 60 | head | 500 | m/s^2 | of his head, gravity included |
-    | 61-62 | tilt | 2 | rad | of the left and the right blade, tip up |
-    | 63-68 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
-    | 69 | mass | 200 | kg | of the person |
-    | 70 | margin | 2 | m | of the centre of mass within what the robot stands on |
+    | 0-41 | phase | 1 |  | 1 for the present one, in the order of the table |
+    | 42 | progress | 1 |  | of the present phase |
+    | 43-47 | person | 5 | m | behind the tips, aside, raised, moved; the stand is ahead |
+    | 48-49 | tips | 5 | m | height of the left and the right one |
+    | 50-51 | heading | 4 | rad | of his body against square; bearing of the stand |
+    | 52-55 | weight | 2 |  | on the ground, the left arm, the right arm, the rest: shares |
+    | 56-59 | force | 5000 | N | of both presses, push along the ground, largest support |
+    | 60 | contact | 20 |  | largest force of a contact over the limit of its region |
+    | 61 | head | 500 | m/s^2 | of his head, gravity included |
+    | 62-63 | tilt | 2 | rad | of the left and the right blade, tip up |
+    | 64-69 | joints | 4 | rad | KN, HIP, both shoulders (pitch), both elbows |
+    | 70 | mass | 200 | kg | of the person |
+    | 71 | margin | 2 | m | of the centre of mass within what the robot stands on |
 
     Reward:
 

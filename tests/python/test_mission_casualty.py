@@ -167,12 +167,13 @@ def test_who_lay_on_the_right_side_is_fetched_on_the_bed() -> None:
     while not simulation.finished:
         simulation.step(5 if simulation.phase == "draw out" else 20)
         phases.add(simulation.phase)
-        if "lean back" in phases:
+        if simulation.phase != "settle":  # there he falls, by the scene
             pressed = max(pressed, float(simulation.read(face)[0]))
         if simulation.question and simulation.phase == "settle":
             simulation.answer(True)
     assert simulation.success, simulation.reason
-    assert phases >= {"lean back", "lay on the front", "draw out", "home"}
+    assert phases >= {"lean back", "lay face right", "draw out", "home"}
+    assert "lay on the front" not in phases  # his face is turned to his right
     assert "arms low" not in phases  # no leg stays on an arm
     assert pressed <= 65.0
     figures = simulation.figures()
@@ -242,7 +243,7 @@ def test_a_push_of_200_N_changes_nothing(run, faults) -> None:
 @pytest.mark.parametrize("share, after", [(0.7, "look"), (0.3, "lower")])
 def test_a_weak_hip_motor_lifts_or_lays_down(run, faults, share: float, after: str) -> None:
     simulation = going_on(faults.simulate(faults.weakened("HIP", share)), "lift")
-    assert until_it_reacts(simulation, 6.0) == after
+    assert until_it_reacts(simulation, 11.0) == after
 
 
 @pytest.mark.slow
