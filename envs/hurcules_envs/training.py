@@ -135,8 +135,8 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
 
     Args:
         options: what, and for how long.
-        progress: is told the steps done, at first those of earlier calls, and the share of
-            successes among the last episodes.
+        progress: is told the steps done, at first 0, and the share of successes among the last
+            episodes.
 
     Returns:
         The folder.
@@ -184,7 +184,7 @@ def train(options: TrainOptions, progress: Callable[[int, float], None] | None =
             ) from error
         environment.seed(options.seed + model.num_timesteps)  # else the first episodes come again
     if progress is not None:
-        progress(model.num_timesteps, 0.0)
+        progress(0, 0.0)
     if options.demonstrations and not checkpoint.exists():
         imitate(model, options)
         save()
