@@ -31,17 +31,9 @@ from hurcules_envs.episodes import Episodes
 from hurcules_envs.evaluation import SEED, evaluate
 from hurcules_envs.press import Press
 from hurcules_envs.sb3 import make_sb3
-from hurcules_envs.training import (
-    PUSHES,
-    Standardise,
-    TrainOptions,
-    imitate,
-    make_model,
-    standardises,
-)
+from hurcules_envs.training import Standardise, TrainOptions, imitate, make_model, standardises
 
 SEED_JUDGED, SEED_WATCHED = 50_000, 70_000  # of their episodes; the last ones have evaluate's own
-PUSHES[PRESS_JOINT] = PRESS_JOINT_PUSH
 
 
 @dataclass(frozen=True)
@@ -161,7 +153,7 @@ def perform(run: Run, out: Path) -> dict[str, Any]:
     )  # fmt: skip
     model = make_model(wanted, environment)
     if study.demonstrations:
-        imitate(model, wanted)
+        imitate(model, wanted, PRESS_JOINT_PUSH if name == PRESS_JOINT else None)
     judge = Judge(study, name, dict(options))
     adapts = standardises(model, wanted)
     model.learn(study.steps, callback=[judge, Standardise()] if adapts else [judge])

@@ -31,15 +31,7 @@ with extras.importing(extras.remedy("train")):
     from stable_baselines3.common.callbacks import BaseCallback
     from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 
-__all__ = [
-    "PUSHES",
-    "Standardise",
-    "TrainOptions",
-    "imitate",
-    "make_model",
-    "standardises",
-    "train",
-]
+__all__ = ["Standardise", "TrainOptions", "imitate", "make_model", "standardises", "train"]
 
 ALGORITHMS = ("ppo", "sac", "her")
 PPO_SETTINGS = {
@@ -81,7 +73,6 @@ AFTER_CLONING = {
     "log_std_init": -1.6,  # where the expert was pushed by PUSH
 }
 PUSH = 0.3  # of the expert's actions: standard deviation
-# by the beginning of an id, the longest that fits
 PUSHES = {"Hurcules/Press": 0.1}  # where 1 is 60 N, and 10 % of 8 N matter
 # of the observation and the way to the goal, what a network sees; by default both
 SEEN: Mapping[str, Sequence[str]] = {
@@ -272,13 +263,18 @@ def standardises(model: BaseAlgorithm, options: TrainOptions) -> bool:
 
 
 def _push(options: TrainOptions) -> float:
-    known = [name for name in PUSHES if options.environment.startswith(name)]
-    return PUSHES[max(known, key=len)] if known else PUSH
+    return next((p for n, p in PUSHES.items() if options.environment.startswith(n)), PUSH)
 
 
-def imitate(model: BaseAlgorithm, options: TrainOptions) -> None:
-    """Makes an untrained model the clone of the expert in `options.demonstrations` episodes."""
-    n, push = options.demonstrations, _push(options)
+def imitate(model: BaseAlgorithm, options: TrainOptions, push: float | None = None) -> None:
+    """Makes an untrained model the clone of the expert in `options.demonstrations` episodes.
+
+    Args:
+        model: untrained.
+        options: of its training.
+        push: standard deviation of what is added to the expert's actions; None: the environment's.
+    """
+    n, push = options.demonstrations, _push(options) if push is None else push
     shown = demonstrate(options.environment, n, options.seed, push, **options.options)
     clone(model, shown, options.seed)
 

@@ -14,20 +14,16 @@ using namespace hurcules;
 
 namespace {
 
-std::string shape_of(const py::array& array) {
-  return std::string(py::str(array.attr("shape")));
-}
-
 using Shape = std::vector<py::ssize_t>;
+
+Shape shape_of(const py::array& array) {
+  return {array.shape(), array.shape() + array.ndim()};
+}
 
 std::string text_of(const Shape& shape) {
   py::tuple sizes(shape.size());
   for (std::size_t i = 0; i < shape.size(); ++i) sizes[i] = shape[i];
   return std::string(py::str(sizes));
-}
-
-bool has_shape(const py::array& array, const Shape& shape) {
-  return std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim());
 }
 
 bool is_mapping(const py::object& command) {
@@ -64,8 +60,8 @@ Matrix rows_of(const WholeBodyController& controller, const py::object& command,
   const Index k = controller.scale().size();
   if (!is_mapping(command)) {
     const Array numbers = numbers_of("a command", command);
-    if (!has_shape(numbers, shape(k)))
-      throw Error("a command: wanted shape " + text_of(shape(k)) + ", got " + shape_of(numbers));
+    if (const Shape came = shape_of(numbers); came != shape(k))
+      throw Error("a command: wanted shape " + text_of(shape(k)) + ", got " + text_of(came));
     return Eigen::Map<const Matrix>(numbers.data(), rows, k);
   }
   const auto given = py::dict(command);
@@ -84,7 +80,8 @@ Matrix rows_of(const WholeBodyController& controller, const py::object& command,
       const std::string what = "channel '" + channel.name() + "'";
       const Array numbers = numbers_of(what, given[name]);
       if (numbers.size() != rows * size)
-        throw Error(what + ": wanted shape " + text_of(shape(size)) + ", got " + shape_of(numbers));
+        throw Error(what + ": wanted shape " + text_of(shape(size)) + ", got " +
+                    text_of(shape_of(numbers)));
       all.middleCols(column, size) = Eigen::Map<const Matrix>(numbers.data(), rows, size);
     }
     column += size;

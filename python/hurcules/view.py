@@ -218,10 +218,11 @@ def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:
         model = _read(path)
         data = mujoco.MjData(model)
         return model, data, lambda n: mujoco.mj_step(model, data, n)
-    if path.is_file() and name not in _names():
+    names = [*missions(), *models.names(), *models.scenes()]
+    if path.is_file() and name not in names:
         endings = ", ".join((*_MODELS, ".toml", ".py"))
         raise Error(f"{path}: wanted a file that ends in one of {endings}")
-    require_known("mission, model, scene or file", name, _names())
+    require_known("mission, model, scene or file", name, names)
     model = models.load(name) if name in models.names() else models.load(scene=name)
     data = mujoco.MjData(model)
     plant = Plant(model, data)
@@ -230,10 +231,6 @@ def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:
     for belt in (joint for joint in plant.brakes.names if joint.endswith("_belt")):
         plant.brakes.set_closed(belt, False)
     return model, data, lambda n: plant.step(n) if n else None
-
-
-def _names() -> list[str]:
-    return [*missions(), *models.names(), *models.scenes()]
 
 
 def _read(path: Path) -> Any:

@@ -24,11 +24,6 @@ bool is_equality(const Level& level, Index row) {
   return level.lower[row] == level.upper[row];
 }
 
-// of a direction in which a row lets the joints turn by so much [rad/s] more
-double share_held(double room) {
-  return std::min(1.0, 1.0 - room / kSlow);
-}
-
 }  // namespace
 
 void DeadZone::set_stack(const Stack& stack, Index n) {
@@ -236,11 +231,11 @@ void DeadZone::hold_pressed_rows(std::size_t k, std::size_t above, const Level& 
     const double nearest = std::min(level.upper[row], -level.lower[row]);
     if (nearest == std::numeric_limits<double>::infinity()) continue;
     const double length = level.A.row(row).norm();
-    if (length < kFreeJoint || !(share_held(nearest / length) > 0.0)) continue;
+    if (length < kFreeJoint || nearest / length >= kSlow) continue;
     direction_ = level.A.row(row) / length;
     const double along = direction_.dot(pull_);
     const double room = (along > 0.0 ? level.upper[row] : -level.lower[row]) / length;
-    const double held = share_held(room);
+    const double held = std::min(1.0, 1.0 - room / kSlow);
     if (!(held > 0.0) || along == 0.0) continue;
     if (held > 0.5) pressed_rows_[k].emplace_back(above, row);
     hold_direction(held, {above, row});
