@@ -104,29 +104,23 @@ class Numbers:
         memory: dict[str, Array],
         action: Array,
         dt: float,
-        finished: NDArray[np.bool_],
-        endings: Callable[[], Sequence[hurcules.Ending]] = tuple,
     ) -> None:
         self._values = values
         self._places = places  # of the quantities, by name, along the second axis
         self.memory = memory
         self.action = action
         self.dt = dt
-        self.finished = finished
-        self._endings = endings
         self._rows: dict[tuple[str, ...], Array] = {}
         self._computed: dict[str, Any] = {}
 
     def ended_as(self, ending: hurcules.Ending) -> NDArray[np.bool_]:
         """(n,) whose simulation is over in this way."""
-        return self.endings == int(ending)
+        return self["ending"][:, 0] == int(ending)
 
     @property
-    def endings(self) -> NDArray[np.int64]:
-        """(n,) numbers of hurcules.Ending, of the simulations."""
-        if not np.count_nonzero(self.finished):
-            return np.zeros(len(self.finished), dtype=np.int64)
-        return np.array([int(one) for one in self._endings()], dtype=np.int64)
+    def finished(self) -> NDArray[np.bool_]:
+        """(n,) whose simulation is over."""
+        return self["ending"][:, 0] > 0.0
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name."""

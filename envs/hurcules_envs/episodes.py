@@ -6,6 +6,7 @@ import copy
 import math
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
@@ -15,6 +16,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules import _core
 from hurcules_envs.checks import (
     CheckedEnvironment,
     read_once,
@@ -29,38 +31,53 @@ from hurcules_envs.checks import (
 )
 from hurcules_envs.copies import GENERATOR, generator_numbers, generator_state
 from hurcules_envs.environment import Array, Environment, Numbers, Places, Start
-from hurcules_envs.randomisation import Randomisation
+from hurcules_envs.randomisation import TOLD, Randomisation
 
 __all__ = ["Episodes", "Step", "numbers_of", "seeds_of", "state_of"]
 
-# read after each step beside what the environment wants, and what it is called in info
-_WATCHED = {
-    "excess/position": "limit_excess",
-    "excess/velocity": "limit_excess_velocity",
-    "excess/torque": "limit_excess_torque",
-    "excess_now/position": "limit_excess_now",
-    "commanded_excess/position": "commanded_excess",
-    "monitor/self_collision_distance_m": "self_distance",
-    "monitor/static_margin_m": "support_margin",
-    "self_contacts": "self_contacts",
-    "scaled": "scaled",
-    "status": "solver_status",
-    "changes": "solver_changes",
-    "time": "time",
-}
+# in info what `judge` tells: the cost, and what it reads but the ending
+_WATCHED = (
+    "cost", "limit_excess", "limit_excess_velocity", "limit_excess_torque", "limit_excess_now",
+    "commanded_excess", "self_distance", "support_margin", "self_contacts", "scaled",
+    "solver_status", "solver_changes", "time",
+)  # fmt: skip
+_READ = tuple(_core.judged())
 
 
-EXCESS = 5e-3  # [rad, of slides m] that servos may pass a limit by before it counts as a cost
-_COMPLETED, _MISSED = int(hurcules.Ending.Completed), int(hurcules.Ending.Missed)
+@dataclass
+class Step:
+    """What a step gave, arrays over the episodes.
 
-
-class Step(dict[str, NDArray[Any]]):
-    """What a step gave, arrays over the episodes: observation, reward, terminated and info."""
+    Attributes:
+        observation: by its parts.
+        reward: (n,).
+        terminated: (n,).
+        said: what the environment says for `info`, and how it ended.
+        names: of the numbers of `watched`.
+        watched: (k, n) what else stands in `info`.
+        more: what the environment tells beside.
+    """
 
     observation: dict[str, NDArray[np.float32]]
     reward: Array
     terminated: NDArray[np.bool_]
-    info: dict[str, NDArray[Any]]
+    said: dict[str, NDArray[Any]]
+    names: tuple[str, ...]
+    watched: Array
+    more: dict[str, NDArray[Any]]
+
+    @property
+    def info(self) -> dict[str, NDArray[Any]]:
+        """All of `info`, (n,) each."""
+        return self.said | dict(zip(self.names, self.watched, strict=True)) | self.more
+
+    @property
+    def info_of_one(self) -> dict[str, Any]:
+        """The same of the first episode, numbers of numpy: TorchRL asks for their dtype."""
+        info = {name: values[0] for name, values in self.said.items()}
+        info.update(zip(self.names, self.watched[:, 0], strict=True))
+        info.update((name, values[0]) for name, values in self.more.items())
+        return info
 
 
 class Episodes:
@@ -105,7 +122,7 @@ class Episodes:
         self.environment = environment
         self.n = n
         self._name = type(environment).__name__
-        require_attributes(environment, [*_WATCHED, "finished"])
+        require_attributes(environment, _READ)
         warn_of_still_things(environment)
         self._checked = CheckedEnvironment(environment, n)
         self._asked: Any = self._checked  # until the first step is done
@@ -119,7 +136,7 @@ class Episodes:
         own = bool(environment.parameters) or self.randomisation.wants_models
         self._copy_simulation(own_models=own)
         self.generators = [np.random.default_rng() for _ in range(n)]
-        names = [*environment.quantities, "finished", *_WATCHED]
+        names = [*environment.quantities, *_READ]
         self._quantities = hurcules.Quantities(simulation, names)
         stops = np.cumsum(self._quantities.sizes)
         self._places = Places(
@@ -137,8 +154,9 @@ class Episodes:
         self._terms = set(environment.terms)
         self._told_terms = {name: f"reward_{name}" for name in environment.terms}  # in info
         self._told: set[str] | None = None  # names of `tell`
-        self._action = np.zeros((n, len(self.action_scale)))
+        self._beside: Array | None = None  # what was drawn for `info`; None: other things since
         self._worst = np.zeros(n)
+        self._action = np.zeros((n, len(self.action_scale)))
         self._ticks = round(1.0 / environment.rate / simulation.dt)
         self.period = self._ticks * simulation.dt
         self._made_of = read_once(environment)
@@ -169,6 +187,7 @@ class Episodes:
         for i in np.flatnonzero(chosen):
             self._configure(int(i))
         self.batch.reset(seeds, chosen.tolist(), starts)
+        self._beside = None
         before, self._values = self._values, None
         if before is not None:
             self._values = np.where(chosen[:, None], self._read(), before)
@@ -208,28 +227,28 @@ class Episodes:
         if terms.keys() != self._terms:
             require_names(f"{self._name}.reward", "term", terms, self.environment.terms)
         success = environment.succeeded(numbers)
-        failure = environment.failed(numbers)
-        ended = environment.ended(numbers)
-        ending = np.zeros(self.n, dtype=np.int64)
-        if np.count_nonzero(failure) or np.count_nonzero(ended):
-            ending = np.where(failure, _MISSED, np.where(ended, _COMPLETED, 0))
-        if np.count_nonzero(numbers.finished):
-            over = numbers.endings
-            fallen = numbers.finished & (over != _COMPLETED)
-            failure, ending = failure | fallen, np.where(fallen, over, ending)
-        step = Step()
-        step.observation = self._observe(numbers)
-        step.reward = np.zeros(self.n)
-        for name in self.environment.terms:
-            step.reward += terms[name]
-        if not math.isfinite(np.vdot(step.reward, step.reward)):
+        if self._beside is None:
+            self._beside = np.stack([*self.randomisation.drawn.values(), *self._info.values()])
+        reward, failed, terminated, ending, watched = _core.judge(
+            values,
+            [terms[name] for name in self.environment.terms],
+            environment.failed(numbers),
+            environment.ended(numbers),
+            environment.costs(numbers),
+            self._beside,
+            self._worst,
+        )
+        if not math.isfinite(np.vdot(reward, reward)):
             for name, term in terms.items():
                 require_finite(f"{self._name}.reward: term '{name}'", term)
-        step.terminated = failure | ended
-        step.info = self._describe(values, numbers, terms, success, failure, ending)
+        said = {told: terms[name] for name, told in self._told_terms.items()}
+        said |= {"is_success": success, "failed": failed, "ending": ending}
+        names = (*_WATCHED, *TOLD, *self._info)
+        more = self._tell(numbers, said)
+        observation = self._observe(numbers)
         if remember is not None:
             self._asked = self.environment
-        return step
+        return Step(observation, reward, terminated, said, names, watched, more)
 
     def state(self) -> Array:
         """(n, s) everything that decides how the episodes go on."""
@@ -288,6 +307,7 @@ class Episodes:
         for entry in self._info.values():
             entry[chosen] = values[chosen, place]
             place += 1
+        self._beside = None
         self._give_models()
         if self._models:  # the first time it was checked, now it meets the model that it had
             for i in np.flatnonzero(chosen):
@@ -300,14 +320,14 @@ class Episodes:
         Raises:
             hurcules.Error: no array of numbers, another shape, NaN or infinity.
         """
-        values = numbers_of("action", action)
-        if values.shape != shape:
-            raise hurcules.Error(f"action: wanted shape {shape}, got {values.shape}")
-        if not math.isfinite(np.vdot(values, values)) and not np.isfinite(values).all():
-            bad = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
-            raise hurcules.Error(f"action: wanted finite numbers, got {values[bad]} at index {bad}")
-        np.minimum(values, 1.0, out=values)  # a copy
-        return np.maximum(values, -1.0, out=values)
+        given = _array_of("action", action)
+        if given.shape != shape:
+            raise hurcules.Error(f"action: wanted shape {shape}, got {given.shape}")
+        values, finite = _core.clipped(given)
+        if not finite:
+            bad = tuple(int(i) for i in np.argwhere(~np.isfinite(given))[0])
+            raise hurcules.Error(f"action: wanted finite numbers, got {given[bad]} at index {bad}")
+        return values
 
     def _copy_simulation(self, *, own_models: bool) -> None:
         """A batch of copies of the environment's simulation."""
@@ -352,12 +372,7 @@ class Episodes:
         return self._values
 
     def _numbers(self, values: Array) -> Numbers:
-        places = self._places
-        over = values[:, places["finished"].start] > 0.0
-        return Numbers(values, places, self.memory, self._action, self.period, over, self._endings)
-
-    def _endings(self) -> Sequence[hurcules.Ending]:
-        return self.batch.endings
+        return Numbers(values, self._places, self.memory, self._action, self.period)
 
     def _remember(self, numbers: Numbers, mask: NDArray[np.bool_]) -> None:
         """A step in the memory of those of a mask."""
@@ -380,6 +395,7 @@ class Episodes:
         high = np.concatenate([np.full(g.size, g.bound) for g in environment.observation])
         self._high = high.astype(np.float32)
         self._low = -self._high
+        self._far = np.full(environment.goal, np.inf, np.float32)  # goals are not cut
         self._groups = [group.name for group in environment.observation]
         parts = [(group.name, group.size) for group in environment.observation]
         if self._flat:
@@ -427,67 +443,43 @@ class Episodes:
         groups = self._asked.observe(numbers)
         parts = [groups[name] if name in groups else numbers[name] for name in self._groups]
         errors = self.randomisation.errors() if noise else None
-        values = np.concatenate(parts, axis=1, dtype=np.float32)
-        if errors is not None:
-            values += errors[:, : values.shape[1]].astype(np.float32)
-        np.minimum(values, self._high, out=values)
-        result = {"observation": np.maximum(values, self._low, out=values)}
-        if not math.isfinite(np.vdot(values, values)):
+        size = len(self._high)
+        added = None if errors is None else errors[:, :size]
+        observation, finite = _core.seen(parts, self._high, added)
+        if not finite:
             for name, part in zip(self._groups, parts, strict=True):
                 require_finite(f"{self._name}.observe: '{name}'", part)
-        if self.environment.goal:
-            achieved, desired = self._asked.goals(numbers)
-            if not math.isfinite(np.vdot(achieved, desired)):
-                require_finite(f"{self._name}.goals: achieved", achieved)
-                require_finite(f"{self._name}.goals: desired", desired)
-            if errors is not None:
-                achieved = achieved + errors[:, values.shape[1] :]
-            if self._flat:
-                way = (desired - achieved).astype(np.float32)
-                return {"observation": np.concatenate([result["observation"], way], axis=1)}
-            result["achieved_goal"] = achieved.astype(np.float32)
-            result["desired_goal"] = desired.astype(np.float32)
-        return result
+        if not self.environment.goal:
+            return {"observation": observation}
+        achieved, desired = self._asked.goals(numbers)
+        given = {"achieved": achieved, "desired": desired}
+        if errors is not None:
+            achieved = achieved + errors[:, size:]
+        if self._flat:
+            goals = {"to_goal": desired - achieved}
+        else:
+            goals = {"achieved_goal": achieved, "desired_goal": desired}
+        seen = {"observation": observation}
+        for name, goal in goals.items():
+            seen[name], finite = _core.seen([goal], self._far)
+            if not finite:
+                for one, values in given.items():
+                    require_finite(f"{self._name}.goals: {one}", values)
+        return {"observation": np.concatenate([*seen.values()], axis=1)} if self._flat else seen
 
-    def _describe(
-        self,
-        values: Array,
-        numbers: Numbers,
-        terms: Mapping[str, Array],
-        success: NDArray[np.bool_],
-        failure: NDArray[np.bool_],
-        ending: NDArray[np.int64],
-    ) -> dict[str, NDArray[Any]]:
-        columns = values.T[-len(_WATCHED) :].copy()  # the last ones, a number each
-        watched = dict(zip(_WATCHED.values(), columns, strict=True))
-        margin = watched["support_margin"]
-        if np.count_nonzero(none := np.isnan(margin)):  # of a robot that cannot tip
-            margin[none] = 0.0
-        excess = watched["limit_excess"]
-        cost = watched["limit_excess_now"] > EXCESS
-        cost |= excess > np.maximum(self._worst, EXCESS)  # within the step
-        cost |= watched["self_contacts"] > 0.0
-        cost |= self._asked.costs(numbers)
-        self._worst[:] = excess
-        info: dict[str, NDArray[Any]] = {
-            told: terms[name] for name, told in self._told_terms.items()
-        }
-        info |= {"is_success": success, "failed": failure, "ending": ending}
-        info["cost"] = cost.astype(np.float64)
-        info |= watched
-        info |= self.randomisation.info()
-        own = {name: entry.copy() for name, entry in self._info.items()}
-        told = {name: np.array(row) for name, row in self._asked.tell(numbers).items()}
+    def _tell(self, numbers: Numbers, said: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+        """What the environment tells beside what is in info; its names stay the same."""
+        more = {name: np.array(row) for name, row in self._asked.tell(numbers).items()}
         if self._told is None:
-            self._told = set(told)
-        elif told.keys() != self._told:
-            require_names(f"{self._name}.tell", "name", told, self._told)
-        for method, more in (("start", own), ("tell", told)):
-            if not info.keys().isdisjoint(more):
-                taken = next(name for name in more if name in info)
-                raise hurcules.Error(f"{self._name}.{method}: '{taken}' is in info already")
-            info |= more
-        return info
+            self._told = set(more)
+            there = [*said, *_WATCHED, *TOLD]
+            for method, given in (("start", self._info), ("tell", more)):
+                if taken := [name for name in given if name in there]:
+                    raise hurcules.Error(f"{self._name}.{method}: '{taken[0]}' is in info already")
+                there += given
+        elif more.keys() != self._told:
+            require_names(f"{self._name}.tell", "name", more, self._told)
+        return more
 
 
 class _Commands:
@@ -583,10 +575,15 @@ def numbers_of(what: str, values: object) -> Array:
     Raises:
         hurcules.Error: it is none; the text says what came.
     """
+    return _array_of(what, values).astype(np.float64)
+
+
+def _array_of(what: str, values: object) -> NDArray[Any]:
+    """The same, of its own kind of numbers."""
     try:
         array = np.asarray(values)
         if array.dtype.kind in "fiu":
-            return array.astype(np.float64)
+            return array
     except (TypeError, ValueError):  # ragged lists and the like
         pass
     came = " ".join(reprlib.repr(values).split())

@@ -31,7 +31,9 @@ from numpy.typing import NDArray
 import hurcules
 from hurcules_envs.environment import Array, Environment
 
-__all__ = ["NAMES", "PHYSICAL", "Randomisation", "Ranged", "known_ranges", "ranges_of", "split"]
+__all__ = [
+    "NAMES", "PHYSICAL", "TOLD", "Randomisation", "Ranged", "known_ranges", "ranges_of", "split",
+]  # fmt: skip
 
 # by name: nominal value, least, most
 _KNOWN: Mapping[str, tuple[float, float, float]] = {
@@ -44,7 +46,7 @@ _KNOWN: Mapping[str, tuple[float, float, float]] = {
     "payload": (0.0, 0.0, 100.0),
 }
 NAMES = tuple(_KNOWN)
-_TOLD = tuple(f"drawn_{name}" for name in NAMES)  # in info
+TOLD = tuple(f"drawn_{name}" for name in NAMES)  # in info
 IN_MODEL = (*NAMES[:3], "payload")
 PHYSICAL = (*IN_MODEL, "push")
 DELAY = int(_KNOWN["action_delay"][2])  # steps at most
@@ -135,8 +137,7 @@ class Randomisation:
         self._simulation = environment.simulation
         model = self._simulation.model
         self.ranges: dict[str, Range] = {name: (row[0],) * 2 for name, row in _KNOWN.items()}
-        self._drawn = np.array([np.full(n, row[0]) for row in _KNOWN.values()])
-        self.drawn = dict(zip(NAMES, self._drawn, strict=True))
+        self.drawn = {name: np.full(n, row[0]) for name, row in _KNOWN.items()}
         self.set_ranges(given)
         self._seed, self._count = np.zeros(n), np.zeros(n)
         self._past = np.zeros((n, 0, 0))
@@ -262,10 +263,6 @@ class Randomisation:
         seeds = _mixed(self._seed.astype(np.uint64) ^ _mixed(self._count.astype(np.uint64)))
         share = (_mixed(seeds[:, None] + _STEP * keys) >> np.uint64(11)) * 2.0**-53
         return np.asarray(noise[:, None] * self._scale * (2.0 * share - 1.0))
-
-    def info(self) -> dict[str, Array]:
-        """The values, for `info`."""
-        return dict(zip(_TOLD, self._drawn.copy(), strict=True))
 
     def state(self, actions: int) -> Array:
         """(n, s) all of it, with queues of so many numbers."""

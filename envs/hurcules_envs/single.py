@@ -20,7 +20,7 @@ from hurcules.view import opened
 from hurcules_envs.checks import require_open
 from hurcules_envs.copies import Copied
 from hurcules_envs.environment import Numbers
-from hurcules_envs.episodes import Episodes, Step, state_of
+from hurcules_envs.episodes import Episodes, state_of
 from hurcules_envs.pictures import HEIGHT, SIZE, WIDTH, Eyes, Views
 from hurcules_envs.randomisation import Ranged, known_ranges, split
 from hurcules_envs.registry import make_environment, warn_of_rate
@@ -187,7 +187,7 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._episodes.reset()
         self._begun, self._over = True, False
         step = self._episodes.look(remember=None)
-        return self._seen(step.observation), _info(step)
+        return self._seen(step.observation), step.info_of_one
 
     def step(
         self, action: NDArray[np.float32]
@@ -219,7 +219,8 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         if self.render_mode == "human":
             self.render()
             self._keep_time()
-        return self._seen(step.observation), float(step.reward[0]), terminated, False, _info(step)
+        seen = self._seen(step.observation)
+        return seen, float(step.reward[0]), terminated, False, step.info_of_one
 
     def get_state(self) -> NDArray[np.float64]:
         """(s,) everything that decides how the episode goes on, and how the next ones start.
@@ -305,7 +306,3 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         now = time.perf_counter()
         time.sleep(max(0.0, self._due - now))
         self._due = max(self._due, now) + self._episodes.period
-
-
-def _info(step: Step) -> dict[str, Any]:
-    return {name: values[0] for name, values in step.info.items()}  # TorchRL asks for their dtype

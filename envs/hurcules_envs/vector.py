@@ -205,7 +205,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             reward, terminated = np.where(goes_on, reward, 0.0), terminated & goes_on
         if np.count_nonzero(truncated):
             truncated &= goes_on & ~terminated
-            step.info["ending"][truncated] = int(Ending.TimeLimit)
+            step.said["ending"][truncated] = int(Ending.TimeLimit)
         ended = terminated | truncated
         observation, info = self._seen(step.observation), _info(step)
         if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):
@@ -379,7 +379,8 @@ def _row(observation: Any, i: int) -> Any:
 
 def _info(step: Step) -> dict[str, Any]:
     known = np.ones(len(step.reward), dtype=bool)  # one for all: it costs more than what it says
-    return step.info | dict.fromkeys(_masks_of(tuple(step.info)), known)
+    info = step.info
+    return info | dict.fromkeys(_masks_of(tuple(info)), known)
 
 
 @cache

@@ -189,7 +189,7 @@ Names: position/FRAME, rotation/FRAME (rotation vector), velocity/FRAME, spin/FR
 world), matrix/FRAME (9); value/TASK, target/TASK; force/TASK (what a force task read);
 distance/OBJECT/OBJECT; joint/JOINT, joint_velocity/JOINT; sensor/SENSOR; monitor/NAME; excess/KIND, commanded_excess/KIND
 (position, velocity, torque: the worst so far), excess_now/KIND (of the last period); contact_force/BODY; self_contacts; scaled; finished
-(1 where it is over); and each channel of the observation and the log, alone ("q/KN") or as a group
+(1 where it is over); ending (the number of its Ending, 0 until then); and each channel of the observation and the log, alone ("q/KN") or as a group
 ("q").
 
 Args:

@@ -29,6 +29,7 @@ void bind_whole_body(py::module_& module);
 void bind_plant(py::module_& module);
 void bind_sim(py::module_& module);
 void bind_batch(py::module_& module);
+void bind_judge(py::module_& module);
 void bind_power(py::module_& module);
 void bind_mission(py::module_& module);
 
@@ -138,6 +139,7 @@ PYBIND11_MODULE(_core, module) {
   bind_mission(module);
   bind_sim(module);
   bind_batch(module);
+  bind_judge(module);
   bind_power(module);
   tell_wrong_types(module);
 }

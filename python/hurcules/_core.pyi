@@ -4313,7 +4313,7 @@ class Quantities:
     world), matrix/FRAME (9); value/TASK, target/TASK; force/TASK (what a force task read);
     distance/OBJECT/OBJECT; joint/JOINT, joint_velocity/JOINT; sensor/SENSOR; monitor/NAME; excess/KIND, commanded_excess/KIND
     (position, velocity, torque: the worst so far), excess_now/KIND (of the last period); contact_force/BODY; self_contacts; scaled; finished
-    (1 where it is over); and each channel of the observation and the log, alone ("q/KN") or as a group
+    (1 where it is over); ending (the number of its Ending, 0 until then); and each channel of the observation and the log, alone ("q/KN") or as a group
     ("q").
 
     Args:
@@ -4599,6 +4599,15 @@ def check_rows(table: MissionTable) -> None:
     Raises:
       Error: naming the row, with what was wanted and what came."""
 
+def clipped(values: ArrayLike) -> tuple[NDArray[np.float64], bool]:
+    """Numbers cut to [-1, 1].
+
+    Args:
+      values: of any shape.
+
+    Returns:
+      A copy, and whether all are finite."""
+
 def inverse_kinematics(
     robot: Robot,
     tasks: Stack
@@ -4634,6 +4643,41 @@ def inverse_kinematics(
 
     Raises:
       Error: no task, fewer than one start, or a tolerance that is not positive."""
+
+def judge(
+    values: ArrayLike,
+    terms: collections.abc.Sequence[ArrayLike],
+    failed: NDArray[np.bool_],
+    ended: NDArray[np.bool_],
+    costly: NDArray[np.bool_],
+    beside: ArrayLike,
+    worst: ArrayLike,
+) -> tuple[Any, ...]:
+    """Judges a step of episodes side by side.
+
+    By what was read of their simulations and what their task says: reward, cost, how it ended, and the
+    numbers that are told beside these. The cost is 1 where the robot touches itself; is beyond the
+    limit of a joint's place by more than 5 mrad (of slides 5 mm) at the end of the step, or within it
+    further than ever; or where the task says so.
+
+    Args:
+      values: (n, m) as read, `judged()` its last columns.
+      terms: list of (n,) arrays, the terms of the reward.
+      failed: (n,) bool.
+      ended: (n,) bool, by success.
+      costly: (n,) bool: more that costs.
+      beside: (s, n): told too.
+      worst: (n,) the worst excess [rad] of each at its last step, updated; 0 for one that begins.
+
+    Returns:
+      reward (n,), failed (n,), terminated (n,), ending (n,), and what is told (r, n): cost, what is
+      judged but the first, then what stood beside.
+
+    Raises:
+      Error: arrays of another size."""
+
+def judged() -> list[str]:
+    """What `judge` reads, in this order."""
 
 def largest_stiffness(gains: ForceGains) -> float:
     """Largest stiffness G [N/m] of an environment that the gains keep stable in steps of dt.
@@ -4721,6 +4765,22 @@ def realistic_sensors() -> SensorOptions:
 @overload
 def realistic_sensors(robot: Robot) -> SensorOptions:
     """Those of them that a robot has."""
+
+def seen(
+    parts: collections.abc.Sequence[ArrayLike], bound: ArrayLike, errors: ArrayLike | None = None
+) -> tuple[NDArray[np.float32], bool]:
+    """Arrays side by side, as an observation.
+
+    Args:
+      parts: list of (n, k) arrays.
+      bound: (m,) float32, what is beyond is cut off.
+      errors: (n, m) or None, added first.
+
+    Returns:
+      (n, m) float32, and whether all are finite.
+
+    Raises:
+      Error: arrays of another shape."""
 
 def self_collision(
     robot: Robot,

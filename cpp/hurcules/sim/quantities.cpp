@@ -115,7 +115,8 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
   }
   for (const auto& [word, kind] : {std::pair{"self_contacts", Kind::SelfContacts},
                                    {"scaled", Kind::Scaled},
-                                   {"finished", Kind::Finished}}) {
+                                   {"finished", Kind::Finished},
+                                   {"ending", Kind::Ending}}) {
     if (name != word) continue;
     found.kind = kind;
     return found;
@@ -147,7 +148,8 @@ Quantities::Quantity Quantities::find(const Simulation& simulation, const std::s
                                     "self_contacts",
                                     "scaled",
                                     "contact_force/BODY",
-                                    "finished"};
+                                    "finished",
+                                    "ending"};
   for (const Recorder* recorder : {&simulation.observation(), &simulation.log()}) {
     for (const std::string& channel : recorder->channels()) {
       const std::string word = channel.substr(0, channel.find('/'));
@@ -235,6 +237,9 @@ void Quantities::read(const Quantity& quantity, const Simulation& simulation, Ve
       return;
     case Kind::Finished:
       out[0] = simulation.finished() ? 1.0 : 0.0;
+      return;
+    case Kind::Ending:
+      out[0] = static_cast<double>(simulation.ending());
       return;
   }
 }

@@ -13,7 +13,7 @@
 //   contact_force/BODY               (1) [N] sum of the normal forces on a body and all below it
 //   self_contacts                    (1) pairs of the robot's own shapes that touch
 //   scaled                           (1) 1 where motors slow the motion down
-//   finished                         (1) 1 where the simulation is over
+//   finished, ending                 (1) 1 where the simulation is over; its Ending, 0 until then
 // and each channel of the observation and the log by its name ("q/KN", "base/x"), or all of them by
 // the part before the "/" ("q").
 #pragma once
@@ -58,6 +58,7 @@ class Quantities {
     SelfContacts,
     Scaled,
     Finished,
+    Ending,
   };
   struct Quantity {
     Kind kind = Kind::Scaled;
