@@ -73,10 +73,13 @@ class Step:
 
     @property
     def info_of_one(self) -> dict[str, Any]:
-        """The same of the first episode, numbers of numpy: TorchRL asks for their dtype."""
-        info = {name: values[0] for name, values in self.said.items()}
+        """The same of the first episode, numbers of numpy: TorchRL asks for their dtype.
+
+        Flags are arrays: of a bool of numpy Gymnasium's vectors make objects.
+        """
+        info = {name: _first(values) for name, values in self.said.items()}
         info.update(zip(self.names, self.watched[:, 0], strict=True))
-        info.update((name, values[0]) for name, values in self.more.items())
+        info.update((name, _first(values)) for name, values in self.more.items())
         return info
 
 
@@ -576,6 +579,10 @@ def numbers_of(what: str, values: object) -> Array:
         hurcules.Error: it is none; the text says what came.
     """
     return _array_of(what, values).astype(np.float64)
+
+
+def _first(values: NDArray[Any]) -> Any:
+    return np.array(values[0]) if values.dtype == np.bool_ else values[0]
 
 
 def _array_of(what: str, values: object) -> NDArray[Any]:

@@ -86,6 +86,25 @@ def test_a_vector_is_asked_for_pictures_as_gymnasiums_own() -> None:
         vector.call("close")
 
 
+@pytest.mark.parametrize("name", ["Reach-v0", "Drive-v0", "Stretch-v1"])
+def test_infos_of_gymnasiums_vectors_are_of_the_types_of_a_native_one(name: str) -> None:
+    """Flags were objects in Gymnasium's own: the mean of successes was True where one was."""
+    own, native = (
+        gymnasium.make_vec(
+            f"Hurcules/{name}", num_envs=2, fidelity="kinematic", vectorization_mode=mode
+        )
+        for mode in ("sync", "vector_entry_point")
+    )
+    for infos in zip(
+        (own.reset(seed=0)[1], own.step(own.action_space.sample())[4]),
+        (native.reset(seed=0)[1], native.step(native.action_space.sample())[4]),
+        strict=True,
+    ):
+        kinds = [{key: values.dtype for key, values in info.items()} for info in infos]
+        assert kinds[0] == kinds[1]
+        assert kinds[0]["is_success"] == bool
+
+
 def test_a_vector_is_asked_for_attributes_as_gymnasiums_own() -> None:
     own, native = (
         gymnasium.make_vec(
