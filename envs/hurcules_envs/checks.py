@@ -69,7 +69,7 @@ class CheckedEnvironment:
 
     def remember(self, numbers: Numbers) -> None:
         """As the environment's."""
-        self._environment.remember(numbers)
+        self._of("remember", numbers)
         memory, where = self._environment.memory, f"{self._name}.remember"
         require_names(where, "entry of the memory", numbers.memory, memory)
         for name, values in numbers.memory.items():
@@ -78,7 +78,7 @@ class CheckedEnvironment:
     def observe(self, numbers: Numbers) -> Mapping[str, Array]:
         """As the environment's."""
         groups = {group.name: group for group in self._environment.observation}
-        seen, where = self._environment.observe(numbers), f"{self._name}.observe"
+        seen, where = self._of("observe", numbers), f"{self._name}.observe"
         own = getattr(type(self._environment), "observation", ())  # an instance may hide some
         known = dict.fromkeys([*groups, *(group.name for group in own)])
         require_names(where, "group of the observation", seen, known, complete=False)
@@ -100,7 +100,7 @@ class CheckedEnvironment:
 
     def goals(self, numbers: Numbers) -> tuple[Array, Array]:
         """As the environment's."""
-        goals, where = self._environment.goals(numbers), f"{self._name}.goals"
+        goals, where = self._of("goals", numbers), f"{self._name}.goals"
         if not (isinstance(goals, tuple) and len(goals) == 2):
             raise hurcules.Error(f"{where}: wanted (achieved, desired), got {_came(goals)}")
         for name, values in zip(("achieved", "desired"), goals, strict=True):
@@ -109,7 +109,7 @@ class CheckedEnvironment:
 
     def reward(self, numbers: Numbers) -> Mapping[str, Array]:
         """As the environment's."""
-        terms, where = self._environment.reward(numbers), f"{self._name}.reward"
+        terms, where = self._of("reward", numbers), f"{self._name}.reward"
         require_names(where, "term", terms, self._environment.terms)
         for name, values in terms.items():
             require_numbers(f"{where}: term '{name}'", values, (self._n,))
@@ -117,7 +117,7 @@ class CheckedEnvironment:
 
     def tell(self, numbers: Numbers) -> Mapping[str, Array]:
         """As the environment's."""
-        told, where = self._environment.tell(numbers), f"{self._name}.tell"
+        told, where = self._of("tell", numbers), f"{self._name}.tell"
         require_names(where, "name", told, told)
         for name, values in told.items():
             require_numbers(f"{where}: '{name}'", np.asarray(values), (self._n,))
@@ -140,9 +140,21 @@ class CheckedEnvironment:
         return self._claim("costs", numbers)
 
     def _claim(self, method: str, numbers: Numbers) -> NDArray[np.bool_]:
-        claim: NDArray[np.bool_] = getattr(self._environment, method)(numbers)
+        claim: NDArray[np.bool_] = self._of(method, numbers)
         require_numbers(f"{self._name}.{method}", claim, (self._n,), "bool", "b")
         return claim
+
+    def _of(self, method: str, numbers: Numbers) -> Any:
+        """What a method says of the numbers, which may be read alone."""
+        try:
+            return getattr(self._environment, method)(numbers)
+        except ValueError as error:
+            if "read-only" not in str(error):
+                raise
+            raise hurcules.Error(
+                f"{self._name}.{method} writes to what it is given ({error}): wanted a copy, "
+                "numbers[NAME].copy(), or in `remember` numbers.memory[NAME]"
+            ) from error
 
 
 def warn_of_still_things(environment: Environment) -> None:
@@ -217,6 +229,9 @@ def require_attributes(environment: Environment, read: Collection[str]) -> None:
     groups: Any = environment.observation
     if not (isinstance(groups, tuple | list) and all(isinstance(one, Group) for one in groups)):
         raise hurcules.Error(f"{name}.observation: wanted a tuple of Group, got {_came(groups)}")
+    group_names = [group.name for group in groups]
+    if len(set(group_names)) < len(group_names):
+        raise hurcules.Error(f"{name}.observation: wanted names, each once, got {group_names}")
     if not environment.actions:
         raise hurcules.Error(f"{name}.actions: wanted one at least, got none")
     most = 1.0 / environment.simulation.dt

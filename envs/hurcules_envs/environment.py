@@ -105,7 +105,7 @@ class Numbers:
         action: Array,
         dt: float,
     ) -> None:
-        self._values = values
+        self._values = _read_only(values)
         self._places = places  # of the quantities, by name, along the second axis
         self.memory = memory
         self.action = action
@@ -123,14 +123,14 @@ class Numbers:
         return self["ending"][:, 0] > 0.0
 
     def __getitem__(self, name: str) -> Array:
-        """The quantity or entry of the memory of this name."""
+        """The quantity or entry of the memory of this name, not to be written to."""
         place = self._places.get(name)
         if place is not None:
             return self._values[:, place]
         if name not in self.memory:
             known = [*self._places, *self.memory]
             require_known("numbers: quantity or entry of the memory", name, known)
-        return self.memory[name]
+        return _read_only(self.memory[name])
 
     def row(self, *names: str) -> Array:
         """Several of them side by side, (n, ...); not to be written to."""
@@ -160,6 +160,12 @@ class Numbers:
     def forget(self) -> None:
         """Has all be computed anew: episodes that stood still got their memory back."""
         self._computed.clear()
+
+
+def _read_only(values: Array) -> Array:
+    view = values.view()
+    view.flags.writeable = False
+    return view
 
 
 class Environment(ABC):

@@ -518,7 +518,8 @@ class _Commands:
                 )
             if (np.asarray(most) > largest + 1e-12).any():
                 raise hurcules.Error(
-                    f"action '{action}': its scale is larger than that of its channel"
+                    f"action '{action}': its scale of {most} is larger than {largest}, that of "
+                    "its channel"
                 )
             self._parts[action] = slice(len(self.names), len(self.names) + len(components))
             unit = environment.units.get(action, "")

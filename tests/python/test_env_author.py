@@ -104,9 +104,15 @@ MISTAKES = {
     "Wrong: `terms` is not set": {"terms": property(lambda self: self.nothing)},
     "Wrong.terms: wanted names, each once, got 'distance'": {"terms": ("distance")},
     "Wrong.observation: wanted a tuple of Group, got Group": {"observation": Cart.observation[0]},
+    "Wrong.observation: wanted names, each once, got ['way', 'way']": {
+        "observation": Cart.observation[:1] * 2
+    },
     "Wrong.actions: wanted one at least": {"__init__": lambda self: with_actions(self, {})},
     "Wrong.actions: 'hand' has 1 numbers, got scales of shape (2,)": {
         "__init__": lambda self: with_actions(self, {"hand": [0.5, 0.5]})
+    },
+    "action 'hand': its scale of 2.0 is larger than [1.], that of its channel": {
+        "__init__": lambda self: with_actions(self, {"hand": 2.0})
     },
     "Wrong.units: 'hand' has 1 numbers, got 2 units": {"units": {"hand": ["m/s", "m/s"]}},
     "Wrong.units: action 'hend' does not exist; there are: hand": {"units": {"hend": "m/s"}},
@@ -150,6 +156,15 @@ MISTAKES = {
     },
     "Wrong.observe: 'way': wanted finite numbers, got nan at (0, 0)": {
         "observe": lambda self, numbers: {"way": np.full((2, 1), np.nan)}
+    },
+    "Wrong.observe writes to what it is given (": {
+        "observe": lambda self, numbers: {"way": numbers["position/cart"].sort()}
+    },
+    "Wrong.reward writes to what it is given (": {
+        "reward": lambda self, numbers: {"distance": numbers["place"].sort()}
+    },
+    "wanted a copy, numbers[NAME].copy(), or in `remember` numbers.memory[NAME]": {
+        "remember": lambda self, numbers: numbers["place"].fill(1.0)
     },
     "Wrong.reward: term 'bonus' does not exist; there are: distance": {
         "reward": lambda self, numbers: {"distance": X, "bonus": X}

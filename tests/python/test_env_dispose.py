@@ -25,6 +25,7 @@ def test_joints_are_led_where_no_stack_of_hands_rules(phase: str, led: dict) -> 
     env = single(NAME)
     env.reset(seed=0)
     environment, numbers = env.environment, env.numbers
+    numbers._values = numbers._values.copy()  # to be written to
     numbers["phase"][:] = environment.simulation.phases.index(phase)
     parts = {name: np.zeros((1, 1)) for name in environment.actions}
     parts |= {"hands": np.zeros((1, 3)), "tracks": np.zeros((1, 2))}
