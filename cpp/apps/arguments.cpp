@@ -46,9 +46,10 @@ void require_option(const std::string& option) {
 }
 
 void set(Arguments& arguments, const std::string& option, const std::string& word) {
+  if (option == "--sensors") throw not_wanted(option, word, "no value");
   if (word.empty()) throw not_wanted(option, word, "a value");
   if (option == "--seconds") {
-    arguments.seconds = number_in(option, word, "a time of 0.001 s or more", 1e-3, 1e6);
+    arguments.seconds = number_in(option, word, "a time from 0.001 to 1e6 s", 1e-3, 1e6);
   } else if (option == "--seed") {
     arguments.seed = whole_number(option, word);
   } else if (option == "--variation") {

@@ -11,6 +11,9 @@ from hurcules import _core
 __all__ = ["install"]
 
 
+_MADE_BY_LINES = (_core.Robot, _core.Solver, _core.Stack, _core.Channel)
+
+
 def install() -> None:
     """Tells `copy` and `pickle` of the classes of the compiled module that hold numbers alone."""
     copyreg.pickle(_core.Level, _level)
@@ -21,8 +24,9 @@ def install() -> None:
             continue
         if "__deepcopy__" in vars(kind) or name.endswith("Options"):  # bound by their fields
             copyreg.pickle(kind, _options)
-        elif kind is _core.Robot or hasattr(kind, "restore"):
+        elif kind in _MADE_BY_LINES or hasattr(kind, "restore"):
             copyreg.pickle(kind, _refused)
+    copyreg.pickle(_core.Solution, _answer)
 
 
 def _refused(thing: Any) -> str:
@@ -30,6 +34,13 @@ def _refused(thing: Any) -> str:
     raise _core.Error(
         f"a {type(thing).__name__} is neither copied nor pickled: make another one by the lines "
         f"that made it{goes_on}"
+    )
+
+
+def _answer(_solution: _core.Solution) -> str:
+    raise _core.Error(
+        "a Solution is neither copied nor pickled: take what you need of it, solution.x say, and let "
+        "a process return that"
     )
 
 

@@ -110,6 +110,13 @@ class Simulation(_core.Simulation):
             Error: no such mission, method or sensor (the text names those that exist), a bad
                 number, or a controller that does not fit the model.
         """
+        if isinstance(mission, Path):
+            mission = str(mission)
+        if not isinstance(mission, str | Mission | None):
+            raise Error(
+                "mission: wanted its name, a path or a hurcules.Mission; a model of your own goes "
+                f"by keyword, Simulation(model=..., controller=...); got {mission!r}"
+            )
         options = _core.SimulationOptions(
             seed=_seed(seed),
             variation=_variation(variation),
@@ -125,13 +132,6 @@ class Simulation(_core.Simulation):
             loaded_springs=loaded_springs,
         )
         self._seed = options.seed
-        if isinstance(mission, Path):
-            mission = str(mission)
-        if not isinstance(mission, str | Mission | None):
-            raise Error(
-                "mission: wanted its name, a path or a hurcules.Mission; a model of your own goes "
-                f"by keyword, Simulation(model=..., controller=...); got {mission!r}"
-            )
         if isinstance(mission, str) and (model is not None or controller is not None):
             raise Error(
                 f"mission {mission!r} has a model and a controller of its own: wanted neither "

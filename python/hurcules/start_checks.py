@@ -407,7 +407,7 @@ def _weak_motors(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) ->
             lower, upper = (float(each) for each in model.jnt_actfrcrange[joint])
             least, most = max(least, lower), min(most, upper)
         asked = float(weight[model.jnt_dofadr[joint]])
-        gives = max(most if asked > 0.0 else -least, 0.0)
+        gives = max(0.0, most if asked > 0.0 else -least)
         if abs(asked) > gives * ENOUGH:
             unit = "N m" if int(model.jnt_type[joint]) == HINGE else "N"
             weak.append(f"{model.joint(joint).name} ({abs(asked):.3g} of {gives:.3g} {unit})")

@@ -74,6 +74,10 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: hurcules.Simulation(arm_model()),  # type: ignore[arg-type]
         r"by keyword, Simulation\(model=\.\.\., controller=\.\.\.\)",
     ),
+    "model in place of a mission, controller of a seed": (
+        lambda: hurcules.Simulation(arm_model(), robot()),  # type: ignore[arg-type]
+        r"^mission: wanted its name",
+    ),
     "period above the horizon": (
         lambda: hurcules.VelocityController(
             robot(), hurcules.VelocityControllerOptions(dt=0.1, gain=1.0)

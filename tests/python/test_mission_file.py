@@ -213,6 +213,11 @@ def test_what_is_no_file_of_a_mission_is_told(
         (["stretch", "--json", ""], "--json: wanted a value, got ''"),
         (["stretch", "--seconds"], "--seconds: wanted a value after it"),
         (["stretch", "--second"], "option '--second' does not exist"),
+        (
+            ["stretch", "--seconds", "1e7"],
+            "--seconds: wanted a time from 0.001 to 1e6 s, got '1e7'",
+        ),
+        (["stretch", "--sensors=off", "--seconds", "0.1"], "--sensors: wanted no value, got 'off'"),
     ):
         done = program(*words)
         assert (done.returncode, wanted in done.stderr) == (2, True), done.stderr

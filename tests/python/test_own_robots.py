@@ -200,6 +200,16 @@ def test_what_runs_is_not_copied_by_copy() -> None:
                 copying(one)
 
 
+def test_an_answer_is_not_copied_and_says_what_to_take() -> None:
+    solver = hurcules.rhqp.Solver(1)
+    solution = solver.solve([hurcules.rhqp.Bounds([0.0], [1.0])])
+    for copying in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(hurcules.Error, match=r"take what you need of it, solution\.x say"):
+            copying(solution)
+        with pytest.raises(hurcules.Error, match="a Solver is neither .*: make another one"):
+            copying(solver)
+
+
 def test_joints_that_are_held_are_told_unless_they_were_chosen_or_have_springs() -> None:
     text = ARM.format(actuators=MOTORS.split("/>")[0] + "/>", ground=0)
     model = mujoco.MjModel.from_xml_string(text)

@@ -92,6 +92,21 @@ def test_one_controller_leads_both(control: str) -> None:
     assert moved["right/"] == pytest.approx(np.zeros(3), abs=1e-5)
 
 
+def test_what_was_made_for_the_other_arm_is_refused() -> None:
+    """As many coordinates of the same model: it led nothing, and only diagnostics told."""
+    model = scene().compile()
+    left, right = (hurcules.Robot(model, joints_of(arm)) for arm in ARMS)
+    hand = hurcules.PositionTask("hand", right, "right/hand")
+    limits = hurcules.JointLimits("limits", right)
+    posture = hurcules.PostureTask("posture", left)
+    said = "made for another robot: other coordinates of the same model .* than left/turn, left/"
+    for levels in ([hand, posture], [limits, posture]):
+        with pytest.raises(hurcules.Error, match=said):
+            hurcules.WholeBodyController(left, levels)
+    again = hurcules.Robot(model, joints_of("right/"))
+    hurcules.WholeBodyController(again, [limits, hand])
+
+
 def test_a_limit_keeps_its_robot() -> None:
     robot = hurcules.Robot(scene().compile(), joints_of(*ARMS))
     speeds = hurcules.JointLimits("limits", robot).max_velocity

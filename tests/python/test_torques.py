@@ -194,7 +194,7 @@ def test_a_robot_that_floats_wants_torques_and_contacts() -> None:
     ("options", "text"),
     [
         ({"body": "hoof"}, "'hoof'"),
-        ({"body": "hand"}, "wants a body"),
+        ({"body": "hand"}, "a foot wants a body, 'hand' is on '"),
         ({"friction": 0.0}, "friction > 0"),
         ({"normal": [0.0, 0.0, 0.0]}, "normal"),
         ({"points": [[0.0, np.nan, 0.0]]}, "finite"),

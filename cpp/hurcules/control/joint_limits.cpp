@@ -37,9 +37,7 @@ JointLimits::JointLimits(std::string name, const Robot& robot)
 
 void JointLimits::update(const Robot& robot) {
   if (robot.identity() != identity_)
-    throw Error("limits '" + name_ + "' were made for another robot: " + std::to_string(size()) +
-                " coordinates are wanted, " + std::to_string(robot.size()) +
-                " came, or the models differ");
+    throw Error("limits '" + name_ + "' were made for another robot: " + robot.differs(identity_));
   configuration_ = robot.configuration();
 }
 

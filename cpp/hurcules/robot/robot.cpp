@@ -13,6 +13,7 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/pose.hpp"
+#include "hurcules/base/state.hpp"
 #include "hurcules/base/values.hpp"
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
@@ -25,6 +26,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-9;  // [rad] a ball joint that is so far beyond its range is at it
+
+// a hash
+std::uint64_t hash_of_coordinates(const std::vector<Coordinate>& coordinates) {
+  std::uint64_t hash = kHashOfNothing;
+  for (const Coordinate& coordinate : coordinates) hash = hash_of(coordinate.name + ";", hash);
+  return hash;
+}
 
 // The struct alone, pointing into the model: MuJoCo's kinematics then leave the geoms out, which
 // are most of its work.
@@ -85,8 +93,8 @@ void hold_ranges(const std::vector<RotationVector>& rotations, const ConstVector
 Robot::Robot(ModelPtr model, const std::vector<std::string>& joints, bool floating)
     : model_(std::move(model)), lean_(without_geoms(model_.get())), data_(nullptr, mj_deleteData) {
   const mjModel& m = *model_;
-  structure_ = structure_of(m);
   coordinates_ = find_coordinates(m, joints, floating);
+  identity_ = {structure_of(m), hash_of_coordinates(coordinates_), size()};
   floating_ = size() > 0 && coordinates_[0].joints[0].part == 0;
   find_rotations();
   if (!names_coordinates(m))
@@ -165,8 +173,15 @@ bool Robot::is_body(Frame frame) const {
   return frame.type == mjOBJ_BODY;
 }
 
-ModelIdentity Robot::identity() const {
-  return {structure_, size()};
+std::string Robot::differs(const ModelIdentity& wanted) const {
+  if (wanted.coordinates != size())
+    return std::to_string(wanted.coordinates) + " coordinates are wanted, " +
+           std::to_string(size()) + " came";
+  if (wanted.structure != identity_.structure) return "the models differ";
+  std::string names;
+  for (const Coordinate& coordinate : coordinates_)
+    names += (names.empty() ? "" : ", ") + coordinate.name;
+  return "other coordinates of the same model are wanted than " + names;
 }
 
 Index Robot::nv() const {

@@ -98,10 +98,11 @@ struct Twist {
   Vector3 angular = Vector3::Zero();  // [rad/s]
 };
 
-// The model in two numbers: equal for every copy of one compiled model, whatever its sizes and
-// masses are changed to.
+// The robot in three numbers: equal for all robots of these coordinates of one compiled model,
+// whatever its sizes and masses are changed to.
 struct ModelIdentity {
   std::uint64_t structure = 0;  // see structure_of in trees.hpp
+  std::uint64_t names = 0;      // a hash, of the coordinates
   Index coordinates = 0;        // n
   friend bool operator==(const ModelIdentity&, const ModelIdentity&) = default;
 };
@@ -149,7 +150,9 @@ class Robot {
   // whether some coordinate moves the one against the other
   [[nodiscard]] bool moves(Frame first, Frame second) const;
   // what a task remembers to notice that it is asked about another robot
-  [[nodiscard]] ModelIdentity identity() const;
+  [[nodiscard]] const ModelIdentity& identity() const { return identity_; }
+  // why this robot is not the one that is wanted
+  [[nodiscard]] std::string differs(const ModelIdentity& wanted) const;
 
   // The body that stays where it is when the coordinates move; by default that is the root of its
   // tree. A robot with folding legs stands on those that lie on the ground: then its root, and all
@@ -261,7 +264,7 @@ class Robot {
   std::vector<Coordinate> coordinates_;
   std::vector<RotationVector> rotations_;
   Vector q_, v_, qpos_;
-  std::uint64_t structure_ = 0;
+  ModelIdentity identity_;
   std::vector<std::vector<DryFriction>> dry_friction_;  // (n)
   Vector change_;                                       // (n) scratch
   std::vector<int> trees_ = {0};        // bodies at the roots of the coordinates' trees

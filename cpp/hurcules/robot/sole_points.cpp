@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/object_names.hpp"
+#include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
@@ -98,7 +100,9 @@ Vector3 longest(const Points& points) {
 
 std::vector<Vector3> sole_points(const Robot& robot, const std::string& body) {
   const Frame frame = robot.frame(body);
-  require(robot.is_body(frame), "sole_points wants a body; '" + body + "' is none");
+  const mjModel& m = *robot.model();
+  require(robot.is_body(frame), "a foot wants a body, '" + body + "' is on '" +
+                                    name_or_number(m, mjOBJ_BODY, body_of(m, frame)) + "'");
   Points points = candidates(robot, frame.id);
   require(!points.empty(), "body '" + body +
                                "' has no collision geoms that could stand on "

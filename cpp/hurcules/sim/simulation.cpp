@@ -684,7 +684,7 @@ void Simulation::write(std::vector<double>& values) const {
 
 void Simulation::restore(const std::vector<double>& values) {
   require(values.size() >= kStateHeader && values[0] == kStateVersion,
-          "a snapshot of another version: wanted " + std::to_string(kStateVersion) + ", got " +
+          "a snapshot of another version: wanted " + number_text(kStateVersion) + ", got " +
               (values.empty() ? "nothing" : number_text(values[0])));
   require(values.size() == state_size_ && values[1] == static_cast<double>(state_size_) &&
               values[2] == identity_,

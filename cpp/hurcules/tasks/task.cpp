@@ -27,7 +27,7 @@ Task::Task(std::string name, Index rows, Index coordinates)
       jacobian_(Matrix::Zero(rows, coordinates)),
       weights_(Vector::Ones(rows)),
       speed_shares_(Vector::Ones(rows)),
-      identity_{0, coordinates} {}
+      identity_{.coordinates = coordinates} {}
 
 Task::Task(std::string name, Index rows, const Robot& robot)
     : Task(std::move(name), rows, robot.size()) {
@@ -134,9 +134,7 @@ void Task::set_interval(const ConstVectorRef& lower, const ConstVectorRef& upper
 
 void Task::require_robot(const Robot& robot) const {
   if (robot.identity() != identity_)
-    throw Error("task '" + name_ + "' was made for another robot: " +
-                std::to_string(identity_.coordinates) + " coordinates are wanted, " +
-                std::to_string(robot.size()) + " came, or the models differ");
+    throw Error("task '" + name_ + "' was made for another robot: " + robot.differs(identity_));
 }
 
 void Task::require_time(double dt) const {
