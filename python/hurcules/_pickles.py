@@ -10,7 +10,6 @@ from hurcules import _core
 
 __all__ = ["install"]
 
-
 _MADE_BY_LINES = (_core.Robot, _core.Solver, _core.Stack, _core.Channel)
 
 
@@ -39,8 +38,8 @@ def _refused(thing: Any) -> str:
 
 def _answer(_solution: _core.Solution) -> str:
     raise _core.Error(
-        "a Solution is neither copied nor pickled: take what you need of it, solution.x say, and let "
-        "a process return that"
+        "a Solution is neither copied nor pickled: take what you need of it, solution.x say, and "
+        "let a process return that"
     )
 
 

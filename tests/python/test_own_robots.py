@@ -206,7 +206,7 @@ def test_an_answer_is_not_copied_and_says_what_to_take() -> None:
     for copying in (copy.copy, copy.deepcopy, pickle.dumps):
         with pytest.raises(hurcules.Error, match=r"take what you need of it, solution\.x say"):
             copying(solution)
-        with pytest.raises(hurcules.Error, match="a Solver is neither .*: make another one"):
+        with pytest.raises(hurcules.Error, match=r"a Solver is neither .*: make another one"):
             copying(solver)
 
 
