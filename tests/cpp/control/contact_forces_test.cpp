@@ -149,7 +149,8 @@ TEST_F(Contacts, RefuseStacksThatCannotBe) {
   };
   EXPECT_TRUE(contains(contact(-0.1, Vector3::UnitZ()), "friction > 0"));
   EXPECT_TRUE(contains(contact(0.5, Vector3::Zero()), "normal"));
-  EXPECT_TRUE(contains(error_text([&] { ContactTask("c", robot_, "hand"); }), "'hand' is none"));
+  EXPECT_TRUE(contains(error_text([&] { ContactTask("c", robot_, "hand"); }),
+                       "wants a body, 'hand' is on"));
 }
 
 // an arm that is bolted down may be held by a contact too: its forces press on what it touches
