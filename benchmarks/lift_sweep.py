@@ -7,13 +7,15 @@ Each run is the mission `lift`, `casualty` or `crossing` in the physics, frictio
 moves the person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad; in
 `crossing`, where `--terrain road --way 5 --rise 0.1` say what lies on the way, it draws the road
 too. With `--cells drawn` it draws who lies where too: within 0.3 m and 0.3 rad, friction 0.4 to
-0.9. Runs that OUT.jsonl already holds are left out, so that an interrupted sweep goes on. `--show`
-prints the success map of a file, and what went wrong how often.
+0.9. `--cells map` is all of 540 cells in a drawn order, a seed of its own each: where it is cut off,
+what there is, is a sample of them. Runs that OUT.jsonl already holds are left out, so that an
+interrupted sweep goes on. `--show` prints the success map of a file, and what went wrong how often.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
@@ -26,7 +28,7 @@ from sweeps import append, held, side_by_side
 import hurcules
 
 VARIATION = 1 / 3  # of 3 cm, 50 mrad, 2 mrad
-FIRST_SEED, FIRST_DRAWN = 1000, 4000
+FIRST_SEED, FIRST_DRAWN, FIRST_MAPPED = 1000, 4000, 20000
 HEAD = 98.1  # [m/s^2] 10 g
 NOMINAL = {
     "mass": 75,
@@ -92,11 +94,30 @@ def drawn(seed: int) -> Cell:
     }
 
 
+def mapped() -> list[Cell]:
+    """Who lies where on the back, all 540, in a drawn order."""
+    all_cells = itertools.product(
+        (50, 75, 90, 120),
+        (-0.10, -0.05, 0.0, 0.05, 0.10),
+        (-0.15, 0.0, 0.15),
+        (-0.26, 0.0, 0.26),
+        (0.4, 0.6, 0.9),
+    )
+    made = [
+        NOMINAL | {"mass": mass, "offset": (x, y), "yaw": yaw, "friction": mu}
+        for mass, x, y, yaw, mu in all_cells
+    ]
+    return [made[i] for i in np.random.default_rng(0).permutation(len(made))]
+
+
 def settings(kind: str, seeds: int, first: int | None) -> Iterator[tuple[Cell, int]]:
     """The settings of a part of the sweep, each with its seeds."""
     if kind == "drawn":
         begin = FIRST_DRAWN if first is None else first
         yield from ((drawn(seed), seed) for seed in range(begin, begin + seeds))
+    elif kind == "map":
+        begin = FIRST_MAPPED if first is None else first
+        yield from ((cell, begin + i) for i, cell in enumerate(mapped()))
     else:
         begin = FIRST_SEED if first is None else first
         yield from ((cell, begin + seed) for cell in cells(kind) for seed in range(seeds))
@@ -195,6 +216,8 @@ def show(path: Path) -> None:
             f"{good:4}/{len(found):<3} {push:5.0f} {drift:6.3f} {torque:6.2f} "
             f"{contact:7.1f} {face:5.0f} {head:5.0f} {carried:8.0f}   {terrain} {why}"
         )
+    for axis, name in enumerate(("mass", "ahead", "left", "yaw", "mu")):
+        print(f"{name:6}", ", ".join(_shares(runs, axis)))
     good = sum(run["success"] for run in runs)
     print(f"{good} of {len(runs)}")
     for name, limit in (("contact_share", 1.0), ("head_mps2", HEAD)):
@@ -202,6 +225,15 @@ def show(path: Path) -> None:
     failures = Counter(_class(run["reason"]) for run in runs if not run["success"])
     for words, number in failures.most_common():
         print(f"{number} times {words}")
+
+
+def _shares(runs: list[dict[str, Any]], axis: int) -> Iterator[str]:
+    """How often it works at each value of one of the settings."""
+    done = defaultdict(list)
+    for run in runs:
+        done[_place(run)[axis]].append(run["success"])
+    for value in sorted(done):
+        yield f"{value:g}: {sum(done[value])} of {len(done[value])}"
 
 
 def _class(reason: str) -> str:
