@@ -7,8 +7,8 @@ Each run is the mission `lift`, `casualty` or `crossing` in the physics, frictio
 moves the person by up to 1 cm and 17 mrad, and each of the robot's joints by up to 0.7 mrad; in
 `crossing`, where `--terrain road --way 5 --rise 0.1` say what lies on the way, it draws the road
 too. With `--cells drawn` it draws who lies where too: within 0.3 m and 0.3 rad, friction 0.4 to
-0.9. `--cells map` is all of 540 cells in a drawn order, a seed of its own each: where it is cut off,
-what there is, is a sample of them. Runs that OUT.jsonl already holds are left out, so that an
+0.9. `--cells map` is all of 540 cells in a drawn order, a seed of its own each: what there is where
+it is cut off is a sample of them. Runs that OUT.jsonl already holds are left out, so that an
 interrupted sweep goes on. `--show` prints the success map of a file, and what went wrong how often.
 """
 
