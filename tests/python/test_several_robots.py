@@ -100,10 +100,9 @@ def test_what_was_made_for_the_other_arm_is_refused() -> None:
     limits = hurcules.JointLimits("limits", right)
     posture = hurcules.PostureTask("posture", left)
     said = "made for another robot: other coordinates of the same model .* than left/turn, left/"
-    with pytest.raises(hurcules.Error, match=said):
-        hurcules.WholeBodyController(left, [hand, posture])
-    with pytest.raises(hurcules.Error, match=said):
-        limits.update(left)
+    for levels in ([hand, posture], [limits, posture]):
+        with pytest.raises(hurcules.Error, match=said):
+            hurcules.WholeBodyController(left, levels)
     again = hurcules.Robot(model, joints_of("right/"))
     hurcules.WholeBodyController(again, [limits, hand])
 

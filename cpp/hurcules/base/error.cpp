@@ -49,4 +49,10 @@ std::string unknown_name(std::string_view kind, std::string_view name,
   return existing.empty() ? text + "none" : text;
 }
 
+void require_distinct(const std::vector<std::string>& names, std::string_view kind) {
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error("two " + std::string(kind) + " are called '" + *name + "'");
+}
+
 }  // namespace hurcules

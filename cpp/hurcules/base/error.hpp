@@ -21,4 +21,7 @@ void require(bool condition, std::string_view message);
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view name,
                                        const std::vector<std::string>& existing);
 
+// Throws Error for a name that stands twice: "two channels are called 'hand'".
+void require_distinct(const std::vector<std::string>& names, std::string_view kind);
+
 }  // namespace hurcules

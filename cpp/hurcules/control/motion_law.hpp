@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hurcules/control/acceleration_controller.hpp"
@@ -14,6 +15,13 @@ namespace hurcules {
 // integrated to references of the joint servos; by torques the accelerations are those of the robot
 // as it is sensed, and its drives get what inverse dynamics says.
 enum class ControlOrder { Velocity, Acceleration, Torque };
+
+// A stack that may rule.
+struct NamedStack {
+  std::string name;
+  Stack stack;
+  ControlOrder order = ControlOrder::Velocity;
+};
 
 class MotionLaw {
  public:

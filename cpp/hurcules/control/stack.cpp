@@ -62,6 +62,18 @@ Stack::Stack(std::vector<StackLevel> levels) : levels_(std::move(levels)) {
   check_each_task_once(levels_);
 }
 
+std::vector<Task*> Stack::tasks() const {
+  std::vector<Task*> all;
+  for (const StackLevel& level : levels_)
+    all.insert(all.end(), level.tasks.begin(), level.tasks.end());
+  return all;
+}
+
+bool Stack::holds(const Task& task) const {
+  const std::vector<Task*> all = tasks();
+  return std::find(all.begin(), all.end(), &task) != all.end();
+}
+
 std::string Stack::text() const {
   std::string text;
   for (const StackLevel& level : levels_) text += (text.empty() ? "" : " < ") + level.name;
@@ -69,14 +81,12 @@ std::string Stack::text() const {
 }
 
 void require_period(const Stack& stack, double dt) {
-  for (const StackLevel& level : stack.levels()) {
-    for (const Task* const task : level.tasks) {
-      const auto* const force = dynamic_cast<const ForceTask*>(task);
-      require(!force || std::abs(force->options().gains.dt - dt) <= 1e-9 * dt,
-              "task '" + task->name() + "' reckons with a period of " +
-                  (force ? number_text(force->options().gains.dt) : "") +
-                  " s, its controller has " + number_text(dt) + " s: ForceGains(dt=...)");
-    }
+  for (const Task* const task : stack.tasks()) {
+    const auto* const force = dynamic_cast<const ForceTask*>(task);
+    require(!force || std::abs(force->options().gains.dt - dt) <= 1e-9 * dt,
+            "task '" + task->name() + "' reckons with a period of " +
+                (force ? number_text(force->options().gains.dt) : "") + " s, its controller has " +
+                number_text(dt) + " s: ForceGains(dt=...)");
   }
 }
 

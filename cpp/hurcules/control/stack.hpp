@@ -35,6 +35,8 @@ class Stack {
   Stack() = default;
   explicit Stack(std::vector<StackLevel> levels);
   [[nodiscard]] const std::vector<StackLevel>& levels() const { return levels_; }
+  [[nodiscard]] std::vector<Task*> tasks() const;  // of all levels, in their order
+  [[nodiscard]] bool holds(const Task& task) const;
   [[nodiscard]] std::string text() const;  // "joint < hpos < hpitch"
   bool operator==(const Stack& other) const = default;
 

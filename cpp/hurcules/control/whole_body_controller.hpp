@@ -21,7 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "hurcules/control/channel.hpp"
+#include "hurcules/control/command_channels.hpp"
+#include "hurcules/control/controller_options.hpp"
 #include "hurcules/control/feed_forward.hpp"
 #include "hurcules/control/force_readings.hpp"
 #include "hurcules/control/joint_servo.hpp"
@@ -33,44 +34,6 @@
 #include "hurcules/tasks/force_task.hpp"
 
 namespace hurcules {
-
-// Where the plan's support stands.
-enum class BaseSource {
-  // Where it stood at the start: the commanded motion follows from the command alone.
-  Held,
-  // Where it is now, and 1 / K ahead of it at its present velocity: targets in the world then stay
-  // where they are while the robot drives or gives way.
-  Sensed,
-};
-
-// A stack that may rule.
-struct NamedStack {
-  std::string name;
-  Stack stack;
-  ControlOrder order = ControlOrder::Velocity;
-};
-
-struct WholeBodyControllerOptions {
-  double dt = 1e-3;                         // [s] control period; also of all others
-  VelocityControllerOptions velocity = {};  // of stacks by velocities; their dt is not read
-  AccelerationControllerOptions acceleration = {};
-  // of stacks by torques: a foot that the ground stops at once must be able to
-  AccelerationControllerOptions torque = {.max_acceleration = 200.0};
-  std::string support = "";  // body that stands, "" for the root
-  BaseSource base = BaseSource::Held;
-  // of the joints that are left out those of the model (model_servo_gains), else default_servo_gains
-  std::vector<ServoGains> servo = {};
-  // servos are told what the plan takes: inertia, gravity, Coriolis, springs of the model. Without it
-  // whatever the robot carries is a disturbance to them.
-  bool feed_forward = true;
-  // what the servos ask for as accelerations is given by the mass matrix, so that no joint's motion
-  // disturbs another; wants feed_forward; not given: where the gains of all coordinates are reckoned
-  // and no wheel is driven (the mass matrix does not know what a wheel on the ground moves)
-  std::optional<bool> decoupled = {};
-  // the motion slows down where a motor would be asked for more than its peak
-  bool torque_scaling = true;
-  std::optional<TrackDriveOptions> drive = {};  // tracks, where a Drive channel is to move them
-};
 
 class WholeBodyController {
  public:
@@ -129,12 +92,16 @@ class WholeBodyController {
   void kinematics(const RobotState& state);
   void apply(const Vector* command, bool first, const RobotState& state);
   // of its size, each channel finite or all NaN, not all of them
-  [[nodiscard]] bool takes(const ConstVectorRef& command) const;
+  [[nodiscard]] bool takes(const ConstVectorRef& command) const { return commands_.takes(command); }
   // throws Error for what it does not take
-  void require_command(const Vector& command) const;
+  void require_command(const Vector& command) const { commands_.require_fit(command); }
+  // a second command upon one's own: see CommandChannels::add
+  void add_commands(const Vector& own, const Vector& command, bool first, Vector& sum) const {
+    commands_.add(own, command, first, sum);
+  }
   void measure();
   void solve(const RobotState& state);
-  void move_targets();
+  void move_targets() { commands_.move_targets(); }
   void actuate(const RobotState& state, VectorRef ctrl);
   // in place of actuate, where there is no plant: the references of the servos follow, and the
   // profiles of the tracks go on
@@ -156,10 +123,10 @@ class WholeBodyController {
   [[nodiscard]] const Vector& qd_des() const { return qd_; }  // [rad/s] (n)
   // (k) what it did in the last tick, as held to scale: 0 for nothing, of Target and Force NaN.
   // Given again tick by tick it gives the same bits.
-  [[nodiscard]] const Vector& command() const { return command_; }
-  [[nodiscard]] const Vector& scale() const { return scale_; }  // (k)
-  [[nodiscard]] const std::vector<std::string>& command_names() const { return command_names_; }
-  [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+  [[nodiscard]] const Vector& command() const { return commands_.command(); }
+  [[nodiscard]] const Vector& scale() const { return commands_.scale(); }  // (k)
+  [[nodiscard]] const std::vector<std::string>& command_names() const { return commands_.names(); }
+  [[nodiscard]] const std::vector<Channel>& channels() const { return commands_.channels(); }
   [[nodiscard]] const std::vector<NamedStack>& stacks() const { return stacks_; }
   [[nodiscard]] std::size_t active() const { return active_; }       // of the stacks
   [[nodiscard]] bool moves_joints() const { return moves_joints_; }  // no stack rules
@@ -184,32 +151,10 @@ class WholeBodyController {
   void restore(StateReader& reader);
 
  private:
-  struct LedControl {
-    const Channel* channel = nullptr;
-    ActuatorControl control = {};
-    double value = 0.0;
-  };
-  // how fast the Twist channels of a task move its target
-  struct TargetRate {
-    Task* task = nullptr;
-    Index row = 0, size = 0;  // in rates_
-    bool moves = false;       // since the tick before
-  };
-  void add_target_rate(const Channel& channel);
-  void add_up_twists();
   void require_member(const ForceTask& task) const;
   void require_rows(int first, int count) const;  // of the model's sensors
-  void add_led_control(const Channel& channel);
   void collect_tasks();
-  void check_channels();
-  [[nodiscard]] bool reaches(std::size_t channel) const;
-  void apply(const Channel& channel, const ConstVectorRef& command, bool given,
-             const RobotState& state);
-  void lead_joints(const std::vector<Index>& joints, const ConstVectorRef& rates);
-  void lead_joint(Index joint, double wanted, double acceleration);
-  void stop_joints();
   void miss_readings();
-  void set_delta(Task& task, const ConstVectorRef& delta, const RobotState& state);
   void require_near(const Vector& qpos) const;
   void take_over();
   void refer();
@@ -217,35 +162,25 @@ class WholeBodyController {
 
   WholeBodyControllerOptions options_;
   Robot plan_;
-  std::unique_ptr<Robot> sensed_;  // for Delta channels; null without one
   std::vector<std::unique_ptr<Task>> kept_;
   std::vector<std::unique_ptr<JointLimits>> kept_limits_;
   std::vector<NamedStack> stacks_;
   std::vector<std::unique_ptr<MotionLaw>> laws_;
-  std::vector<Task*> tasks_;                  // of all stacks
-  std::vector<JointLimits*> limits_;          // that they name
-  std::vector<std::unique_ptr<Task>> twins_;  // of the tasks of Delta channels, else null
-  std::vector<Channel> channels_;
-  std::vector<CarryingJoint> carrying_;      // no coordinate moves them
-  std::vector<std::vector<Index>> moved_;    // (channels) joints of Joints channels
-  std::vector<bool> led_;                    // (joints of the servo) by a channel of their own
-  std::vector<bool> stopping_;               // (joints of the servo) from what a stack had them do
-  std::vector<LedControl> led_controls_;     // of Control channels
-  std::vector<std::vector<bool>> measured_;  // (channels, stacks) its task stands in the stack
-  std::vector<std::string> command_names_;
-  double names_ = 0.0;  // hash of those of coordinates, tasks, stacks and commands
+  std::vector<Task*> tasks_;             // of all stacks
+  std::vector<JointLimits*> limits_;     // that they name
+  std::vector<CarryingJoint> carrying_;  // no coordinate moves them
+  double names_ = 0.0;                   // hash of those of coordinates, tasks, stacks and commands
   ForceReadings forces_;
   std::vector<std::vector<ForceTask*>> force_tasks_;  // (stacks)
   JointServo servo_;
+  JointMotion joints_;
+  CommandChannels commands_;
   std::vector<ActuatorStatus> motors_;  // (nu) for `tick`
   std::optional<TrackDrive> drive_;
   std::size_t active_ = 0;
   bool moves_joints_ = false, scaled_ = false;
   bool begun_ = false;  // `tick` was called since the start
   const void* loop_ = nullptr;
-  Vector scale_, command_;
-  std::vector<TargetRate> target_rates_;
-  Vector rates_;  // (k)
   Vector q_, qd_, held_back_;
   YieldingTargets yielding_;
   FeedForward feed_forward_;
@@ -254,9 +189,7 @@ class WholeBodyController {
   Vector ahead_;                           // (nq) scratch
   Vector qpos_, qvel_;                     // as read in this tick of a loop of one's own
   Vector wished_, efforts_, step_, next_;  // (n) scratch
-  Vector delta_;                           // scratch
   Frame support_;
-  std::vector<double> scratch_;
 };
 
 }  // namespace hurcules

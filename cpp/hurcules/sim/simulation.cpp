@@ -2,7 +2,6 @@
 
 #include <mujoco/mujoco.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,70 +11,17 @@
 
 #include "hurcules/base/error.hpp"
 #include "hurcules/base/number_text.hpp"
-#include "hurcules/base/pose.hpp"
 #include "hurcules/base/values.hpp"
-#include "hurcules/control/tasks.hpp"
 #include "hurcules/robot/trees.hpp"
 
 namespace hurcules {
 
 namespace {
 
-constexpr Index kMostTicks = Index{1} << 52;  // what a double counts exactly
-
-// A snapshot begins with its version, its length, what it is of, and the number of values in use;
-// what is left of its room is zero.
-constexpr double kStateVersion = 6.0;
-constexpr std::size_t kStateHeader = 4;
-
-// of all names along the vectors of a controller's simulation, and of its log but for the time of a
-// tick, which copies do not take
-double identity_of(const Robot& world, const TelemetryNames& names, const Recorder& log) {
-  std::vector<std::string> columns = log.channels();
-  std::erase(columns, "tick_us");
-  return hash_of_names({&names.coordinates, &names.joints, &names.levels, &names.task_rows,
-                        &names.commands, &columns},
-                       world.identity().structure);
-}
-
-// numbers at most that the working sets of all solvers take in a snapshot
-std::size_t room_of_working_sets(const WholeBodyController& controller) {
-  constexpr std::size_t kPerSolver = 3;  // counts
-  std::size_t room = 0;
-  for (std::size_t i = 0; i < controller.stacks().size(); ++i) {
-    std::size_t rows = 0;  // of this level and those above, each of which it may hold
-    for (const Level& level : controller.law(i).hierarchy()) {
-      rows += static_cast<std::size_t>(level.rows());
-      room += rows;
-    }
-    room += rows + kPerSolver;  // what kind each row is
-  }
-  return room;
-}
-
 std::string seconds(double time) {
   std::string text(32, '\0');
   text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.3f s", time)));
   return text;
-}
-
-constexpr double kMocapTime = 0.02;  // [s] over which the velocity of a mocap body is taken
-constexpr double kMocapLeap = 0.1;   // [m] or [rad] in a tick: put there, not moved
-
-int mocap_below(const mjModel& m, int body) {
-  while (body > 0 && m.body_mocapid[body] < 0) body = m.body_parentid[body];
-  return body > 0 ? body : -1;
-}
-
-// a pose, and how fast it came there from where it was last seen
-BodyMotion moved_to(const Skeleton::Pose& pose, const std::optional<BodyMotion>& last, double dt) {
-  if (!last) return {pose};
-  const Vector3 step = pose.p - last->pose.p;
-  const Vector3 turn = rotation_log(pose.R * last->pose.R.transpose());
-  if (std::max(step.norm(), turn.norm()) > kMocapLeap) return {pose};
-  const double share = std::min(1.0, dt / kMocapTime);
-  return {pose, last->linear + share * (step / dt - last->linear),
-          last->angular + share * (turn / dt - last->angular)};
 }
 
 int substeps_of(double period, double timestep) {
@@ -132,6 +78,8 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
       limit_monitor_(world_, controller_->servo().pid().options().max_torque),
       fall_monitor_({options_.fall.min_height, options_.fall.max_tilt}),
       record_(*controller_, phases_of(supervisor_.get())),
+      measured_(*controller_),
+      obstacles_(*controller_, world_),
       initial_qpos_(controller_->plan().qpos()),
       seen_qpos_(world_.qpos()),
       seen_qvel_(Vector::Zero(plant_.model()->nv)),
@@ -153,18 +101,6 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   if (sensors_.alter_state()) {
     seen_ = std::make_unique<Robot>(plant_.model_ptr(), world_.coordinate_names());
   }
-  for (const Task* const task : controller_->tasks()) {
-    planned_tasks_.push_back(task);
-    measured_.push_back(copy_of(*task));
-    measured_tasks_.push_back(measured_.back().get());
-    fresh_.push_back(false);
-  }
-  for (Task* const task : controller_->tasks()) {
-    auto* const apart = dynamic_cast<DistanceTask*>(task);
-    if (!apart) continue;
-    for (const int body : apart->loose_bodies(world_))
-      obstacles_.push_back({apart, body, mocap_below(*plant_.model(), body)});
-  }
   monitors_.add_log_channels(record_.log);
   sensors_.add_log_channels(record_.log);
   if (!options_.physics) {
@@ -177,10 +113,7 @@ Simulation::Simulation(ModelPtr model, std::shared_ptr<WholeBodyController> cont
   // the last one: copies take no time, and have the other columns where they are
   if (options_.clock) record_.log.add("tick_us", &record_.telemetry.tick_us);
   begin(options_.seed, nullptr, !supervisor_);
-  std::vector<double> values;
-  write(values);
-  state_size_ = kStateHeader + values.size() + room_of_working_sets(*controller_);
-  identity_ = identity_of(world_, record_.names(), record_.log);
+  measure_state();
 }
 
 std::unique_ptr<Simulation> Simulation::clone(ModelPtr model) const {
@@ -259,12 +192,12 @@ void Simulation::think(const RobotState& state, const Vector* command, bool firs
   timer.done(Stage::Kinematics);
   if (supervisor_ && (!command || options_.adds_command)) {
     const Vector& own = supervisor_->command(dt());
-    if (command) add_command(*command, first, own);
+    if (command) controller.add_commands(own, *command, first, summed_);
     command = command ? &summed_ : &own;
     first = true;  // what a mission sets it sets in each tick
   }
   controller.apply(command, first, state);
-  see_obstacles();
+  obstacles_.tell(world_, plant_, true_qvel_, dt());
   controller.measure();
   timer.done(Stage::Problem);
   controller.solve(state);
@@ -276,31 +209,13 @@ double Simulation::link_age() const {
   return heard_ ? time() - *heard_ : 0.0;
 }
 
-// to the mission's own; what counts from the measured place does so in the first tick of a call, and
-// what is set takes the place of what the mission sets
-void Simulation::add_command(const Vector& command, bool first, const Vector& own) {
-  summed_ = own;
-  Index row = 0;
-  for (const Channel& channel : controller_->channels()) {
-    const auto part = command.segment(row, channel.size());
-    auto sum = summed_.segment(row, channel.size());
-    row += channel.size();
-    if (std::isnan(part[0]) || (channel.kind() == ChannelKind::Delta && !first)) continue;
-    if (channel.sets()) {
-      sum = part;
-    } else {
-      sum += part;
-    }
-  }
-}
-
 // what the joint encoders and the base say
 void Simulation::sense() {
   seen_qpos_ = std::as_const(plant_).qpos();
   true_qvel_ = seen_qvel_ = std::as_const(plant_).qvel();
   // the first tick of a step finds what was observed after the last one
   if (world_.qpos() != seen_qpos_) world_.set_qpos(seen_qpos_);
-  std::fill(fresh_.begin(), fresh_.end(), false);
+  measured_.forget();
   base_fresh_ = false;
   if (seen_) {
     sensors_.overwrite(seen_qpos_, seen_qvel_);
@@ -318,29 +233,6 @@ void Simulation::note_base() const {
 
 RobotState Simulation::sensed() {
   return {seen_qpos_, seen_qvel_, plant_.actuators(), plant_.data()->sensordata};
-}
-
-// where the bodies around the robot are, and how they move
-void Simulation::see_obstacles() {
-  const mjModel& m = *plant_.model();
-  for (const Obstacle& obstacle : obstacles_) {
-    DistanceTask& task = *obstacle.task;
-    if (!task.sees_obstacles()) continue;
-    const Frame frame{mjOBJ_BODY, obstacle.body};
-    if (obstacle.mocap < 0) {
-      const Twist twist = world_.twist(frame, true_qvel_);
-      task.see_obstacle(obstacle.body, {world_.pose(frame), twist.linear, twist.angular});
-      continue;
-    }
-    const int id = m.body_mocapid[obstacle.mocap];
-    const double* const p = plant_.data()->mocap_pos + 3 * id;
-    const double* const q = plant_.data()->mocap_quat + 4 * id;
-    const Skeleton::Pose mocap{{p[0], p[1], p[2]},
-                               Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().matrix()};
-    const Skeleton::Pose pose = mocap * Skeleton::between(m, obstacle.mocap, obstacle.body,
-                                                          std::as_const(plant_).qpos().data());
-    task.see_obstacle(obstacle.body, moved_to(pose, task.obstacle(obstacle.body), dt()));
-  }
 }
 
 // an encoder that cannot be believed holds the robot for good: all brakes close, behind which the
@@ -408,10 +300,10 @@ void Simulation::record() {
       return TickReport{telemetry.time, controller_->law().active_limits(),
                         telemetry.tracking_error, limit_monitor_.commanded().torque, tasks};
     };
-    supervisor_->note_commanded(*controller_, report(planned_tasks_));
+    supervisor_->note_commanded(*controller_, report(measured_.planned()));
     measure_world();
     if (!options_.physics) plant_.see();
-    supervisor_->note_measured(report(measured_tasks_));
+    supervisor_->note_measured(report(measured_.all()));
   } else if (options_.record) {
     measure_world();
   }
@@ -479,24 +371,9 @@ void Simulation::observe() {
   sense();
 }
 
-// the tasks at the real robot, with the targets that they have now
 void Simulation::measure_world() const {
-  for (std::size_t i = 0; i < measured_.size(); ++i) (void)measured_task(i);
-  record_.note_measured(*controller_, measured_tasks_);
-}
-
-const Task& Simulation::measured_task(std::size_t number) const {
-  if (number >= measured_.size()) {
-    throw Error("a simulation measures " + std::to_string(measured_.size()) +
-                " tasks, there is no number " + std::to_string(number));
-  }
-  Task& task = *measured_[number];
-  if (!fresh_[number]) {
-    copy_memory(*planned_tasks_[number], task, task_state_);
-    task.update(world_);
-    fresh_[number] = true;
-  }
-  return task;
+  measured_.measure(world_);
+  record_.note_measured(*controller_, measured_.all());
 }
 
 const Telemetry& Simulation::telemetry() const {
@@ -649,94 +526,6 @@ void Simulation::answer(bool yes) {
   require(supervisor_ && !finished() && supervisor_->asks_until(),
           "answer wants a mission that asks (reaction 'ask 30 s'), nothing is asked now");
   supervisor_->answer(yes);
-}
-
-std::vector<double> Simulation::state() const {
-  std::vector<double> values = {kStateVersion, static_cast<double>(state_size_), identity_, 0.0};
-  values.reserve(state_size_);
-  write(values);
-  values[3] = static_cast<double>(values.size());
-  require(values.size() <= state_size_, "a snapshot is longer than its room");
-  values.resize(state_size_, 0.0);
-  return values;
-}
-
-void Simulation::write(std::vector<double>& values) const {
-  StateWriter writer(values);
-  writer.put(static_cast<double>(ticks_));
-  writer.put(static_cast<double>(static_cast<int>(ending_)));
-  writer.put(ending_time_);
-  writer.put(heard_.value_or(-1.0));
-  plant_.save(writer);
-  if (supervisor_) supervisor_->save(writer);
-  controller_->save(writer);
-  battery_.save(writer);
-  limit_monitor_.save(writer);
-  fall_monitor_.save(writer);
-  monitors_.save(writer);
-  sensors_.save(writer);
-  writer.put(static_cast<double>(static_cast<int>(finding_.trouble)));
-  writer.put(static_cast<double>(finding_.entry));
-  writer.put(finding_.speed ? 1.0 : 0.0);
-  writer.put(static_cast<double>(held_ticks_));
-  record_.save(writer);
-}
-
-void Simulation::restore(const std::vector<double>& values) {
-  require(values.size() >= kStateHeader && values[0] == kStateVersion,
-          "a snapshot of another version: wanted " + number_text(kStateVersion) + ", got " +
-              (values.empty() ? "nothing" : number_text(values[0])));
-  require(values.size() == state_size_ && values[1] == static_cast<double>(state_size_) &&
-              values[2] == identity_,
-          "a snapshot of another model, controller or mission: it has " +
-              std::to_string(values.size()) + " numbers, wanted are " +
-              std::to_string(state_size_) + " of these coordinates, tasks and channels");
-  const std::vector<double> before = state();
-  try {
-    read(values);
-  } catch (...) {
-    read(before);  // a snapshot that does not fit changes nothing
-    throw;
-  }
-  controller_->serve(this);
-}
-
-void Simulation::read(const std::vector<double>& values) {
-  const std::size_t used = static_cast<std::size_t>(values[3]);
-  require(values[3] >= kStateHeader && used <= values.size(), "a snapshot is damaged");
-  const std::vector<double> payload(values.begin() + kStateHeader,
-                                    values.begin() + static_cast<std::ptrdiff_t>(used));
-  StateReader reader(payload);
-  ticks_ = reader.get_count(kMostTicks);
-  ending_ = static_cast<Ending>(reader.get_count(static_cast<Index>(Ending::Held)));
-  ending_time_ = reader.get();
-  const double heard = reader.get();
-  heard_ = heard < 0.0 ? std::nullopt : std::optional(heard);
-  plant_.restore(reader);
-  if (supervisor_) supervisor_->restore(reader);
-  controller_->restore(reader);
-  support_ = controller_->plan().support();
-  battery_.restore(reader);
-  limit_monitor_.restore(reader);
-  fall_monitor_.restore(reader);
-  monitors_.restore(reader);
-  sensors_.restore(reader);
-  finding_.trouble = static_cast<SensorMonitor::Trouble>(
-      reader.get_count(static_cast<Index>(SensorMonitor::Trouble::Disagrees)));
-  finding_.entry = reader.get_count(plant_.model()->nu);
-  finding_.speed = reader.get_count(1) > 0;
-  held_ticks_ = reader.get_count(kMostTicks);
-  record_.restore(reader);
-  require(reader.at_end(), "the snapshot is too long: it belongs to another model or mission");
-  Telemetry& telemetry = record_.telemetry;
-  telemetry.qd_des = controller_->qd_des();
-  telemetry.time = static_cast<double>(ticks_) * dt();
-  telemetry.link_age = link_age();
-  telemetry.phase = supervisor_ ? static_cast<double>(supervisor_->phase()) : 0.0;
-  telemetry.charge = battery_.charge();
-  record_.truncate(telemetry.time);
-  plant_.check();
-  observe();
 }
 
 }  // namespace hurcules

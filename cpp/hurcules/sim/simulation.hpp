@@ -19,6 +19,8 @@
 #include "hurcules/sim/battery.hpp"
 #include "hurcules/sim/fall_monitor.hpp"
 #include "hurcules/sim/limit_monitor.hpp"
+#include "hurcules/sim/measured_tasks.hpp"
+#include "hurcules/sim/obstacle_sight.hpp"
 #include "hurcules/sim/plant.hpp"
 #include "hurcules/sim/power_meter.hpp"
 #include "hurcules/sim/run_record.hpp"
@@ -26,8 +28,6 @@
 #include "hurcules/sim/supervisor.hpp"
 
 namespace hurcules {
-
-class DistanceTask;
 
 // A run ends where this frame is too low above the controller's support, or the support tilts. The
 // support of a robot that floats is its root: there the height is that above z = 0 of the world.
@@ -143,7 +143,9 @@ class Simulation {
   [[nodiscard]] double identity() const { return identity_; }
   [[nodiscard]] const Robot& world() const { return world_; }  // the robot as it is
   // a task of the controller, by its number, measured at the robot as it is
-  [[nodiscard]] const Task& measured_task(std::size_t number) const;
+  [[nodiscard]] const Task& measured_task(std::size_t number) const {
+    return measured_.at(number, world_);
+  }
   [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] WholeBodyController& controller() { return *controller_; }
   [[nodiscard]] const WholeBodyController& controller() const { return *controller_; }
@@ -154,18 +156,10 @@ class Simulation {
   [[nodiscard]] std::vector<Figure> figures() const;
 
  private:
-  // a body that may move, and the distance task that it counts in
-  struct Obstacle {
-    DistanceTask* task = nullptr;
-    int body = 0;
-    int mocap = -1;  // the mocap body that it is or hangs on
-  };
   void tick(const Vector* command, bool first);
   void think(const RobotState& state, const Vector* command, bool first, StageTimer& timer);
-  void add_command(const Vector& command, bool first, const Vector& own);
   void sense();
   void check_sensors();
-  void see_obstacles();
   void actuate(const RobotState& state);
   void advance_plant();
   void advance_plan();
@@ -176,6 +170,7 @@ class Simulation {
 
   void begin(std::uint64_t seed, const Vector* start, bool keep_targets);
   void place(std::uint64_t seed, const Vector* start, bool keep_targets);
+  void measure_state();  // how long a snapshot is, and what it is of
   void write(std::vector<double>& values) const;
   void read(const std::vector<double>& values);
   [[nodiscard]] RobotState sensed();
@@ -198,20 +193,17 @@ class Simulation {
   Monitors monitors_;
   LimitMonitor limit_monitor_;
   FallMonitor fall_monitor_;
-  // What is measured at the real robot is measured when somebody looks: the next four change then.
+  // What is measured at the robot as it is, is measured when somebody looks: these change then.
   mutable RunRecord record_;
-  mutable std::vector<std::unique_ptr<Task>> measured_;  // the controller's tasks, there
-  mutable std::vector<bool> fresh_;                      // of them: as it stands now
-  mutable bool base_fresh_ = false;                      // the same of the support
-  std::vector<const Task*> planned_tasks_, measured_tasks_;
-  std::vector<Obstacle> obstacles_;
-  mutable std::vector<double> task_state_;  // scratch
-  Vector initial_qpos_;                     // (nq)
-  Vector seen_qpos_, seen_qvel_;            // (nq), (nv) as sensed
-  Vector true_qvel_;                        // (nv) when they were
-  Vector summed_;                           // (k) the supervisor's command and somebody else's
-  Vector wished_;                           // [rad] (n) q* if the motors had held it
-  SensorMonitor::Finding finding_;          // why it is held
+  mutable MeasuredTasks measured_;
+  mutable bool base_fresh_ = false;  // the support is noted as it stands now
+  ObstacleSight obstacles_;
+  Vector initial_qpos_;             // (nq)
+  Vector seen_qpos_, seen_qvel_;    // (nq), (nv) as sensed
+  Vector true_qvel_;                // (nv) when they were
+  Vector summed_;                   // (k) the supervisor's command and somebody else's
+  Vector wished_;                   // [rad] (n) q* if the motors had held it
+  SensorMonitor::Finding finding_;  // why it is held
   std::int64_t held_ticks_ = 0;
   Frame support_;
   std::optional<Frame> fall_frame_, target_;
