@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "hurcules/control/tasks.hpp"
 #include "hurcules/control/whole_body_controller.hpp"
 #include "hurcules/sim/plant.hpp"
-#include "hurcules/tasks/distance_task.hpp"
 
 namespace hurcules {
 
