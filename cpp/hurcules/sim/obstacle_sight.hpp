@@ -2,7 +2,6 @@
 // of them.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "hurcules/control/tasks.hpp"
