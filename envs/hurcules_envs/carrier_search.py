@@ -93,10 +93,11 @@ def load_carrier(
             f"robot {setup.name}: a box is carried between two hands: wanted frames=(left, right), "
             f"got {frames!r}"
         )
-    if Path(setup.name).suffix == ".mjb":
+    others = {".mjb": "MuJoCo's binary", ".urdf": "a URDF"}
+    if found := others.get(Path(setup.name).suffix):
         raise hurcules.Error(
             f"robot {setup.name}: wanted an MJCF file, to which table and box can be added, got "
-            "MuJoCo's binary"
+            f"{found}"
         )
     at: Place | None = None
     if place is not None:

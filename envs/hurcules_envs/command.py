@@ -13,6 +13,7 @@ from itertools import chain, count
 from pathlib import Path
 from typing import Annotated, Any
 
+import gymnasium
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -29,6 +30,7 @@ from hurcules_envs.imitation import ask_expert
 from hurcules_envs.policy import Policy
 from hurcules_envs.randomisation import NAMES
 from hurcules_envs.registry import fidelities_of, full_id, spec_of
+from hurcules_envs.run_folder import ALGORITHMS
 from hurcules_envs.running import environment_of, run_policy, settings_of
 
 __all__ = ["evaluate", "record", "train"]
@@ -107,6 +109,9 @@ def train(
         _on_cluster(ray, name, steps, folder, options, envs, seed)
         _show(folder, judge, video, Console())
         return
+    # told before PyTorch is loaded, which takes seconds
+    require_known("algorithm", algo, ALGORITHMS)
+    gymnasium.make(name, **options).close()
     with _told():
         from hurcules_envs import training
     wanted = training.TrainOptions(

@@ -108,7 +108,8 @@ def load_robot(
     """Loads a robot by name or path.
 
     Args:
-        robot: "rescue", "manipulation", or the path of a model (MJCF, or MuJoCo's binary .mjb).
+        robot: "rescue", "manipulation", or the path of a model (MJCF, a URDF, or MuJoCo's
+            binary .mjb).
         frames: of a path: the frames of its hands, one or two.
         joints: of a path: its coordinates; None: see hurcules.Robot.
 
@@ -117,7 +118,7 @@ def load_robot(
     """
     if not isinstance(robot, str | Path):
         known = ", ".join(hurcules.models.names())
-        raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
+        raise hurcules.Error(f"robot: wanted {known} or the path of a model, got {robot!r}")
     robot = str(robot)
     if robot in hurcules.models.names():
         if frames or joints:
@@ -125,16 +126,15 @@ def load_robot(
         return _hurcules(robot)
     if not Path(robot).is_file():
         known = ", ".join(hurcules.models.names())
-        raise hurcules.Error(f"robot: wanted {known} or the path of an MJCF file, got {robot!r}")
+        raise hurcules.Error(f"robot: wanted {known} or the path of a model, got {robot!r}")
     if not frames or not 1 <= len(frames) <= 2 or len(set(frames)) < len(frames):
         raise hurcules.Error(
             f"robot: {robot} wants frames=(...), --frame in a shell, the names of its one or two "
             f"hands, got {frames!r}"
         )
+    readers = {".mjb": mujoco.MjModel.from_binary_path, ".urdf": hurcules.load_urdf}
     try:
-        binary = Path(robot).suffix == ".mjb"
-        load = mujoco.MjModel.from_binary_path if binary else mujoco.MjModel.from_xml_path
-        model = load(robot)
+        model = readers.get(Path(robot).suffix, mujoco.MjModel.from_xml_path)(robot)
     except ValueError as error:
         raise hurcules.Error(f"{robot}: {error}") from error
     own = None if joints is None else tuple(joints)

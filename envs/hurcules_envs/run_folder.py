@@ -10,8 +10,9 @@ from typing import Any
 import hurcules
 from hurcules.output import Output, differing, write_whole
 
-__all__ = ["open_run", "write_settings"]
+__all__ = ["ALGORITHMS", "open_run", "write_settings"]
 
+ALGORITHMS = ("ppo", "sac", "her")
 FREE = ("steps", "out")  # may be others where a run goes on
 CHECKPOINTS = ("checkpoint.zip", "rllib")  # of Stable-Baselines3, of RLlib
 

@@ -21,7 +21,7 @@ from hurcules.validation import require_known
 from hurcules_envs.cloning import clone
 from hurcules_envs.exporting import export_policy
 from hurcules_envs.imitation import demonstrate
-from hurcules_envs.run_folder import open_run, write_settings
+from hurcules_envs.run_folder import ALGORITHMS, open_run, write_settings
 from hurcules_envs.sb3 import PARTS, SCALE, GoalFeatures, Standardised, make_sb3
 
 with extras.importing(extras.remedy("train")):
@@ -33,7 +33,6 @@ with extras.importing(extras.remedy("train")):
 
 __all__ = ["Standardise", "TrainOptions", "imitate", "make_model", "standardises", "train"]
 
-ALGORITHMS = ("ppo", "sac", "her")
 PPO_SETTINGS = {
     "n_steps": 32,
     "batch_size": 128,

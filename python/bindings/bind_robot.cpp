@@ -189,6 +189,10 @@ std::unique_ptr<Robot> robot_of_object(const ModelObject& model, const OptionalN
     text += std::string(py::str(py::type::of(model).attr("__name__"))) + " came";
     if (py::hasattr(model, "compile")) text += "; its compile() gives one";  // an MjSpec
     if (py::hasattr(model, "ptr")) text += "; its ptr is one";               // of dm_control
+    if (py::hasattr(model, "model") && py::hasattr(model.attr("model"), "ptr"))
+      text += "; its model.ptr is one";  // a Physics of it
+    if (py::hasattr(model, "to_xml_string"))
+      text += "; mujoco.MjModel.from_xml_string(its to_xml_string(), its get_assets()) makes one";
     throw Error(text);
   }
   return checked(held_model(model), joints, floating);

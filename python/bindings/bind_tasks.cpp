@@ -249,8 +249,9 @@ Args:
 
 // holds a Python function: copied and freed with the lock of the interpreter
 struct PythonMeasure {
-  explicit PythonMeasure(py::function function)
-      : function_(new py::function(std::move(function)), [](py::function* held) {
+  PythonMeasure(py::function function, const Name& task)
+      : task_("task '" + task + "': "),
+        function_(new py::function(std::move(function)), [](py::function* held) {
           const py::gil_scoped_acquire lock;
           delete held;
         }) {}
@@ -260,33 +261,39 @@ struct PythonMeasure {
     const py::object self = py::cast(&robot, py::return_value_policy::reference);
     const py::object came = (*function_)(self);
     const bool pair = py::isinstance<py::tuple>(came) && (py::len(came) == 2 || py::len(came) == 3);
-    require(pair, "a function that measures wants to return (value, jacobian) or these and drift");
+    require(
+        pair,
+        task_ + "a function that measures wants to return (value, jacobian) or these and drift");
     const auto parts = py::reinterpret_borrow<py::tuple>(came);
     const std::string m = std::to_string(value.size()), n = std::to_string(jacobian.cols());
-    fill(parts[0], value, "value", "(" + m + ",)");
-    const Matrix J = matrix_of(parts[1], "jacobian", "(" + m + ", " + n + ")");
+    fill(parts[0], value, task_ + "value", "(" + m + ",)");
+    const std::string what = task_ + "jacobian";
+    const Matrix J = matrix_of(parts[1], what, "(" + m + ", " + n + ")");
     require(J.rows() == jacobian.rows() && J.cols() == jacobian.cols(),
-            "jacobian wants shape (" + m + ", " + n + "), (" + std::to_string(J.rows()) + ", " +
+            what + " wants shape (" + m + ", " + n + "), (" + std::to_string(J.rows()) + ", " +
                 std::to_string(J.cols()) + ") came");
     jacobian = J;
-    if (parts.size() == 3) fill(parts[2], drift, "drift", "(" + m + ",)");
+    if (parts.size() == 3) fill(parts[2], drift, task_ + "drift", "(" + m + ",)");
   }
 
  private:
-  static void fill(const py::object& from, VectorRef to, const char* what,
+  static void fill(const py::object& from, VectorRef to, const std::string& what,
                    const std::string& shape) {
     const Vector values = vector_of(from, what, shape);
-    require(values.size() == to.size(), std::string(what) + " wants shape " + shape + ", (" +
-                                            std::to_string(values.size()) + ",) came");
+    require(values.size() == to.size(),
+            what + " wants shape " + shape + ", (" + std::to_string(values.size()) + ",) came");
     to = values;
   }
+
+  std::string task_;  // for errors
   std::shared_ptr<py::function> function_;
 };
 
 std::unique_ptr<CustomTask> custom_task(Name name, const Robot& robot, Index rows,
                                         py::function measure, std::string unit) {
-  return std::make_unique<CustomTask>(std::move(name), robot, rows,
-                                      PythonMeasure(std::move(measure)), std::move(unit));
+  PythonMeasure named(std::move(measure), name);
+  return std::make_unique<CustomTask>(std::move(name), robot, rows, std::move(named),
+                                      std::move(unit));
 }
 
 void bind_task(py::module_& module) {

@@ -357,7 +357,11 @@ def show_mission(
             print(out)
             return
     if context.args:
-        raise Error(f"{context.args[0]}: for a file .table; other files hold the phases alone")
+        table_file = Path(name).with_suffix(".table").name
+        raise Error(
+            f"{context.args[0]}: of the scene, which --out {table_file} writes with the phases; "
+            "what is printed, and other files, hold the phases alone"
+        )
     if out is None:
         print(table.table(), end="")
         return

@@ -69,7 +69,7 @@ from hurcules._core import (
     table_lines,
 )
 from hurcules.mission_drawing import drawing
-from hurcules.output import compiled, write_whole
+from hurcules.output import compiled, whole, write_whole, writing
 from hurcules.toml_rows import Kind, take, typed
 from hurcules.validation import require_known, told_at
 
@@ -151,12 +151,9 @@ class Mission:
         """Writes the TOML file that `load` reads.
 
         Raises:
-            Error: the file cannot be written.
+            WriteError: the file cannot be written.
         """
-        try:
-            Path(path).write_text(self.toml(), encoding="utf-8")
-        except OSError as error:
-            raise Error(f"mission file {path}: {error}") from error
+        write_whole(Path(path), self.toml().encode())
 
     def save_table(self, path: str | Path, model: mujoco.MjModel, controller: str = "own") -> None:
         """Writes the table as C++ reads it, and the compiled model beside it.
@@ -177,8 +174,9 @@ class Mission:
         require_known("kind of file", path.suffix, [".table"])
         beside, contents = path.with_suffix(".mjb"), compiled(model)
         text = table_lines(self.setup, self.rows, controller, beside.name, contents)
-        write_whole(beside, contents)
-        write_whole(path, text.encode())
+        with writing(path), whole(path) as part:  # there once its model is
+            part.write_text(text, encoding="utf-8")
+            write_whole(beside, contents)
 
     def toml(self) -> str:
         """The text of that file."""
@@ -271,7 +269,7 @@ _FILE: Mapping[str, Kind] = {
 
 def _toml(path: str | Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except OSError as error:
         known = "; one that comes along: hurcules.lift.mission(), or hurcules mission lift"
         raise Error(f"mission file {path}: {error.strerror}{known}") from error

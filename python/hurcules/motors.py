@@ -86,11 +86,13 @@ def _add_motor(
     motor = spec.add_actuator(name=joint.name + part, target=joint.name)
     motor.trntype = mujoco.mjtTrn.mjTRN_JOINT
     motor.set_to_motor()
+    # what a <default> of the model says is meant for its own actuators: control in -1 to 1, say
+    motor.gear = np.eye(6)[0]
+    motor.ctrllimited = motor.actlimited = mujoco.mjtLimited.mjLIMITED_FALSE
     lower, upper = joint.actfrcrange
-    if lower < upper:
-        motor.forcerange = [lower, upper]
-        motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
-    elif peak is not None:
-        motor.forcerange = [-peak, peak]
-        motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+    if not lower < upper and peak is not None:
+        lower, upper = -peak, peak
+    limited = mujoco.mjtLimited
+    motor.forcerange = [lower, upper]
+    motor.forcelimited = limited.mjLIMITED_TRUE if lower < upper else limited.mjLIMITED_FALSE
     return motor

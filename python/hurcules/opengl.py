@@ -31,18 +31,21 @@ _DISABLED = ("disable", "disabled", "off", "false", "0")
 def choose_backend(environment: MutableMapping[str, str] = os.environ) -> str:
     """Sets MUJOCO_GL on a Linux machine without a display, unless somebody has set it.
 
-    With a graphics device EGL comes first, without one OSMesa: the faster one each time.
+    PYOPENGL_PLATFORM, where it is set, leaves PyOpenGL no other. Else with a graphics device EGL
+    comes first, without one OSMesa: the faster one each time.
 
     Args:
-        environment: where MUJOCO_GL, DISPLAY and WAYLAND_DISPLAY are read, and MUJOCO_GL is set.
+        environment: where MUJOCO_GL, PYOPENGL_PLATFORM, DISPLAY and WAYLAND_DISPLAY are read, and
+            MUJOCO_GL is set.
 
     Returns:
         The value of MUJOCO_GL afterwards, "" when MuJoCo's own choice is left alone.
     """
     if sys.platform == "linux" and not _has_display(environment) and "MUJOCO_GL" not in environment:
         device = any(Path("/dev").glob("nvidia[0-9]*")) or any(Path("/dev/dri").glob("render*"))
+        bound = environment.get("PYOPENGL_PLATFORM", "").lower()
         for backend in ("egl", "osmesa") if device else ("osmesa", "egl"):
-            if not lacking(backend):
+            if bound in ("", backend) and not lacking(backend):
                 environment["MUJOCO_GL"] = backend
                 break
     return environment.get("MUJOCO_GL", "")

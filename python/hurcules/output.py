@@ -6,7 +6,7 @@ import json
 import math
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from reprlib import Repr
 from typing import Any
@@ -17,7 +17,16 @@ from numpy.typing import NDArray
 
 from hurcules._core import Error
 
-__all__ = ["Output", "WriteError", "compiled", "differing", "plain", "write_whole", "writing"]
+__all__ = [
+    "Output",
+    "WriteError",
+    "compiled",
+    "differing",
+    "plain",
+    "whole",
+    "write_whole",
+    "writing",
+]
 
 _SHORT = Repr()
 _SHORT.maxdict = _SHORT.maxlist = 100
@@ -54,13 +63,18 @@ def write_whole(path: Path, contents: bytes) -> None:
     Raises:
         WriteError: the file could not be written; one of this name is as it was.
     """
-    with writing(path), _whole(path) as part:
+    with writing(path), whole(path) as part:
         part.write_bytes(contents)
 
 
 @contextmanager
-def _whole(path: Path) -> Iterator[Path]:
-    """Another name beside a file, renamed to it in the end; after an error nothing is left."""
+def whole(path: Path) -> Iterator[Path]:
+    """Another name beside a file, renamed to it in the end; after an error nothing is left.
+
+    The folder is made, where there is none.
+    """
+    with suppress(FileExistsError):  # a file in its place: what writes is told so
+        path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f"part-{os.getpid()}-{path.name}")  # two runs may share a folder
     try:
         yield part
@@ -150,7 +164,7 @@ class Output:
         try:
             while self._earlier:
                 self._earlier.pop().unlink(missing_ok=True)
-            with _whole(path) as part:
+            with whole(path) as part:
                 writer(part)
         except OSError as error:
             # an encoder's failure has no strerror but many lines, the last of which tells

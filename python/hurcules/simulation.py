@@ -112,7 +112,8 @@ class Simulation(_core.Simulation):
         """
         if isinstance(mission, Path):
             mission = str(mission)
-        if not isinstance(mission, str | Mission | None):
+        is_model = isinstance(mission, str) and Path(mission).suffix in (".xml", ".mjb", ".urdf")
+        if is_model or not isinstance(mission, str | Mission | None):
             raise Error(
                 "mission: wanted its name, a path or a hurcules.Mission; a model of your own goes "
                 f"by keyword, Simulation(model=..., controller=...); got {mission!r}"
@@ -163,6 +164,8 @@ class Simulation(_core.Simulation):
                 raise Error(f"controller: wanted a WholeBodyController, got {controller!r}")
             self.model = _model(model)
             self.data = mujoco.MjData(self.model)
+            if sensors is not None:
+                _require_there(sensors, controller, self.model)
             if table is None:
                 super().__init__(self.model, self.data, controller, options)
             else:
@@ -396,6 +399,8 @@ def _model(model: mujoco.MjModel | str | Path | None) -> mujoco.MjModel:
             remedy = "; its compile() gives one"
         elif isinstance(getattr(model, "ptr", None), mujoco.MjModel):
             remedy = "; its ptr is one"  # of dm_control
+        elif isinstance(getattr(getattr(model, "model", None), "ptr", None), mujoco.MjModel):
+            remedy = "; its model.ptr is one"
         raise Error(f"model: wanted a mujoco.MjModel or the path of one, got {model!r}{remedy}")
     if Path(model).suffix == ".urdf":
         return load_urdf(model)
@@ -409,6 +414,22 @@ def _options(name: str, value: Options | None, kind: type[Options]) -> Options:
     if value is not None and not isinstance(value, kind):
         raise Error(f"{name}: wanted {kind.__name__}, got {value!r}")
     return value or kind()
+
+
+def _require_there(
+    sensors: SensorOptions, controller: WholeBodyController, model: mujoco.MjModel
+) -> None:
+    """Sensors of Hurcules are not asked of a robot that has none such."""
+    known, there = _core.realistic_sensors(), _core.realistic_sensors(controller.plan)
+    lacks = [name for name in known.models if name in sensors.models and name not in there.models]
+    site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, sensors.range.site)
+    if sensors.range.rays and site < 0:
+        lacks.append(f"range (a site '{sensors.range.site}')")
+    if lacks:
+        raise Error(
+            f"sensors: the model lacks {', '.join(lacks)}; hurcules.sensors.realistic(robot) "
+            "leaves out what a robot has not"
+        )
 
 
 def _max_seconds(value: object) -> float:

@@ -23,6 +23,7 @@ __all__ = ["warn_of_forces", "warn_of_physics"]
 MAX_STEP, MIN_ITERATIONS = 4e-3, 5  # [s] of the physics, of its solver: docs/design/mujoco.md
 LONGEST = 0.025  # [s] of a servo's period: docs/control.md; an arm on a base swung at 0.04 s
 ENOUGH = 1.02  # of a motor's torque, over the weight that it holds
+ROUNDING = 1e-6  # of the largest weight: less is none
 DEEP = 5e-3  # [m] that bodies lie in each other: more than a contact gives way
 LEVER = 0.02  # [m] with which that turns a joint: about its own axis it does nothing
 OUTSIDE = 1e-3  # [rad] or [m]: less is rounding
@@ -108,8 +109,8 @@ def _outside(controller: WholeBodyController) -> Iterator[str]:
     ]
     if outside:
         yield (
-            f"the robot starts outside its joint limits: {'; '.join(outside)}. It is driven back, "
-            "before all that it is told: robot.set_configuration says where it starts"
+            f"the robot starts outside its joint limits: {_listed(outside, '; ')}. It is driven "
+            "back, before all that it is told: robot.set_configuration says where it starts"
         )
 
 
@@ -353,7 +354,7 @@ def _loose_joints(
         loose += _leading_to_frames(model, controller, [one for one in free if one not in loose])
     if loose:
         yield (
-            f"nothing holds {', '.join(names[joint] for joint in loose)}, and parts that the "
+            f"nothing holds {_listed([names[joint] for joint in loose])}, and parts that the "
             "controller moves hang on it: it falls in the physics. hurcules.with_motors gives each "
             "joint a motor"
         )
@@ -398,6 +399,7 @@ def _weak_motors(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) ->
     """Motors that cannot hold what hangs on them where the robot starts."""
     weight: NDArray[np.float64] = data.qfrc_bias - data.qfrc_passive
     weight -= np.where(model.jnt_actgravcomp[model.dof_jntid], data.qfrc_gravcomp, 0.0)
+    nothing = ROUNDING * float(np.abs(weight).max())
     weak = []
     for joint, motors in _actuated(model).items():
         if int(model.jnt_bodyid[joint]) not in chain or int(model.jnt_type[joint]) not in SINGLE:
@@ -408,12 +410,12 @@ def _weak_motors(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) ->
             least, most = max(least, lower), min(most, upper)
         asked = float(weight[model.jnt_dofadr[joint]])
         gives = max(0.0, most if asked > 0.0 else -least)
-        if abs(asked) > gives * ENOUGH:
+        if abs(asked) > max(nothing, gives * ENOUGH):
             unit = "N m" if int(model.jnt_type[joint]) == HINGE else "N"
             weak.append(f"{model.joint(joint).name} ({abs(asked):.3g} of {gives:.3g} {unit})")
     if weak:
         yield (
-            f"motors cannot hold the weight on them where the robot starts: {', '.join(weak)}. It "
+            f"motors cannot hold the weight on them where the robot starts: {_listed(weak)}. It "
             "sinks in the physics, and all that it is told waits for it"
         )
 
@@ -434,7 +436,7 @@ def _overlaps(model: mujoco.MjModel, data: mujoco.MjData, chain: set[int]) -> It
             first, second = (model.body(body).name or f"body {body}" for body in bodies)
             deep[first, second] = max(deep.get((first, second), 0.0), -float(contact.dist))
     if deep:
-        pairs = ", ".join(f"{a} and {b} ({1e3 * by:.3g} mm)" for (a, b), by in deep.items())
+        pairs = _listed([f"{a} and {b} ({1e3 * by:.3g} mm)" for (a, b), by in deep.items()])
         yield (
             f"bodies lie in each other where the robot starts: {pairs}. The physics forces them "
             "apart, and what they belong to stands still; <exclude> in the model lets them be"
@@ -484,3 +486,9 @@ def _range(model: mujoco.MjModel, data: mujoco.MjData, motor: int) -> tuple[floa
         ends = np.clip(ends, *model.actuator_forcerange[motor])
     least, most = sorted(float(end) for end in ends * model.actuator_gear[motor, 0])
     return least, most
+
+
+def _listed(items: list[str], between: str = ", ") -> str:
+    """The first eight, then how many more."""
+    more = f" and {len(items) - 8} more" if len(items) > 8 else ""
+    return between.join(items[:8]) + more

@@ -17,6 +17,8 @@ from hurcules.simulation import Simulation
 
 __all__ = ["bounds", "figures", "processor", "summarize"]
 
+BATTERY = ("power_W", "energy_J", "battery_share")
+
 
 def summarize(
     simulation: Simulation, recording: Recording, told: Mapping[str, Any]
@@ -63,8 +65,15 @@ def summarize(
 
 
 def figures(simulation: Simulation, log: Mapping[str, NDArray[np.float64]]) -> dict[str, float]:
-    """What a run ends with; of an empty log without those of the battery."""
-    return simulation.figures() | _of_log(log, simulation.dt)
+    """What a run ends with.
+
+    Those of the battery are left out where the model has no body of this name: its standby and its
+    capacity are those of Hurcules. Those of the log are left out of an empty one.
+    """
+    found = simulation.figures() | _of_log(log, simulation.dt)
+    model = simulation.model
+    names = [model.body(body).name.rpartition("/")[2] for body in range(model.nbody)]
+    return found if "battery" in names else {k: v for k, v in found.items() if k not in BATTERY}
 
 
 def bounds(simulation: Simulation) -> dict[str, dict[str, float]]:

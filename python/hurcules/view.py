@@ -19,6 +19,7 @@ from hurcules import models
 from hurcules._core import Error, Plant
 from hurcules.drawing import Picture, caption, draw
 from hurcules.extras import without
+from hurcules.output import writing
 from hurcules.own_simulation import is_own, make
 from hurcules.simulation import Command, Simulation, missions
 from hurcules.validation import require_known
@@ -111,7 +112,7 @@ def film(
 
     Args:
         simulation: goes on from where it is, until it is finished at most.
-        path: the file, .mp4.
+        path: the file, .mp4; its folder is made.
         seconds: how long [s].
         command: as for `Simulation.step`, or a function of the simulation that gives one for each
             picture.
@@ -127,6 +128,7 @@ def film(
         RendererError: there is no OpenGL that works.
         Error: the model has no such camera, a file of another kind, a size that is no multiple of
             16, a command that `Simulation.step` refuses, or no extra hurcules[report].
+        WriteError: the folder cannot be made.
         OSError: the file cannot be written.
     """
     if width % 16 or height % 16 or min(width, height) < 16:
@@ -148,7 +150,9 @@ def film(
             now = command(simulation) if callable(command) else command
             simulation.step(max(0, round((until - simulation.time) / simulation.dt)), now)
 
-    return encode(Path(path), steps(), fps)
+    with writing(path := Path(path)):
+        path.parent.mkdir(parents=True, exist_ok=True)
+    return encode(path, steps(), fps)
 
 
 def _show(
@@ -218,7 +222,7 @@ def _subject(name: str) -> tuple[Any, Any, Callable[[int], Any]]:
         model = _read(path)
         data = mujoco.MjData(model)
         return model, data, lambda n: mujoco.mj_step(model, data, n)
-    names = [*missions(), *models.names(), *models.scenes()]
+    names = list(dict.fromkeys([*missions(), *models.names(), *models.scenes()]))
     if path.is_file() and name not in names:
         endings = ", ".join((*_MODELS, ".toml", ".py"))
         raise Error(f"{path}: wanted a file that ends in one of {endings}")

@@ -10,6 +10,7 @@ millimetre, no limit is passed on the way, every answer is proven. Not tested he
 from __future__ import annotations
 
 import importlib.util
+import warnings
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -203,6 +204,27 @@ def test_fingers_that_start_at_their_stops_arrive() -> None:
         simulation = hurcules.Simulation(model=model, controller=controller, record=False)
     simulation.step(round(5.0 / simulation.dt))
     assert np.linalg.norm(simulation.data.site("S_grasp").xpos - wanted) < 1e-3
+
+
+def test_a_weight_that_is_rounding_is_none() -> None:
+    # "motors cannot hold ... (8.71e-16 of 0 N m)": fingers whose servos push one way alone
+    finger = """<body euler="37 0 0" pos="{side} 0 0">
+        <joint name="{name}" axis="0 {axis}" range="0 60"/>
+        <geom size="0.05" pos="0.2 0.1 0" mass="1"/></body>"""
+    upright = "0.601815023152048 0.798635510047293"
+    fingers = finger.format(name="a", side=1, axis=upright) + finger.format(
+        name="b", side=-1, axis=" ".join(f"-{part}" for part in upright.split())
+    )
+    text = f"""<mujoco><worldbody><body><joint name="lift" type="slide" axis="0 0 1"/>
+        <geom size="0.05" mass="3"/>{fingers}</body></worldbody><actuator>
+        <motor joint="lift"/><position joint="a" kp="10" ctrlrange="0 1"/>
+        <position joint="b" kp="10" ctrlrange="0 1"/></actuator></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    robot = hurcules.Robot(model)
+    controller = hurcules.WholeBodyController(robot, [PostureTask("posture", robot)])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        hurcules.Simulation(model=model, controller=controller)
 
 
 def test_a_frame_that_does_not_exist_is_named_with_those_that_do() -> None:

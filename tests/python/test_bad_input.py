@@ -158,6 +158,30 @@ CASES: dict[str, tuple[Callable[[], Any], str]] = {
         ),  # type: ignore[arg-type]
         "its ptr is one",
     ),
+    "physics of dm_control": (
+        lambda: hurcules.Simulation(
+            model=SimpleNamespace(model=SimpleNamespace(ptr=arm_model())), controller=whole_body()
+        ),  # type: ignore[arg-type]
+        "its model.ptr is one",
+    ),
+    "robot of a Physics of dm_control": (
+        lambda: hurcules.Robot(SimpleNamespace(model=SimpleNamespace(ptr=arm_model()))),  # type: ignore[arg-type]
+        "a SimpleNamespace came; its model.ptr is one$",
+    ),
+    "robot of an element of dm_control": (
+        lambda: hurcules.Robot(SimpleNamespace(model="arm", to_xml_string=str)),  # type: ignore[arg-type]
+        r"came; mujoco.MjModel.from_xml_string\(its to_xml_string\(\), .* makes one$",
+    ),
+    "model as a mission": (
+        lambda: hurcules.Simulation("my/arm.xml", controller=whole_body()),
+        r"a model of your own goes by keyword, .*; got 'my/arm.xml'",
+    ),
+    "sensors that it has not": (
+        lambda: hurcules.Simulation(
+            model=arm_model(), controller=whole_body(), sensors=hurcules.sensors.realistic()
+        ),
+        r"sensors: the model lacks .*imu_rate.* range \(a site 'lidar'\); .*realistic\(robot\)",
+    ),
     "path of a simulation": (
         lambda: hurcules.Simulation(model="/no/such.xml", controller=whole_body()),
         "cannot read /no/such.xml",

@@ -65,11 +65,24 @@ def test_mission_prints_a_table_or_writes_it(
         assert file.read_text(encoding="utf-8").startswith(begin)
     code, again, _ = call(capsys, "mission", str(tmp_path / "lift.toml"))
     assert (code, again) == (0, out)
-    code, _, err = call(capsys, "mission", "lift", "--out", str(tmp_path / "no" / "lift.svg"))
-    assert code == 1
-    assert (
-        err == f"hurcules: error: cannot write {tmp_path}/no/lift.svg: No such file or directory\n"
-    )
+
+
+def test_folders_of_files_are_made(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """`export` made them, `mission` did not."""
+    there = tmp_path / "file"
+    there.touch()
+    for k, words in enumerate(
+        ("mission lift --out {}.svg", "mission lift --out {}.table", "export rescue --out {}.xml")
+    ):
+        name = words.split("{}")[1]
+        path = tmp_path / "new" / str(k) / "lift"
+        assert call(capsys, *words.format(path).split()) == (0, f"{path}{name}\n", "")
+        assert path.with_suffix(name).is_file()
+        code, _, err = call(capsys, *words.format(there / "lift").split())
+        assert code == 1
+        assert err == f"hurcules: error: cannot write {there}/lift{name}: Not a directory\n"
+    hurcules.lift.mission().save(tmp_path / "another" / "lift.toml")
+    assert (tmp_path / "another" / "lift.toml").is_file()
 
 
 def test_a_table_that_does_not_fit_on_the_disk_leaves_what_there_was(tmp_path: Path) -> None:
@@ -303,6 +316,24 @@ def test_a_folder_keeps_an_earlier_run_until_there_is_another(tmp_path: Path) ->
     assert len(list(tmp_path.iterdir())) == 3
     output.write_json("summary.json", {})
     assert sorted(path.name for path in tmp_path.iterdir()) == ["notes.txt", "summary.json"]
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("Reach-v0 --algo foo", "algorithm 'foo' does not exist; there are: ppo, sac, her"),
+        ("Reach-v0 --fidelity foo", "fidelity 'foo' does not exist; there are: exact, fast, kin"),
+        ("Reach-v0 --robot nope.xml", "got 'nope.xml'"),
+        ("Valve-v0 --fidelity kinematic", "fidelity 'kinematic' has no physics"),
+        ("Reach-v0 --rate 5", "rate: wanted 10 to 100 Hz, got 5.0"),
+    ],
+)
+def test_what_is_wrong_with_a_training_is_told_before_pytorch_is_loaded(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, words: str, wanted: str
+) -> None:
+    monkeypatch.setitem(sys.modules, "hurcules_envs.training", None)  # an import of it fails
+    assert cli.main(["train", *words.split()]) == 2
+    assert wanted in capsys.readouterr().err
 
 
 def test_a_cluster_trains_by_ppo_alone(capsys: pytest.CaptureFixture[str]) -> None:

@@ -192,7 +192,7 @@ def test_a_film_shows_each_moment_and_asks_for_each_command(tmp_path: Path) -> N
         pytest.skip(f"no OpenGL here; remedy: {rendering.REMEDY}")
     imageio = pytest.importorskip("imageio.v2")
     simulation = loop()
-    begun, asked, path = simulation.time, [], tmp_path / "arm.mp4"
+    begun, asked, path = simulation.time, [], tmp_path / "new" / "arm.mp4"
 
     def command(asking: hurcules.Simulation) -> dict[str, list[float]]:
         asked.append(asking.time - begun)

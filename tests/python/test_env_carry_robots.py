@@ -170,12 +170,23 @@ def test_what_cannot_carry_is_refused(options: dict[str, Any], tmp_path: Path) -
     refused("place: wanted x, y, z", place="ahead")
     refused("come to both sides of a box", place=(5.0, 0.0, 1.0))
     refused("come to both sides of a box", frames=("r_hand", "l_hand"), place=(0.4, 0.0, 0.9))
-    refused("wanted an MJCF file", robot=_binary(options["robot"], tmp_path))
+    refused("wanted an MJCF file, .* binary", robot=_binary(options["robot"], tmp_path))
+    refused("wanted an MJCF file, .* a URDF", robot=_urdf(tmp_path), frames=("a", "b"))
     place = environment_of(options)._place  # type: ignore[attr-defined]
     refused("wanted motors that hold", robot=written(tmp_path, two_arms(0.01)), place=place)
     refused("scoops", robot="rescue", frames=None)
     refused("frames: robot 'manipulation' has its own", robot="manipulation")
-    refused("path of an MJCF file", robot="no_such_robot.xml")
+    refused("path of a model", robot="no_such_robot.xml")
+
+
+def _urdf(folder: Path) -> str:
+    link = """<link name="{}"><inertial><mass value="1"/>
+      <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+      <joint name="{}" type="continuous"><parent link="base"/><child link="{}"/></joint>"""
+    links = link.format("a", "j", "a") + link.format("b", "k", "b")
+    path = folder / "arms.urdf"
+    path.write_text(f'<robot name="arms"><link name="base"/>{links}</robot>')
+    return str(path)
 
 
 def _binary(robot: str, folder: Path) -> str:

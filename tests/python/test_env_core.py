@@ -447,7 +447,7 @@ BAD = [
     ({"action": "torque"}, "action 'torque' does not exist"),
     ({"robot": "spot"}, "robot: wanted"),
     ({"robot": __file__}, "wants frames"),
-    ({"robot": 3}, "robot: wanted manipulation, rescue or the path of an MJCF file, got 3"),
+    ({"robot": 3}, "robot: wanted manipulation, rescue or the path of a model, got 3"),
     ({"tolerance": -1.0}, "tolerance: wanted"),
     ({"tolerance": "3 cm"}, "tolerance: wanted a number > 0, got '3 cm'"),
     ({"rate": 1000.0}, "rate: wanted"),

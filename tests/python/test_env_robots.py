@@ -56,6 +56,34 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, str]:
     return str(text), str(binary)
 
 
+ARM_URDF = """<robot name="arm"><link name="base"/>
+  <link name="upper"><inertial><origin xyz="0.2 0 0"/><mass value="2"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="fore"><inertial><origin xyz="0.2 0 0"/><mass value="1"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="hand"/>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" effort="80" velocity="1"/></joint>
+  <joint name="lift" type="revolute"><parent link="upper"/><child link="fore"/><axis xyz="0 1 0"/>
+    <origin xyz="0.4 0 0"/><limit lower="-2" upper="2" effort="80" velocity="1"/></joint>
+  <joint name="tip" type="fixed"><parent link="fore"/><child link="hand"/>
+    <origin xyz="0.4 0 0"/></joint></robot>"""
+
+
+def test_a_urdf_is_the_robot_that_load_urdf_makes_of_it(tmp_path: Path) -> None:
+    # it was read by MuJoCo alone: no motors, no limits of speed, no fixed links
+    file, binary = tmp_path / "arm.urdf", tmp_path / "arm.mjb"
+    file.write_text(ARM_URDF)
+    mujoco.mj_saveModel(hurcules.load_urdf(file), str(binary), None)
+    seen = []
+    for robot in (file, binary):
+        env = gym.make("Hurcules/Reach-v0", fidelity="fast", robot=str(robot), frames=("hand",))
+        env.reset(seed=0)
+        seen.append([env.step(np.ones(3, np.float32))[0]["achieved_goal"] for _ in range(5)])
+        env.close()
+    assert np.array_equal(*seen)
+
+
 @pytest.mark.parametrize("fidelity", ["kinematic", "fast", "exact"])
 def test_the_expert_reaches_with_any_robot(files: tuple[str, str], fidelity: str) -> None:
     env = gym.make_vec(

@@ -24,7 +24,7 @@ import numpy as np
 import pytest
 
 import hurcules
-from hurcules import cli, extras, legend, rhqp
+from hurcules import cli, extras, legend, opengl, rhqp
 from hurcules.interrupts import Interrupts, unheard_by_children
 
 COMMAND = [sys.executable, "-m", "hurcules"]
@@ -40,6 +40,18 @@ def call(*words: str, cwd: Path | None = None, **environment: str) -> tuple[int,
         timeout=300,
     )
     return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a choice for Linux")
+@pytest.mark.parametrize(("bound", "wanted"), [("egl", "egl"), ("osmesa", "osmesa"), ("glx", "")])
+def test_what_pyopengl_is_bound_to_is_drawn_with(
+    bound: str, wanted: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # "Cannot use OSMesa ... PYOPENGL_PLATFORM ... is set to 'egl'", as images for training set it
+    monkeypatch.setattr(opengl, "lacking", lambda backend: [])
+    environment = {"PYOPENGL_PLATFORM": bound}
+    assert opengl.choose_backend(environment) == environment.get("MUJOCO_GL", "") == wanted
+    assert opengl.choose_backend({}) in ("egl", "osmesa")
 
 
 def test_python_m_hurcules_is_the_command() -> None:

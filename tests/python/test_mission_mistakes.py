@@ -126,6 +126,12 @@ def test_two_leads_of_a_channel_are_refused() -> None:
             hurcules._core.check_rows(hurcules.MissionTable(phases=[phase]))
 
 
+def test_a_byte_order_mark_is_none_of_the_table(tmp_path: Path) -> None:
+    (tmp_path / "wave.toml").write_text(ROWS, encoding="utf-8-sig")
+    (tmp_path / "plain.toml").write_text(ROWS)
+    assert Mission.load(tmp_path / "wave.toml") == Mission.load(tmp_path / "plain.toml")
+
+
 def test_files_that_include_each_other_are_told(tmp_path: Path) -> None:
     include = '[mission]\nname = "{}"\n[[phase]]\ninclude = "{}"\nrows = {}\n'
     (tmp_path / "one.toml").write_text(include.format("one", "one.toml", '["a", "b"]'))

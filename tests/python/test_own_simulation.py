@@ -61,6 +61,7 @@ def test_the_example_is_run_filmed_and_reported(root: Path, tmp_path: Path) -> N
     assert "position [rad]" not in page  # both of its coordinates slide
     assert "centre of pressure" not in said.getvalue()  # it cannot tip over
     assert "at least 0.250 m" in said.getvalue()
+    assert "battery" not in said.getvalue()  # that of Hurcules, which it has not
 
 
 def test_one_without_a_mission_runs_as_long_as_it_is_told(file: Path, tmp_path: Path) -> None:

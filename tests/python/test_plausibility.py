@@ -6,6 +6,7 @@ Strategy: one arm as text, its ranges in degrees and in radians. Not tested: sli
 import warnings
 
 import mujoco
+import numpy as np
 import pytest
 
 import hurcules
@@ -35,6 +36,23 @@ def test_radians_read_as_degrees_warn_at_the_callers_line() -> None:
     assert "'shoulder' -1.2 to 1.2 degrees" in str(caught[0].message)
     assert 'angle="radian"' in str(caught[0].message)
     assert caught[0].filename == __file__
+
+
+def test_of_many_such_joints_eight_are_named() -> None:
+    # of a humanoid's 56 it was a page
+    joints = "".join(
+        f'<body name="b{i}"><joint name="j{i}" range="-1 1"/><geom size="0.1"/></body>'
+        for i in range(11)
+    )
+    motors = "".join(f'<motor joint="j{i}"/>' for i in range(11))
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody><body>{joints}</body></worldbody><actuator>{motors}</actuator></mujoco>"
+    )
+    with pytest.warns(UserWarning, match=r"'j7' -1 to 1 degrees and 3 more \(MJCF") as caught:
+        one = hurcules.Robot(model)
+    assert "'j8'" not in str(caught[0].message)
+    with pytest.warns(UserWarning, match=r"'j7' at 1, limits .* and 3 more$"):
+        one.set_configuration(np.ones(11))
 
 
 def test_degrees_read_as_radians_warn() -> None:

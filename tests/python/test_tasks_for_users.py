@@ -208,9 +208,9 @@ def test_a_task_in_python_is_a_task(model: mujoco.MjModel) -> None:
     task.set_target([0.6])
     settle(robot, [task, hurcules.PostureTask("posture", robot)])
     assert robot.position("l_hand")[2] == pytest.approx(0.6, abs=1e-4)
-    with pytest.raises(hurcules.Error, match=r"jacobian wants shape \(1, 12\), \(1, 3\) came"):
+    with pytest.raises(hurcules.Error, match=r"'wrong': jacobian wants shape \(1, 12\), \(1, 3\)"):
         hurcules.CustomTask("wrong", robot, 1, lambda robot: ([0.0], np.zeros((1, 3))))
-    with pytest.raises(hurcules.Error, match="value, jacobian"):
+    with pytest.raises(hurcules.Error, match=r"task 'wrong': .*value, jacobian"):
         hurcules.CustomTask("wrong", robot, 1, lambda robot: 1.0)
     with pytest.raises(ZeroDivisionError):
         hurcules.CustomTask("wrong", robot, 1, lambda robot: 1 / 0)
@@ -325,6 +325,19 @@ def test_a_task_wants_a_frame_that_moves(model: mujoco.MjModel, task: type) -> N
     with pytest.raises(hurcules.Error, match="none moves 'l_hand' against its reference"):
         task("hand", left, "l_hand", reference="l_hand")
     task("hand", left, "r_hand", reference="l_hand")  # the left hand leads it
+
+
+@pytest.mark.filterwarnings("ignore:joints that no actuator")
+def test_a_frame_that_held_joints_would_move_is_told_with_them() -> None:
+    # an arm that a mocap body leads, as some have, and fingers with actuators
+    model = mujoco.MjModel.from_xml_string(
+        """<mujoco><worldbody><body name="arm"><joint name="shoulder"/><geom size="0.1"/>
+        <body><joint name="finger"/><geom size="0.1"/></body></body></worldbody>
+        <actuator><motor joint="finger"/></actuator></mujoco>"""
+    )
+    wanted = r"none moves 'arm'; 1 joints of the robot are held, .*: shoulder; Robot\(model, joi"
+    with pytest.raises(hurcules.Error, match=wanted):
+        hurcules.PoseTask("hand", hurcules.Robot(model), "arm")
 
 
 def test_manipulability_wants_a_frame_that_moves(model: mujoco.MjModel) -> None:

@@ -115,6 +115,28 @@ def test_motors_are_added_where_there_are_none() -> None:
     assert again.nu == 2
 
 
+@pytest.mark.parametrize(
+    "usual", [
+        'ctrllimited="true" ctrlrange="-1 1"',  # motors of 1 N m, in silence
+        'ctrllimited="true"',  # "invalid control range for actuator"
+        'forcerange="-2 2"',
+        'gear="5"',
+        'gainprm="1000" biastype="affine" biasprm="0 -1000" dyntype="filter" dynprm="0.1"',
+    ],
+)  # fmt: skip
+def test_motors_are_not_what_a_default_of_the_model_makes_of_its_own(usual: str) -> None:
+    text = """<mujoco><default><general {}/></default><worldbody><body>
+        <joint name="a" actuatorfrcrange="-50 50"/><geom size="0.1"/>
+        <body><joint name="b"/><geom size="0.1"/></body></body></worldbody></mujoco>"""
+    plain = hurcules.with_motors(mujoco.MjSpec.from_string(text.format("")))
+    model = hurcules.with_motors(mujoco.MjSpec.from_string(text.format(usual)))
+    for name in ("ctrllimited", "forcelimited", "forcerange", "gear", "gainprm", "dyntype"):
+        of_model, of_plain = (getattr(one, f"actuator_{name}") for one in (model, plain))
+        assert np.array_equal(of_model, of_plain), name
+    assert model.actuator_forcerange[0].tolist() == [-50.0, 50.0]
+    assert not model.actuator_forcelimited[1]
+
+
 def test_joints_without_a_name_get_motors_too() -> None:
     # "missing transmission target for actuator"
     body = '<body><joint/><geom size="0.1"/>{}</body>'

@@ -2,7 +2,6 @@
 
 #include <mujoco/mujoco.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "hurcules/robot/closures.hpp"
@@ -14,16 +13,7 @@ namespace hurcules {
 
 namespace {
 
-constexpr double kTight = 1e-6;    // of a loop that stays closed
-constexpr std::size_t kShown = 8;  // names, then how many more
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
-    text += (i == 0 ? "" : ", ") + names[i];
-  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
-  return text;
-}
+constexpr double kTight = 1e-6;  // of a loop that stays closed
 
 // one without a name by what it ties
 std::string constraint_name(const mjModel& m, int equality) {

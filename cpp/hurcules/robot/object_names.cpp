@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "hurcules/base/error.hpp"
@@ -65,6 +66,15 @@ int find_object(const mjModel& m, int type, const std::string& name) {
   const int found = mj_name2id(&m, type, name.c_str());
   if (found < 0) throw Error(unknown_name(mju_type2Str(type), name, names_of(m, {type})));
   return found;
+}
+
+std::string listed(const std::vector<std::string>& names, const std::string& between) {
+  constexpr std::size_t kShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    text += (i == 0 ? "" : between) + names[i];
+  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+  return text;
 }
 
 }  // namespace hurcules

@@ -21,4 +21,8 @@ namespace hurcules {
 // id of the object with this name; throws Error with the names that exist
 [[nodiscard]] int find_object(const mjModel_& model, int type, const std::string& name);
 
+// for messages: the first eight, then "and 3 more"
+[[nodiscard]] std::string listed(const std::vector<std::string>& names,
+                                 const std::string& between = ", ");
+
 }  // namespace hurcules

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "hurcules/base/number_text.hpp"
 #include "hurcules/robot/closures.hpp"
 #include "hurcules/robot/coordinates.hpp"
+#include "hurcules/robot/object_names.hpp"
 
 namespace hurcules {
 namespace {
@@ -43,20 +46,21 @@ void append(std::string& list, const std::string& item) {
 }  // namespace
 
 std::string implausible_ranges(const Robot& robot) {
-  std::string narrow, wide;
+  std::vector<std::string> narrow, wide;
   for (const Coordinate& coordinate : robot.coordinates()) {
     const double most = std::max(std::abs(coordinate.lower), std::abs(coordinate.upper));
     if (!turns(robot, coordinate) || !std::isfinite(most)) continue;
     if (most <= kRadiansAsDegrees && coordinate.lower < coordinate.upper)
-      append(narrow, named(coordinate.name, interval(coordinate, kDegree) + " degrees"));
+      narrow.push_back(named(coordinate.name, interval(coordinate, kDegree) + " degrees"));
     if (most > kDegreesAsRadians)
-      append(wide, named(coordinate.name, interval(coordinate, 1.0) + " rad"));
+      wide.push_back(named(coordinate.name, interval(coordinate, 1.0) + " rad"));
   }
   std::string text;
   if (!narrow.empty())
-    append(text, "joint ranges of a few degrees, were radians meant? " + narrow +
+    append(text, "joint ranges of a few degrees, were radians meant? " + listed(narrow, "; ") +
                      " (MJCF takes degrees unless it says <compiler angle=\"radian\"/>)");
-  if (!wide.empty()) append(text, "joint ranges of many turns, were degrees meant? " + wide);
+  if (!wide.empty())
+    append(text, "joint ranges of many turns, were degrees meant? " + listed(wide, "; "));
   return text;
 }
 
@@ -69,23 +73,23 @@ std::string open_loops(const Robot& robot) {
 }
 
 std::string outside_limits(const Robot& robot) {
-  std::string found;
+  std::vector<std::string> found;
   for (Index i = 0; i < robot.size(); ++i) {
     const Coordinate& coordinate = robot.coordinates()[i];
     if (coordinate.joints.front().part >= 0) continue;
     const double q = robot.configuration()[i];
     if (q >= coordinate.lower - kTolerance && q <= coordinate.upper + kTolerance) continue;
-    append(found,
-           named(coordinate.name, "at " + number(q) + ", limits " + interval(coordinate, 1.0)));
+    found.push_back(
+        named(coordinate.name, "at " + number(q) + ", limits " + interval(coordinate, 1.0)));
   }
   for (const RotationVector& rotation : robot.rotations()) {
     const double angle = robot.configuration().segment<3>(rotation.first).norm();
     if (angle <= rotation.range + kTolerance) continue;
-    append(found, named(joint_name(*robot.model(), rotation.joint),
-                        "turned by " + number(angle) + ", limit " + number(rotation.range)));
+    found.push_back(named(joint_name(*robot.model(), rotation.joint),
+                          "turned by " + number(angle) + ", limit " + number(rotation.range)));
   }
-  if (found.empty()) return found;
-  return "the configuration lies outside the joint limits [rad or m]: " + found;
+  if (found.empty()) return "";
+  return "the configuration lies outside the joint limits [rad or m]: " + listed(found, "; ");
 }
 
 }  // namespace hurcules

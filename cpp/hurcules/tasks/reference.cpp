@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "hurcules/base/error.hpp"
+#include "hurcules/robot/left_out.hpp"
 
 namespace hurcules {
 
@@ -63,9 +64,11 @@ Reference::Reference(const Robot& robot, Frame frame)
 void Reference::require_moved(const Robot& robot, const std::string& frame,
                               const std::string& task) const {
   const Frame moved = robot.frame(frame);
-  require(frame_ ? robot.moves(moved, *frame_) : robot.moves(moved),
-          "task '" + task + "' wants a frame that the coordinates move, none moves '" + frame +
-              (frame_ ? "' against its reference" : "'"));
+  if (frame_ ? robot.moves(moved, *frame_) : robot.moves(moved)) return;
+  std::string text = "task '" + task + "' wants a frame that the coordinates move, none moves '";
+  text += frame + (frame_ ? "' against its reference" : "'");
+  if (const std::string held = left_out(robot); !held.empty()) text += "; " + held;
+  throw Error(text);
 }
 
 void Reference::measure(const Robot& robot) {
