@@ -97,7 +97,7 @@ bool LevelProblem::equalities_met(double x_scale) const {
 double LevelProblem::largest_coordinate() const {
   double largest = 0.0;
   for (Index i = 0; i < equalities_; ++i) {
-    const double* e = own_row(i);
+    const double* e = equality_row(i);
     for (Index j = 0; j < own_; ++j) largest = std::max(largest, std::abs(e[j]));
   }
   return largest;
@@ -114,7 +114,7 @@ void LevelProblem::factor_by_cholesky() {
     c[j] = 0.0;
   }
   for (Index i = 0; i < equalities_; ++i) {
-    const double* e = own_row(i);
+    const double* e = equality_row(i);
     const double r = r_[i];
     for (Index j = 0; j < q; ++j) {
       c[j] += e[j] * r;
@@ -147,7 +147,7 @@ void LevelProblem::factor_by_householder() {
   stacked_.shape(own_ + 1);
   Index count = 0;
   for (; count < equalities_; ++count) {
-    std::copy_n(own_row(count), own_, stacked_.row(count));
+    std::copy_n(equality_row(count), own_, stacked_.row(count));
     stacked_.row(count)[own_] = r_[count];
   }
   for (Index j = 0; rho_ > 0.0 && j < own_; ++j, ++count) {

@@ -43,6 +43,16 @@ class LevelProblem {
   [[nodiscard]] double own_norm() const { return own_norm_; }
   // the multiplier below which a limit does not settle the violation of a level with rho = 0
   [[nodiscard]] double least_settling(double largest_multiplier, double x_scale) const;
+  [[nodiscard]] Index equalities() const { return equalities_; }
+  // coordinates of own equality row i in the own directions, and what it asks for of the step
+  [[nodiscard]] const double* equality_row(Index i) const {
+    return nullspace_->equality_coordinates(rows_->equalities(level_) + i) + first_;
+  }
+  [[nodiscard]] double equality_rest(Index i) const { return r_[i]; }
+  // Row j of R and its entry of c after factor(rho); what stands left of the diagonal is no part of
+  // it.
+  [[nodiscard]] const double* condensed_row(Index j) const { return R_.data() + j * own_; }
+  [[nodiscard]] double condensed_target(Index j) const { return c_[j]; }
   // the own equality rows are met at x_above, to rounding
   [[nodiscard]] bool equalities_met(double x_scale) const;
 
@@ -79,10 +89,6 @@ class LevelProblem {
   // own = R^-T scale own, in place
   template <int fixed>
   void solve_transposed(double scale, double* own) const;
-  // coordinates of own equality row i in the own directions
-  [[nodiscard]] const double* own_row(Index i) const {
-    return nullspace_->equality_coordinates(rows_->equalities(level_) + i) + first_;
-  }
 
   const RowTable* rows_ = nullptr;
   const NullspaceBasis* nullspace_ = nullptr;

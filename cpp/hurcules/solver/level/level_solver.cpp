@@ -124,8 +124,8 @@ double LevelSolver::try_strategies(bool& done) {
     forget();
     done = solve_by(strategy);
     // what a quick strategy left unfinished needs no proof, and one is sought for long
-    if (!done &&
-        (strategy == Strategy::WarmStart || (strategy == Strategy::Cold && !budget_.spent()))) {
+    if (!done && (strategy == Strategy::WarmStart ||
+                  (strategy < Strategy::ExtendedPrecision && !budget_.spent()))) {
       return false;
     }
     residual = prove(strategy, rho_, done);
@@ -136,9 +136,11 @@ double LevelSolver::try_strategies(bool& done) {
   // what is nearest to proven, and moves the rows above least: where nothing is better
   Strategy best = Strategy::ExtendedPrecision, last = best;
   double least = std::numeric_limits<double>::infinity();
-  for (const Strategy strategy : {Strategy::WarmStart, Strategy::Cold, Strategy::ExtendedPrecision,
-                                  Strategy::ExtendedPrecisionWithoutRho}) {
+  for (const Strategy strategy :
+       {Strategy::WarmStart, Strategy::Cold, Strategy::ColdByRows, Strategy::ExtendedPrecision,
+        Strategy::ExtendedPrecisionWithoutRho}) {
     if (!applies(strategy)) continue;
+    if (strategy == Strategy::ColdByRows && least <= tolerance::kProven) continue;
     if (strategy == Strategy::ExtendedPrecision) {
       const double staying = residual_of_staying();
       done = true;
@@ -159,6 +161,7 @@ double LevelSolver::try_strategies(bool& done) {
 
 bool LevelSolver::applies(Strategy strategy) const {
   if (strategy == Strategy::WarmStart) return !kept_.empty();
+  if (strategy == Strategy::ColdByRows) return rho_ == 0.0 && unregularized_.large();
   if (strategy != Strategy::ExtendedPrecisionWithoutRho) return true;
   return rho_ > 0.0 && rho_ <= tolerance::kTiny * problem_.own_norm();
 }
@@ -171,10 +174,12 @@ double LevelSolver::residual_of_staying() {
 
 bool LevelSolver::solve_by(Strategy strategy) {
   nullspace_->complete(*rows_);
+  unregularized_.go_by_rows(strategy == Strategy::ColdByRows);
   switch (strategy) {
     case Strategy::WarmStart:
       return regularized() ? solve_warm() : solve_unregularized();
     case Strategy::Cold:
+    case Strategy::ColdByRows:
       return solve_cold();
     case Strategy::ExtendedPrecision:
       return solve_in_extended_precision(rho_);

@@ -47,8 +47,15 @@ class LevelSolver {
   }
 
  private:
+  // ColdByRows: where rounding was taken for a direction of a large level.
   // ExtendedPrecisionWithoutRho: a rho so small that its square is lost in rounding counts as 0
-  enum class Strategy { WarmStart, Cold, ExtendedPrecision, ExtendedPrecisionWithoutRho };
+  enum class Strategy {
+    WarmStart,
+    Cold,
+    ColdByRows,
+    ExtendedPrecision,
+    ExtendedPrecisionWithoutRho
+  };
 
   SolverStatus end(bool done, double residual);
   // where there is nothing to do, or no limit in the way

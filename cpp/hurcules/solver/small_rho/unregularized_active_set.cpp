@@ -22,13 +22,13 @@ void UnregularizedActiveSet::reserve(Index unknowns, Index rows) {
 }
 
 void UnregularizedActiveSet::start(const RowTable& rows, const NullspaceBasis& nullspace,
-                                   const LevelProblem& level, Candidates& candidates,
+                                   LevelProblem& level, Candidates& candidates,
                                    const double* x_above, const double* x, double x_scale) {
   rows_ = &rows;
   level_ = &level;
   candidates_ = &candidates;
   x_above_ = x_above;
-  step_.start(rows, nullspace, level, x_above);
+  step_.start(rows, nullspace, level, x_above, by_rows_);
   x_scale_ = x_scale;
   remembered_ = x == x_above;
   size_ = x_scale;

@@ -19,9 +19,13 @@ namespace hurcules {
 class UnregularizedActiveSet {
  public:
   void reserve(Index unknowns, Index rows);
+  // from the next start on: each row is asked for its direction in a large level, too
+  void go_by_rows(bool by_rows) { by_rows_ = by_rows; }
+  // the last solve did not, in a large level
+  [[nodiscard]] bool large() const { return step_.large(); }
   // A level from x_above, of size x_scale, from the point `x` of the rows that will be held, or
   // x_above where `x` breaks a row above; x_above: they are those of the last solve.
-  void start(const RowTable& rows, const NullspaceBasis& nullspace, const LevelProblem& level,
+  void start(const RowTable& rows, const NullspaceBasis& nullspace, LevelProblem& level,
              Candidates& candidates, const double* x_above, const double* x, double x_scale);
   // holds a row from the beginning
   void hold(int row, Side side, Role role);
@@ -60,6 +64,7 @@ class UnregularizedActiveSet {
   const double* x_above_ = nullptr;
   double x_scale_ = 1.0, size_ = 1.0;  // of x_above; of the target, too
   bool remembered_ = false;            // the first rows come without a point of theirs
+  bool by_rows_ = false;
   GroupedRows group_;
   std::vector<GroupedRow> ignored_;
   UnregularizedStep step_;

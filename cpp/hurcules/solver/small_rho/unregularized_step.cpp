@@ -12,11 +12,14 @@ namespace {
 
 // rounding of a row, relative to |a|, where nothing magnifies it
 constexpr double kOwnRounding = 1e-15;
+// own directions from which on a level is large
+constexpr Index kLarge = 16;
 
 }  // namespace
 
 void UnregularizedStep::reserve(Index unknowns, Index rows) {
   factor_.reserve(rows, unknowns);
+  settled_.reserve(unknowns, rows);
   all_.reserve(rows);
   block_.reserve(rows + 2 * unknowns, unknowns + 1);
   work_.reserve(rows + 3 * unknowns + 4);
@@ -25,38 +28,54 @@ void UnregularizedStep::reserve(Index unknowns, Index rows) {
 }
 
 void UnregularizedStep::start(const RowTable& rows, const NullspaceBasis& nullspace,
-                              const LevelProblem& level, const double* x_above) {
+                              LevelProblem& level, const double* x_above, bool by_rows) {
   rows_ = &rows;
   nullspace_ = &nullspace;
   level_ = &level;
   x_above_ = x_above;
+  by_rows_ = by_rows;
+  settled_.start(rows, nullspace, level, x_above);
 }
 
 void UnregularizedStep::solve(const GroupedRows& groups, double rho, double* x) {
+  large_ =
+      !by_rows_ && rho == 0.0 && level_->own() >= kLarge && level_->equalities() > level_->own();
   gather(groups);
   factor();
-  meet(kLimits);
+  std::copy_n(x_above_, rows_->stride(), x);
+  if (large_) return solve_large(x);
+  meet(kLimits, x);
   least_squares(rho);
-  meet(kSmallest);
-  step(x);
+  meet(kSmallest, x);
+  step(level_->first(), x);
+}
+
+void UnregularizedStep::solve_large(double* x) {
+  const Index own = level_->own();
+  const double* t = settled_.solve(settled());
+  kernels::chosen->axpys(nullspace_->direction(level_->first()), own, rows_->stride(), t, x);
+  std::copy_n(t + own, rank_[kOwn], y_.data());
+  meet(kSmallest, x);
+  step(level_->first() + own, x);
 }
 
 void UnregularizedStep::gather(const GroupedRows& groups) {
   all_.clear();
   for (int g = 0; g < kRowGroups; ++g) {
-    all_.insert(all_.end(), groups[g].begin(), groups[g].end());
+    const Index left_out = large_ && g == kOwn ? level_->equalities() : 0;
+    all_.insert(all_.end(), groups[g].begin() + left_out, groups[g].end());
     end_[g] = static_cast<Index>(all_.size());
   }
 }
 
 void UnregularizedStep::factor() {
-  const Index columns = level_->free();
+  const Index own = large_ ? level_->own() : 0, columns = level_->free() - own;
   factor_.start(end_[kSmallest], columns);
   for (Index i = 0; i < end_[kSmallest]; ++i) {
     const Row& row = (*rows_)[all_[i].row];
     const double* e = (row.equality ? nullspace_->equality_coordinates(row.dense)
                                     : nullspace_->coordinates(row)) +
-                      level_->first();
+                      level_->first() + own;
     // an equality row has no part behind its own directions
     const Index known = row.equality ? level_->own() : columns;
     double* r = factor_.row(i);
@@ -65,11 +84,11 @@ void UnregularizedStep::factor() {
     norm2_[i] = row.norm * row.norm;
   }
   const double* norm2 = norm2_.data();
-  factor_.run(0, end_[kLimits], norm2, tolerance::kRank);
+  if (!large_) factor_.run(0, end_[kLimits], norm2, tolerance::kRank);
   rank_[kLimits] = factor_.rank();
   double weakest = 1.0;
   Index seen = 0;
-  for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
+  for (Index i = large_ ? 0 : begin(kOwn); i < end_[kOwn]; ++i) {
     factor_.run(i, i + 1, norm2, own_rank(weakest, seen));
   }
   rank_[kOwn] = factor_.rank();
@@ -92,11 +111,11 @@ double UnregularizedStep::own_rank(double& weakest, Index& seen) {
   return std::min(tolerance::kRank, std::max(limits_rank_, kOwnRounding / std::sqrt(weakest)));
 }
 
-void UnregularizedStep::meet(RowGroup group) {
+void UnregularizedStep::meet(RowGroup group, const double* x) {
   for (Index j = first(group); j < rank_[group]; ++j) {
     const GroupedRow& row = all_[factor_.pivot(j)];
     const double* l = factor_.coordinates(factor_.pivot(j));
-    double rest = row.limit - rows_->dot(row.row, x_above_);
+    double rest = row.limit - rows_->dot(row.row, x);
     for (Index i = 0; i < j; ++i) rest -= l[i] * y_[i];
     y_[j] = rest / l[j];
   }
@@ -148,17 +167,18 @@ void UnregularizedStep::add_smallest(double rho, Index& count) {
   }
 }
 
-void UnregularizedStep::step(double* x) {
+void UnregularizedStep::step(Index first, double* x) {
   const kernels::Table& kernel = *kernels::chosen;
-  std::fill_n(t_.data(), padded(level_->free()), 0.0);
+  const Index columns = factor_.columns();
+  std::fill_n(t_.data(), padded(columns), 0.0);
   kernel.axpys(factor_.direction(0), factor_.rank(), factor_.stride(), y_.data(), t_.data());
-  std::copy_n(x_above_, rows_->stride(), x);
-  kernel.axpys(nullspace_->direction(level_->first()), level_->free(), rows_->stride(), t_.data(),
-               x);
+  kernel.axpys(nullspace_->direction(first), columns, rows_->stride(), t_.data(), x);
 }
 
 // multipliers of the limits against the violations (and the regularisation): L' mu = -gradient
 void UnregularizedStep::balance_violation(double rho, const double* x, const double* values) {
+  for (GroupedRow& held : all_) held.multiplier = 0.0;
+  if (large_) return settled_.balance(settled(), x, values);
   std::fill_n(force_.data(), padded(factor_.rank()), 0.0);
   double noise = 0.0;
   for (Index i = begin(kOwn); i < end_[kOwn]; ++i) {
@@ -170,7 +190,6 @@ void UnregularizedStep::balance_violation(double rho, const double* x, const dou
     noise += tolerance::kNoise * std::abs(violation) * row.norm;
   }
   for (Index j = 0; j < factor_.rank(); ++j) force_[j] += rho * rho * y_[j];
-  for (GroupedRow& held : all_) held.multiplier = 0.0;
   const auto balance = [&](RowGroup group) {
     for (Index j = rank_[group] - 1; j >= first(group); --j) {
       const double* l = factor_.coordinates(factor_.pivot(j));

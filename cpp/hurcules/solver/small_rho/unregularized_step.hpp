@@ -5,42 +5,27 @@
 //     limits that push against the level | own equality and violated rows | limits that hold only
 //     the smallest step
 // are met one after the other: the limits exactly, the own rows by least squares, the last with
-// what is left.
+// what is left. In a large level settled_step.hpp does the first two.
 #pragma once
 
-#include <array>
+#include <span>
 #include <vector>
 
 #include "hurcules/solver/kernels/orthogonal_factor.hpp"
 #include "hurcules/solver/kernels/padded.hpp"
 #include "hurcules/solver/level/level_problem.hpp"
 #include "hurcules/solver/problem/nullspace_basis.hpp"
-#include "hurcules/solver/solution.hpp"
+#include "hurcules/solver/small_rho/grouped_row.hpp"
+#include "hurcules/solver/small_rho/settled_step.hpp"
 
 namespace hurcules {
-
-enum RowGroup { kLimits, kOwn, kSmallest, kRowGroups };
-
-// a row that is held in one of the groups
-struct GroupedRow {
-  int row;  // in the table
-  Side side;
-  double limit;
-  double lower, upper;  // what the row allows when it is let go
-  double multiplier;
-  bool pinned;  // it came back from the last group once
-
-  // which way it pushes
-  [[nodiscard]] double sign() const { return static_cast<double>(side); }
-};
-using GroupedRows = std::array<std::vector<GroupedRow>, kRowGroups>;
 
 class UnregularizedStep {
  public:
   void reserve(Index unknowns, Index rows);
-  // of a level from x_above
-  void start(const RowTable& rows, const NullspaceBasis& nullspace, const LevelProblem& level,
-             const double* x_above);
+  // of a level from x_above; `by_rows`: each row is asked for its direction in a large level, too
+  void start(const RowTable& rows, const NullspaceBasis& nullspace, LevelProblem& level,
+             const double* x_above, bool by_rows);
   // the point x (n, padded) that the rows ask for
   void solve(const GroupedRows& groups, double rho, double* x);
   // multipliers of the limits against the violations at x, with the values of the candidates there,
@@ -49,7 +34,9 @@ class UnregularizedStep {
   // multipliers of all rows against the step; those of the last group are theirs
   void balance_step();
 
-  // the rows of all groups, in their order
+  // the last step was that of a large level
+  [[nodiscard]] bool large() const { return large_; }
+  // the rows of all groups, in their order; in a large level without its equality rows
   [[nodiscard]] const std::vector<GroupedRow>& rows() const { return all_; }
   [[nodiscard]] Index begin(RowGroup group) const { return group == 0 ? 0 : end_[group - 1]; }
   [[nodiscard]] Index end(RowGroup group) const { return end_[group]; }
@@ -61,23 +48,32 @@ class UnregularizedStep {
 
  private:
   void gather(const GroupedRows& groups);
+  void solve_large(double* x);
+  [[nodiscard]] SettledStep::Held settled() {
+    return {{all_.data(), all_.data() + end_[kOwn]}, end_[kLimits], factor_, rank_[kOwn]};
+  }
   void factor();
   double own_rank(double& weakest, Index& seen);
-  void meet(RowGroup group);
+  // from the point x that the rows before the group ask for
+  void meet(RowGroup group, const double* x);
   void least_squares(double rho);
   void add_smallest(double rho, Index& count);
-  void step(double* x);
+  // x moves along the first directions of the factor, those of the level from `first` on
+  void step(Index first, double* x);
   // directions before those of a group
   [[nodiscard]] Index first(RowGroup group) const { return group == 0 ? 0 : rank_[group - 1]; }
 
   const RowTable* rows_ = nullptr;
   const NullspaceBasis* nullspace_ = nullptr;
-  const LevelProblem* level_ = nullptr;
+  LevelProblem* level_ = nullptr;
   const double* x_above_ = nullptr;
+  bool by_rows_ = false;
+  bool large_ = false;        // the factor is of the directions beside the own ones
   double limits_rank_ = 0.0;  // what is rounding of an own row outside the limits
   std::vector<GroupedRow> all_;
   Index end_[kRowGroups] = {}, rank_[kRowGroups] = {};
   OrthogonalFactor factor_;
+  SettledStep settled_;
   PaddedRows block_;
   PaddedVector norm2_, y_, t_, force_, push_, work_;
 };
