@@ -338,12 +338,7 @@ class Carry(ContactEnvironment):
 
     def remember(self, numbers: Numbers) -> None:
         """For how long the box has been at its goal."""
-        memory = numbers.memory
-        held = memory["held"]
-        held[:, 0] = np.where(self._at_goal(numbers), held[:, 0] + numbers.dt, 0.0)
-        before = memory["done"].copy()
-        memory["done"][held >= HOLD - 1e-9] = 1.0
-        memory["fresh"][:] = memory["done"] - before
+        numbers.hold(self._at_goal(numbers), HOLD)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""

@@ -307,7 +307,7 @@ class Drive(Environment):
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Progress and heading, then what ends the episode."""
         shaped = 0.0 if self.sparse else 1.0
-        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
+        effort = numbers.effort / numbers.action.shape[1]
         return {
             "progress": shaped * numbers["gained"][:, 0],
             "heading": shaped * numbers["aligned"][:, 0],

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules import _core
 from hurcules.drawing import overview
 from hurcules.rendering import pose
 from hurcules.validation import require_known
@@ -78,15 +79,18 @@ class Places(dict[str, slice]):
     def __init__(self, places: Mapping[str, slice]) -> None:
         super().__init__(places)
         self._runs: dict[tuple[str, ...], slice | None] = {}
+        self.views: dict[str, Array] = {}  # of entries of the memory, not to be written to
 
     def run(self, names: tuple[str, ...]) -> slice | None:
         """Of several that stand side by side in this order; None: they do not."""
-        if names not in self._runs:
+        try:
+            return self._runs[names]
+        except KeyError:
             places = [self[name] for name in names if name in self]
             known = 0 < len(places) == len(names)
             joined = known and all(one.stop == two.start for one, two in pairwise(places))
             self._runs[names] = slice(places[0].start, places[-1].stop) if joined else None
-        return self._runs[names]
+            return self._runs[names]
 
 
 class Numbers:
@@ -105,7 +109,8 @@ class Numbers:
         action: Array,
         dt: float,
     ) -> None:
-        self._values = _read_only(values)
+        values.flags.writeable = False
+        self._values = values
         self._places = places  # of the quantities, by name, along the second axis
         self.memory = memory
         self.action = action
@@ -118,19 +123,27 @@ class Numbers:
         return self["ending"][:, 0] == int(ending)
 
     @property
+    def effort(self) -> Array:
+        """(n,) sum of the squares of the action."""
+        return _core.squares(self.action)
+
+    @property
     def finished(self) -> NDArray[np.bool_]:
         """(n,) whose simulation is over."""
         return self["ending"][:, 0] > 0.0
 
     def __getitem__(self, name: str) -> Array:
         """The quantity or entry of the memory of this name, not to be written to."""
-        place = self._places.get(name)
-        if place is not None:
-            return self._values[:, place]
+        if name in self._places:
+            return self._values[:, self._places[name]]
         if name not in self.memory:
             known = [*self._places, *self.memory]
             require_known("numbers: quantity or entry of the memory", name, known)
-        return _read_only(self.memory[name])
+        entry, view = self.memory[name], self._places.views.get(name)
+        if view is None or view.base is not entry:
+            view = self._places.views[name] = entry.view()
+            view.flags.writeable = False
+        return view
 
     def row(self, *names: str) -> Array:
         """Several of them side by side, (n, ...); not to be written to."""
@@ -157,15 +170,23 @@ class Numbers:
         kept: Kept = self._computed[name]
         return kept
 
+    def hold(self, now: NDArray[np.bool_], least: float) -> None:
+        """Counts in the memory for how long something holds without a break; for `remember`.
+
+        Its entries are `held`, the time so far [s]; `done`, 1 from when that was `least`; and,
+        where there is one, `fresh`, 1 in the step in which it was.
+
+        Args:
+            now: (n,) whether it does.
+            least: [s] for which it is to hold.
+        """
+        fresh = _core.hold(now, self.dt, least, self.memory["held"], self.memory["done"])
+        if "fresh" in self.memory:
+            self.memory["fresh"][:, 0] = fresh
+
     def forget(self) -> None:
         """Has all be computed anew: episodes that stood still got their memory back."""
         self._computed.clear()
-
-
-def _read_only(values: Array) -> Array:
-    view = values.view()
-    view.flags.writeable = False
-    return view
 
 
 class Environment(ABC):

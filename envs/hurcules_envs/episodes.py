@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import copy
-import math
 import reprlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -35,13 +34,10 @@ from hurcules_envs.randomisation import TOLD, Randomisation
 
 __all__ = ["Episodes", "Step", "numbers_of", "seeds_of", "state_of"]
 
-# in info what `judge` tells: the cost, and what it reads but the ending
-_WATCHED = (
-    "cost", "limit_excess", "limit_excess_velocity", "limit_excess_torque", "limit_excess_now",
-    "commanded_excess", "self_distance", "support_margin", "self_contacts", "scaled",
-    "solver_status", "solver_changes", "time",
-)  # fmt: skip
-_READ = tuple(_core.judged())
+# what `judge` reads, and its names in info; the first is the cost, read is the ending
+_READ, _JUDGED = zip(*_core.judged(), strict=True)
+_CLAIMS = ("failed", "ended", "costs")  # methods of an environment
+_FLAGS = ("is_success", "failed", "ending")  # in info too
 
 
 @dataclass
@@ -52,24 +48,34 @@ class Step:
         observation: by its parts.
         reward: (n,).
         terminated: (n,).
-        said: what the environment says for `info`, and how it ended.
-        names: of the numbers of `watched`.
-        watched: (k, n) what else stands in `info`.
+        success: (n,).
+        failed: (n,).
+        ending: (n,).
+        told: (k, n) what else stands in `info`.
+        names: of the rows of `told`.
         more: what the environment tells beside.
+        kept: `info` with all names, and what stays as it is until a reset.
     """
 
     observation: dict[str, NDArray[np.float32]]
     reward: Array
     terminated: NDArray[np.bool_]
-    said: dict[str, NDArray[Any]]
+    success: NDArray[np.bool_]
+    failed: NDArray[np.bool_]
+    ending: NDArray[np.int64]
+    told: Array
     names: tuple[str, ...]
-    watched: Array
     more: dict[str, NDArray[Any]]
+    kept: _Kept
 
     @property
     def info(self) -> dict[str, NDArray[Any]]:
         """All of `info`, (n,) each."""
-        return self.said | dict(zip(self.names, self.watched, strict=True)) | self.more
+        info = self.kept.info.copy()
+        info.update(zip(self.names, self.told, strict=True))
+        info["is_success"], info["failed"], info["ending"] = self.success, self.failed, self.ending
+        info.update(self.more)
+        return info
 
     @property
     def info_of_one(self) -> dict[str, Any]:
@@ -77,10 +83,30 @@ class Step:
 
         Flags are arrays: of a bool of numpy Gymnasium's vectors make objects.
         """
-        info = {name: _first(values) for name, values in self.said.items()}
-        info.update(zip(self.names, self.watched[:, 0], strict=True))
-        info.update((name, _first(values)) for name, values in self.more.items())
+        info = self.kept.info_of_one.copy()
+        info.update(zip(self.names, self.told[:, 0], strict=True))
+        info["is_success"] = _first(self.success)
+        info["failed"], info["ending"] = self.failed[0, ...], self.ending[0]
+        for name, values in self.more.items():
+            info[name] = _first(values)
         return info
+
+
+class _Kept:
+    """`info` as it is between two resets.
+
+    Attributes:
+        info: by all of its names an array (n,), None of what each step tells.
+        info_of_one: the same of the first episode, numbers.
+    """
+
+    def __init__(self, names: Iterable[str], given: Mapping[str, Array]) -> None:
+        """Copies what is given, which is not to be written to then."""
+        self.info: dict[str, Any] = dict.fromkeys(names)
+        for name, values in given.items():
+            kept = self.info[name] = values.copy()
+            kept.flags.writeable = False
+        self.info_of_one = {n: None if kept is None else kept[0] for n, kept in self.info.items()}
 
 
 class Episodes:
@@ -140,6 +166,12 @@ class Episodes:
         self._copy_simulation(own_models=own)
         self.generators = [np.random.default_rng() for _ in range(n)]
         names = [*environment.quantities, *_READ]
+        kind = type(environment)
+        self._claimed = {
+            name: getattr(kind, name) is not getattr(Environment, name) for name in _CLAIMS
+        }
+        self._tells = kind.tell is not Environment.tell
+        self._nobody = np.zeros(n, dtype=bool)
         self._quantities = hurcules.Quantities(simulation, names)
         stops = np.cumsum(self._quantities.sizes)
         self._places = Places(
@@ -149,15 +181,15 @@ class Episodes:
             }
         )
         self._values: Array | None = None  # what is read now; None: nobody has
-        self._commands = _Commands(environment)
+        self._commands = _Commands(environment, n)
         self.action_names, self.action_scale = self._commands.names, self._commands.scale
         self.action_units = self._commands.units
         self.memory = {name: np.zeros((n, size)) for name, size in environment.memory.items()}
         self._info: dict[str, Array] = {}
-        self._terms = set(environment.terms)
-        self._told_terms = {name: f"reward_{name}" for name in environment.terms}  # in info
+        self._terms = dict.fromkeys(environment.terms)
+        self._names = (*(f"reward_{name}" for name in environment.terms), *_JUDGED)  # in info
         self._told: set[str] | None = None  # names of `tell`
-        self._beside: Array | None = None  # what was drawn for `info`; None: other things since
+        self._kept: _Kept | None = None  # None: other things were drawn since
         self._worst = np.zeros(n)
         self._action = np.zeros((n, len(self.action_scale)))
         self._ticks = round(1.0 / environment.rate / simulation.dt)
@@ -190,7 +222,7 @@ class Episodes:
         for i in np.flatnonzero(chosen):
             self._configure(int(i))
         self.batch.reset(seeds, chosen.tolist(), starts)
-        self._beside = None
+        self._kept = None
         before, self._values = self._values, None
         if before is not None:
             self._values = np.where(chosen[:, None], self._read(), before)
@@ -221,37 +253,40 @@ class Episodes:
             remember: (n,) whose memory goes on; None: nobody's (after a reset).
         """
         values = self._read()
-        numbers = self._numbers(values)
-        self.numbers = numbers
+        numbers = self.numbers = self._numbers(values)
         environment = self._asked
         if remember is not None:
             self._remember(numbers, remember)
         terms = environment.reward(numbers)
-        if terms.keys() != self._terms:
-            require_names(f"{self._name}.reward", "term", terms, self.environment.terms)
+        if terms.keys() != self._terms.keys():
+            require_names(f"{self._name}.reward", "term", terms, self._terms)
         success = environment.succeeded(numbers)
-        if self._beside is None:
-            self._beside = np.stack([*self.randomisation.drawn.values(), *self._info.values()])
-        reward, failed, terminated, ending, watched = _core.judge(
-            values,
-            [terms[name] for name in self.environment.terms],
-            environment.failed(numbers),
-            environment.ended(numbers),
-            environment.costs(numbers),
-            self._beside,
-            self._worst,
+        fails, ends, costs = [
+            getattr(environment, name)(numbers) if claimed else self._nobody
+            for name, claimed in self._claimed.items()
+        ]
+        reward, failed, terminated, ending, told, finite = _core.judge(
+            values, [terms[name] for name in self._terms], fails, ends, costs, self._worst
         )
-        if not math.isfinite(np.vdot(reward, reward)):
+        if not finite:
             for name, term in terms.items():
                 require_finite(f"{self._name}.reward: term '{name}'", term)
-        said = {told: terms[name] for name, told in self._told_terms.items()}
-        said |= {"is_success": success, "failed": failed, "ending": ending}
-        names = (*_WATCHED, *TOLD, *self._info)
-        more = self._tell(numbers, said)
+        more = self._tell(numbers) if self._tells or self._told is None else {}
         observation = self._observe(numbers)
         if remember is not None:
             self._asked = self.environment
-        return Step(observation, reward, terminated, said, names, watched, more)
+        return Step(
+            observation, reward, terminated, success, failed, ending, told, self._names, more,
+            self._kept or self._keep(more),
+        )  # fmt: skip
+
+    def _keep(self, more: Mapping[str, Any]) -> _Kept:
+        """What stays in info until the next reset."""
+        drawn = dict(zip(TOLD, self.randomisation.drawn.values(), strict=True))
+        terms = self._names[: len(self._terms)]
+        names = [*terms, *_FLAGS, *_JUDGED, *drawn, *self._info, *more]
+        self._kept = _Kept(names, drawn | self._info)
+        return self._kept
 
     def state(self) -> Array:
         """(n, s) everything that decides how the episodes go on."""
@@ -310,7 +345,7 @@ class Episodes:
         for entry in self._info.values():
             entry[chosen] = values[chosen, place]
             place += 1
-        self._beside = None
+        self._kept = None
         self._give_models()
         if self._models:  # the first time it was checked, now it meets the model that it had
             for i in np.flatnonzero(chosen):
@@ -398,7 +433,7 @@ class Episodes:
         high = np.concatenate([np.full(g.size, g.bound) for g in environment.observation])
         self._high = high.astype(np.float32)
         self._low = -self._high
-        self._far = np.full(environment.goal, np.inf, np.float32)  # goals are not cut
+        self._bound, self._seen_names = self._high, ["observation"]
         self._groups = [group.name for group in environment.observation]
         parts = [(group.name, group.size) for group in environment.observation]
         if self._flat:
@@ -410,9 +445,13 @@ class Episodes:
         self.single_action_space = spaces.Box(-1.0, 1.0, self.action_scale.shape, np.float32)
         self.single_observation_space: spaces.Space[Any] = box
         if self._flat:
-            high = np.concatenate([self._high, np.full(environment.goal, 100.0, np.float32)])
+            high, self._bound = (
+                np.concatenate([self._high, np.full(environment.goal, most, np.float32)])
+                for most in (100.0, np.inf)  # goals are not cut
+            )
             self.single_observation_space = spaces.Box(-high, high, dtype=np.float32)
         elif environment.goal:
+            self._seen_names += ["achieved_goal", "desired_goal"]
             goal = spaces.Box(-100.0, 100.0, (environment.goal,), np.float32)
             self.single_observation_space = spaces.Dict(
                 {"observation": box, "achieved_goal": goal, "desired_goal": goal}
@@ -447,35 +486,30 @@ class Episodes:
         parts = [groups[name] if name in groups else numbers[name] for name in self._groups]
         errors = self.randomisation.errors() if noise else None
         size = len(self._high)
-        added = None if errors is None else errors[:, :size]
-        observation, finite = _core.seen(parts, self._high, added)
+        goals: tuple[Array, ...] = ()
+        given = goals
+        if self.environment.goal:
+            goals = given = self._asked.goals(numbers)
+            if errors is not None:
+                goals = given[0] + errors[:, size:], given[1]
+                errors = errors[:, :size]
+            if self._flat:
+                parts.append(goals[1] - goals[0])
+                goals = ()
+        seen, finite = _core.seen(parts, self._bound, errors, goals)
         if not finite:
-            for name, part in zip(self._groups, parts, strict=True):
+            for name, part in zip(self._groups, parts, strict=False):
                 require_finite(f"{self._name}.observe: '{name}'", part)
-        if not self.environment.goal:
-            return {"observation": observation}
-        achieved, desired = self._asked.goals(numbers)
-        given = {"achieved": achieved, "desired": desired}
-        if errors is not None:
-            achieved = achieved + errors[:, size:]
-        if self._flat:
-            goals = {"to_goal": desired - achieved}
-        else:
-            goals = {"achieved_goal": achieved, "desired_goal": desired}
-        seen = {"observation": observation}
-        for name, goal in goals.items():
-            seen[name], finite = _core.seen([goal], self._far)
-            if not finite:
-                for one, values in given.items():
-                    require_finite(f"{self._name}.goals: {one}", values)
-        return {"observation": np.concatenate([*seen.values()], axis=1)} if self._flat else seen
+            for name, part in zip(("achieved", "desired"), given, strict=False):
+                require_finite(f"{self._name}.goals: {name}", part)
+        return dict(zip(self._seen_names, seen, strict=True))
 
-    def _tell(self, numbers: Numbers, said: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    def _tell(self, numbers: Numbers) -> dict[str, NDArray[Any]]:
         """What the environment tells beside what is in info; its names stay the same."""
         more = {name: np.array(row) for name, row in self._asked.tell(numbers).items()}
         if self._told is None:
             self._told = set(more)
-            there = [*said, *_WATCHED, *TOLD]
+            there = [*self._names, *_FLAGS, *TOLD]
             for method, given in (("start", self._info), ("tell", more)):
                 if taken := [name for name in given if name in there]:
                     raise hurcules.Error(f"{self._name}.{method}: '{taken[0]}' is in info already")
@@ -488,7 +522,7 @@ class Episodes:
 class _Commands:
     """From actions in [-1, 1] to commands of the controller."""
 
-    def __init__(self, environment: Environment) -> None:
+    def __init__(self, environment: Environment, n: int) -> None:
         simulation = environment.simulation
         names, scale = simulation.command_names, np.array(simulation.command_scale)
         self._environment = environment
@@ -532,6 +566,7 @@ class _Commands:
             self.units += units
             scales.append(np.broadcast_to(most, len(components)))
         self.scale = np.concatenate(scales).astype(np.float64)
+        self._scales = np.tile(self.scale, (n, 1))  # of one shape with the actions: half the time
         self._turns = type(environment).command is not Environment.command
         # actions that are the commands, number by number
         self._same = not self._turns and list(self._parts.items()) == list(self._channels.items())
@@ -543,7 +578,7 @@ class _Commands:
         go: Callable[[Mapping[int, str]], None],
     ) -> Array:
         """(n, k) commands; the numbers are read only where an environment turns its action."""
-        scaled = action * self.scale
+        scaled = action * self._scales
         if self._same:
             return scaled
         parts = {name: scaled[:, part] for name, part in self._parts.items()}
@@ -583,7 +618,7 @@ def numbers_of(what: str, values: object) -> Array:
 
 
 def _first(values: NDArray[Any]) -> Any:
-    return np.array(values[0]) if values.dtype == np.bool_ else values[0]
+    return values[0, ...].copy() if values.dtype.char == "?" else values[0]
 
 
 def _array_of(what: str, values: object) -> NDArray[Any]:

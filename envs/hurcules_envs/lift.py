@@ -235,11 +235,7 @@ class Lift(ContactEnvironment):
         for name in ("share", "head"):
             most = memory[f"most_{name}"]
             np.maximum(most, memory[name], out=most)
-        held = memory["held"]
-        held[:, 0] = np.where(self._up(numbers), held[:, 0] + numbers.dt, 0.0)
-        before = memory["done"].copy()
-        memory["done"][held >= HOLD - 1e-9] = 1.0
-        memory["fresh"][:] = memory["done"] - before
+        numbers.hold(self._up(numbers), HOLD)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""

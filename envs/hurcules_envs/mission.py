@@ -164,7 +164,7 @@ class MissionEnvironment(ContactEnvironment):
         fresh = numbers["fresh"][:, 0]
         fell = numbers.ended_as(hurcules.Ending.Fell)
         done = self.succeeded(numbers)
-        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
+        effort = numbers.effort / numbers.action.shape[1]
         return {
             "phase": 10.0 * shaped * numbers["reached"][:, 0] / self._last,
             "harm": -0.1 * shaped * numbers.dt * self.harm(numbers),

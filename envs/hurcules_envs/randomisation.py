@@ -139,7 +139,8 @@ class Randomisation:
         self.ranges: dict[str, Range] = {name: (row[0],) * 2 for name, row in _KNOWN.items()}
         self.drawn = {name: np.full(n, row[0]) for name, row in _KNOWN.items()}
         self.set_ranges(given)
-        self._seed, self._count = np.zeros(n), np.zeros(n)
+        self._some: dict[str, bool] = {}  # by name whether any differs from 0; empty: not known
+        self._seed, self._count, self._one = np.zeros(n), np.zeros(n), np.ones(n)
         self._past = np.zeros((n, 0, 0))
         self._robot = np.flatnonzero(np.isin(model.body_rootid, self._roots()))
         movable = self._robot[model.body_weldid[self._robot] > 0]  # no base that is fixed
@@ -164,6 +165,7 @@ class Randomisation:
 
     def draw(self, i: int, seed: int) -> None:
         """Values of a new episode."""
+        self._some = {}
         generator = np.random.default_rng((seed, STREAM))
         self._seed[i] = float(generator.integers(2**53))
         self._count[i] = 0.0
@@ -227,10 +229,10 @@ class Randomisation:
             action: (n, k).
             mask: (n,) which episodes go on; None: all.
         """
-        self._count += 1.0 if mask is None else mask
-        delay = self.drawn["action_delay"]
-        if not np.count_nonzero(delay):
+        self._count += self._one if mask is None else mask
+        if not self._any("action_delay"):
             return action
+        delay = self.drawn["action_delay"]
         past = self._queues(action.shape[1])
         row = np.concatenate([action[:, None], past], axis=1)
         if mask is None:
@@ -241,9 +243,9 @@ class Randomisation:
 
     def pushes(self, period: float) -> Array | None:
         """(n, 3) [N] on body `pushed` in the next step of `period` [s]; None: nobody is pushed."""
-        force = self.drawn["push"]
-        if not np.count_nonzero(force):
+        if not self._any("push"):
             return None
+        force = self.drawn["push"]
         result = np.zeros((len(force), 3))
         for i in np.flatnonzero(force):
             seed = int(self._seed[i])
@@ -256,9 +258,9 @@ class Randomisation:
 
     def errors(self) -> Array | None:
         """(n, m) of what is seen now, then of the goal that is achieved; None: there are none."""
-        noise = self.drawn["observation_noise"]
-        if not np.count_nonzero(noise):
+        if not self._any("observation_noise"):
             return None
+        noise = self.drawn["observation_noise"]
         keys = np.arange(1, len(self._scale) + 1, dtype=np.uint64)
         seeds = _mixed(self._seed.astype(np.uint64) ^ _mixed(self._count.astype(np.uint64)))
         share = (_mixed(seeds[:, None] + _STEP * keys) >> np.uint64(11)) * 2.0**-53
@@ -272,11 +274,18 @@ class Randomisation:
 
     def restore(self, state: Array, mask: NDArray[np.bool_], actions: int) -> None:
         """Takes back what `state` gave."""
+        self._some = {}
         columns = [self._seed, self._count, *self.drawn.values()]
         for place, column in enumerate(columns):
             column[mask] = state[mask, place]
         past = self._queues(actions)
         past[mask] = state[mask, len(columns) :].reshape(-1, *past.shape[1:])
+
+    def _any(self, name: str) -> bool:
+        """Whether some episode has another value than 0."""
+        if name not in self._some:
+            self._some[name] = bool(self.drawn[name].any())
+        return self._some[name]
 
     def _queues(self, actions: int) -> Array:
         """(n, DELAY, k) the last actions, the newest first."""

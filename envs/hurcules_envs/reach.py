@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hurcules
+from hurcules import _core
 from hurcules_envs.commands import channel_of, joint_channel
 from hurcules_envs.drawing import add_ball
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
 from hurcules_envs.robots import MAX_ACCELERATION, load_robot, sample_postures
-from hurcules_envs.rotations import angle_between, quaternion, turn_between
+from hurcules_envs.rotations import quaternion, turn_between
 from hurcules_envs.springs import softest_spring
 
 __all__ = ["Reach", "ReachPrecise"]
@@ -27,15 +28,16 @@ EFFORT = 0.1
 STIFF = 60.0  # [rad/s] a spring of a higher frequency is not felt at the policy's rate
 TURN = 0.3  # [m/rad] what an angle counts in the reward
 GAIN = 3.0  # [1/s] of the expert
+SWING = ("plan", "plan_rate", "sway", "sway_rate")  # what is remembered of hands in springs
 TILT = 0.35  # [rad] of what it stands on: it falls
 
 
 class _Errors(NamedTuple):
-    """Of hands, any leading axes."""
+    """Of hands."""
 
-    distance: Array  # (..., h) [m]
-    angle: Array  # (..., h) [rad]; of no use where hands may turn as they like
-    within: NDArray[np.bool_]  # (...) all of them
+    distance: Array  # (n, h) [m]
+    angle: Array | None  # (n, h) [rad]; None: hands may turn as they like
+    within: NDArray[np.bool_]  # (n,) all of them
 
 
 class Reach(Environment):
@@ -119,7 +121,7 @@ class Reach(Environment):
         self.memory = {"goal": self.goal, "held": 1, "done": 1}
         self._swings = self._free_swing(1.0 / rate) if fidelity == "kinematic" else None
         if self._swings is not None:
-            self.memory |= dict.fromkeys(("plan", "plan_rate", "sway", "sway_rate"), 3 * h)
+            self.memory |= dict.fromkeys(SWING, 3 * h)
         self.quantities = tuple(
             [f"value/{name}" for name in self._names]
             + [f"rotation/{frame}" for frame in self.setup.hands]
@@ -158,10 +160,9 @@ class Reach(Environment):
     def remember(self, numbers: Numbers) -> None:
         """How the hands swing, and how long they have been at their goals."""
         if self._swings is not None:
-            self._swing(numbers, self._swings)
-        held = numbers.memory["held"]
-        held[:, 0] = (held[:, 0] + numbers.dt) * self._errors_now(numbers).within
-        numbers.memory["done"][held >= HOLD - 1e-9] = 1.0
+            hands = self._swing(numbers, self._swings)
+            numbers.once("hands", lambda: hands)
+        numbers.hold(self._errors_now(numbers).within, HOLD)
 
     def observe(self, numbers: Numbers) -> dict[str, Array]:
         """The hands, and how they move; the goals stand beside them."""
@@ -181,8 +182,7 @@ class Reach(Environment):
 
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """Distance, nearness, 1 for all hands within the tolerance, effort."""
-        effort = np.einsum("ni,ni->n", numbers.action, numbers.action)
-        effort *= -EFFORT * (not self.sparse) / numbers.action.shape[1]
+        effort = numbers.effort * (-EFFORT * (not self.sparse) / numbers.action.shape[1])
         return self._terms(self._errors_now(numbers)) | {"effort": effort}
 
     def compute_reward(self, achieved: Array, desired: Array, info: Any) -> Array | float:
@@ -193,8 +193,10 @@ class Reach(Environment):
             desired: (..., g).
             info: of a step, of several in a vector, or a sequence of those of single ones.
         """
-        terms = self._terms(self._errors(np.asarray(achieved, float), np.asarray(desired, float)))
-        reward = sum(terms.values()) + told(info, "reward_effort")
+        leading = np.shape(achieved)[:-1]
+        goals = (np.reshape(goal, (-1, self.goal)) for goal in (achieved, desired))
+        terms = self._terms(self._errors(*goals, rounded=False))
+        reward = np.reshape(sum(terms.values()), leading) + told(info, "reward_effort")
         return float(reward) if np.ndim(reward) == 0 else reward
 
     def succeeded(self, numbers: Numbers) -> NDArray[np.bool_]:
@@ -278,26 +280,18 @@ class Reach(Environment):
             fall=hurcules.FallOptions(setup.support, max_tilt=TILT) if setup.support else None,
         )
 
-    def _free_swing(self, dt: float) -> list[list[float]] | None:
+    def _free_swing(self, dt: float) -> Array | None:
         """Of the spring that hands hang in, see `springs`; None: there is none to be felt."""
         model, data = self.setup.model, mujoco.MjData(self.setup.model)
         data.qpos[:] = self.setup.robot().qpos
         mujoco.mj_forward(model, data)
         spring = softest_spring(model, data)
-        return None if spring is None or spring.frequency > STIFF else spring.free(dt).tolist()
+        return None if spring is None or spring.frequency > STIFF else spring.free(dt)
 
-    def _swing(self, numbers: Numbers, free: list[list[float]]) -> None:
-        """Carries the deflections on by a step, at whose start the plan changed its velocity."""
-        memory = numbers.memory
-        plan = self._planned(numbers)
-        rate = (plan - memory["plan"]) / numbers.dt
-        sway, sway_rate = memory["sway"], memory["sway_rate"] - (rate - memory["plan_rate"])
-        (a, b), (c, d) = free
-        memory["sway"][:], memory["sway_rate"][:] = (
-            a * sway + b * sway_rate,
-            c * sway + d * sway_rate,
-        )
-        memory["plan"][:], memory["plan_rate"][:] = plan, rate
+    def _swing(self, numbers: Numbers, free: Array) -> Array:
+        """Carries the deflections on by a step; where the hands are then."""
+        memory = (numbers.memory[name] for name in SWING)
+        return _core.swing(self._planned(numbers), free, numbers.dt, *memory)
 
     def _planned(self, numbers: Numbers) -> Array:
         return numbers.row(*self._values)
@@ -318,41 +312,26 @@ class Reach(Environment):
 
     def _errors_now(self, numbers: Numbers) -> _Errors:
         """Of the goals as they are seen, so that `compute_reward` of them gives the same bits."""
+        return numbers.once("errors", lambda: self._errors(*self.goals(numbers), rounded=True))
 
-        def compute() -> _Errors:
-            goals = self.goals(numbers)
-            return self._errors(*(goal.astype(np.float32).astype(float) for goal in goals))
-
-        return numbers.once("errors", compute)
-
-    def _errors(self, one: Array, other: Array) -> _Errors:
-        hands = (*one.shape[:-1], -1, self._size)
-        difference = (one - other).reshape(hands)[..., :3]
-        distance = np.sqrt(np.einsum("...i,...i->...", difference, difference))
-        within = np.maximum.reduce(distance, axis=-1) < self.tolerance
+    def _errors(self, one: Array, other: Array, *, rounded: bool) -> _Errors:
+        distance = _core.distances(one, other, self._size, rounded)
+        within = _core.all_below(distance, self.tolerance)
         if self.angle is None:
-            return _Errors(distance, _NO_ANGLE, within)
-        angle = angle_between(one.reshape(hands)[..., 3:], other.reshape(hands)[..., 3:])
-        return _Errors(distance, angle, within & (np.maximum.reduce(angle, axis=-1) < self.angle))
+            return _Errors(distance, None, within)
+        angle = 2.0 * np.arccos(_core.half_angle_cosines(one, other, self._size, rounded))
+        return _Errors(distance, angle, within & _core.all_below(angle, self.angle))
 
     def _terms(self, errors: _Errors) -> dict[str, Array]:
         shaped = 0.0 if self.sparse else 1.0
         error = errors.distance
-        if self.angle is not None:
+        if errors.angle is not None:
             error = error + TURN * errors.angle
         return {
-            "distance": -shaped * _mean(error),
-            "nearness": shaped * _mean(1.0 - np.tanh(error / NEAR)),
+            "distance": _core.means(error, -shaped),
+            "nearness": _core.means(1.0 - np.tanh(error / NEAR), shaped),
             "success": errors.within.astype(np.float64),
         }
-
-
-_NO_ANGLE = np.zeros(())
-
-
-def _mean(values: Array) -> Array:
-    """Over the last axis, with less ado than numpy's."""
-    return np.asarray(np.add.reduce(values, axis=-1) / values.shape[-1])
 
 
 class ReachPrecise(Reach):

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["angle_between", "quaternion", "rotation_vector", "turn_between"]
+__all__ = ["quaternion", "rotation_vector", "turn_between"]
 
 Array = NDArray[np.float64]
 
@@ -16,13 +16,6 @@ def quaternion(vector: Array) -> Array:
     angle = np.sqrt(np.einsum("...i,...i->...", vector, vector))[..., None]
     result = np.concatenate([np.cos(angle / 2), np.sinc(angle / (2 * np.pi)) * vector / 2], axis=-1)
     return np.where(result[..., :1] < 0.0, -result, result)
-
-
-def angle_between(one: Array, other: Array) -> Array:
-    """(...) [rad] from 0 to pi between quaternions (..., 4), which need not have unit length."""
-    product = np.abs(np.einsum("...i,...i->...", one, other))
-    lengths = np.linalg.norm(one, axis=-1) * np.linalg.norm(other, axis=-1)
-    return 2.0 * np.arccos(np.clip(product / np.maximum(lengths, 1e-12), 0.0, 1.0))
 
 
 def turn_between(one: Array, other: Array) -> Array:

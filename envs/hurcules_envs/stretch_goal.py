@@ -249,11 +249,7 @@ class Stretch(Environment):
         memory["seen"][:, 0] = np.where(known, memory["sight"][:, 0] - sight, 0.0)
         memory["way"][:, 0], memory["sight"][:, 0] = way, sight
         there = (np.linalg.norm(ways, axis=2).max(axis=1) < NEAR) & (sight < SEES)
-        held = memory["held"]
-        held[:, 0] = np.where(there, held[:, 0] + numbers.dt, 0.0)
-        before = memory["done"].copy()
-        memory["done"][held >= HOLD - 1e-9] = 1.0
-        memory["fresh"][:] = memory["done"] - before
+        numbers.hold(there, HOLD)
         past = (ways[:, :, 0] < -PAST).any(axis=1)
         pressed = numbers["contact_force/casualty_pelvis"][:, 0] > PRESSED
         memory["fell"][:, 0] = numbers.finished
@@ -280,7 +276,7 @@ class Stretch(Environment):
     def reward(self, numbers: Numbers) -> dict[str, Array]:
         """See the table."""
         shaped = 0.0 if self.sparse else 1.0
-        effort = np.einsum("ni,ni->n", numbers.action, numbers.action) / numbers.action.shape[1]
+        effort = numbers.effort / numbers.action.shape[1]
         return {
             "progress": 10.0 * shaped * numbers["gained"][:, 0],
             "gaze": 0.5 * shaped * numbers["seen"][:, 0],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -115,6 +114,9 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         self._steps = np.full(num_envs, -1, dtype=np.int64)  # -1: not begun
         self._over = np.zeros(num_envs, dtype=bool)
         self._begun = False  # all of them
+        self._known = np.ones(num_envs, dtype=bool)
+        self._known.flags.writeable = False
+        self._masks: dict[str, NDArray[np.bool_]] = {}
         self._made = type(self) is NativeVectorEnv
 
     @property
@@ -172,7 +174,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         self._begin(chosen)
         self._begun = bool((self._steps >= 0).all())
         step = self._episodes.look(remember=None)
-        return self._seen(step.observation), _info(step)
+        return self._seen(step.observation), self._told(step)
 
     def step(self, actions: NDArray[Any]) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Holds the commands of all episodes for one period.
@@ -205,9 +207,9 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
             reward, terminated = np.where(goes_on, reward, 0.0), terminated & goes_on
         if np.count_nonzero(truncated):
             truncated &= goes_on & ~terminated
-            step.said["ending"][truncated] = int(Ending.TimeLimit)
+            step.ending[truncated] = int(Ending.TimeLimit)
         ended = terminated | truncated
-        observation, info = self._seen(step.observation), _info(step)
+        observation, info = self._seen(step.observation), self._told(step)
         if self.autoreset_mode == AutoresetMode.SAME_STEP and np.count_nonzero(ended):
             self._begin(ended)
             observation, info = self._same_step(ended, observation, info)
@@ -335,6 +337,14 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
         assert self._eyes is not None
         return self._eyes.look(observation, drawn)
 
+    def _told(self, step: Step) -> dict[str, Any]:
+        """All of `info`; beside each name stands of whom it is known, which is all."""
+        info = step.info
+        if len(self._masks) < len(info):
+            self._masks = dict.fromkeys([f"_{name}" for name in info], self._known)
+        info.update(self._masks)
+        return info
+
     def _begin(self, chosen: NDArray[np.bool_]) -> None:
         self._episodes.reset(chosen)
         self._steps[chosen] = 0
@@ -345,7 +355,7 @@ class NativeVectorEnv(VectorEnv[Any, Any, Any], Copied, Ranged):
     ) -> tuple[Any, dict[str, Any]]:
         """The first observations of new episodes; the last ones of the old under `final_`."""
         step = self._episodes.look(remember=None)
-        fresh, fresh_info = self._seen(step.observation, ended), _info(step)
+        fresh, fresh_info = self._seen(step.observation, ended), self._told(step)
         final_obs = np.full(self.num_envs, None, dtype=object)
         for i in np.flatnonzero(ended):
             final_obs[i] = _row(observation, int(i))
@@ -375,14 +385,3 @@ def _row(observation: Any, i: int) -> Any:
     if isinstance(observation, dict):
         return {name: values[i].copy() for name, values in observation.items()}
     return observation[i].copy()
-
-
-def _info(step: Step) -> dict[str, Any]:
-    known = np.ones(len(step.reward), dtype=bool)  # one for all: it costs more than what it says
-    info = step.info
-    return info | dict.fromkeys(_masks_of(tuple(info)), known)
-
-
-@cache
-def _masks_of(names: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(f"_{name}" for name in names)

@@ -4590,6 +4590,9 @@ def Twist(task: Task, scale: float | ArrayLike) -> Channel:
       task: Task with a target.
       scale: full scale, one number or one a row [m/s] or [rad/s]; a command is held to it."""
 
+def all_below(values: ArrayLike, bound: float) -> NDArray[np.bool_]:
+    """(n,) bool: whether all of a row (n, k) are smaller than `bound`."""
+
 def check_rows(table: MissionTable) -> None:
     """Checks what of a table can be told without a controller: phases, reactions, time-outs, ways.
 
@@ -4599,7 +4602,7 @@ def check_rows(table: MissionTable) -> None:
     Raises:
       Error: naming the row, with what was wanted and what came."""
 
-def clipped(values: ArrayLike) -> tuple[NDArray[np.float64], bool]:
+def clipped(values: np.ndarray) -> tuple[NDArray[np.float64], bool]:
     """Numbers cut to [-1, 1].
 
     Args:
@@ -4607,6 +4610,59 @@ def clipped(values: ArrayLike) -> tuple[NDArray[np.float64], bool]:
 
     Returns:
       A copy, and whether all are finite."""
+
+def distances(
+    one: ArrayLike, other: ArrayLike, size: int, rounded: bool = False
+) -> NDArray[np.float64]:
+    """Distances of places from each other.
+
+    Args:
+      one: (n, h size) h poses in a row: place [m], then what else they have.
+      other: the same.
+      size: of a pose, 3 or more.
+      rounded: both as float32 has them, which is how they are seen.
+
+    Returns:
+      (n, h) [m].
+
+    Raises:
+      Error: arrays of another shape."""
+
+def half_angle_cosines(
+    one: ArrayLike, other: ArrayLike, size: int, rounded: bool = False
+) -> NDArray[np.float64]:
+    """How orientations differ.
+
+    Args:
+      one: (n, h size) h poses in a row: place, quaternion w, x, y, z of any length, what else they
+        have.
+      other: the same.
+      size: of a pose, 7 or more.
+      rounded: both as float32 has them, which is how they are seen.
+
+    Returns:
+      (n, h) cosine, from 0 to 1, of half the angle between them.
+
+    Raises:
+      Error: arrays of another shape."""
+
+def hold(
+    now: ArrayLike, dt: float, least: float, held: ArrayLike, done: ArrayLike
+) -> NDArray[np.float64]:
+    """Counts for how long something holds without a break.
+
+    Args:
+      now: (n,) bool: it does, after a step.
+      dt: [s] of the step.
+      least: [s] for which it is to hold.
+      held: (n, 1) [s] so far, updated.
+      done: (n, 1) updated: 1 from when it held for `least`.
+
+    Returns:
+      (n,) what `done` grew by.
+
+    Raises:
+      Error: arrays of another size."""
 
 def inverse_kinematics(
     robot: Robot,
@@ -4647,16 +4703,15 @@ def inverse_kinematics(
 def judge(
     values: ArrayLike,
     terms: collections.abc.Sequence[ArrayLike],
-    failed: NDArray[np.bool_],
-    ended: NDArray[np.bool_],
-    costly: NDArray[np.bool_],
-    beside: ArrayLike,
+    failed: ArrayLike,
+    ended: ArrayLike,
+    costly: ArrayLike,
     worst: ArrayLike,
 ) -> tuple[Any, ...]:
     """Judges a step of episodes side by side.
 
     By what was read of their simulations and what their task says: reward, cost, how it ended, and the
-    numbers that are told beside these. The cost is 1 where the robot touches itself; is beyond the
+    numbers that are told of these. The cost is 1 where the robot touches itself; is beyond the
     limit of a joint's place by more than 5 mrad (of slides 5 mm) at the end of the step, or within it
     further than ever; or where the task says so.
 
@@ -4666,18 +4721,20 @@ def judge(
       failed: (n,) bool.
       ended: (n,) bool, by success.
       costly: (n,) bool: more that costs.
-      beside: (s, n): told too.
       worst: (n,) the worst excess [rad] of each at its last step, updated; 0 for one that begins.
 
     Returns:
-      reward (n,), failed (n,), terminated (n,), ending (n,), and what is told (r, n): cost, what is
-      judged but the first, then what stood beside.
+      reward (n,), failed (n,), terminated (n,), ending (n,), what is told (r, n): the terms, then by
+      the names of `judged()`; and whether the rewards are finite.
 
     Raises:
       Error: arrays of another size."""
 
-def judged() -> list[str]:
-    """What `judge` reads, in this order."""
+def judged() -> list[tuple[str, str]]:
+    """What `judge` reads, in this order, and what it tells of it.
+
+    Returns:
+      Pairs of names; of the ending the cost is told."""
 
 def largest_stiffness(gains: ForceGains) -> float:
     """Largest stiffness G [N/m] of an environment that the gains keep stable in steps of dt.
@@ -4695,6 +4752,9 @@ def lift_start() -> dict[str, float]:
     """Where a lift starts, beside the keyframe `stretch`: angles [rad] by coordinate.
 
     "KN" means the coordinate of this name, or both sides'."""
+
+def means(values: ArrayLike, factor: float = 1.0) -> NDArray[np.float64]:
+    """(n,) `factor` times the mean of a row of (n, k)."""
 
 def method_names() -> list[str]:
     """The names that SolverOptions(method=...) takes.
@@ -4767,17 +4827,21 @@ def realistic_sensors(robot: Robot) -> SensorOptions:
     """Those of them that a robot has."""
 
 def seen(
-    parts: collections.abc.Sequence[ArrayLike], bound: ArrayLike, errors: ArrayLike | None = None
-) -> tuple[NDArray[np.float32], bool]:
-    """Arrays side by side, as an observation.
+    parts: collections.abc.Sequence[ArrayLike],
+    bound: ArrayLike,
+    errors: ArrayLike | None = None,
+    goals: collections.abc.Sequence[ArrayLike] = (),
+) -> tuple[list[Any], bool]:
+    """Arrays side by side, as an observation, and goals.
 
     Args:
       parts: list of (n, k) arrays.
       bound: (m,) float32, what is beyond is cut off.
-      errors: (n, m) or None, added first.
+      errors: (n, e) or None, added first, to the first columns.
+      goals: list of (n, g) arrays, which are not cut.
 
     Returns:
-      (n, m) float32, and whether all are finite.
+      List of (n, m) float32 and of the goals likewise, and whether all are finite.
 
     Raises:
       Error: arrays of another shape."""
@@ -4857,6 +4921,9 @@ def solve_batch(
     Raises:
       Error: as Solver.solve, with the number of the problem."""
 
+def squares(values: ArrayLike) -> NDArray[np.float64]:
+    """(n,) sum of the squares of a row of (n, k)."""
+
 def static_margin(
     model: mujoco.MjModel,
     data: mujoco.MjData,
@@ -4892,6 +4959,34 @@ def step(model: mujoco.MjModel, data: mujoco.MjData, n: int = 1) -> None:
 
     Raises:
       Error: tracks without the elliptic cones that they want."""
+
+def swing(
+    place: ArrayLike,
+    free: ArrayLike,
+    dt: float,
+    before: ArrayLike,
+    velocity: ArrayLike,
+    deflection: ArrayLike,
+    rate: ArrayLike,
+) -> NDArray[np.float64]:
+    """Carries points in springs on by a step, along each axis alike.
+
+    What they hang in changes its velocity where the step begins.
+
+    Args:
+      place: (n, k) [m] of what they hang in, now.
+      free: (2, 2) what deflection and its rate become in the step by themselves.
+      dt: [s] of the step.
+      before: (n, k) [m] the place before, updated.
+      velocity: (n, k) [m/s] of it, updated.
+      deflection: (n, k) [m], updated.
+      rate: (n, k) [m/s] of the deflection, updated.
+
+    Returns:
+      (n, k) [m] where the points are.
+
+    Raises:
+      Error: arrays of another shape."""
 
 def table_controller(
     name: str, model: mujoco.MjModel, method: str = "lexicographic"

@@ -670,5 +670,5 @@ def test_a_limit_that_is_passed_by_what_servos_give_costs_nothing() -> None:
     ):
         read[:, places["excess/position"]] = np.array(worst)[:, None]
         read[:, places["excess_now/position"]] = np.array(now)[:, None]
-        episodes._values = read
+        episodes._values = read.copy()
         assert episodes.look(remember=None).info["cost"].tolist() == cost

@@ -1,5 +1,5 @@
 // Judges a step of episodes side by side, by what was read of their simulations and what their task
-// says: reward, cost, how it ended, and the numbers that are told beside these.
+// says: reward, cost, how it ended, and the numbers that are told of these.
 //
 // The cost is 1 where the robot touches itself; is beyond the limit of a joint's place by more than
 // 5 mrad (of slides 5 mm) at the end of the step, or within it further than ever; or where the task
@@ -8,14 +8,13 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hurcules/base/types.hpp"
+#include "hurcules/sim/flags.hpp"
 
 namespace hurcules {
-
-using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
-using FlagsRef = Eigen::Ref<const Flags>;
 
 struct Claims {                       // of a task, (n) each
   std::vector<ConstVectorRef> terms;  // of the reward
@@ -28,16 +27,15 @@ struct Verdict {  // (n) each
   Vector reward;
   Flags failed, terminated;
   Eigen::Array<std::int64_t, Eigen::Dynamic, 1> ending;  // an Ending
-  Matrix told;  // (r, n): cost, judged() but the first, then what stood beside
+  Matrix told;  // (r, n): the terms, then by the names of judged()
+  bool finite;  // the rewards
 };
 
-// what `judge` reads, in this order
-[[nodiscard]] const std::vector<std::string>& judged();
+// what `judge` reads, in this order, and the name by which it tells it: of the ending the cost
+[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& judged();
 
-// values: (n, m), judged() its last columns; beside: (s, n), told too; worst: (n) the worst excess
-// [rad] of each at its last step, 0 for an episode that begins, updated. Throws Error for arrays of
-// another size.
-[[nodiscard]] Verdict judge(const ConstMatrixRef& values, const Claims& claims,
-                            const ConstMatrixRef& beside, VectorRef worst);
+// values: (n, m), judged() its last columns; worst: (n) the worst excess [rad] of each at its last
+// step, 0 for an episode that begins, updated. Throws Error for arrays of another size.
+[[nodiscard]] Verdict judge(const ConstMatrixRef& values, const Claims& claims, VectorRef worst);
 
 }  // namespace hurcules
