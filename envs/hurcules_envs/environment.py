@@ -179,7 +179,16 @@ class Numbers:
         Args:
             now: (n,) whether it does.
             least: [s] for which it is to hold.
+
+        Raises:
+            Error: the memory has no `held` or no `done`.
         """
+        for name in ("held", "done"):
+            if name not in self.memory:
+                raise hurcules.Error(
+                    f"numbers.hold counts in the memory: it wants an entry '{name}' of one number, "
+                    f"there are {', '.join(self.memory) or 'none'}"
+                )
         fresh = _core.hold(now, self.dt, least, self.memory["held"], self.memory["done"])
         if "fresh" in self.memory:
             self.memory["fresh"][:, 0] = fresh

@@ -94,7 +94,7 @@ class Reach(Environment):
         Args:
             fidelity: "exact", "fast" or "kinematic".
             action: "twist", "delta" or "pose" of the hands, or "joint" for comparison.
-            robot: "rescue", "manipulation" or the path of an MJCF file.
+            robot: "rescue", "manipulation" or the path of an MJCF file or a URDF.
             frames: of a path: the frames of its hands.
             joints: of a path: its coordinates.
             tolerance: [m] of each hand.

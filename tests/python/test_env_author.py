@@ -195,6 +195,9 @@ MISTAKES = {
     "Wrong.remember: entry of the memory 'plase' does not exist; there are: place": {
         "remember": lambda self, numbers: numbers.memory.update(plase=X)
     },
+    "numbers.hold counts in the memory: it wants an entry 'held' of one number, there are place": {
+        "remember": lambda self, numbers: numbers.hold(X > 0.0, 1.0)
+    },
     "Wrong.remember: memory 'place': wanted numbers of shape (2, 1), got float64 of shape (2,)": {
         "remember": lambda self, numbers: numbers.memory.update(place=X)
     },
