@@ -205,7 +205,7 @@ def picture(
     loop: Loop,
     width: int = 640,
     height: int = 480,
-    camera: str | mujoco.MjvCamera | None = None,
+    camera: str | int | mujoco.MjvCamera | None = None,
 ) -> Picture:
     """What a simulation looks like now, with its marks.
 
@@ -213,16 +213,20 @@ def picture(
         loop: the simulation.
         width: [pixels].
         height: [pixels].
-        camera: of the model, by name, or one of MuJoCo's; None looks at all of it, and goes after
-            a robot that leaves it.
+        camera: of the model, by name or number, or one of MuJoCo's; None looks at all of it, and
+            goes after a robot that leaves it.
 
     Raises:
         RendererError: there is no OpenGL that works.
         Error: the model has no such camera, or a size that no picture has.
     """
     model = loop.model
+    cameras = [model.camera(i).name for i in range(model.ncam)]
     if isinstance(camera, str):
-        require_known("camera", camera, [model.camera(i).name for i in range(model.ncam)])
+        require_known("camera", camera, cameras)
+    elif isinstance(camera, int) and not 0 <= camera < model.ncam:
+        known = ", ".join(cameras) or "none"
+        raise _core.Error(f"camera {camera}: the model has {model.ncam}, counted from 0: {known}")
     renderer = _kept_renderer(model, width, height)
     renderer.update_scene(loop.data, overview(loop) if camera is None else camera)
     draw(renderer.scene, loop)

@@ -257,15 +257,15 @@ class Simulation(_core.Simulation):
         self,
         width: int = 640,
         height: int = 480,
-        camera: str | mujoco.MjvCamera | None = None,
+        camera: str | int | mujoco.MjvCamera | None = None,
     ) -> NDArray[np.uint8]:
         """What it looks like now: targets, the ways to them, joints at their limits.
 
         Args:
             width: [pixels].
             height: [pixels].
-            camera: of the model, by name, or one of MuJoCo's; None looks at all of it, and goes
-                after a robot that leaves it.
+            camera: of the model, by name or number, or one of MuJoCo's; None looks at all of it,
+                and goes after a robot that leaves it.
 
         Returns:
             (height, width, 3) red, green, blue.

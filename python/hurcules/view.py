@@ -101,7 +101,7 @@ def film(
     seconds: float,
     command: Command | Callable[[Simulation], Command | None] | None = None,
     *,
-    camera: str | mujoco.MjvCamera | None = None,
+    camera: str | int | mujoco.MjvCamera | None = None,
     width: int = 640,
     height: int = 480,
     fps: int = 25,

@@ -159,6 +159,9 @@ def test_a_picture_shows_the_target() -> None:
     assert np.array_equal(again, [shown])  # each thread has a renderer of its own
     with pytest.raises(hurcules.Error, match="camera 'top' does not exist; there are: side"):
         simulation.picture(camera="top")
+    assert np.array_equal(simulation.picture(320, 240, 0), shown)
+    with pytest.raises(hurcules.Error, match="camera 1: the model has 1, counted from 0: side"):
+        simulation.picture(camera=1)
     for size in ((0, 48), (64, 10**5), (64.5, 48)):
         with pytest.raises(hurcules.Error, match="whole numbers from 1 to 16384, got"):
             simulation.picture(*size)  # type: ignore[arg-type]
