@@ -104,7 +104,9 @@ FIELD = (
             ),
             "pressed": exactly("the same with 100 N a tip", 0),
         },
-        caveat="with 100 N a tip nothing holds the arms: the robot stands on them and falls over",
+        caveat="with 100 N a tip nothing holds the arms: the robot stands on them and falls over; "
+        "blades of friction 2.0 push him along by 0.40 m, where the mission gives up: it goes "
+        "either way with the last digits",
     ),
     Claim(
         "F07",
