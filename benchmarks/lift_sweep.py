@@ -30,6 +30,7 @@ import hurcules
 VARIATION = 1 / 3  # of 3 cm, 50 mrad, 2 mrad
 FIRST_SEED, FIRST_DRAWN, FIRST_MAPPED = 1000, 4000, 20000
 HEAD = 98.1  # [m/s^2] 10 g
+MOST_VALUES = 8  # of a setting that are told one by one
 NOMINAL = {
     "mass": 75,
     "offset": (0.0, 0.0),
@@ -217,7 +218,8 @@ def show(path: Path) -> None:
             f"{contact:7.1f} {face:5.0f} {head:5.0f} {carried:8.0f}   {terrain} {why}"
         )
     for axis, name in enumerate(("mass", "ahead", "left", "yaw", "mu")):
-        print(f"{name:6}", ", ".join(_shares(runs, axis)))
+        if len(shares := list(_shares(runs, axis))) <= MOST_VALUES:  # not where they were drawn
+            print(f"{name:6}", ", ".join(shares))
     good = sum(run["success"] for run in runs)
     print(f"{good} of {len(runs)}")
     for name, limit in (("contact_share", 1.0), ("head_mps2", HEAD)):

@@ -201,6 +201,15 @@ def _new(scene: mujoco.MjvScene) -> Iterator[Any]:
         yield scene.geoms[scene.ngeom - 1]
 
 
+def _require_camera(model: mujoco.MjModel, camera: str | int) -> None:
+    cameras = [model.camera(i).name for i in range(model.ncam)]
+    if isinstance(camera, str):
+        require_known("camera", camera, cameras)
+    elif not 0 <= camera < model.ncam:
+        known = ", ".join(cameras) or "none"
+        raise _core.Error(f"camera {camera}: the model has {model.ncam}, counted from 0: {known}")
+
+
 def picture(
     loop: Loop,
     width: int = 640,
@@ -221,12 +230,8 @@ def picture(
         Error: the model has no such camera, or a size that no picture has.
     """
     model = loop.model
-    cameras = [model.camera(i).name for i in range(model.ncam)]
-    if isinstance(camera, str):
-        require_known("camera", camera, cameras)
-    elif isinstance(camera, int) and not 0 <= camera < model.ncam:
-        known = ", ".join(cameras) or "none"
-        raise _core.Error(f"camera {camera}: the model has {model.ncam}, counted from 0: {known}")
+    if isinstance(camera, str | int):
+        _require_camera(model, camera)
     renderer = _kept_renderer(model, width, height)
     renderer.update_scene(loop.data, overview(loop) if camera is None else camera)
     draw(renderer.scene, loop)

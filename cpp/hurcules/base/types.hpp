@@ -23,6 +23,9 @@ using MatrixRef = Eigen::Ref<Matrix>;
 using ConstVectorRef = Eigen::Ref<const Vector>;
 using ConstMatrixRef = Eigen::Ref<const Matrix>;
 
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+using FlagsRef = Eigen::Ref<const Flags>;
+
 using Index = Eigen::Index;
 
 }  // namespace hurcules

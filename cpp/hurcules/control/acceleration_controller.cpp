@@ -90,11 +90,8 @@ bool AccelerationController::set_stack(const Stack& stack) {
   for (const Level& level : problem_.hierarchy()) rows = std::max(rows, level.rows());
   rate_ = Vector::Zero(rows);
   torque_limits_.clear();
-  for (const StackLevel& level : problem_.stack().levels()) {
-    for (Task* const task : level.tasks) {
-      if (auto* const limits = dynamic_cast<TorqueLimits*>(task)) torque_limits_.push_back(limits);
-    }
-  }
+  for (Task* const task : problem_.stack().tasks())
+    if (auto* const limits = dynamic_cast<TorqueLimits*>(task)) torque_limits_.push_back(limits);
   weights_.assign(problem_.hierarchy().size(), 0.0);
   gains_ = weights_;
   changes_.set_stack(problem_.stack());

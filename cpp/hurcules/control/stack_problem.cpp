@@ -22,8 +22,7 @@ Stack with_limits(const Stack& stack, JointLimits& limits, JointRanges* ranges) 
 
 std::vector<Index> rows_of(const Stack& stack) {
   std::vector<Index> rows;
-  for (const StackLevel& level : stack.levels())
-    for (const Task* task : level.tasks) rows.push_back(task->rows());
+  for (const Task* task : stack.tasks()) rows.push_back(task->rows());
   return rows;
 }
 

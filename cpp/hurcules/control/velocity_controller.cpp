@@ -87,12 +87,10 @@ VelocityController::VelocityController(const Robot& robot, VelocityControllerOpt
 bool VelocityController::set_stack(const Stack& stack) {
   if (problem_.asked_for(stack)) return false;
   require_period(stack, options_.dt);
-  for (const StackLevel& level : stack.levels()) {
-    for (const Task* task : level.tasks) {
-      require(!task->commands_acceleration() || task->bounds_acceleration(),
-              "task '" + task->name() +
-                  "' commands accelerations: it wants an acceleration controller");
-    }
+  for (const Task* task : stack.tasks()) {
+    require(
+        !task->commands_acceleration() || task->bounds_acceleration(),
+        "task '" + task->name() + "' commands accelerations: it wants an acceleration controller");
   }
   problem_.set_stack(stack, options_.enforce_limits ? &own_limits_ : nullptr, &joint_ranges_);
   begin_transition();

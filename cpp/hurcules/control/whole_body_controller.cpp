@@ -19,10 +19,9 @@ namespace {
 
 constexpr Index kMostBodies = 1'000'000;  // no snapshot names a later one
 
-template <class T>
-std::vector<std::string> names_of(const std::vector<T*>& all) {
+std::vector<std::string> names_of(const std::vector<Task*>& tasks) {
   std::vector<std::string> names;
-  for (const T* one : all) names.push_back(one->name());
+  for (const Task* task : tasks) names.push_back(task->name());
   return names;
 }
 

@@ -101,7 +101,6 @@ class WholeBodyController {
   }
   void measure();
   void solve(const RobotState& state);
-  void move_targets() { commands_.move_targets(); }
   void actuate(const RobotState& state, VectorRef ctrl);
   // in place of actuate, where there is no plant: the references of the servos follow, and the
   // profiles of the tracks go on

@@ -79,11 +79,10 @@ class FollowedPosture {
   [[nodiscard]] bool holds(const Phase& phase) const {
     for (const NamedStack& named : controller_.stacks()) {
       if (named.name != phase.stack) continue;
-      for (const StackLevel& level : named.stack.levels())
-        for (const Task* task : level.tasks) {
-          if (dynamic_cast<const ForceTask*>(task)) return false;
-          if (!phase.keys.empty() && !dynamic_cast<const PostureTask*>(task)) return false;
-        }
+      for (const Task* task : named.stack.tasks()) {
+        if (dynamic_cast<const ForceTask*>(task)) return false;
+        if (!phase.keys.empty() && !dynamic_cast<const PostureTask*>(task)) return false;
+      }
     }
     return true;
   }

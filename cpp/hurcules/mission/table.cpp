@@ -405,18 +405,18 @@ void check_rows(const MissionTable& table) {
   for (const Phase& phase : table.phases) check_row(phase, table);
   check_order(table.phases);
   if (!table.safety.empty()) (void)find_phase(table.phases, table.safety, "safety");
+  std::vector<std::string> measures;
   for (const Measure& measure : table.measures) {
     const std::string where = "figure '" + measure.name + "'";
     require(!measure.name.empty(), "a figure wants a name");
-    require(std::count_if(table.measures.begin(), table.measures.end(),
-                          [&](const Measure& other) { return other.name == measure.name; }) == 1,
-            "two figures are called '" + measure.name + "'");
+    measures.push_back(measure.name);
     const auto& every = Monitors::names();
     require(std::find(every.begin(), every.end(), measure.name) == every.end(),
             where + ": every run has one of this name");
     require(measure.least <= measure.most, where + ": least wants to be below most");
     for (const std::string& phase : measure.phases) (void)find_phase(table.phases, phase, where);
   }
+  require_distinct(measures, "figures");
 }
 
 void check_table(const MissionTable& table, const WholeBodyController& controller) {

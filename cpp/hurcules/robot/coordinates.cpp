@@ -322,12 +322,12 @@ void set_limits(const mjModel& m, Coordinate& coordinate) {
           "coordinate '" + coordinate.name + "': the ranges of its joints do not meet");
 }
 
-void require_distinct(const mjModel& m, const std::vector<Coordinate>& coordinates) {
-  std::set<std::string> names;
+void require_separate(const mjModel& m, const std::vector<Coordinate>& coordinates) {
+  std::vector<std::string> names;
+  for (const Coordinate& coordinate : coordinates) names.push_back(coordinate.name);
+  require_distinct(names, "coordinates");
   std::set<int> dofs;
   for (const Coordinate& coordinate : coordinates) {
-    require(names.insert(coordinate.name).second,
-            "two coordinates are called '" + coordinate.name + "'");
     for (const DrivenJoint& driven_joint : coordinate.joints)
       require(dofs.insert(driven_joint.dof).second, "joint '" + joint_name(m, driven_joint.joint) +
                                                         "' belongs to one coordinate only, '" +
@@ -400,7 +400,7 @@ std::vector<Coordinate> find_coordinates(const mjModel& m, const std::vector<std
   }
   if (!names_coordinates(m)) couple(m, found);
   for (Coordinate& coordinate : found) set_limits(m, coordinate);
-  require_distinct(m, found);
+  require_separate(m, found);
   if (!floating) return found;
   std::vector<Coordinate> all = from_parts(m, free_joint_of(m, found));
   all.insert(all.end(), found.begin(), found.end());

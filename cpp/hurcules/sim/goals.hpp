@@ -3,7 +3,6 @@
 #pragma once
 
 #include "hurcules/base/types.hpp"
-#include "hurcules/sim/flags.hpp"
 
 namespace hurcules {
 

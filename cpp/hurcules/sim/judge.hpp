@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "hurcules/base/types.hpp"
-#include "hurcules/sim/flags.hpp"
 
 namespace hurcules {
 

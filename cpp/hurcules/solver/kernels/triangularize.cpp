@@ -72,4 +72,13 @@ void triangularize(PaddedRows& block, Index rows, Index columns, double* work) {
   }
 }
 
+void solve_triangular(const PaddedRows& block, Index columns, double* y) {
+  for (Index j = columns - 1; j >= 0; --j) {
+    const double* row = block.row(j);
+    double sum = row[columns];
+    for (Index l = j + 1; l < columns; ++l) sum -= row[l] * y[l];
+    y[j] = sum / row[j];
+  }
+}
+
 }  // namespace hurcules

@@ -12,5 +12,7 @@ template <class Block>
 void triangularize(Block& block, Index rows, Index columns);
 // the same by the kernels; `work` has room for a row and a column
 void triangularize(PaddedRows& block, Index rows, Index columns, double* work);
+// y (columns) with R y = c, of a block (R, c) that is triangular
+void solve_triangular(const PaddedRows& block, Index columns, double* y);
 
 }  // namespace hurcules

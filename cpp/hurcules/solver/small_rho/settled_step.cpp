@@ -140,12 +140,7 @@ void SettledStep::least_squares(const Held& held) {
     block_.row(i)[columns] = left;
   }
   triangularize(block_, count, columns, work_.data());
-  for (Index j = columns - 1; j >= 0; --j) {
-    const double* row = block_.row(j);
-    double sum = row[columns];
-    for (Index l = j + 1; l < columns; ++l) sum -= row[l] * y_[rank_ + l];
-    y_[rank_ + j] = sum / row[j];
-  }
+  solve_triangular(block_, columns, y_.data() + rank_);
 }
 
 // of the violations at x, in the directions of (t_1, u); returns what of it is rounding

@@ -140,12 +140,7 @@ void UnregularizedStep::least_squares(double rho) {
     add_smallest(rho, count);
   }
   triangularize(block_, count, columns, work_.data());
-  for (Index j = columns - 1; j >= 0; --j) {
-    const double* row = block_.row(j);
-    double sum = row[columns];
-    for (Index l = j + 1; l < columns; ++l) sum -= row[l] * y_[first + l];
-    y_[first + j] = sum / row[j];
-  }
+  solve_triangular(block_, columns, y_.data() + first);
 }
 
 // rows of the last group move with the own ones: their part of the step, L_SS^-1 (rest - L_SO y_O)
