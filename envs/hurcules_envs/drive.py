@@ -18,8 +18,9 @@ from hurcules_envs.climbing import HOLDS, MIDDLE, climb, keep_on, ready_to_climb
 from hurcules_envs.commands import TWINS, by_joints
 from hurcules_envs.drawing import add_arrow
 from hurcules_envs.environment import Array, Environment, Group, Numbers, Start, tick_of, told
+from hurcules_envs.robots import load_robot
 from hurcules_envs.rotations import quaternion
-from hurcules_envs.steering import along, to_pose
+from hurcules_envs.steering import along, steady, to_pose
 from hurcules_envs.terrain import AHEAD, BESIDE, TERRAINS, Heights, scene_of
 
 __all__ = ["Drive"]
@@ -58,6 +59,10 @@ class Drive(Environment):
     | 0     | drive_speed    | m/s   | 1.5   | speed along the heading                          |
     | 1     | drive_yaw_rate | rad/s | 1.0   | yaw rate, > 0 to the left                        |
     | 2     | legs           | rad/s | 0.3   | both knees: > 0 lifts the body on its lower legs |
+
+    On flat ground (`safe`), legs keep away from the arms. While its knees are beyond 0.05 rad it
+    drives at 0.5 m/s and 0.5 rad/s at most, and they turn only below 0.6 m/s, so that it does not
+    tip over.
 
     Where it climbs, legs are straight at a knee of pi, and < 0 lifts the upper ones, which lead;
     the trunk turns with the knees, so that it stays leant over the lower legs.
@@ -114,6 +119,7 @@ class Drive(Environment):
         rate: float = 10.0,
         action: str = "twist",
         blind: bool | None = None,
+        safe: bool | None = None,
     ) -> None:
         """Builds robot, ground and loop.
 
@@ -128,20 +134,26 @@ class Drive(Environment):
             rate: steps a second [Hz].
             action: "twist" (the table), or "joint": tracks, and the velocity of each coordinate.
             blind: the observation ends before `ground`; None: on flat ground alone.
+            safe: legs (with "joint" all parts) keep apart from the rest, and with unfolded legs it
+                drives slowly; None: on flat ground, where alone it can be.
 
         Raises:
             hurcules.Error: a value that does not exist or is out of range.
         """
         require_known("action", action, TWINS)
         blind = terrain == "flat" if blind is None else blind
+        safe = terrain == "flat" if safe is None else safe
         require_flag("blind", blind)
+        require_flag("safe", safe)
         require_known("terrain", terrain, TERRAINS)
         if fidelity == "kinematic" and terrain != "flat":
             raise hurcules.Error(f"fidelity: without physics the ground is flat, not {terrain}")
         require_whole("terrain_seed", terrain_seed, 0)
         if terrain == "flat" and terrain_seed != 0:
             raise hurcules.Error(f"terrain_seed: flat ground has none, got {terrain_seed!r}")
-        self.terrain, self.terrain_seed = terrain, terrain_seed
+        if safe and terrain != "flat":
+            raise hurcules.Error(f"safe: wanted flat ground, got {terrain}")
+        self.terrain, self.terrain_seed, self.safe = terrain, terrain_seed, safe
         self._scene = scene_of(terrain, terrain_seed)
         self.sparse, self.rate = sparse, rate
         self._climbs = terrain in CLIMBED
@@ -184,7 +196,8 @@ class Drive(Environment):
         self.units = {"drive": ("m/s", "rad/s"), "legs": "rad/s"}
         self.actions = {"drive": np.array([SPEED, YAW_RATE]), "legs": LEGS}
         self.components = {"legs": ("legs",)} if self._climbs else {}
-        controller = self._controller(robot, action, tick, physics=physics)
+        levels = self._levels(model, robot, action)
+        controller = self._controller(robot, levels, action, tick, physics=physics)
         if physics:
             model = hurcules.models.with_timestep(model, tick)
         self.simulation = hurcules.Simulation(
@@ -196,7 +209,7 @@ class Drive(Environment):
         )
 
     def _controller(
-        self, plan: hurcules.Robot, action: str, tick: float, *, physics: bool
+        self, plan: hurcules.Robot, levels: list[Any], action: str, tick: float, *, physics: bool
     ) -> hurcules.WholeBodyController:
         legs = hurcules.PostureTask("legs", plan, ["KN", "HIP"] if self._climbs else ["KN"])
         legs.max_lead = 0.2
@@ -210,13 +223,25 @@ class Drive(Environment):
             first, channels = by_joints(self, plan, channels, drive)
         return hurcules.WholeBodyController(
             plan,
-            [first, hurcules.PostureTask("posture", plan)],
+            [*levels, first, hurcules.PostureTask("posture", plan)],
             channels,
             dt=tick,
             base="sensed",
             drive=hurcules.DriveOptions(),
             torque_scaling=physics,
         )
+
+    def _levels(self, model: mujoco.MjModel, plan: hurcules.Robot, action: str) -> list[Any]:
+        """The limits, then distances: of the legs, or of all parts where joints are commanded."""
+        if not self.safe:
+            return []
+        safety, twin = load_robot("rescue").safety, action == "joint"
+        clear = {"upper_legs": 0.0}  # tracks lie on the ground
+        if twin:
+            clear |= dict.fromkeys(("L_uarm", "R_uarm"), safety.apart_by)
+        of = () if twin else ("lower_leg_L", "lower_leg_R")
+        apart = safety.distances_in_scene(model, plan, clear, of=of)
+        return [hurcules.JointLimits("limits", plan), apart]
 
     def start(self, generator: np.random.Generator) -> Start:
         """On flat ground looking anywhere; on terrain where the scene has the robot."""
@@ -402,7 +427,12 @@ class Drive(Environment):
         )
 
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
-        """Where it climbs, the trunk turns with the knees: it stays leant over the lower legs."""
+        """`steady`; where it climbs, the trunk turns with the knees: leant over the lower legs."""
+        if self.safe:
+            knee, speed = numbers["q/KN"], np.linalg.norm(numbers["velocity/upper_legs"], axis=1)
+            legs = action.get("legs", np.zeros_like(knee))
+            drive, legs = steady(action["drive"], legs, knee, speed)
+            return {**action, "drive": drive} | ({"legs": legs} if "legs" in action else {})
         if not self._climbs or "legs" not in action:
             return action
         return {"drive": action["drive"], "climb": np.repeat(action["legs"], 2, axis=1)}

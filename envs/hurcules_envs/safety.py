@@ -121,12 +121,24 @@ class Safety:
         plan: hurcules.Robot,
         clear: Mapping[str, float] = NO_OTHERS,
         hanging: float | None = None,
+        of: tuple[str, ...] = (),
     ) -> list[hurcules.DistanceTask]:
-        """The last of these levels, see `levels_in_scene`."""
+        """The last of these levels, see `levels_in_scene`.
+
+        Args:
+            model: the scene.
+            plan: the robot in it, where it stands.
+            clear: as there.
+            hanging: as there.
+            of: bodies; only pairs with a part of them, or of what hangs on them, count. Empty: all.
+        """
         kept: list[_Kept] = []
+        moved = {int(model.body(name).id) for name in of}
         for one in self._kept if hanging is None else self._beside_tracks(hanging):
             # parts that are not mounted here are left out
             ids = {pair: [_geom(model, name) for name in pair] for pair in one.pairs}
+            if moved:
+                ids = {p: both for p, both in ids.items() if _on(model, both) & moved}
             bodies = {pair: _grounded(model, both) for pair, both in ids.items() if min(both) >= 0}
             by_id = {int(model.body(name).id): name for name in clear}
             # of a pair the named body that is nearest to its part
@@ -265,6 +277,11 @@ def _grounded(model: mujoco.MjModel, pair: Sequence[int]) -> set[int]:
     if not any(plane):
         return set()
     return _above(model, int(model.geom_bodyid[pair[plane.index(False)]]))
+
+
+def _on(model: mujoco.MjModel, pair: Sequence[int]) -> set[int]:
+    """The bodies of a pair of geoms, and all that bears them."""
+    return set().union(*(_above(model, int(model.geom_bodyid[i])) for i in pair if i >= 0))
 
 
 def _above(model: mujoco.MjModel, body: int) -> set[int]:

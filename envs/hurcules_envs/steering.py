@@ -6,7 +6,27 @@ import numpy as np
 
 from hurcules_envs.environment import Array
 
-__all__ = ["along", "to_pose"]
+__all__ = ["along", "steady", "to_pose"]
+
+FOLDED = 0.05  # [rad] of the knees, within which both tracks of a leg lie on the ground
+SLOW = 0.5  # [m/s], [rad/s] of the drive with its legs off the ground, or on their tips
+
+
+def steady(drive: Array, legs: Array, knee: Array, speed: Array) -> tuple[Array, Array]:
+    """A drive and legs that do not tip the robot over on flat ground.
+
+    With its legs unfolded it drives slowly, and it moves them only when it is slow: half of its
+    support goes with them.
+
+    Args:
+        drive: (n, 2) speed [m/s], yaw rate [rad/s].
+        legs: (n, k) [rad/s] of the knees.
+        knee: (n, 1) [rad].
+        speed: (n,) [m/s] of the robot.
+    """
+    slow = np.clip(drive, -SLOW, SLOW)
+    still = speed[:, None] < SLOW + 0.1
+    return np.where(np.abs(knee) < FOLDED, drive, slow), np.where(still, legs, 0.0)
 
 
 def to_pose(goal: Array) -> tuple[Array, Array]:

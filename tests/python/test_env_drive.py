@@ -193,3 +193,43 @@ def test_its_twin_of_joints_climbs_too():
     seen, _ = env.reset(seed=0)
     assert env.observation_space.contains(seen)
     assert env.observation_space.contains(env.step(env.action_space.sample())[0])
+
+
+def bang_bang(safe, steps=80):
+    """Four robots for so many steps at full speed with their legs up: (self-contacts, speeds)."""
+    vector = gym.make_vec(
+        DRIVE, num_envs=4, threads=1, fidelity="fast", safe=safe, autoreset_mode="Disabled"
+    ).unwrapped
+    vector.reset(seed=2)
+    contacts, speeds = 0, []
+    for step in range(steps):
+        turn = 1.0 if step // 5 % 2 else -1.0
+        action = np.tile(np.array([turn if step > 40 else 0.2, turn, 1.0], np.float32), (4, 1))
+        observation, _, _, _, info = vector.step(action)
+        contacts += int((info["self_contacts"] > 0).sum())
+        speeds.append(np.abs(observation["observation"][:, 4]).max())
+    return contacts, np.array(speeds)
+
+
+def test_legs_do_not_touch_the_arms_and_drive_slowly_where_they_are_up():
+    contacts, speeds = bang_bang(safe=True)
+    assert contacts == 0
+    assert speeds.max() < 0.8  # [m/s] 0.5 commanded, springs of the tracks swing
+    touched, fast = bang_bang(safe=False)
+    assert touched > 0
+    assert fast.max() > 0.8
+
+
+def test_folded_it_drives_as_fast_as_without_the_levels():
+    for safe in (True, False):
+        env = gym.make(DRIVE, fidelity="kinematic", safe=safe).unwrapped
+        env.reset(seed=0)
+        for _ in range(20):
+            observation, *_ = env.step(np.array([1.0, 0.0, 0.0], np.float32))
+        assert observation["observation"][4] == pytest.approx(1.5, abs=0.01)
+
+
+def test_safe_levels_are_those_of_flat_ground():
+    assert not drive("stairs").environment.safe
+    with pytest.raises(hurcules.Error, match="safe: wanted flat ground, got stairs"):
+        drive("stairs", safe=True)
